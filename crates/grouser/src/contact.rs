@@ -1,0 +1,30 @@
+//! Floor 1: what the soil does to one wheel.
+//!
+//! The order of reading is the order of computing. [`slip`] turns speeds into slip ratio and slip
+//! angle; [`patch`] says which arc of the rim touches the soil; [`stress`] gives the normal and
+//! shear stress along it; [`bulldozing`] the soil pushed by the flank; [`forces`] is what comes
+//! out. A theory puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is the
+//! source paper's, [`bekker`] a closed form to check it against. [`equilibrium`] finds the sinkage
+//! at which a wheel carries its load.
+//!
+//! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
+//! are measured from straight down, positive towards the side at which the wheel enters the soil.
+
+pub mod bekker;
+pub mod bulldozing;
+pub mod equilibrium;
+pub mod forces;
+mod gauss;
+pub mod ishigami;
+pub mod model;
+pub mod patch;
+pub mod slip;
+pub mod stress;
+
+pub use bekker::Bekker;
+pub use equilibrium::{SettleError, Settled, settle};
+pub use forces::WheelForces;
+pub use ishigami::Ishigami;
+pub use model::{Contact, WheelSoilModel};
+pub use patch::ContactPatch;
+pub use slip::Slip;

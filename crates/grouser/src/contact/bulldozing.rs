@@ -1,0 +1,143 @@
+//! Soil pushed aside by the flank of a wheel that moves sideways (Hegedus 1960, Bekker).
+
+use super::gauss::GAUSS_8;
+use super::patch::ContactPatch;
+use crate::soil::{Bulldozing, Soil};
+
+/// Resistance of a wall pushed through soil, per metre of wall: *R_b* [N/m].
+///
+/// ```text
+/// R_b(z) = D₁ (c z + D₂ γ z²/2)      D₁ = cot X_c + tan(X_c + φ)      D₂ = cot X_c + cot² X_c / cot φ
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallResistance {
+    /// Share that grows with depth, D₁ c [N/m²].
+    cohesive: f64,
+    /// Share that grows with its square, D₁ D₂ γ/2 [N/m³].
+    frictional: f64,
+    /// What the piled-up soil adds to each depth, as a factor [-]; 1 without a surcharge.
+    heaped: f64,
+}
+
+impl WallResistance {
+    /// The resistance of a soil of a given weight.
+    ///
+    /// * `unit_weight`: *γ* [N/m³]
+    #[must_use]
+    pub fn new(soil: &Soil, unit_weight: f64) -> Self {
+        let phi = soil.friction_angle;
+        let x_c = soil.destructive_angle();
+        let (d_1, d_2) = (d1(x_c, phi), d2(x_c, phi));
+        // The heap reaches cot X_c ahead of the wall and lies at the angle φ.
+        let heaped = match soil.bulldozing {
+            Bulldozing::SineSquared => 1.0 + phi.tan() / x_c.tan(),
+            Bulldozing::None | Bulldozing::Sign | Bulldozing::Sine => 1.0,
+        };
+        Self { cohesive: d_1 * soil.cohesion, frictional: d_1 * d_2 * unit_weight / 2.0, heaped }
+    }
+
+    /// *R_b* [N/m] at a depth [m].
+    #[must_use]
+    pub fn at(&self, depth: f64) -> f64 {
+        let z = depth * self.heaped;
+        self.cohesive * z + self.frictional * z * z
+    }
+}
+
+/// D₁ = cot X_c + tan(X_c + φ) [-].
+fn d1(x_c: f64, phi: f64) -> f64 {
+    1.0 / x_c.tan() + (x_c + phi).tan()
+}
+
+/// D₂ = cot X_c + cot² X_c / cot φ [-].
+fn d2(x_c: f64, phi: f64) -> f64 {
+    let cot = 1.0 / x_c.tan();
+    cot + cot * cot * phi.tan()
+}
+
+/// The soil's force on the buried segment of a flank, and where it acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlankLoad {
+    /// Full force, *F_s* [N], before any dependence on the slip angle.
+    pub force: f64,
+    /// Distance of its line of action below the hub [m].
+    pub below_hub: f64,
+    /// Distance of its line of action ahead of the hub [m].
+    pub ahead_of_hub: f64,
+}
+
+/// Share of the depth at which the pressure of loose soil on a wall acts: it grows linearly with
+/// depth, so its resultant lies at two thirds. Source: Rankine's earth pressure.
+const CENTRE_OF_PRESSURE: f64 = 2.0 / 3.0;
+
+/// The load on a flank from the soil it pushes aside (Ishigami et al. 2007).
+///
+/// ```text
+/// F_s = ∫ R_b(h(θ)) [r_s − h(θ) cos θ] dθ      h(θ) = r_s (cos θ − cos θ_f), over the buried arc
+/// ```
+///
+/// * `patch`: the arc in contact; behind −θ_f (λ > 1) the rim is above the surface, without load
+/// * `shearing_radius`: *r_s* [m]
+#[must_use]
+pub fn flank_load(
+    resistance: &WallResistance,
+    patch: &ContactPatch,
+    shearing_radius: f64,
+) -> FlankLoad {
+    let r = shearing_radius;
+    let start = patch.exit.max(-patch.entry);
+    let span = patch.entry - start;
+    let cos_entry = patch.entry.cos();
+    let (mut force, mut below, mut ahead) = (0.0, 0.0, 0.0);
+    for (node, weight) in GAUSS_8 {
+        let (sin, cos) = (start + node * span).sin_cos();
+        let depth = r * (cos - cos_entry);
+        let strip = weight * span * resistance.at(depth) * (r - depth * cos);
+        force += strip;
+        below += strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
+        ahead += strip * r * sin;
+    }
+    if force == 0.0 {
+        return FlankLoad::default();
+    }
+    FlankLoad { force, below_hub: below / force, ahead_of_hub: ahead / force }
+}
+
+/// How the flank's load acts at a slip angle: its shares across and along the wheel [-].
+///
+/// Across, positive to the left: against the lateral motion. Along: against the travel.
+#[must_use]
+pub fn shares(law: Bulldozing, slip_angle: f64) -> (f64, f64) {
+    let beta = slip_angle;
+    match law {
+        Bulldozing::None => (0.0, 0.0),
+        Bulldozing::Sign if beta == 0.0 => (0.0, 0.0),
+        Bulldozing::Sign => (-beta.signum(), 0.0),
+        Bulldozing::Sine => (-beta.sin(), 0.0),
+        Bulldozing::SineSquared => (-beta.sin() * beta.sin().abs(), -beta.sin().abs() * beta.cos()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::deg;
+
+    /// Source: D₁ and D₂ for φ = 38°, X_c = 26°, and for φ = 37.2°, X_c = 26.4°: independent code.
+    #[test]
+    fn wall_coefficients() {
+        assert!((d1(deg(26.0), deg(38.0)) - 4.100_608).abs() < 1e-6);
+        assert!((d2(deg(26.0), deg(38.0)) - 5.334_630).abs() < 1e-6);
+        assert!((d1(deg(26.4), deg(37.2)) - 4.028_974).abs() < 1e-6);
+        assert!((d2(deg(26.4), deg(37.2)) - 5.094_796).abs() < 1e-6);
+    }
+
+    #[test]
+    fn every_law_but_sign_is_continuous_at_zero_slip_angle() {
+        for law in [Bulldozing::None, Bulldozing::Sine, Bulldozing::SineSquared] {
+            let (across, along) = shares(law, 1e-9);
+            assert!(across.abs() <= 1e-9 && along.abs() <= 1e-9, "{law:?}");
+        }
+        assert_eq!(shares(Bulldozing::Sign, 1e-9).0, -1.0);
+    }
+}

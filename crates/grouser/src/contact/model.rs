@@ -1,0 +1,55 @@
+//! What a theory of the wheel-soil reaction is.
+
+use super::forces::WheelForces;
+use super::slip::Slip;
+use crate::soil::Soil;
+use crate::wheel::Wheel;
+
+/// One wheel on one soil, in one motion: all that decides the reaction, but for the sinkage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The wheel.
+    pub wheel: Wheel,
+    /// The soil under it.
+    pub soil: Soil,
+    /// How the rim moves against the soil.
+    pub slip: Slip,
+    /// Gravity, *g* [m/s²]; it gives the soil its weight.
+    pub gravity: f64,
+}
+
+/// A theory of the wheel-soil reaction: a contact in, the wheel's forces out.
+///
+/// A theory is stateless and total: for any motion and any sinkage from 0 to the axle's depth
+/// it returns finite forces, continuous in the sinkage, and none at sinkage 0.
+pub trait WheelSoilModel: Sync {
+    /// The reaction of the soil on a wheel sunk by `sinkage` [m].
+    fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;
+}
+
+/// The reaction for any motion, from a theory of a wheel that enters the soil with its front.
+///
+/// A wheel that rolls backward is seen in a mirror. Where rim and hub oppose each other both
+/// views count, in the proportion of [`Slip::entering_side`]: the theories know only one, and to
+/// switch between them would be a jump in force.
+pub(super) fn from_both_sides(
+    contact: &Contact,
+    entering_front: impl Fn(&Contact) -> WheelForces,
+) -> WheelForces {
+    let front = || entering_front(contact);
+    let back = || {
+        let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
+        entering_front(&mirrored).front_to_back()
+    };
+    let side = contact.slip.entering_side;
+    let share = 0.5 * (1.0 + side);
+    if side >= 1.0 {
+        front()
+    } else if side <= -1.0 {
+        back()
+    } else if side >= 0.0 {
+        front() * share + back() * (1.0 - share)
+    } else {
+        back() * (1.0 - share) + front() * share
+    }
+}

@@ -1,0 +1,65 @@
+//! The arc of the rim that touches the soil: where it enters, where it leaves, where stress peaks.
+
+use crate::soil::Soil;
+
+/// The arc in contact, in angles [rad] from straight down, positive on the entering side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactPatch {
+    /// Entry angle, *θ_f* [rad].
+    pub entry: f64,
+    /// Angle of maximum stress, *θ_m* [rad].
+    pub max_stress: f64,
+    /// Exit angle, *θ_r* [rad], not positive.
+    pub exit: f64,
+}
+
+impl ContactPatch {
+    /// The arc of a wheel sunk by *h*.
+    ///
+    /// ```text
+    /// θ_f = acos(1 − h/r_s)    θ_m = (a₀ + a₁ |s|) θ_f    θ_r = −acos(1 − λ h/r_s)
+    /// ```
+    ///
+    /// after Ishigami et al. (2007), on the shearing radius.
+    ///
+    /// * `shearing_radius`: *r_s* [m]
+    /// * `sinkage`: *h* [m], 0 to 2 r_s
+    /// * `slip_ratio`: *s* [-], counted along the rolling direction
+    #[must_use]
+    pub fn new(soil: &Soil, shearing_radius: f64, sinkage: f64, slip_ratio: f64) -> Self {
+        let depth = sinkage / shearing_radius;
+        let entry = angle_at_depth(depth);
+        Self {
+            entry,
+            max_stress: soil.stress_peak.share(slip_ratio) * entry,
+            exit: -angle_at_depth(soil.exit.ratio(slip_ratio) * depth),
+        }
+    }
+}
+
+/// Angle from straight down [rad] at which a rim crosses a surface `depth` radii above its bottom.
+///
+/// acos(1 − depth), written so that shallow contact keeps its digits. Depths beyond the wheel's
+/// top count as the top.
+fn angle_at_depth(depth: f64) -> f64 {
+    2.0 * (depth / 2.0).clamp(0.0, 1.0).sqrt().asin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_entry_angle_is_the_arc_cosine() {
+        for depth in [0.01, 0.1, 0.5, 1.0, 1.7, 2.0_f64] {
+            assert!((angle_at_depth(depth) - (1.0 - depth).acos()).abs() < 1e-12);
+        }
+    }
+
+    /// θ² ≈ 2 h/r for shallow contact; acos would have lost all digits here.
+    #[test]
+    fn shallow_contact_keeps_its_digits() {
+        let depth = 1e-18_f64;
+        assert!((angle_at_depth(depth) / (2.0 * depth).sqrt() - 1.0).abs() < 1e-12);
+    }
+}

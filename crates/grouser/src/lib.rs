@@ -1,0 +1,9 @@
+//! Grouser predicts how a wheeled rover moves on loose soil.
+pub mod contact;
+pub mod error;
+mod root;
+pub mod site;
+pub mod soil;
+pub mod units;
+pub mod vehicle;
+pub mod wheel;

@@ -1,0 +1,224 @@
+//! What a soil is to a wheel: how it carries, how it shears, how it is pushed aside.
+//!
+//! A [`Soil`] is a set of constants of the theories in [`contact`](crate::contact); it does no
+//! mechanics itself beyond evaluating its own laws. All values are in SI units.
+
+pub mod pressure_sinkage;
+
+use std::f64::consts::FRAC_PI_4;
+
+pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
+
+use crate::error::{ParameterError, finite, not_negative, positive};
+
+/// A homogeneous soil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Soil {
+    /// Cohesion, *c* [Pa].
+    pub cohesion: f64,
+    /// Angle of internal friction, *φ* [rad].
+    pub friction_angle: f64,
+    /// Bulk density, *ρ* [kg/m³].
+    pub density: f64,
+    /// How pressure grows with sinkage.
+    pub pressure_sinkage: PressureSinkage,
+    /// Where along the arc the normal stress peaks.
+    pub stress_peak: StressPeak,
+    /// How shear stress is mobilised.
+    pub shear: Shear,
+    /// Where the wheel leaves the soil.
+    pub exit: Exit,
+    /// How soil pushed aside loads the flank.
+    pub bulldozing: Bulldozing,
+}
+
+/// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StressPeak {
+    /// Share of the entry angle at zero slip, *a₀* [-].
+    pub a0: f64,
+    /// Its growth with the slip ratio, *a₁* [-].
+    pub a1: f64,
+}
+
+impl StressPeak {
+    /// The stress peak may come this near to the entry angle [-]. At 1 the theory has no stress
+    /// anywhere, for any sinkage: the profile's height is taken at its own edge.
+    pub const LARGEST_SHARE: f64 = 0.99;
+
+    /// Share of the entry angle at which the normal stress peaks [-], 0 to
+    /// [`LARGEST_SHARE`](Self::LARGEST_SHARE).
+    ///
+    /// The slip ratio enters by its size, at most 1: in skid the classical theory keeps a₀ and a₁.
+    #[must_use]
+    pub fn share(&self, slip_ratio: f64) -> f64 {
+        (self.a0 + self.a1 * slip_ratio.abs().min(1.0)).clamp(0.0, Self::LARGEST_SHARE)
+    }
+}
+
+/// How shear stress grows with shear displacement (Janosi and Hanamoto 1961).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shear {
+    /// Each axis on its own, as in the source paper. |τ| may exceed the Mohr-Coulomb limit by √2.
+    Anisotropic {
+        /// Along the wheel, *K_x*.
+        longitudinal: ShearModulus,
+        /// Across the wheel, *K_y*.
+        lateral: ShearModulus,
+    },
+    /// One stress, against the slip velocity; respects |τ| ≤ c + σ tan φ.
+    Isotropic {
+        /// In every direction, *K*.
+        modulus: ShearModulus,
+    },
+}
+
+/// Shear deformation modulus *K* [m] as a function of the slip angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShearModulus {
+    /// K = K₀ + K₁ |β|, after Ishigami et al. (2007).
+    Linear {
+        /// *K₀* [m].
+        at_zero: f64,
+        /// *K₁* [m/rad].
+        per_radian: f64,
+    },
+    /// K = K₀ + K₁ |β| + K₂ β², |β| at most the limit: the laboratory's Toyoura fit of 2007.
+    Quadratic {
+        /// *K₀* [m].
+        at_zero: f64,
+        /// *K₁* [m/rad].
+        per_radian: f64,
+        /// *K₂* [m/rad²].
+        per_radian_squared: f64,
+        /// The largest |β| that the fit knows [rad].
+        angle_limit: f64,
+    },
+}
+
+impl ShearModulus {
+    /// A modulus that does not depend on the slip angle, [m].
+    #[must_use]
+    pub fn constant(modulus: f64) -> Self {
+        Self::Linear { at_zero: modulus, per_radian: 0.0 }
+    }
+
+    /// The modulus *K* [m] at a slip angle [rad] of either sign.
+    #[must_use]
+    pub fn at(&self, slip_angle: f64) -> f64 {
+        let beta = slip_angle.abs();
+        match *self {
+            Self::Linear { at_zero, per_radian } => at_zero + per_radian * beta,
+            Self::Quadratic { at_zero, per_radian, per_radian_squared, angle_limit } => {
+                let beta = beta.min(angle_limit);
+                at_zero + per_radian * beta + per_radian_squared * beta * beta
+            }
+        }
+    }
+
+    fn check(&self, name: &str) -> Result<(), ParameterError> {
+        /// Slip angles at which a modulus is tried, from 0 to 90°.
+        const TRIALS: u32 = 90;
+        for trial in 0..=TRIALS {
+            let slip_angle = 2.0 * FRAC_PI_4 * f64::from(trial) / f64::from(TRIALS);
+            let modulus = self.at(slip_angle);
+            if !(modulus.is_finite() && modulus > 0.0) {
+                let at = slip_angle.to_degrees();
+                let name = format!("{name} at a slip angle of {at:.0}°");
+                return Err(ParameterError::new(name, modulus, "above zero"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Exit-angle ratio λ: the share of the sinkage that the soil recovers behind the wheel [-].
+///
+/// Below 1 the wheel leaves a rut; above 1 soil is piled up behind it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exit {
+    /// The same for every slip.
+    Ratio(f64),
+    /// λ = λ₀ + λ₁ s + λ₂ s², with skid counted as s = 0: the laboratory's fit of 2012.
+    QuadraticInSlip {
+        /// *λ₀* [-].
+        at_zero: f64,
+        /// *λ₁* [-].
+        per_slip: f64,
+        /// *λ₂* [-].
+        per_slip_squared: f64,
+    },
+}
+
+impl Exit {
+    /// The ratio λ [-] at a slip ratio, never negative.
+    #[must_use]
+    pub fn ratio(&self, slip_ratio: f64) -> f64 {
+        match *self {
+            Self::Ratio(ratio) => ratio,
+            Self::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {
+                let s = slip_ratio.clamp(0.0, 1.0);
+                (at_zero + per_slip * s + per_slip_squared * s * s).max(0.0)
+            }
+        }
+    }
+}
+
+/// How the force of the soil pushed aside by the flank depends on the slip angle β.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bulldozing {
+    /// No such force.
+    None,
+    /// Full force whatever the size of β (Ishigami et al. 2007). It jumps at β = 0.
+    Sign,
+    /// In proportion to sin β (Jia 2012): smooth.
+    Sine,
+    /// In proportion to sin² β, with its part along the wheel, −F_s sin|β| cos β, and with the
+    /// surcharge of the soil already piled up: the laboratory's code of 2007.
+    SineSquared,
+}
+
+impl Soil {
+    /// Weight of a cubic metre, *γ* = ρ g [N/m³].
+    #[must_use]
+    pub fn unit_weight(&self, gravity: f64) -> f64 {
+        self.density * gravity
+    }
+
+    /// Destructive angle of the soil ahead of a passive wall, *X_c* = 45° − φ/2 [rad].
+    #[must_use]
+    pub fn destructive_angle(&self) -> f64 {
+        FRAC_PI_4 - self.friction_angle / 2.0
+    }
+
+    /// That the constants belong to a soil at all. (Documents have narrower ranges of their own.)
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first constant that does not.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        not_negative("cohesion [Pa]", self.cohesion)?;
+        positive("density [kg/m³]", self.density)?;
+        if !(self.friction_angle > 0.0 && self.friction_angle < 2.0 * FRAC_PI_4) {
+            let expected = "above 0 and below π/2";
+            return Err(ParameterError::new("friction angle [rad]", self.friction_angle, expected));
+        }
+        not_negative("stress peak a0", self.stress_peak.a0)?;
+        finite("stress peak a1", self.stress_peak.a1)?;
+        self.pressure_sinkage.check(self.cohesion)?;
+        match self.shear {
+            Shear::Anisotropic { longitudinal, lateral } => {
+                longitudinal.check("longitudinal shear modulus [m]")?;
+                lateral.check("lateral shear modulus [m]")?;
+            }
+            Shear::Isotropic { modulus } => modulus.check("shear modulus [m]")?,
+        }
+        match self.exit {
+            Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
+            Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {
+                not_negative("exit ratio at zero slip", at_zero)?;
+                finite("exit ratio per slip", per_slip)?;
+                finite("exit ratio per slip squared", per_slip_squared)
+            }
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! Floor 2: the rover as a rigid body on wheels.
+//!
+//! [`rover`] is what it is, [`state`] where it is and how it moves. From the state,
+//! [`kinematics`] gives the motion of each hub (Eqs 2-3), [`load`] the share of the weight on each
+//! wheel (Eqs 12-14) and, with the soil's reaction on the wheels, [`dynamics`] the acceleration
+//! (Eqs 5-11). [`drive`] says how fast the wheels turn (Eq. 18). Equations are those of
+//! [FourWheel], in the corrected form that `docs/equations.md` lists.
+//!
+//! Frames: `slope` has x along the contour, y uphill and z out of the ground; `body` has x
+//! forward, y left and z up, its origin at the centre of mass of the body without its wheels.
+
+pub mod drive;
+pub mod dynamics;
+pub mod kinematics;
+pub mod load;
+pub mod reaction;
+pub mod rover;
+pub mod state;
+
+pub use drive::{Drive, DriveLaw};
+pub use load::{LoadSharing, OwnMoments};
+pub use reaction::{Ground, ReactionError, WheelReaction};
+pub use rover::{Body, Inertia, Mount, Rover, WheelUnit};
+pub use state::{Acceleration, RoverState};

@@ -1,0 +1,165 @@
+//! What turns the wheels: constant speeds, or the source's slip-dependent law ([FourWheel], Eq. 18).
+
+use super::rover::Rover;
+use crate::error::{ParameterError, finite, positive};
+
+/// What a drive knows when it sets the wheels' speeds.
+#[derive(Clone, Copy, Debug)]
+pub struct DriveInput<'a> {
+    /// The rover.
+    pub rover: &'a Rover,
+    /// Yaw, *γ* [rad].
+    pub yaw: f64,
+    /// Slip ratio of each wheel when it was last looked at [-]; zeros at the start.
+    pub slip_ratios: &'a [f64],
+}
+
+/// What turns the wheels. It is sampled once a control period and holds between.
+pub trait Drive {
+    /// Sets the rim speed ω r_s of each wheel [m/s].
+    fn rim_speeds(&mut self, input: &DriveInput<'_>, rim_speeds: &mut [f64]);
+
+    /// Whether the speeds can change during a run; if not, the drive is asked only once.
+    fn varies(&self) -> bool;
+}
+
+/// The drives that a document can name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DriveLaw {
+    /// Every wheel turns at the same rim speed ω r_s [m/s]: what the source's experiments did.
+    Constant(f64),
+    /// Each wheel has a rim speed of its own [m/s]: reverse, spot turns, skid-steered arcs.
+    ConstantEach(Vec<f64>),
+    /// ω = v_des / [(1 − (s_ref − s)) r_s cos γ]: Eq. 18 as printed. It turns faster the more the
+    /// rover crabs, and meets its target speed at no slip but s_ref = s with v = (1 − s_ref) v_des.
+    Eq18AsPrinted(SlipTarget),
+    /// ω = v_des cos γ / [(1 − s) r_s], s at most s_ref and a margin: the kinematics Eq. 18 means.
+    Eq18(SlipTarget),
+}
+
+/// What Eq. 18 is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipTarget {
+    /// Speed along the contour to be held, *v_des* [m/s].
+    pub speed: f64,
+    /// Reference slip ratio, *s_ref* [-]; 0.2 in the source.
+    pub slip_ratio: f64,
+}
+
+/// How far above its reference slip the corrected law still speeds the wheels up [-]. Beyond it a
+/// rover that digs in would be told to dig faster. Source: ours.
+pub const SLIP_MARGIN: f64 = 0.2;
+
+impl DriveLaw {
+    /// That the law fits a rover.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for speeds that are not finite, lists of another length than the rover
+    /// has wheels, and targets out of range.
+    pub fn check(&self, rover: &Rover) -> Result<(), ParameterError> {
+        match self {
+            Self::Constant(speed) => finite("rim speed [m/s]", *speed),
+            Self::ConstantEach(speeds) if speeds.len() != rover.wheel_count() => {
+                let count = speeds.len() as f64;
+                let expected = "one for each wheel of the rover";
+                Err(ParameterError::new("the number of rim speeds", count, expected))
+            }
+            Self::ConstantEach(speeds) => {
+                speeds.iter().try_for_each(|speed| finite("rim speed [m/s]", *speed))
+            }
+            Self::Eq18AsPrinted(target) | Self::Eq18(target) => {
+                positive("desired speed [m/s]", target.speed)?;
+                if (0.0..1.0).contains(&target.slip_ratio) {
+                    Ok(())
+                } else {
+                    let expected = "0 to below 1";
+                    Err(ParameterError::new("reference slip ratio", target.slip_ratio, expected))
+                }
+            }
+        }
+    }
+
+    /// The largest rim speed that the law starts with [m/s], with its sign.
+    #[must_use]
+    pub fn nominal_rim_speed(&self) -> f64 {
+        match self {
+            Self::Constant(speed) => *speed,
+            Self::ConstantEach(speeds) => {
+                speeds.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
+            }
+            Self::Eq18AsPrinted(target) | Self::Eq18(target) => target.speed,
+        }
+    }
+}
+
+impl Drive for DriveLaw {
+    fn rim_speeds(&mut self, input: &DriveInput<'_>, rim_speeds: &mut [f64]) {
+        match self {
+            Self::Constant(speed) => rim_speeds.fill(*speed),
+            Self::ConstantEach(speeds) => rim_speeds.copy_from_slice(speeds),
+            Self::Eq18AsPrinted(target) => {
+                for (rim_speed, s) in rim_speeds.iter_mut().zip(input.slip_ratios) {
+                    *rim_speed = eq_18_as_printed(target, *s, input.yaw);
+                }
+            }
+            Self::Eq18(target) => {
+                for (rim_speed, s) in rim_speeds.iter_mut().zip(input.slip_ratios) {
+                    *rim_speed = eq_18(target, *s, input.yaw);
+                }
+            }
+        }
+    }
+
+    fn varies(&self) -> bool {
+        matches!(self, Self::Eq18AsPrinted(_) | Self::Eq18(_))
+    }
+}
+
+/// Smallest divisor in Eq. 18 as printed [-], so that a crab angle of 90° or a skid of s_ref − 1
+/// gives a large speed, not an infinite one.
+const LEAST_DIVISOR: f64 = 0.05;
+
+/// Rim speed ω r_s [m/s] by [FourWheel], Eq. (18), as printed.
+fn eq_18_as_printed(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
+    let s = slip_ratio.clamp(-1.0, 1.0);
+    target.speed / ((1.0 - (target.slip_ratio - s)) * yaw.cos()).max(LEAST_DIVISOR)
+}
+
+/// Rim speed ω r_s [m/s] at which a wheel that slips by s goes v_des along the contour.
+///
+/// The source divides by cos γ; along the contour v_x = v_des cos γ, so it belongs above the bar.
+fn eq_18(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
+    /// However large the reference, some share of the rim's speed must be left to the hub.
+    const MOST_SLIP: f64 = 0.95;
+    let s = slip_ratio.clamp(0.0, (target.slip_ratio + SLIP_MARGIN).min(MOST_SLIP));
+    target.speed * yaw.cos() / (1.0 - s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::deg;
+
+    const TARGET: SlipTarget = SlipTarget { speed: 0.06, slip_ratio: 0.2 };
+
+    /// Source: [FourWheel], Eq. (18). DIFFERENCE: none, this is the printed law.
+    #[test]
+    fn as_printed_the_reference_slip_leaves_the_rim_at_the_target_speed() {
+        assert!((eq_18_as_printed(&TARGET, 0.2, 0.0) - 0.06).abs() < 1e-15);
+        let at_15_degrees = eq_18_as_printed(&TARGET, 0.2, deg(15.0));
+        assert!((at_15_degrees - 0.06 / deg(15.0).cos()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn corrected_it_reaches_the_target_speed_along_the_contour() {
+        for (s, yaw) in [(0.0, 0.0), (0.1, deg(10.0)), (0.35, deg(25.0))] {
+            let along_wheel = eq_18(&TARGET, s, yaw) * (1.0 - s);
+            assert!((along_wheel / yaw.cos() - 0.06).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn corrected_it_stops_speeding_up_beyond_the_margin() {
+        assert_eq!(eq_18(&TARGET, 0.4, 0.0), eq_18(&TARGET, 0.9, 0.0));
+    }
+}

@@ -1,0 +1,80 @@
+//! The rover's acceleration ([FourWheel], Eqs 5-11, corrected).
+//!
+//! Written about the body's centre of mass, in body axes, with *S* the wheels' first moment:
+//!
+//! ```text
+//! m (u̇ − γ̇ v) − S_x γ̇² − S_y γ̈ = ΣF_x + G_x
+//! m (v̇ + γ̇ u) − S_y γ̇² + S_x γ̈ = ΣF_y + G_y
+//! I γ̈ + S_x (v̇ + γ̇ u) − S_y (u̇ − γ̇ v) = Σ(d_x F_y − d_y F_x + M_z) + (S_x G_y − S_y G_x)/m
+//! ```
+//!
+//! The source mixes body and inertial axes in its Eq. 5, has two wrong signs there and two in
+//! Eqs 8-9, and leaves out that the weight acts at the common centre of mass.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::load::OwnMoments;
+use super::rover::Rover;
+use super::state::{Acceleration, RoverState};
+use crate::contact::WheelForces;
+use crate::site::Site;
+use crate::units::Vec2;
+
+/// The weight's pull along the slope, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
+/// 12-13, with the signs it leaves out): m g sin α points downhill, to −y of the slope frame.
+#[must_use]
+pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
+    let pull = rover.mass() * site.gravity * site.slope.sin();
+    -pull * Vec2::new(yaw.sin(), yaw.cos())
+}
+
+/// Forces of the soil on the rover: their sum [N] in the body frame, and their moment about the
+/// body's centre of mass [N·m].
+///
+/// * `own_moments`: whether the wheels' aligning moments count
+#[must_use]
+pub fn soil_resultant(
+    rover: &Rover,
+    wheels: &[WheelForces],
+    own_moments: OwnMoments,
+) -> (Vec2, f64) {
+    let mut force = Vec2::zeros();
+    let mut moment = 0.0;
+    for (mount, wheel) in rover.mounts().iter().zip(wheels) {
+        let wheel_force = Vec2::new(wheel.drawbar_pull, wheel.side_force);
+        force += wheel_force;
+        moment += mount.position.xy().perp(&wheel_force);
+        if own_moments == OwnMoments::Included {
+            moment += wheel.aligning_moment;
+        }
+    }
+    (force, moment)
+}
+
+/// The acceleration under the soil's forces on the wheels and the weight.
+#[must_use]
+pub fn acceleration(
+    rover: &Rover,
+    site: &Site,
+    state: &RoverState,
+    wheels: &[WheelForces],
+    own_moments: OwnMoments,
+) -> Acceleration {
+    let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
+    let weight = slope_pull(rover, site, state.yaw);
+    let force = soil_force + weight;
+    let moment = soil_moment + rover.centre_of_mass().perp(&weight);
+
+    let (m, s, i) = (rover.mass(), rover.first_moment(), rover.yaw_inertia());
+    let (u, v, rate) = (state.velocity.x, state.velocity.y, state.yaw_rate);
+    let mass_matrix = Matrix3::new(m, 0.0, -s.y, 0.0, m, s.x, -s.y, s.x, i);
+    let turning = Vector3::new(
+        m * rate * v + s.x * rate * rate,
+        -m * rate * u + s.y * rate * rate,
+        -rate * (s.x * u + s.y * v),
+    );
+    let right_hand_side = Vector3::new(force.x, force.y, moment) + turning;
+    // m I > |S|² for every rigid body, so the matrix has an inverse.
+    let rates = mass_matrix.lu().solve(&right_hand_side).unwrap_or_default();
+    Acceleration { velocity_rate: rates.xy(), yaw_acceleration: rates.z }
+}

@@ -1,0 +1,119 @@
+//! All wheels settled under their share of the weight: load sharing and soil together.
+
+use super::load::{self, LoadSharing, OwnMoments, Tipping};
+use super::rover::Rover;
+use crate::contact::{Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle};
+use crate::site::Site;
+use crate::units::Vec2;
+
+/// What decides the soil's reaction on a rover, besides its motion.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    /// The rover.
+    pub rover: &'a Rover,
+    /// Where it is.
+    pub site: &'a Site,
+    /// The theory of the wheel-soil reaction.
+    pub model: &'a dyn WheelSoilModel,
+    /// How the weight is shared.
+    pub sharing: LoadSharing,
+    /// Whether the wheels' own moments act on the rover.
+    pub own_moments: OwnMoments,
+}
+
+/// One wheel, settled under its load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelReaction {
+    /// How it moves against the soil.
+    pub slip: Slip,
+    /// Its load [N].
+    pub load: f64,
+    /// Its sinkage and the soil's forces.
+    pub settled: Settled,
+}
+
+/// Why the wheels do not settle.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReactionError {
+    /// The weight falls outside the wheels.
+    #[error(transparent)]
+    Tipping(#[from] Tipping),
+    /// One wheel's load is more than the soil carries.
+    #[error("wheel {wheel}: {source}")]
+    Wheel {
+        /// The wheel's name.
+        wheel: String,
+        /// What is wrong with it.
+        source: SettleError,
+    },
+    /// Loads and torques did not settle on each other.
+    #[error(
+        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}"
+    )]
+    Unsettled {
+        /// How often they were computed.
+        rounds: u32,
+        /// Change of the moments in the last round, over weight times track [-].
+        change: f64,
+    },
+}
+
+impl Ground<'_> {
+    /// The reaction on every wheel, in the mounts' order.
+    ///
+    /// Where the loads depend on the wheels' own torque or moments, loads and reactions are
+    /// computed in turn until they agree.
+    ///
+    /// # Errors
+    /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or the turns do not agree.
+    pub fn reactions(&self, yaw: f64, slips: &[Slip]) -> Result<Vec<WheelReaction>, ReactionError> {
+        let Self { rover, site, sharing, own_moments, .. } = *self;
+        let coupled = sharing == LoadSharing::QuasiStaticTorque
+            || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
+        let mut moments = load::moments(rover, site, yaw, sharing, own_moments, &[]);
+        let mut wheels = self.settle_under(moments, slips)?;
+        if !coupled {
+            return Ok(wheels);
+        }
+        const MOST_ROUNDS: u32 = 60;
+        /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
+        const AGREED: f64 = 1e-11;
+        let reach = rover.load_arms().iter().map(|arm| arm.norm()).fold(0.0, f64::max);
+        let scale = rover.mass() * site.gravity * reach;
+        let mut change = f64::INFINITY;
+        for _ in 0..MOST_ROUNDS {
+            let forces: Vec<WheelForces> = wheels.iter().map(|w| w.settled.forces).collect();
+            let next = load::moments(rover, site, yaw, sharing, own_moments, &forces);
+            change = (next - moments).norm() / scale;
+            if change <= AGREED {
+                return Ok(wheels);
+            }
+            moments = next;
+            wheels = self.settle_under(moments, slips)?;
+        }
+        Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
+    }
+
+    fn settle_under(
+        &self,
+        moments: Vec2,
+        slips: &[Slip],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let Self { rover, site, model, sharing, .. } = *self;
+        let weight = rover.mass() * site.gravity * site.slope.cos();
+        let loads = load::wheel_loads(rover, sharing, weight, moments)?;
+        let settled = slips.iter().zip(loads).zip(rover.mounts()).map(|((&slip, load), mount)| {
+            let (wheel, soil, gravity) = (*rover.wheel(), site.soil, site.gravity);
+            settle(model, &Contact { wheel, soil, slip, gravity }, load)
+                .map(|settled| WheelReaction { slip, load, settled })
+                .map_err(|source| ReactionError::Wheel { wheel: mount.name.clone(), source })
+        });
+        settled.collect()
+    }
+}
+
+/// The soil's forces of each wheel.
+#[must_use]
+pub fn forces_of(wheels: &[WheelReaction]) -> Vec<WheelForces> {
+    wheels.iter().map(|wheel| wheel.settled.forces).collect()
+}

@@ -1,0 +1,3 @@
+//! The claims of the library, tested from outside.
+
+mod reference;
