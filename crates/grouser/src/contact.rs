@@ -20,6 +20,7 @@ pub mod model;
 pub mod patch;
 pub mod slip;
 pub mod stress;
+mod theory;
 
 pub use bekker::Bekker;
 pub use equilibrium::{SettleError, Settled, settle};
@@ -28,3 +29,4 @@ pub use ishigami::Ishigami;
 pub use model::{Contact, WheelSoilModel};
 pub use patch::ContactPatch;
 pub use slip::Slip;
+pub use theory::Theory;

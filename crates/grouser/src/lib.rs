@@ -2,6 +2,7 @@
 pub mod contact;
 pub mod error;
 mod root;
+pub mod simulation;
 pub mod site;
 pub mod soil;
 pub mod units;

