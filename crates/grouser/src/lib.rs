@@ -5,6 +5,7 @@ mod root;
 pub mod simulation;
 pub mod site;
 pub mod soil;
+pub mod studies;
 pub mod units;
 pub mod vehicle;
 pub mod wheel;

@@ -25,6 +25,38 @@ pub struct Scenario {
     pub start: Start,
     /// How long it lasts [s].
     pub duration: f64,
+    /// How it is computed.
+    pub numerics: Numerics,
+}
+
+/// How a run is computed and recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numerics {
+    /// What carries the motion through time.
+    pub integrator: Integrator,
+    /// Time between samples [s].
+    pub sample_interval: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self { integrator: Integrator::Bdf { tolerance: 1e-6 }, sample_interval: 0.1 }
+    }
+}
+
+/// What carries the motion through time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Implicit, of variable order and step: slip settles within milliseconds, runs last minutes.
+    Bdf {
+        /// Relative tolerance of a step [-].
+        tolerance: f64,
+    },
+    /// Classical Runge-Kutta with a fixed step: slow, and independent of the other.
+    Rk4 {
+        /// Step [s]; stable up to about a millisecond.
+        step: f64,
+    },
 }
 
 /// How a run starts, at the origin of the slope frame.
@@ -66,7 +98,11 @@ impl Scenario {
             let expected = "at most a day, 86400 s";
             return Err(ParameterError::new("duration [s]", self.duration, expected));
         }
-        Ok(())
+        positive("sample interval [s]", self.numerics.sample_interval)?;
+        match self.numerics.integrator {
+            Integrator::Bdf { tolerance } => positive("tolerance", tolerance),
+            Integrator::Rk4 { step } => positive("step [s]", step),
+        }
     }
 
     /// The state at time 0.

@@ -1,0 +1,70 @@
+//! The books of a run's energy: what the motors put in, and where it went.
+
+use crate::site::Site;
+use crate::units::Vec2;
+use crate::vehicle::{Rover, RoverState, WheelReaction};
+
+/// Energy since the start of a run [J].
+///
+/// ```text
+/// motors = soil + (kinetic − kinetic at the start) + (potential − potential at the start)
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyBalance {
+    /// Work of the motors, Σ∫ T ω dt, and what it takes to change the wheels' spin.
+    pub motors: f64,
+    /// Work done on the soil, Σ∫ (T ω − F·v) dt.
+    pub soil: f64,
+    /// Kinetic energy of body and wheels, the wheels' spin included.
+    pub kinetic: f64,
+    /// Potential energy on the slope, zero at the origin's height.
+    pub potential: f64,
+}
+
+/// Power of the motors and into the soil [W].
+///
+/// * `wheel_speeds`: ω of each wheel [rad/s]
+/// * `hub_velocities`: of each hub, in the body frame [m/s]
+/// * `aligning_work_rate`: yaw rate where aligning moments act on the rover, else 0 [rad/s]
+#[must_use]
+pub fn powers(
+    wheels: &[WheelReaction],
+    wheel_speeds: &[f64],
+    hub_velocities: impl Iterator<Item = Vec2>,
+    aligning_work_rate: f64,
+) -> (f64, f64) {
+    let (mut motors, mut soil) = (0.0, 0.0);
+    for ((wheel, wheel_speed), velocity) in wheels.iter().zip(wheel_speeds).zip(hub_velocities) {
+        let forces = &wheel.settled.forces;
+        let motor = forces.torque * wheel_speed;
+        let pull = forces.drawbar_pull * velocity.x + forces.side_force * velocity.y;
+        motors += motor;
+        soil += motor - pull - forces.aligning_moment * aligning_work_rate;
+    }
+    (motors, soil)
+}
+
+/// Kinetic energy of the rover as one rigid body [J], without the wheels' spin.
+#[must_use]
+pub fn kinetic_energy(rover: &Rover, state: &RoverState) -> f64 {
+    let (v, rate) = (state.velocity, state.yaw_rate);
+    0.5 * rover.mass() * v.norm_squared()
+        + rate * rover.first_moment().perp(&v)
+        + 0.5 * rover.yaw_inertia() * rate * rate
+}
+
+/// Energy in the wheels' spin [J].
+///
+/// * `wheel_speeds`: ω of each wheel [rad/s]
+#[must_use]
+pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
+    let inertia = rover.wheel_unit().inertia.yy;
+    wheel_speeds.iter().map(|speed| 0.5 * inertia * speed * speed).sum()
+}
+
+/// Potential energy on the slope [J]; what the rover sinks does not count.
+#[must_use]
+pub fn potential_energy(rover: &Rover, site: &Site, state: &RoverState) -> f64 {
+    let centre = state.position + state.slope_from_body() * rover.centre_of_mass();
+    rover.mass() * site.gravity * site.slope.sin() * centre.y
+}

@@ -1,0 +1,65 @@
+//! The single-wheel test stand: forces, torque and sinkage over load, slip ratio and slip angle
+//! ([FourWheel], section 4 and Fig. 7).
+
+use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use crate::soil::Soil;
+use crate::wheel::Wheel;
+
+/// A test plan: every load with every slip angle and every slip ratio.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WheelTest {
+    /// The wheel.
+    pub wheel: Wheel,
+    /// The soil.
+    pub soil: Soil,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// The theory.
+    pub theory: Theory,
+    /// Loads [N].
+    pub loads: Vec<f64>,
+    /// Slip angles [rad].
+    pub slip_angles: Vec<f64>,
+    /// Slip ratios [-].
+    pub slip_ratios: Vec<f64>,
+}
+
+/// One setting of the test stand, and what the wheel did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelTestRow {
+    /// Load [N].
+    pub load: f64,
+    /// Slip angle [rad].
+    pub slip_angle: f64,
+    /// Slip ratio [-].
+    pub slip_ratio: f64,
+    /// The settled wheel, or why there is none.
+    pub result: Result<Settled, SettleError>,
+}
+
+impl WheelTest {
+    /// Settles the wheel at every setting; slip ratios change fastest, then slip angles.
+    #[must_use]
+    pub fn run(&self) -> Vec<WheelTestRow> {
+        let mut rows = Vec::new();
+        for &load in &self.loads {
+            for &slip_angle in &self.slip_angles {
+                for &slip_ratio in &self.slip_ratios {
+                    rows.push(self.row(load, slip_angle, slip_ratio));
+                }
+            }
+        }
+        rows
+    }
+
+    fn row(&self, load: f64, slip_angle: f64, slip_ratio: f64) -> WheelTestRow {
+        let contact = Contact {
+            wheel: self.wheel,
+            soil: self.soil,
+            slip: Slip::on_test_stand(slip_ratio, slip_angle),
+            gravity: self.gravity,
+        };
+        let result = settle(self.theory.model(), &contact, load);
+        WheelTestRow { load, slip_angle, slip_ratio, result }
+    }
+}
