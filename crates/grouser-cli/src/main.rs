@@ -1,1 +1,48 @@
-fn main() {}
+//! The program `grouser`: words from the command line to the library, results back into words.
+//!
+//! It computes no physics. [`args`] is what can be asked, [`commands`] what is done about it,
+//! [`output`] how it is said, [`report`] the page that `reproduce` writes.
+
+mod args;
+mod chart;
+mod commands;
+mod failure;
+mod inputs;
+mod interrupt;
+mod list;
+mod output;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use args::{Cli, Command};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    interrupt::exit_on_ctrl_c();
+    match run(&cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if failure.code() != 0 {
+                eprintln!("error: {failure}");
+            }
+            ExitCode::from(failure.code())
+        }
+    }
+}
+
+fn run(command: &Command) -> Result<(), Failure> {
+    match command {
+        Command::Reproduce(args) => commands::reproduce::run(args),
+        Command::Traverse(args) => commands::traverse::run(args),
+        Command::WheelTest(args) => commands::wheel_test::run(args),
+        Command::Attitude(args) => commands::attitude::run(args),
+        Command::Check(args) => commands::check::run(args),
+        Command::Presets(args) => commands::presets::run(args),
+        Command::Schema(args) => commands::schema::run(args),
+        Command::Completions(args) => commands::completions::run(args),
+    }
+}

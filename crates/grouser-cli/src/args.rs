@@ -1,0 +1,226 @@
+//! What can be asked on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use grouser::document::Kind;
+
+use crate::list::{self, Numbers};
+use crate::output::Format;
+
+/// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the yaw that keeps a
+/// traverse level on a slope, energy.
+#[derive(Debug, Parser)]
+#[command(name = "grouser", version, max_term_width = 100, arg_required_else_help = true)]
+#[command(after_help = "Start with `grouser reproduce`: the source paper's study, as a page to \
+                        open in a browser. Exit codes: 0 done, 1 the run or the disk failed, 2 \
+                        wrong use or a bad document, 130 interrupted.")]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run the source paper's study and write its report.
+    Reproduce(ReproduceArgs),
+    /// Drive a rover across a slope and say where it ends up.
+    Traverse(TraverseArgs),
+    /// Forces, torque and sinkage of one wheel over load, slip ratio and slip angle.
+    WheelTest(WheelTestArgs),
+    /// The yaw that keeps a traverse level on a slope, and the steepest slope that has one.
+    Attitude(AttitudeArgs),
+    /// Check documents: soils, wheels, rovers, scenarios.
+    Check(CheckArgs),
+    /// List the presets with their sources, or print one as TOML.
+    Presets(PresetsArgs),
+    /// Print the JSON Schema of a kind of document.
+    Schema(SchemaArgs),
+    /// Print a completion script for a shell.
+    Completions(CompletionsArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArgs {
+    /// Folder for the report; without it `reproduction/`, where an earlier report is replaced.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace files of the same names in DIR.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// Where results go, and in which form.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArgs {
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+    /// Also write results, figure and the resolved documents to a folder.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace files of the same names in DIR.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// What most commands can change about their documents.
+#[derive(Debug, Args)]
+pub(crate) struct SettingArgs {
+    /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
+    #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
+    pub(crate) settings: Vec<String>,
+    /// The theory: `ishigami` or `bekker`; without it the soil's own, or else `ishigami`.
+    #[arg(long, value_name = "NAME")]
+    pub(crate) model: Option<String>,
+    /// Gravity [m/s²], or `earth`, `moon`, `mars`.
+    #[arg(long = "gravity-m-s2", value_name = "G", allow_hyphen_values = true)]
+    pub(crate) gravity: Option<String>,
+}
+
+/// How the weight acts on the wheels.
+#[derive(Debug, Args)]
+pub(crate) struct BalanceArgs {
+    /// Sharing of the weight: `quasi-static`, `quasi-static-torque` or `uniform`.
+    #[arg(long, value_name = "LAW")]
+    pub(crate) loads: Option<String>,
+    /// The wheels' own moments: `neglected` or `included`.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) moments: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct TraverseArgs {
+    /// A scenario's file or preset; without it the default scenario.
+    pub(crate) scenario: Option<String>,
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) rover: Option<String>,
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(crate) soil: Option<String>,
+    /// Inclination of the slope [°].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Option<String>,
+    /// Yaw at the start [°], positive uphill.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) yaw_deg: Option<String>,
+    /// Length of the run [s].
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) duration_s: Option<String>,
+    /// Rim speed [m/s], or one for each wheel: `-0.06,-0.06,0.06,0.06`.
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) speed_m_s: Option<String>,
+    /// What turns the wheels: `constant`, `eq18-as-printed` or `eq18`.
+    #[arg(long, value_name = "LAW")]
+    pub(crate) drive: Option<String>,
+    /// Reference slip ratio of the Eq. 18 drives.
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) reference_slip_ratio: Option<String>,
+    /// Motion at the start: `rolling` or `rest`.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) start: Option<String>,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct WheelTestArgs {
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "toyoura")]
+    pub(crate) soil: String,
+    /// The wheel: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "hakuto")]
+    pub(crate) wheel: String,
+    /// Loads on the wheel [N]: a list (5,10) or a range (0:20:5).
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "17", allow_hyphen_values = true)]
+    pub(crate) load_n: Numbers,
+    /// Slip ratios, -2 to 2: driving above 0, skid down to -1 (locked); beyond ±1 rim and hub
+    /// oppose each other.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0:0.9:0.1", allow_hyphen_values = true)]
+    pub(crate) slip_ratio: Numbers,
+    /// Slip angles [°], -90 to 90, positive where the hub moves to the left.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0", allow_hyphen_values = true)]
+    pub(crate) slip_angle_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct AttitudeArgs {
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "hakuto")]
+    pub(crate) rover: String,
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", default_value = "toyoura")]
+    pub(crate) soil: String,
+    /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Documents to check.
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PresetsArgs {
+    /// The preset to print; where kinds share a name, all of that name, or those of --kind.
+    pub(crate) name: Option<String>,
+    /// Only presets of this kind.
+    #[arg(long, value_enum)]
+    pub(crate) kind: Option<KindWord>,
+    /// Form of the list.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// The kind of document; without it, the names of all kinds.
+    #[arg(value_enum)]
+    pub(crate) kind: Option<KindWord>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell.
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+/// A kind of document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KindWord {
+    Soil,
+    Wheel,
+    Rover,
+    Scenario,
+}
+
+impl From<KindWord> for Kind {
+    fn from(word: KindWord) -> Self {
+        match word {
+            KindWord::Soil => Self::Soil,
+            KindWord::Wheel => Self::Wheel,
+            KindWord::Rover => Self::Rover,
+            KindWord::Scenario => Self::Scenario,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Line charts with measured points, as SVG: the one place that knows the plotting library.
+
+use kuva::backend::svg::SvgBackend;
+use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
+use kuva::render::annotations::ReferenceLine;
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+use kuva::render::render::render_multiple;
+
+/// A chart: axes and what is drawn on them.
+#[derive(Clone, Debug)]
+pub(crate) struct Chart {
+    /// What the chart shows.
+    pub(crate) title: String,
+    /// Horizontal quantity and unit.
+    pub(crate) x_label: String,
+    /// Vertical quantity and unit.
+    pub(crate) y_label: String,
+    /// Curves and points, drawn in this order.
+    pub(crate) series: Vec<Series>,
+}
+
+/// A named curve or set of points.
+#[derive(Clone, Debug)]
+pub(crate) struct Series {
+    /// Its name in the legend.
+    pub(crate) name: String,
+    /// Its points.
+    pub(crate) points: Vec<(f64, f64)>,
+    /// Its colour, by its place in [`COLOURS`].
+    pub(crate) colour: usize,
+    /// How it is drawn.
+    pub(crate) style: Style,
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Style {
+    /// A full line.
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A dotted line.
+    Dotted,
+    /// Filled circles.
+    Dots,
+    /// Squares.
+    Squares,
+    /// Triangles.
+    Triangles,
+}
+
+/// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
+const COLOURS: [&str; 7] =
+    ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+
+impl Series {
+    pub(crate) fn new(
+        name: impl Into<String>,
+        style: Style,
+        colour: usize,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        Self { name: name.into(), points: points.into_iter().collect(), colour, style }
+    }
+
+    fn to_plot(&self) -> Plot {
+        let colour = COLOURS[self.colour % COLOURS.len()];
+        let data = self.points.iter().copied();
+        let line = |style: LineStyle| {
+            Plot::Line(
+                LinePlot::new()
+                    .with_data(data.clone())
+                    .with_color(colour)
+                    .with_stroke_width(1.8)
+                    .with_line_style(style)
+                    .with_legend(self.name.as_str()),
+            )
+        };
+        let marks = |shape: MarkerShape| {
+            Plot::Scatter(
+                ScatterPlot::new()
+                    .with_data(data.clone())
+                    .with_color(colour)
+                    .with_size(4.5)
+                    .with_marker(shape)
+                    .with_legend(self.name.as_str()),
+            )
+        };
+        match self.style {
+            Style::Line => line(LineStyle::Solid),
+            Style::Dashed => line(LineStyle::Dashed),
+            Style::Dotted => line(LineStyle::Dotted),
+            Style::Dots => marks(MarkerShape::Circle),
+            Style::Squares => marks(MarkerShape::Square),
+            Style::Triangles => marks(MarkerShape::Triangle),
+        }
+    }
+}
+
+impl Chart {
+    /// The chart as a stand-alone SVG document.
+    pub(crate) fn to_svg(&self) -> String {
+        let plots: Vec<Plot> = self.series.iter().map(Series::to_plot).collect();
+        let mut layout = Layout::auto_from_plots(&plots)
+            .with_title(self.title.as_str())
+            .with_x_label(self.x_label.as_str())
+            .with_y_label(self.y_label.as_str())
+            .with_width(760.0)
+            .with_height(430.0)
+            .with_title_size(15)
+            .with_label_size(13)
+            .with_tick_size(12)
+            .with_body_size(12)
+            .with_font_family("Helvetica, Arial, sans-serif");
+        let heights = || self.series.iter().flat_map(|series| &series.points).map(|point| point.1);
+        if heights().any(|y| y < 0.0) && heights().any(|y| y > 0.0) {
+            layout = layout.with_reference_line(ReferenceLine::horizontal(0.0));
+        }
+        SvgBackend.render_scene(&render_multiple(plots, layout))
+    }
+}

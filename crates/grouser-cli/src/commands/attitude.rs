@@ -1,0 +1,105 @@
+//! `grouser attitude`
+
+use grouser::document::LoadedScenario;
+use grouser::document::study::{AttitudeLimit, AttitudeRecord};
+use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
+use serde_json::{Value, json};
+
+use super::{envelope, json_text};
+use crate::args::AttitudeArgs;
+use crate::chart::{Chart, Series, Style};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, four_digits};
+use crate::output::{self, Format};
+
+/// Columns of the table on a terminal.
+const COLUMNS: [&str; 7] = [
+    "slope_deg",
+    "yaw_deg",
+    "slip_ratio",
+    "sinkage_mm",
+    "energy_j_per_m",
+    "yaw_moment_nm",
+    "status",
+];
+
+pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let scenario = inputs::attitude(args)?;
+    let curve = study(&scenario).curve()?;
+    let rover = &scenario.value.rover;
+    let records: Vec<AttitudeRecord> = args
+        .slope_deg
+        .0
+        .iter()
+        .map(|slope| AttitudeRecord::of(&curve, rover, slope.to_radians()))
+        .collect();
+    let limit = AttitudeLimit::from(&curve);
+    let rows = Rows::of(&records);
+    let document = &scenario.document;
+    let mut map = envelope(
+        "attitude",
+        json!({
+            "rover": document.rover,
+            "soil": document.soil,
+            "gravity_m_s2": document.gravity_m_s2,
+            "model": scenario.value.theory.name(),
+            "loads": document.loads,
+            "moments": document.moments,
+        }),
+    );
+    if let Value::Object(limit) = json!(limit) {
+        map.extend(limit);
+    }
+    map.insert("rows".into(), rows.to_json());
+    let json = json_text(map);
+    match args.output.format {
+        Format::Table => output::print(&(rows.to_table(&COLUMNS) + &limit_line(&limit)))?,
+        Format::Csv => output::print(&rows.to_csv()?)?,
+        Format::Json => output::print(&json)?,
+    }
+    let Some(mut folder) = folder else { return Ok(()) };
+    folder.add("attitude.json", json);
+    folder.add("attitude.csv", rows.to_csv()?);
+    folder.add("attitude.svg", chart(&curve).to_svg());
+    folder.add("scenario.toml", scenario.to_toml());
+    folder.finish()
+}
+
+/// The attitude study of a scenario's rover and soil.
+pub(crate) fn study(scenario: &LoadedScenario) -> AttitudeStudy {
+    let run = scenario.value.clone();
+    AttitudeStudy {
+        rover: run.rover,
+        soil: run.site.soil,
+        gravity: run.site.gravity,
+        theory: run.theory,
+        sharing: run.sharing,
+        own_moments: run.own_moments,
+    }
+}
+
+fn limit_line(limit: &AttitudeLimit) -> String {
+    match limit.limit_slope_deg {
+        Some(slope) => {
+            let slope = four_digits(slope);
+            format!("steepest slope with a level attitude: {slope}°, {}\n", limit.limit_reason)
+        }
+        None => format!("no level attitude on any slope: {}\n", limit.limit_reason),
+    }
+}
+
+/// Yaw over slope.
+fn chart(curve: &AttitudeCurve) -> Chart {
+    let attitudes = curve.attitudes();
+    let points =
+        attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
+    Chart {
+        title: "Yaw that keeps a traverse level".into(),
+        x_label: "slope [°]".into(),
+        y_label: "yaw, positive uphill [°]".into(),
+        series: vec![Series::new("attitude", Style::Line, 1, points)],
+    }
+}

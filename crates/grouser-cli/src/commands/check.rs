@@ -1,0 +1,34 @@
+//! `grouser check FILE…`
+
+use std::fmt::Write as _;
+
+use grouser::document::{self, Source};
+
+use crate::args::CheckArgs;
+use crate::failure::Failure;
+use crate::output;
+
+pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
+    let mut good = String::new();
+    let mut worst: Option<Failure> = None;
+    for path in &args.files {
+        match document::check(&Source::file(path)) {
+            Ok(kind) => {
+                // Writing to a string does not fail.
+                let _ = writeln!(good, "{}: a valid {kind} document", path.display());
+            }
+            Err(error) => {
+                let failure = Failure::from(error);
+                worst = Some(match worst {
+                    None => failure,
+                    Some(before) => {
+                        eprintln!("error: {before}");
+                        if before.code() > failure.code() { Failure::Usage(failure.to_string()) } else { failure }
+                    }
+                });
+            }
+        }
+    }
+    output::print(&good)?;
+    worst.map_or(Ok(()), Err)
+}

@@ -1,0 +1,76 @@
+//! `grouser presets [NAME]`
+
+use grouser::document::{self, Kind, Preset};
+use serde::Serialize;
+
+use super::{envelope, json_text};
+use crate::args::PresetsArgs;
+use crate::failure::Failure;
+use crate::output::rows::Rows;
+use crate::output::{self, Format};
+
+#[derive(Serialize)]
+struct PresetRecord {
+    kind: &'static str,
+    name: &'static str,
+    title: String,
+    source: String,
+}
+
+pub(crate) fn run(args: &PresetsArgs) -> Result<(), Failure> {
+    let kinds = args.kind.map_or(Kind::ALL.to_vec(), |word| vec![word.into()]);
+    let presets: Vec<&Preset> =
+        kinds.iter().flat_map(|kind| document::presets(*kind)).collect();
+    match &args.name {
+        Some(name) => print_preset(name, &presets),
+        None => list(&presets, args.format),
+    }
+}
+
+fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> {
+    let named: Vec<_> = presets.iter().filter(|preset| preset.name == name).collect();
+    match named[..] {
+        [] => {
+            let closest = presets
+                .iter()
+                .max_by(|a, b| likeness(name, a.name).total_cmp(&likeness(name, b.name)));
+            let hint = closest.map_or(String::new(), |preset| {
+                format!("; did you mean `{}`?", preset.name)
+            });
+            Err(Failure::Usage(format!("there is no preset called `{name}`{hint}")))
+        }
+        [preset] => output::print(preset.text),
+        _ => {
+            let kinds: Vec<_> = named.iter().map(|preset| preset.kind.name()).collect();
+            Err(Failure::Usage(format!(
+                "`{name}` is the name of a {}: add --kind {}",
+                kinds.join(" and of a "),
+                kinds.join(" or --kind ")
+            )))
+        }
+    }
+}
+
+fn likeness(one: &str, other: &str) -> f64 {
+    strsim::jaro_winkler(one, other)
+}
+
+fn list(presets: &[&'static Preset], format: Format) -> Result<(), Failure> {
+    let records: Vec<PresetRecord> = presets
+        .iter()
+        .map(|preset| {
+            let (title, source) = preset.title_and_source();
+            PresetRecord { kind: preset.kind.name(), name: preset.name, title, source }
+        })
+        .collect();
+    let rows = Rows::of(&records);
+    match format {
+        Format::Table => output::print(&rows.to_table(&["kind", "name", "title", "source"])),
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => {
+            let mut map = envelope("presets", serde_json::json!({}));
+            map.insert("rows".into(), rows.to_json());
+            output::print(&json_text(map))
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! `grouser schema [KIND]`
+
+use grouser::document::{self, Kind};
+
+use crate::args::SchemaArgs;
+use crate::failure::Failure;
+use crate::output;
+
+pub(crate) fn run(args: &SchemaArgs) -> Result<(), Failure> {
+    match args.kind {
+        Some(kind) => output::print(&document::schema(kind.into())),
+        None => output::print(&Kind::ALL.map(|kind| format!("{kind}\n")).concat()),
+    }
+}

@@ -1,0 +1,125 @@
+//! `grouser traverse`
+
+use grouser::document::trajectory::{SampleRecord, TrajectoryRecord};
+use grouser::simulation::Simulation;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::{envelope, json_text};
+use crate::args::TraverseArgs;
+use crate::chart::{Chart, Series, Style};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, four_digits};
+use crate::output::{self, Format};
+
+/// Columns of the table on a terminal.
+const COLUMNS: [&str; 8] = [
+    "time_s",
+    "x_m",
+    "y_m",
+    "yaw_deg",
+    "slip_ratio",
+    "slip_angle_deg",
+    "sinkage_mm",
+    "power_w",
+];
+/// Lines of that table, besides the start.
+const LINES: usize = 10;
+
+pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let scenario = inputs::traverse(args)?;
+    let run = Simulation::new(&scenario.value)?.run()?;
+    let record = TrajectoryRecord::new(&run, &scenario.value.rover);
+    let mut map = envelope("traverse", json!({ "scenario": scenario.document }));
+    map.extend(object(&record));
+    let json = json_text(map);
+    match args.output.format {
+        Format::Table => output::print(&table(&record))?,
+        Format::Csv => output::print(&sample_rows(&record.samples).to_csv()?)?,
+        Format::Json => output::print(&json)?,
+    }
+    let Some(mut folder) = folder else { return Ok(()) };
+    folder.add("traverse.json", json);
+    folder.add("traverse.csv", sample_rows(&record.samples).to_csv()?);
+    folder.add("traverse.svg", chart(&record).to_svg());
+    folder.add("scenario.toml", scenario.to_toml());
+    folder.finish()
+}
+
+fn object(record: &impl Serialize) -> Map<String, Value> {
+    match serde_json::to_value(record) {
+        Ok(Value::Object(map)) => map,
+        other => unreachable!("a record is an object, not {other:?}"),
+    }
+}
+
+/// A row for each sample; the columns of a wheel start with its name, as in
+/// `front-left.slip_ratio`. A rover that has just tipped over has empty ones.
+pub(crate) fn sample_rows(samples: &[SampleRecord]) -> Rows {
+    let rows = samples.iter().map(|sample| {
+        let mut row = object(sample);
+        row.remove("wheels");
+        for wheel in &sample.wheels {
+            let mut columns = object(wheel);
+            columns.remove("wheel");
+            row.extend(
+                columns.into_iter().map(|(key, value)| (format!("{}.{key}", wheel.wheel), value)),
+            );
+        }
+        row
+    });
+    let mut rows: Vec<Map<String, Value>> = rows.collect();
+    let longest = rows.iter().max_by_key(|row| row.len()).cloned().unwrap_or_default();
+    for row in &mut rows {
+        for key in longest.keys() {
+            row.entry(key).or_insert(Value::Null);
+        }
+    }
+    Rows::from_maps(rows)
+}
+
+/// Some of the samples with the mean of their wheels, and what became of the rover.
+fn table(record: &TrajectoryRecord) -> String {
+    let last = record.samples.len() - 1;
+    let lines = LINES.min(last);
+    let shown = (0..=lines).map(|line| &record.samples[line * last / lines.max(1)]);
+    let rows = shown.map(|sample| {
+        let mut row = object(sample);
+        let count = sample.wheels.len() as f64;
+        let mut mean = |key: &str, values: &mut dyn Iterator<Item = f64>| {
+            let mean = if count > 0.0 { json!(values.sum::<f64>() / count) } else { Value::Null };
+            row.insert(key.into(), mean);
+        };
+        mean("slip_ratio", &mut sample.wheels.iter().map(|wheel| wheel.slip_ratio));
+        mean("slip_angle_deg", &mut sample.wheels.iter().map(|wheel| wheel.slip_angle_deg));
+        mean("sinkage_mm", &mut sample.wheels.iter().filter_map(|wheel| wheel.forces.sinkage_mm));
+        row
+    });
+    let rows = Rows::from_maps(rows.collect());
+    let end = &record.end;
+    let reason = record.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    format!(
+        "{}{} after {} s{reason}; x {} m, y {} m, yaw {}°, {} J\n",
+        rows.to_table(&COLUMNS),
+        record.outcome,
+        four_digits(end.time_s),
+        four_digits(end.x_m),
+        four_digits(end.y_m),
+        four_digits(end.yaw_deg),
+        four_digits(record.energy_j),
+    )
+}
+
+/// The path, seen from above.
+fn chart(record: &TrajectoryRecord) -> Chart {
+    let points = record.samples.iter().map(|sample| (sample.x_m, sample.y_m));
+    Chart {
+        title: "Path on the slope".into(),
+        x_label: "along the contour, x [m]".into(),
+        y_label: "uphill, y [m]".into(),
+        series: vec![Series::new("path", Style::Line, 1, points)],
+    }
+}

@@ -1,0 +1,89 @@
+//! Numbers as flags write them: `5`, `5,10,15`, `0:0.9:0.1`, and mixtures.
+
+/// A list of numbers from a flag.
+///
+/// `from:to:step` includes its end if the steps meet it to within a millionth of a step.
+pub(crate) fn parse(text: &str) -> Result<Numbers, String> {
+    let mut numbers = Vec::new();
+    for part in text.split(',') {
+        let fields: Vec<&str> = part.split(':').collect();
+        match fields[..] {
+            [single] => numbers.push(number(single)?),
+            [from, to, step] => range(number(from)?, number(to)?, number(step)?, &mut numbers)?,
+            _ => return Err(format!("'{part}' is neither a number nor a range from:to:step")),
+        }
+        if numbers.len() > MOST {
+            return Err(format!("more than {MOST} numbers"));
+        }
+    }
+    Ok(Numbers(numbers))
+}
+
+/// A parsed list. (A type of its own, for the parser of flags would take a `Vec` apart.)
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Numbers(pub(crate) Vec<f64>);
+
+/// Longer lists are slips of the pen.
+const MOST: usize = 1_000_000;
+
+fn number(text: &str) -> Result<f64, String> {
+    let value: f64 =
+        text.trim().parse().map_err(|_| format!("'{}' is not a number", text.trim()))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("'{}' is not finite", text.trim())) }
+}
+
+fn range(from: f64, to: f64, step: f64, numbers: &mut Vec<f64>) -> Result<(), String> {
+    if step == 0.0 || (to - from) * step < 0.0 {
+        return Err(format!("the step {step} does not lead from {from} to {to}"));
+    }
+    /// Decimal steps do not add up exactly; this much of a step is forgiven.
+    const FORGIVEN: f64 = 1e-6;
+    let last = ((to - from) / step + FORGIVEN).floor();
+    if last >= MOST as f64 {
+        return Err(format!("the range {from}:{to}:{step} has more than {MOST} numbers"));
+    }
+    let mut index = 0.0;
+    while index <= last {
+        numbers.push(rounded(from + index * step, step));
+        index += 1.0;
+    }
+    Ok(())
+}
+
+/// 0.30000000000000004 as it was meant: the decimal nearest to it, well below the step.
+fn rounded(value: f64, step: f64) -> f64 {
+    /// Decimals kept below the step's first digit.
+    const DIGITS: i32 = 9;
+    // A power of ten is exact up to 22.
+    let places = (DIGITS - step.abs().log10().floor().clamp(-13.0, 9.0) as i32).clamp(0, 22);
+    let scale = 10.0_f64.powi(places);
+    let scaled = value * scale;
+    if scaled.abs() < 9e15 { scaled.round() / scale } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_ranges_and_mixtures() {
+        assert_eq!(parse("5, 10,15").unwrap().0, [5.0, 10.0, 15.0]);
+        assert_eq!(parse("0:0.3:0.1").unwrap().0, [0.0, 0.1, 0.2, 0.3]);
+        assert_eq!(parse("1:-1:-0.5,7").unwrap().0, [1.0, 0.5, 0.0, -0.5, -1.0, 7.0]);
+        assert_eq!(parse("0:1:0.3").unwrap().0, [0.0, 0.3, 0.6, 0.9]);
+        assert_eq!(parse("-1e-3").unwrap().0, [-1e-3]);
+    }
+
+    #[test]
+    fn a_range_ends_on_its_end() {
+        let numbers = parse("0:0.9:0.1").unwrap().0;
+        assert_eq!((numbers.len(), numbers[9], numbers[3]), (10, 0.9, 0.3));
+    }
+
+    #[test]
+    fn what_is_no_list_says_why() {
+        for text in ["", "five", "1:2", "1:2:3:4", "0:1:0", "0:1:-0.1", "nan", "inf", "0:1:1e-9"] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+}

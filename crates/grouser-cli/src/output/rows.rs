@@ -1,0 +1,142 @@
+//! Records as rows of a table, of CSV or of JSON: the keys are the columns.
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::failure::Failure;
+
+/// Rows with the same keys, in their order.
+pub(crate) struct Rows(Vec<Map<String, Value>>);
+
+impl Rows {
+    /// Records that serialise as flat objects.
+    ///
+    /// Values that are no numbers of this world would be null; the library does not make any.
+    pub(crate) fn of<T: Serialize>(records: &[T]) -> Self {
+        let object = |record| match serde_json::to_value(record) {
+            Ok(Value::Object(map)) => map,
+            other => unreachable!("a record is an object, not {other:?}"),
+        };
+        Self(records.iter().map(object).collect())
+    }
+
+    /// Rows from maps that are at hand already.
+    pub(crate) fn from_maps(maps: Vec<Map<String, Value>>) -> Self {
+        Self(maps)
+    }
+
+    /// The rows as JSON.
+    pub(crate) fn to_json(&self) -> Value {
+        Value::Array(self.0.iter().cloned().map(Value::Object).collect())
+    }
+
+    /// The rows as CSV with a header; null is an empty field.
+    pub(crate) fn to_csv(&self) -> Result<String, Failure> {
+        let failed = |error: csv::Error| Failure::Run(format!("CSV: {error}"));
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        if let Some(first) = self.0.first() {
+            writer.write_record(first.keys()).map_err(failed)?;
+        }
+        for row in &self.0 {
+            writer.write_record(row.values().map(exact)).map_err(failed)?;
+        }
+        let bytes = writer.into_inner().map_err(|error| Failure::Run(format!("CSV: {error}")))?;
+        Ok(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// The rows as an aligned table of some of their columns; a column's header is its key.
+    pub(crate) fn to_table(&self, columns: &[&str]) -> String {
+        let header: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
+        let cells = self.0.iter().map(|row| {
+            columns.iter().map(|column| row.get(*column).map_or(String::new(), short)).collect()
+        });
+        aligned(&header, &cells.collect::<Vec<Vec<String>>>())
+    }
+}
+
+/// A value with every digit.
+fn exact(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+/// A value for reading: a number with four significant digits, null as a dash.
+pub(crate) fn short(value: &Value) -> String {
+    match value {
+        Value::Null => "-".into(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), four_digits),
+        other => other.to_string(),
+    }
+}
+
+/// A number with four significant digits.
+pub(crate) fn four_digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let magnitude = value.abs().log10().floor();
+    if !(-4.0..7.0).contains(&magnitude) {
+        return format!("{value:.3e}");
+    }
+    // Between 0 and 7 decimals.
+    let decimals = (3.0 - magnitude).clamp(0.0, 7.0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// Columns under their headers: numbers to the right, words to the left.
+pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
+    let width_of = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.chain([header[column].chars().count()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..header.len()).map(width_of).collect();
+    let is_number = |column: usize| {
+        rows.iter().all(|row| row[column] == "-" || row[column].parse::<f64>().is_ok())
+    };
+    let numeric: Vec<bool> = (0..header.len()).map(is_number).collect();
+    let line = |cells: &[String]| {
+        let padded = cells.iter().enumerate().map(|(column, cell)| {
+            let width = widths[column];
+            if numeric[column] { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+        });
+        padded.collect::<Vec<String>>().join("  ").trim_end().to_owned() + "\n"
+    };
+    std::iter::once(line(header)).chain(rows.iter().map(|row| line(row))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_with_four_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (5.035_561, "5.036"),
+            (-0.055_399_7, "-0.0554"),
+            (17.0, "17"),
+            (1203.54, "1204"),
+            (1.234e-9, "1.234e-9"),
+            (123_456_789.0, "1.235e8"),
+        ] {
+            assert_eq!(four_digits(value), text);
+        }
+    }
+
+    #[test]
+    fn csv_quotes_what_needs_it_and_leaves_null_empty() {
+        let row = serde_json::json!({"a": 1.5, "status": "no, \"never\"", "b": null});
+        let Value::Object(map) = row else { panic!("an object") };
+        let csv = Rows::from_maps(vec![map]).to_csv().unwrap();
+        assert_eq!(csv, "a,status,b\n1.5,\"no, \"\"never\"\"\",\n");
+    }
+}

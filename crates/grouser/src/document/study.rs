@@ -1,0 +1,175 @@
+//! Results of wheel tests and attitudes in the words of tables, JSON and CSV.
+
+use serde::Serialize;
+
+use crate::studies::attitude::{AttitudeCurve, NoAttitude};
+use crate::studies::wheel_test::WheelTestRow;
+use crate::vehicle::Rover;
+
+/// Status of a row that has its results.
+pub const OK: &str = "ok";
+
+/// One setting of the wheel test stand. Results are null where `status` is not `ok`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WheelTestRecord {
+    /// Load on the wheel [N].
+    pub load_n: f64,
+    /// Slip angle [°], positive where the hub moves to the left.
+    pub slip_angle_deg: f64,
+    /// Slip ratio [-], positive where the wheel drives.
+    pub slip_ratio: f64,
+    /// `ok`, or why there is no result.
+    pub status: String,
+    /// Results, null together.
+    #[serde(flatten)]
+    pub wheel: WheelRecord,
+}
+
+/// What the soil does to a settled wheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct WheelRecord {
+    /// Sinkage of the grouser tips [mm].
+    pub sinkage_mm: Option<f64>,
+    /// Entry angle [°] from straight down.
+    pub entry_angle_deg: Option<f64>,
+    /// Exit angle [°] from straight down, not positive.
+    pub exit_angle_deg: Option<f64>,
+    /// Angle of the largest normal stress [°].
+    pub max_stress_angle_deg: Option<f64>,
+    /// Force along the wheel [N].
+    pub drawbar_pull_n: Option<f64>,
+    /// Force across the wheel [N], positive to the left.
+    pub side_force_n: Option<f64>,
+    /// Force out of the ground [N].
+    pub normal_force_n: Option<f64>,
+    /// Driving torque [N·m].
+    pub torque_nm: Option<f64>,
+    /// Overturning moment about the hub [N·m].
+    pub overturning_moment_nm: Option<f64>,
+    /// Aligning moment about the hub [N·m].
+    pub aligning_moment_nm: Option<f64>,
+    /// Part of the drawbar pull from shear [N].
+    pub thrust_n: Option<f64>,
+    /// Part of the drawbar pull from normal stress and bulldozing [N], negative.
+    pub motion_resistance_n: Option<f64>,
+    /// Largest normal stress on the rim [kPa].
+    pub max_normal_stress_kpa: Option<f64>,
+}
+
+impl WheelRecord {
+    pub(super) fn new(settled: &crate::contact::Settled) -> Self {
+        let forces = &settled.forces;
+        Self {
+            sinkage_mm: Some(settled.sinkage * 1e3),
+            entry_angle_deg: Some(forces.patch.entry.to_degrees()),
+            exit_angle_deg: Some(forces.patch.exit.to_degrees()),
+            max_stress_angle_deg: Some(forces.patch.max_stress.to_degrees()),
+            drawbar_pull_n: Some(forces.drawbar_pull),
+            side_force_n: Some(forces.side_force),
+            normal_force_n: Some(forces.normal_force),
+            torque_nm: Some(forces.torque),
+            overturning_moment_nm: Some(forces.overturning_moment),
+            aligning_moment_nm: Some(forces.aligning_moment),
+            thrust_n: Some(forces.thrust),
+            motion_resistance_n: Some(forces.motion_resistance),
+            max_normal_stress_kpa: Some(forces.max_normal_stress * 1e-3),
+        }
+    }
+}
+
+impl From<&WheelTestRow> for WheelTestRecord {
+    fn from(row: &WheelTestRow) -> Self {
+        let (status, wheel) = match &row.result {
+            Ok(settled) => (OK.into(), WheelRecord::new(settled)),
+            Err(error) => (error.to_string(), WheelRecord::default()),
+        };
+        Self {
+            load_n: row.load,
+            slip_angle_deg: printed_degrees(row.slip_angle),
+            slip_ratio: row.slip_ratio,
+            status,
+            wheel,
+        }
+    }
+}
+
+/// An angle that came in as degrees, as it was written: 15, not 14.999999999999998.
+fn printed_degrees(angle: f64) -> f64 {
+    let degrees = angle.to_degrees();
+    let rounded = (degrees * 1e9).round() / 1e9;
+    if rounded.to_radians() == angle || (rounded - degrees).abs() < 1e-12 { rounded } else { degrees }
+}
+
+/// The level attitude on one slope. Results are null where `status` is not `ok`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttitudeRecord {
+    /// Slope [°].
+    pub slope_deg: f64,
+    /// Yaw that keeps the traverse level [°], positive uphill.
+    pub yaw_deg: Option<f64>,
+    /// Slip ratio of every wheel [-].
+    pub slip_ratio: Option<f64>,
+    /// Mean sinkage of the wheels [mm].
+    pub sinkage_mm: Option<f64>,
+    /// Torque of all wheels together [N·m].
+    pub torque_nm: Option<f64>,
+    /// Work of the wheels per metre along the contour [J/m].
+    pub energy_j_per_m: Option<f64>,
+    /// Yaw moment left over [N·m]; negative turns the nose downhill.
+    pub yaw_moment_nm: Option<f64>,
+    /// `ok`, or why there is no result.
+    pub status: String,
+}
+
+impl AttitudeRecord {
+    /// The record of a curve at a slope [rad].
+    #[must_use]
+    pub fn of(curve: &AttitudeCurve, rover: &Rover, slope: f64) -> Self {
+        let slope_deg = printed_degrees(slope);
+        match curve.at(slope) {
+            Ok(attitude) => Self {
+                slope_deg,
+                yaw_deg: Some(attitude.yaw.to_degrees()),
+                slip_ratio: Some(attitude.slip_ratio),
+                sinkage_mm: Some(attitude.mean_sinkage() * 1e3),
+                torque_nm: Some(attitude.torque()),
+                energy_j_per_m: Some(attitude.energy_per_metre(rover)),
+                yaw_moment_nm: Some(attitude.yaw_moment),
+                status: OK.into(),
+            },
+            Err(error) => Self {
+                slope_deg,
+                yaw_deg: None,
+                slip_ratio: None,
+                sinkage_mm: None,
+                torque_nm: None,
+                energy_j_per_m: None,
+                yaw_moment_nm: None,
+                status: error.to_string(),
+            },
+        }
+    }
+}
+
+/// The steepest slope that can be crossed level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttitudeLimit {
+    /// That slope [°]; null where the rover cannot move at all.
+    pub limit_slope_deg: Option<f64>,
+    /// What ends the curve there.
+    pub limit_reason: String,
+}
+
+impl From<&AttitudeCurve> for AttitudeLimit {
+    fn from(curve: &AttitudeCurve) -> Self {
+        match curve.limit() {
+            Ok((slope, reason)) => Self {
+                limit_slope_deg: Some(slope.to_degrees()),
+                limit_reason: reason.into(),
+            },
+            Err(NoAttitude::CannotMove(reason) | NoAttitude::TooSteep { reason, .. }) => {
+                Self { limit_slope_deg: None, limit_reason: reason }
+            }
+        }
+    }
+}

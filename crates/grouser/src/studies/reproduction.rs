@@ -1,0 +1,207 @@
+//! The source paper's study, run again: wheel curves (Fig. 7), traverses (Fig. 9), attitudes
+//! (Fig. 10) and the comparison with the experiment (Table 4).
+
+use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy, NoAttitude};
+use super::comparison::MeasuredTraverse;
+use super::wheel_test::{WheelTest, WheelTestRow};
+use crate::error::ParameterError;
+use crate::simulation::{
+    Motion, Numerics, Scenario, Simulation, SimulationError, Start, Trajectory,
+};
+use crate::site::Site;
+use crate::soil::{Shear, ShearModulus, Soil};
+use crate::vehicle::LoadSharing;
+
+/// What is reproduced: the paper's rover, soil and drive, and what was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Rover, soil, drive and duration of every traverse; slope and start are set for each.
+    pub scenario: Scenario,
+    /// The measured traverses.
+    pub measured: Vec<MeasuredTraverse>,
+    /// Load on the wheel in the single-wheel test [N].
+    pub wheel_load: f64,
+    /// Values tried for K_x at slip angle 0 [m].
+    pub longitudinal_moduli: Vec<f64>,
+}
+
+/// Everything that the report shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reproduction {
+    /// The single-wheel test for each longitudinal modulus.
+    pub wheel_curves: Vec<WheelCurve>,
+    /// The attitude over the slope.
+    pub attitudes: AttitudeCurve,
+    /// The traverses on each measured slope.
+    pub slopes: Vec<SlopeRuns>,
+    /// The first seconds of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
+    pub start_up: Trajectory,
+}
+
+/// A single-wheel test at slip angle 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WheelCurve {
+    /// K_x at slip angle 0 [m].
+    pub longitudinal_modulus: f64,
+    /// Settings and results, in the order of the slip ratio.
+    pub rows: Vec<WheelTestRow>,
+}
+
+/// The traverses on one slope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlopeRuns {
+    /// What was measured there.
+    pub measured: MeasuredTraverse,
+    /// Our attitude.
+    pub attitude: Result<Attitude, NoAttitude>,
+    /// Nose along the contour: the drift.
+    pub uncompensated: Trajectory,
+    /// Started at our attitude, where there is one.
+    pub compensated: Option<Trajectory>,
+    /// Started at the measured yaw.
+    pub from_measured_yaw: Trajectory,
+    /// The same, with the wheels' torque in the pitch balance.
+    pub from_measured_yaw_with_torque: Trajectory,
+}
+
+/// Which measured slope the run from rest is on.
+pub const START_UP_ROW: usize = 1;
+/// Length of the run from rest [s], and its sample interval [s].
+const START_UP: (f64, f64) = (1.0, 0.005);
+
+/// Why the study could not be run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ReproductionError {
+    /// The plan is wrong.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A traverse could not be computed.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+}
+
+impl Plan {
+    /// How many steps [`run`](Self::run) reports.
+    #[must_use]
+    pub fn step_count(&self) -> usize {
+        self.longitudinal_moduli.len() + 1 + RUNS_PER_SLOPE * self.measured.len() + 1
+    }
+
+    /// Runs the study; `progress` is told the name of each step as it begins.
+    ///
+    /// # Errors
+    /// [`ReproductionError`] if the plan is wrong or a run cannot be computed.
+    pub fn run(&self, progress: &mut dyn FnMut(&str)) -> Result<Reproduction, ReproductionError> {
+        self.scenario.check()?;
+        let wheel_curves =
+            self.longitudinal_moduli.iter().map(|&modulus| self.wheel_curve(modulus, progress));
+        let wheel_curves = wheel_curves.collect();
+        progress("attitudes");
+        let attitudes = self.attitude_study().curve()?;
+        let slopes = self
+            .measured
+            .iter()
+            .map(|measured| self.slope_runs(measured, &attitudes, progress))
+            .collect::<Result<Vec<_>, _>>()?;
+        progress("start from rest");
+        let start_up = self.start_up(&slopes)?;
+        Ok(Reproduction { wheel_curves, attitudes, slopes, start_up })
+    }
+
+    fn attitude_study(&self) -> AttitudeStudy {
+        let Scenario { rover, site, theory, sharing, own_moments, .. } = self.scenario.clone();
+        AttitudeStudy { rover, soil: site.soil, gravity: site.gravity, theory, sharing, own_moments }
+    }
+
+    fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {
+        progress("wheel test");
+        /// Slip ratios of the curve: 0 to 1 in steps of 1/50.
+        const STEPS: u32 = 50;
+        let Scenario { rover, site, theory, .. } = &self.scenario;
+        let test = WheelTest {
+            wheel: *rover.wheel(),
+            soil: with_longitudinal_modulus(&site.soil, modulus),
+            gravity: site.gravity,
+            theory: *theory,
+            loads: vec![self.wheel_load],
+            slip_angles: vec![0.0],
+            slip_ratios: (0..=STEPS).map(|step| f64::from(step) / f64::from(STEPS)).collect(),
+        };
+        WheelCurve { longitudinal_modulus: modulus, rows: test.run() }
+    }
+
+    fn slope_runs(
+        &self,
+        measured: &MeasuredTraverse,
+        attitudes: &AttitudeCurve,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<SlopeRuns, ReproductionError> {
+        let mut run = |yaw: f64, sharing: LoadSharing| {
+            progress("traverse");
+            let scenario = Scenario { sharing, ..self.traverse(measured.slope, yaw) };
+            Simulation::new(&scenario)?.run()
+        };
+        let sharing = self.scenario.sharing;
+        let attitude = attitudes.at(measured.slope);
+        Ok(SlopeRuns {
+            measured: *measured,
+            uncompensated: run(0.0, sharing)?,
+            compensated: attitude
+                .as_ref()
+                .ok()
+                .map(|attitude| run(attitude.yaw, sharing))
+                .transpose()?,
+            from_measured_yaw: run(measured.initial_yaw, LoadSharing::QuasiStatic)?,
+            from_measured_yaw_with_torque: run(
+                measured.initial_yaw,
+                LoadSharing::QuasiStaticTorque,
+            )?,
+            attitude,
+        })
+    }
+
+    fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, SimulationError> {
+        let row = slopes.get(START_UP_ROW).or(slopes.first());
+        let (slope, yaw) = row.map_or((self.scenario.site.slope, 0.0), |row| {
+            (row.measured.slope, row.attitude.as_ref().map_or(0.0, |attitude| attitude.yaw))
+        });
+        let (duration, sample_interval) = START_UP;
+        let scenario = Scenario {
+            start: Start { yaw, motion: Motion::Rest },
+            duration,
+            numerics: Numerics { sample_interval, ..self.scenario.numerics },
+            ..self.traverse(slope, yaw)
+        };
+        Simulation::new(&scenario)?.run()
+    }
+
+    fn traverse(&self, slope: f64, yaw: f64) -> Scenario {
+        let base = self.scenario.clone();
+        Scenario {
+            site: Site { slope, ..base.site },
+            start: Start { yaw, ..base.start },
+            ..base
+        }
+    }
+}
+
+/// Runs in [`SlopeRuns`].
+const RUNS_PER_SLOPE: usize = 4;
+
+/// The soil with another K_x at slip angle 0; isotropic soils and quadratic moduli alike.
+fn with_longitudinal_modulus(soil: &Soil, modulus: f64) -> Soil {
+    let at_zero = modulus;
+    let changed = |old: ShearModulus| match old {
+        ShearModulus::Linear { per_radian, .. } => ShearModulus::Linear { at_zero, per_radian },
+        ShearModulus::Quadratic { per_radian, per_radian_squared, angle_limit, .. } => {
+            ShearModulus::Quadratic { at_zero, per_radian, per_radian_squared, angle_limit }
+        }
+    };
+    let shear = match soil.shear {
+        Shear::Anisotropic { longitudinal, lateral } => {
+            Shear::Anisotropic { longitudinal: changed(longitudinal), lateral }
+        }
+        Shear::Isotropic { modulus } => Shear::Isotropic { modulus: changed(modulus) },
+    };
+    Soil { shear, ..*soil }
+}
