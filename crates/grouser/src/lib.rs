@@ -1,5 +1,6 @@
 //! Grouser predicts how a wheeled rover moves on loose soil.
 pub mod contact;
+pub mod document;
 pub mod error;
 mod root;
 pub mod simulation;

@@ -73,6 +73,18 @@ pub enum Shear {
     },
 }
 
+impl Shear {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+        match self {
+            Self::Anisotropic { longitudinal, lateral } => {
+                longitudinal.check("longitudinal shear modulus [m]")?;
+                lateral.check("lateral shear modulus [m]")
+            }
+            Self::Isotropic { modulus } => modulus.check("shear modulus [m]"),
+        }
+    }
+}
+
 /// Shear deformation modulus *K* [m] as a function of the slip angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShearModulus {
@@ -205,13 +217,7 @@ impl Soil {
         not_negative("stress peak a0", self.stress_peak.a0)?;
         finite("stress peak a1", self.stress_peak.a1)?;
         self.pressure_sinkage.check(self.cohesion)?;
-        match self.shear {
-            Shear::Anisotropic { longitudinal, lateral } => {
-                longitudinal.check("longitudinal shear modulus [m]")?;
-                lateral.check("lateral shear modulus [m]")?;
-            }
-            Shear::Isotropic { modulus } => modulus.check("shear modulus [m]")?,
-        }
+        self.shear.check()?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

@@ -1,0 +1,438 @@
+//! Floor 5, the door: documents with units in their names, and what they mean in SI.
+//!
+//! A soil, a wheel, a rover and a scenario each have a TOML document. Reading one takes these
+//! steps, and this page is their order:
+//!
+//! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
+//! 2. [`Overrides`]: values set on the command line replace those of the document.
+//! 3. Named parts (a scenario's rover and soil, a rover's wheel) are read and put in their place.
+//!    Relative paths start from the folder of the document they stand in.
+//! 4. The tree is checked against the [`schema`] of its kind: keys, types, words, ranges.
+//! 5. It becomes the document's type, and that becomes the domain's, in SI units and radians;
+//!    what only several values together can show is checked there.
+//!
+//! What comes out is [`Loaded`]: the value, and the resolved document, which written back as TOML
+//! repeats the run on its own. What is wrong comes out as a [`DocumentError`].
+//!
+//! Units and degrees are converted in this module's children and nowhere else.
+//!
+//! ```
+//! use grouser::document::{self, Kind, Overrides, Source};
+//!
+//! let overrides = Overrides::parse(["soil.cohesion_kpa=0.5"])?;
+//! let toyoura = document::read_soil(&Source::find(Kind::Soil, "toyoura")?, &overrides)?;
+//! assert_eq!(toyoura.value.cohesion, 500.0);
+//! # Ok::<(), document::DocumentError>(())
+//! ```
+
+mod check;
+mod error;
+mod overrides;
+mod presets;
+mod rover;
+mod scenario;
+mod schema;
+mod soil;
+mod source;
+mod text;
+mod wheel;
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+pub use error::{DocumentError, Place, Problem, Spot};
+pub use overrides::Overrides;
+pub use presets::{Preset, preset, presets};
+pub use rover::{
+    BodySection, InertiaSection, MountSection, RoverDocument, RoverSchema, WheelUnitSection,
+};
+pub use scenario::{
+    DriveSection, LoadsWord, MomentsWord, MotionWord, ScenarioDocument, ScenarioSchema, Speeds,
+    StartSection,
+};
+pub use schema::{range, schema};
+pub use soil::{
+    BulldozingSection, BulldozingWord, ExitSection, PressureSinkageSection, ShearSection,
+    SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
+};
+pub use source::{LARGEST_FILE, Source};
+pub use wheel::{GrousersSection, WheelDocument, WheelSchema};
+
+use crate::simulation::Scenario;
+use crate::soil::Soil;
+use crate::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY};
+use crate::vehicle::Rover;
+use crate::wheel::Wheel;
+use text::{Entry, Node, Origin, Value};
+
+/// What a document describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A soil, `soil/1`.
+    Soil,
+    /// A wheel, `wheel/1`.
+    Wheel,
+    /// A rover, `rover/1`.
+    Rover,
+    /// A run, `scenario/1`.
+    Scenario,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario];
+
+    /// Its name in commands and overrides.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Soil => "soil",
+            Self::Wheel => "wheel",
+            Self::Rover => "rover",
+            Self::Scenario => "scenario",
+        }
+    }
+
+    /// What the document's `schema` key says.
+    #[must_use]
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::Soil => "soil/1",
+            Self::Wheel => "wheel/1",
+            Self::Rover => "rover/1",
+            Self::Scenario => "scenario/1",
+        }
+    }
+
+    /// The keys under which it names other documents, and the preset that stands there if it does
+    /// not.
+    const fn parts(self) -> &'static [Part] {
+        match self {
+            Self::Soil | Self::Wheel => &[],
+            Self::Rover => {
+                &[Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None }]
+            }
+            Self::Scenario => &[
+                Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
+                Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
+            ],
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The rover of a scenario that names none.
+pub const DEFAULT_ROVER: &str = "hakuto";
+/// The soil of a scenario that names none.
+pub const DEFAULT_SOIL: &str = "toyoura";
+
+/// A document inside another.
+struct Part {
+    kind: Kind,
+    path: &'static [&'static str],
+    default: Option<&'static str>,
+}
+
+/// A preset's name, a path, or the document itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(inline)]
+pub enum Reference<D> {
+    /// The name of a preset, or a path from the folder of this document.
+    Named(String),
+    /// The document's keys, as a table.
+    Inline(Box<D>),
+}
+
+impl<D> Reference<D> {
+    /// The document; `None` before it is read.
+    #[must_use]
+    pub fn inline(&self) -> Option<&D> {
+        match self {
+            Self::Named(_) => None,
+            Self::Inline(document) => Some(document),
+        }
+    }
+}
+
+/// A document that was read: what it says, and what that means.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded<D, V> {
+    /// The document with every named part in its place and every default filled in.
+    pub document: D,
+    /// Its meaning, in SI units and radians.
+    pub value: V,
+    /// What was assumed, each with the name of the document that says so.
+    pub assumptions: Vec<String>,
+}
+
+impl<D: Serialize, V> Loaded<D, V> {
+    /// The resolved document as TOML: read again, it gives the same value.
+    ///
+    /// # Panics
+    /// Never: a document that was read has text keys and finite numbers only.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        toml::to_string_pretty(&self.document).expect("text keys and finite numbers")
+    }
+}
+
+/// A soil that was read.
+pub type LoadedSoil = Loaded<SoilDocument, Soil>;
+/// A wheel that was read.
+pub type LoadedWheel = Loaded<WheelDocument, Wheel>;
+/// A rover that was read.
+pub type LoadedRover = Loaded<RoverDocument, Rover>;
+/// A scenario that was read.
+pub type LoadedScenario = Loaded<ScenarioDocument, Scenario>;
+
+/// Reads a soil.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, DocumentError> {
+    read(source, overrides)
+}
+
+/// Reads a wheel.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel, DocumentError> {
+    read(source, overrides)
+}
+
+/// Reads a rover with its wheel.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_rover(source: &Source, overrides: &Overrides) -> Result<LoadedRover, DocumentError> {
+    read(source, overrides)
+}
+
+/// Reads a scenario with its rover and soil.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_scenario(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedScenario, DocumentError> {
+    read(source, overrides)
+}
+
+/// Reads a document of whatever kind it says it is, only to see whether it can be used.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn check(source: &Source) -> Result<Kind, DocumentError> {
+    let text = source.read()?;
+    let kind = kind_of(&text::parse(&text)?)?;
+    let overrides = Overrides::none();
+    match kind {
+        Kind::Soil => read_soil(source, &overrides).map(drop),
+        Kind::Wheel => read_wheel(source, &overrides).map(drop),
+        Kind::Rover => read_rover(source, &overrides).map(drop),
+        Kind::Scenario => read_scenario(source, &overrides).map(drop),
+    }?;
+    Ok(kind)
+}
+
+/// Gravities by name, with their values [m/s²].
+pub const GRAVITIES: [(&str, f64); 3] =
+    [("earth", EARTH_GRAVITY), ("moon", MOON_GRAVITY), ("mars", MARS_GRAVITY)];
+
+/// A gravity [m/s²] by its name: `earth`, `moon` or `mars`.
+#[must_use]
+pub fn gravity(name: &str) -> Option<f64> {
+    GRAVITIES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+}
+
+/// What a document type is to the reader.
+trait Document: DeserializeOwned + Serialize {
+    const KIND: Kind;
+    type Value;
+
+    /// The domain's value, in SI units and radians.
+    fn to_domain(&self, tree: &Node) -> Result<Self::Value, DocumentError>;
+
+    /// Adds what was assumed without its author saying so.
+    fn note(&mut self, tree: &Node, overrides: &Overrides);
+
+    /// Everything assumed, each with the document's name before it.
+    fn assumptions(&self) -> Vec<String>;
+}
+
+fn read<D: Document>(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<Loaded<D, D::Value>, DocumentError> {
+    let tree = load(D::KIND, source, overrides, "")?;
+    let mut document: D = tree.to_toml().try_into().map_err(|error: toml::de::Error| {
+        DocumentError::at(&tree.origin, Problem::Syntax(error.message().to_owned()))
+    })?;
+    let value = document.to_domain(&tree)?;
+    document.note(&tree, overrides);
+    let assumptions = document.assumptions();
+    Ok(Loaded { document, value, assumptions })
+}
+
+/// The checked tree of a document with all its parts.
+fn load(
+    kind: Kind,
+    source: &Source,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<Node, DocumentError> {
+    let text = source.read()?;
+    let mut tree = text::parse(&text)?;
+    check_kind(kind, &tree)?;
+    complete(kind, &mut tree, overrides, prefix)?;
+    Ok(tree)
+}
+
+/// Overrides values, fetches the parts and checks the whole.
+fn complete(
+    kind: Kind,
+    tree: &mut Node,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<(), DocumentError> {
+    overrides.apply(kind, tree)?;
+    for part in kind.parts() {
+        let path = part.path.join(".");
+        let prefix = if prefix.is_empty() { path } else { format!("{prefix}.{path}") };
+        fetch(part, tree, overrides, &prefix)?;
+    }
+    check::check(kind, tree, prefix)
+}
+
+/// Puts a named part into its place.
+fn fetch(
+    part: &Part,
+    tree: &mut Node,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<(), DocumentError> {
+    let Some((key, tables)) = part.path.split_last() else { return Ok(()) };
+    let mut table = tree;
+    for step in tables {
+        // A table that is missing, or is none, is for the check to report.
+        let Some(entry) = table.entry_mut(step) else { return Ok(()) };
+        table = &mut entry.node;
+    }
+    let origin = table.origin.clone();
+    let Some(entry) = table.entry_mut(key) else {
+        let (Some(default), Value::Table(entries)) = (part.default, &mut table.value) else {
+            return Ok(());
+        };
+        let source = Source::find(part.kind, default)?;
+        let node = load(part.kind, &source, overrides, prefix)?;
+        entries.push(Entry { key: (*key).to_owned(), key_origin: origin, node });
+        return Ok(());
+    };
+    match &entry.node.value {
+        Value::String(name) => {
+            let folder = &entry.node.origin.text.folder;
+            let source = Source::find_from(folder, part.kind, name)
+                .map_err(|error| error.seen_from(&entry.node.origin))?;
+            entry.node = load(part.kind, &source, overrides, prefix)
+                .map_err(|error| blame_name(error, &entry.node.origin, &source))?;
+            Ok(())
+        }
+        Value::Table(_) => {
+            if entry.node.entry("schema").is_some() {
+                check_kind(part.kind, &entry.node)?;
+            }
+            complete(part.kind, &mut entry.node, overrides, prefix)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// That a document says it is of the kind that is needed.
+fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
+    let found = kind_of(tree).map_err(|error| match error.problem() {
+        Problem::MissingKey { .. } => {
+            let hint = format!("a {expected} document starts with schema = \"{}\"", expected.tag());
+            error.with_hint(hint)
+        }
+        _ => error,
+    })?;
+    if found == expected {
+        return Ok(());
+    }
+    let (found, expected) = (found.tag().to_owned(), expected.tag());
+    let problem = Problem::WrongKind { found, expected };
+    Err(DocumentError::at(tree.origin_of("schema"), problem))
+}
+
+/// The kind that a document says it is.
+fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
+    if tree.entries().is_empty() {
+        return Err(DocumentError::whole(&tree.origin.text.label, Problem::Empty)
+            .with_hint("`grouser presets NAME` prints a document to start from".to_owned()));
+    }
+    let tags = Kind::ALL.map(Kind::tag);
+    let Some(entry) = tree.entry("schema") else {
+        let problem = Problem::MissingKey { key: "schema".to_owned() };
+        let hint = format!("it says what the document is: {}", tags.join(", "));
+        return Err(DocumentError::at(&tree.origin, problem).with_hint(hint));
+    };
+    let word = match &entry.node.value {
+        Value::String(word) => word.as_str(),
+        _ => "",
+    };
+    Kind::ALL
+        .into_iter()
+        .find(|kind| kind.tag() == word)
+        .ok_or_else(|| check::unknown_tag(&tags, &entry.node))
+}
+
+/// Assumptions of one document, as a report prints them.
+fn told_by(kind: Kind, name: &str, assumed: &[String], source: &str) -> Vec<String> {
+    let says_so = source.starts_with("assumed").then(|| format!("{kind} {name}: {source}"));
+    says_so.into_iter().chain(assumed.iter().map(|one| format!("{kind} {name}: {one}"))).collect()
+}
+
+/// What a document says of its own birthplace when it says nothing.
+fn not_stated() -> String {
+    "not stated".to_owned()
+}
+
+fn unnamed() -> String {
+    "unnamed".to_owned()
+}
+
+/// Notes a document without a source, and values that were set from outside.
+fn note_birthplace(kind: Kind, tree: &Node, overrides: &Overrides, assumed: &mut Vec<String>) {
+    if tree.entry("source").is_none() {
+        assumed.push("source: not stated by the document".to_owned());
+    }
+    for note in overrides.notes(kind) {
+        // What was assumed of this key is no longer in force.
+        assumed.retain(|one| one.split(':').next() != note.split(':').next());
+        assumed.push(note);
+    }
+}
+
+/// A missing file is the fault of the document that names it.
+fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> DocumentError {
+    match (error.problem(), source) {
+        (Problem::NoSuchFile, Source::File(path))
+            if error.place().document == path.display().to_string() =>
+        {
+            let hint = format!("looked for {}", path.display());
+            error.seen_from(origin).with_hint(hint)
+        }
+        _ => error,
+    }
+}

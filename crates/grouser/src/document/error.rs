@@ -1,0 +1,308 @@
+//! What can be wrong with a document, said so that its author can mend it: where it stands, what
+//! it says, what it may say, and a hint.
+
+use std::fmt;
+use std::io;
+use std::ops::Range;
+
+use super::Kind;
+use super::text::{Origin, Text};
+use crate::error::ParameterError;
+
+/// A document, or a value set on the command line, that cannot be used.
+///
+/// Displayed it reads as a compiler's message: place and problem, the line with a mark under the
+/// value, and a hint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DocumentError {
+    // Boxed, so that a result is not mostly room for an error.
+    parts: Box<Parts>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Parts {
+    place: Place,
+    problem: Problem,
+    hint: Option<String>,
+}
+
+/// Where in a document something stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file, `preset toyoura`, or the argument, such as `--set soil.density_kg_m3=-1`.
+    pub document: String,
+    /// The spot in it, where there is one.
+    pub spot: Option<Spot>,
+}
+
+/// A line and a column, with the line itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spot {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    excerpt: Option<Excerpt>,
+}
+
+/// As much of a line as a terminal holds, and what to mark in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Excerpt {
+    shown: String,
+    mark_from: usize,
+    mark_width: usize,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Problem {
+    /// Neither a preset nor a file.
+    #[error("there is no {kind} preset and no file called `{name}`")]
+    NoSuchPresetOrFile {
+        /// What was looked for.
+        kind: Kind,
+        /// Under which name.
+        name: String,
+    },
+    /// A path that leads nowhere.
+    #[error("there is no such file")]
+    NoSuchFile,
+    /// A folder where a file should be.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// The disk, or permission for it, failed.
+    #[error("cannot be read: {message}")]
+    Unreadable {
+        /// What failed.
+        kind: io::ErrorKind,
+        /// The system's words.
+        message: String,
+    },
+    /// More than a document can be.
+    #[error("is larger than {limit} bytes, which no document is")]
+    TooLarge {
+        /// The most that is read.
+        limit: u64,
+    },
+    /// Bytes that are no text.
+    #[error("is not a text: no UTF-8 after byte {valid_up_to}")]
+    NotText {
+        /// How far it was.
+        valid_up_to: usize,
+    },
+    /// Nothing but blanks and comments.
+    #[error("is empty: a document has at least a `schema`")]
+    Empty,
+    /// Not TOML.
+    #[error("not TOML: {0}")]
+    Syntax(String),
+    /// Tables in tables in tables.
+    #[error("nested more than {limit} levels deep")]
+    TooDeep {
+        /// The most that is followed.
+        limit: usize,
+    },
+    /// A key that does not exist here.
+    #[error("unknown key `{key}`")]
+    UnknownKey {
+        /// The key, with the tables it stands in.
+        key: String,
+    },
+    /// A key that must be there.
+    #[error("`{key}` is missing")]
+    MissingKey {
+        /// The key, with the tables it should stand in.
+        key: String,
+    },
+    /// A value of another type.
+    #[error("`{key}` is {found}, it must be {expected}")]
+    WrongType {
+        /// The key.
+        key: String,
+        /// Value and type that were found.
+        found: String,
+        /// Types that would do.
+        expected: String,
+    },
+    /// TOML's `nan` and `inf`.
+    #[error("`{key}` is {value}, it must be a finite number{range}")]
+    NotFinite {
+        /// The key.
+        key: String,
+        /// The value.
+        value: f64,
+        /// The range, after a comma, or nothing.
+        range: String,
+    },
+    /// A number outside its range.
+    #[error("`{key}` is {value}, it must be {range}")]
+    OutOfRange {
+        /// The key.
+        key: String,
+        /// The value.
+        value: f64,
+        /// What is allowed.
+        range: String,
+    },
+    /// A word that is not among the allowed ones.
+    #[error("`{key}` is \"{value}\", it must be {allowed}")]
+    NotAllowed {
+        /// The key.
+        key: String,
+        /// The word.
+        value: String,
+        /// The allowed ones.
+        allowed: String,
+    },
+    /// A list that is too short or too long.
+    #[error("`{key}` has {count} entries, it must have {allowed}")]
+    WrongLength {
+        /// The key.
+        key: String,
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        allowed: String,
+    },
+    /// Two of the same name.
+    #[error("`{key}` is \"{name}\" a second time, names must differ")]
+    RepeatedName {
+        /// The key.
+        key: String,
+        /// The name.
+        name: String,
+    },
+    /// A document of one kind where another is needed.
+    #[error("this is a `{found}` document, a `{expected}` document is needed")]
+    WrongKind {
+        /// What its `schema` says.
+        found: String,
+        /// What it should say.
+        expected: &'static str,
+    },
+    /// Values that are fine one by one, but not together.
+    #[error("{0}")]
+    Unfit(#[from] ParameterError),
+    /// An argument that is not `document.key=value`.
+    #[error("{0}")]
+    Malformed(&'static str),
+}
+
+impl DocumentError {
+    /// An error at a spot of a text.
+    pub(super) fn at(origin: &Origin, problem: Problem) -> Self {
+        Self { parts: Box::new(Parts { place: Place::of(origin), problem, hint: None }) }
+    }
+
+    /// An error that concerns a text as a whole.
+    pub(super) fn whole(document: impl Into<String>, problem: Problem) -> Self {
+        let place = Place { document: document.into(), spot: None };
+        Self { parts: Box::new(Parts { place, problem, hint: None }) }
+    }
+
+    /// The same with a hint.
+    pub(super) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
+        self.parts.hint = hint.into();
+        self
+    }
+
+    /// The same, told where another document names the one that is wrong.
+    pub(super) fn seen_from(mut self, origin: &Origin) -> Self {
+        self.parts.place = Place::of(origin);
+        self
+    }
+
+    /// Where the trouble is.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        &self.parts.place
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn problem(&self) -> &Problem {
+        &self.parts.problem
+    }
+
+    /// How it may be mended.
+    #[must_use]
+    pub fn hint(&self) -> Option<&str> {
+        self.parts.hint.as_deref()
+    }
+
+    /// Whether the disk or its permissions failed, rather than the document or its name: a program
+    /// then ends with 1 instead of 2.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        matches!(self.problem(), Problem::Unreadable { .. })
+    }
+}
+
+impl Place {
+    fn of(origin: &Origin) -> Self {
+        Self { document: origin.text.label.clone(), spot: Some(Spot::of(origin)) }
+    }
+}
+
+impl Spot {
+    fn of(origin: &Origin) -> Self {
+        let Origin { text, span } = origin;
+        let line = text.line_around(span.start);
+        let number = text.content[..line.start].matches('\n').count() + 1;
+        let column = text.content[line.start..span.start.min(line.end)].chars().count();
+        let excerpt = (!text.is_argument).then(|| Excerpt::of(text, &line, span));
+        Self { line: number, column: column + 1, excerpt }
+    }
+}
+
+impl Excerpt {
+    fn of(text: &Text, line: &Range<usize>, span: &Range<usize>) -> Self {
+        /// Characters of a line that are shown, and how many of them stand before the mark.
+        const WIDTH: usize = 100;
+        const BEFORE: usize = 40;
+        let content = &text.content[line.clone()];
+        let to_chars = |byte: usize| {
+            content.char_indices().take_while(|(at, _)| *at + line.start < byte).count()
+        };
+        let (from, to) = (to_chars(span.start), to_chars(span.end));
+        let skipped =
+            if content.chars().nth(WIDTH).is_some() { from.saturating_sub(BEFORE) } else { 0 };
+        let shown: String = content
+            .chars()
+            .skip(skipped)
+            .take(WIDTH)
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .collect();
+        let mark_from = from - skipped;
+        let room = WIDTH.saturating_sub(mark_from).max(1);
+        Self { shown, mark_from, mark_width: (to - from).clamp(1, room) }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.document)?;
+        match &self.spot {
+            Some(Spot { line, column, excerpt: Some(_) }) => write!(f, ":{line}:{column}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for DocumentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place(), self.problem())?;
+        if let Some(Spot { line, excerpt: Some(excerpt), .. }) = &self.place().spot {
+            let margin = " ".repeat(line.to_string().len());
+            let Excerpt { shown, mark_from, mark_width } = excerpt;
+            let mark = format!("{}{}", " ".repeat(*mark_from), "^".repeat(*mark_width));
+            write!(f, "\n{margin} |\n{line} | {}\n{margin} | {mark}", shown.trim_end())?;
+        }
+        match self.hint() {
+            Some(hint) => write!(f, "\nhint: {hint}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for DocumentError {}

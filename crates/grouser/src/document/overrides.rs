@@ -1,0 +1,256 @@
+//! Single values set from outside, on the command line: `--set soil.cohesion_kpa=0.5`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::Kind;
+use super::check::{keys_at, nearest};
+use super::error::{DocumentError, Problem};
+use super::text::{Entry, Node, Origin, Text, Value, parse};
+
+/// Values that replace those of documents, applied in order before anything is checked.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    all: Vec<Override>,
+}
+
+#[derive(Clone, Debug)]
+struct Override {
+    kind: Kind,
+    path: Vec<String>,
+    key_origin: Origin,
+    value: Node,
+    changes_a_source: bool,
+}
+
+impl Overrides {
+    /// None.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// The values of `--set` arguments, each written `document.key=value`: the document is `soil`,
+    /// `wheel`, `rover` or `scenario`, the key has its tables before it, and the value is TOML. A
+    /// bare word needs no quotes.
+    ///
+    /// # Errors
+    /// [`DocumentError`] for an argument that is not written so.
+    pub fn parse<S: AsRef<str>>(
+        settings: impl IntoIterator<Item = S>,
+    ) -> Result<Self, DocumentError> {
+        let mut overrides = Self::none();
+        for setting in settings {
+            overrides.set(setting.as_ref())?;
+        }
+        Ok(overrides)
+    }
+
+    /// Adds one `document.key=value`, as `--set` has it.
+    ///
+    /// # Errors
+    /// [`DocumentError`] for an argument that is not written so.
+    pub fn set(&mut self, setting: &str) -> Result<(), DocumentError> {
+        let text = argument(format!("--set {setting}"));
+        let Some((key, value)) = setting.split_once('=') else {
+            let problem = Problem::Malformed("not of the form document.key=value");
+            return Err(DocumentError::whole(&text.label, problem)
+                .with_hint("for instance --set soil.cohesion_kpa=0.5".to_owned()));
+        };
+        let start = text.content.len() - value.len();
+        let value = parse_value(&text, start)?;
+        self.add(&text, key.trim(), value, true)
+    }
+
+    /// Adds the value of a flag of its own, such as `--slope-deg 15`.
+    ///
+    /// * `flag`: as it was written, for messages
+    /// * `key`: the document's key that it stands for, such as `scenario.slope_deg`
+    /// * `value`: as TOML, or a bare word
+    ///
+    /// # Errors
+    /// [`DocumentError`] if the value is not TOML.
+    pub fn flag(&mut self, flag: &str, key: &str, value: &str) -> Result<(), DocumentError> {
+        let text = argument(format!("{flag} {value}"));
+        let value = parse_value(&text, text.content.len() - value.len())?;
+        self.add(&text, key, value, false)
+    }
+
+    /// Adds the value of a flag that is a text whatever it looks like: a name, a path.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is no such key.
+    pub fn flag_text(&mut self, flag: &str, key: &str, value: &str) -> Result<(), DocumentError> {
+        let text = argument(format!("{flag} {value}"));
+        let origin = Origin { span: flag.len() + 1..text.content.len(), text: text.clone() };
+        self.add(&text, key, Node { value: Value::String(value.to_owned()), origin }, false)
+    }
+
+    /// That every value belongs to one of the documents that a command reads.
+    ///
+    /// # Errors
+    /// [`DocumentError`] for the first that does not.
+    pub fn check_kinds(&self, kinds: &[Kind]) -> Result<(), DocumentError> {
+        match self.all.iter().find(|one| !kinds.contains(&one.kind)) {
+            None => Ok(()),
+            Some(one) => {
+                let problem = Problem::Malformed("this command reads no such document");
+                let names: Vec<_> = kinds.iter().map(|kind| kind.name()).collect();
+                Err(DocumentError::at(&one.key_origin, problem)
+                    .with_hint(format!("it reads: {}", names.join(", "))))
+            }
+        }
+    }
+
+    fn add(
+        &mut self,
+        text: &Arc<Text>,
+        key: &str,
+        value: Node,
+        changes_a_source: bool,
+    ) -> Result<(), DocumentError> {
+        let mut steps = key.split('.').map(|step| step.trim().to_owned());
+        let first = steps.next().unwrap_or_default();
+        let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == first) else {
+            let names = Kind::ALL.map(Kind::name);
+            let hint = nearest(&first, names).map_or_else(
+                || format!("a key starts with its document: {}", names.join(", ")),
+                |name| format!("did you mean `{name}`?"),
+            );
+            let problem = Problem::Malformed("the key does not start with the name of a document");
+            return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
+        };
+        let path: Vec<_> = steps.collect();
+        if path.is_empty() || path.iter().any(String::is_empty) {
+            let problem = Problem::Malformed("there is no key between its dots");
+            return Err(DocumentError::whole(&text.label, problem));
+        }
+        let start = text.content.find(key).unwrap_or(0);
+        let key_origin = Origin { text: text.clone(), span: start..start + key.len() };
+        self.all.push(Override { kind, path, key_origin, value, changes_a_source });
+        Ok(())
+    }
+
+    /// Puts the values for one kind of document into its tree.
+    pub(super) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
+        for one in self.all.iter().filter(|one| one.kind == kind) {
+            one.put(tree)?;
+            one.drop_keys_of_the_former_law(tree);
+        }
+        Ok(())
+    }
+
+    /// What was set in a document whose `source` speaks for its values.
+    pub(super) fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
+        let changes = move |one: &&Override| one.kind == kind && one.changes_a_source;
+        self.all.iter().filter(changes).map(|one| {
+            let written = &one.value.origin;
+            let value = &written.text.content[written.span.clone()];
+            format!(
+                "{}: set to {value} for this run, not by the document's source",
+                one.path.join(".")
+            )
+        })
+    }
+}
+
+impl Override {
+    /// The value at the end of its path; tables on the way are made.
+    fn put(&self, tree: &mut Node) -> Result<(), DocumentError> {
+        let not_a_table = || {
+            let problem = Problem::Malformed("the key leads through a value that is not a table");
+            DocumentError::at(&self.key_origin, problem)
+        };
+        let mut node = tree;
+        for step in &self.path {
+            let entries = match &mut node.value {
+                Value::Table(entries) => entries,
+                Value::List(nodes) => {
+                    let index = step.parse::<usize>().ok();
+                    node = index.and_then(|index| nodes.get_mut(index)).ok_or_else(not_a_table)?;
+                    continue;
+                }
+                _ => return Err(not_a_table()),
+            };
+            let position = entries.iter().position(|entry| entry.key == *step);
+            let position = position.unwrap_or_else(|| {
+                let key_origin = self.key_origin.clone();
+                let empty = Node { value: Value::Table(Vec::new()), origin: key_origin.clone() };
+                entries.push(Entry { key: step.clone(), key_origin, node: empty });
+                entries.len() - 1
+            });
+            node = &mut entries[position].node;
+        }
+        *node = self.value.clone();
+        Ok(())
+    }
+
+    /// A new law has keys of its own: what only the old one knew would be an error nobody made.
+    fn drop_keys_of_the_former_law(&self, tree: &mut Node) {
+        let Some(("law", table)) = self.path.split_last().map(|(key, path)| (key.as_str(), path))
+        else {
+            return;
+        };
+        let Some(known) = keys_at(self.kind, tree, table) else { return };
+        let mut node = tree;
+        for step in table {
+            match node.entry_mut(step) {
+                Some(entry) => node = &mut entry.node,
+                None => return,
+            }
+        }
+        if let Value::Table(entries) = &mut node.value {
+            entries.retain(|entry| {
+                known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
+            });
+        }
+    }
+}
+
+fn argument(content: String) -> Arc<Text> {
+    let folder = PathBuf::new();
+    Arc::new(Text { label: content.clone(), content, folder, is_argument: true })
+}
+
+/// The value that a text ends with, from a byte on.
+fn parse_value(text: &Arc<Text>, start: usize) -> Result<Node, DocumentError> {
+    const KEY: &str = "value = ";
+    let written = text.content[start..].trim();
+    let origin = Origin { text: text.clone(), span: start..text.content.len() };
+    if written.is_empty() {
+        return Err(DocumentError::at(&origin, Problem::Malformed("there is no value")));
+    }
+    let assignment = Arc::new(Text {
+        label: text.label.clone(),
+        content: format!("{KEY}{written}"),
+        folder: PathBuf::new(),
+        is_argument: true,
+    });
+    match parse(&assignment) {
+        Ok(Node { value: Value::Table(mut entries), .. }) if entries.len() == 1 => {
+            let mut value = entries.remove(0).node;
+            replace_origins(&mut value, &origin);
+            Ok(value)
+        }
+        Err(error) if written.starts_with(['[', '{', '"', '\'']) => Err(error),
+        Err(_) if !written.contains('\n') => {
+            Ok(Node { value: Value::String(written.to_owned()), origin })
+        }
+        _ => Err(DocumentError::at(&origin, Problem::Malformed("this is not one value"))),
+    }
+}
+
+/// Every part of an argument is quoted as the whole of it.
+fn replace_origins(node: &mut Node, origin: &Origin) {
+    node.origin = origin.clone();
+    match &mut node.value {
+        Value::List(nodes) => nodes.iter_mut().for_each(|node| replace_origins(node, origin)),
+        Value::Table(entries) => {
+            for entry in entries {
+                entry.key_origin = origin.clone();
+                replace_origins(&mut entry.node, origin);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,139 @@
+//! The JSON Schema of each kind of document: the one home of its keys, its ranges and their words.
+//!
+//! Schemas are made from the document types. Editors read them from `schema/`; the reader itself
+//! checks documents against them ([`check`](super::check)), so that what is said and what is
+//! allowed cannot differ.
+
+use std::sync::OnceLock;
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::Value as Json;
+
+use super::{Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
+
+/// The JSON Schema (draft 2020-12) of a kind of document, as text.
+#[must_use]
+pub fn schema(kind: Kind) -> String {
+    let mut text = format!("{:#}", json(kind));
+    text.push('\n');
+    text
+}
+
+/// The range that a number of a document may have, both ends included where they are finite.
+///
+/// * `path`: the key with its tables, such as `pressure_sinkage.n`; where the keys depend on a
+///   `law`, the first law that has the key counts
+#[must_use]
+pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
+    let schema = property(json(kind), json(kind), path)?;
+    let number = number_of(schema);
+    let end = |names: [&str; 2]| names.iter().find_map(|name| number.get(*name)?.as_f64());
+    Some(end(["minimum", "exclusiveMinimum"])?..=end(["maximum", "exclusiveMaximum"])?)
+}
+
+/// The same schema as a value, made once.
+pub(super) fn json(kind: Kind) -> &'static Json {
+    static SCHEMAS: [OnceLock<Json>; 4] = [const { OnceLock::new() }; 4];
+    SCHEMAS[kind as usize].get_or_init(|| match kind {
+        Kind::Soil => make::<SoilDocument>(kind),
+        Kind::Wheel => make::<WheelDocument>(kind),
+        Kind::Rover => make::<RoverDocument>(kind),
+        Kind::Scenario => make::<ScenarioDocument>(kind),
+    })
+}
+
+fn make<D: JsonSchema>(kind: Kind) -> Json {
+    let generator = SchemaSettings::draft2020_12().into_generator();
+    let mut schema = Json::from(generator.into_root_schema_for::<D>());
+    schema["title"] = Json::from(kind.tag());
+    // Only a file must say what it is; a table inside another document is known by its place.
+    if let Some(table) = schema.as_object_mut() {
+        let required = table.entry("required").or_insert_with(|| Json::Array(Vec::new()));
+        if let Some(keys) = required.as_array_mut() {
+            keys.insert(0, Json::from("schema"));
+        }
+    }
+    schema
+}
+
+/// A schema behind its reference.
+pub(super) fn resolve<'s>(root: &'s Json, schema: &'s Json) -> &'s Json {
+    match schema.get("$ref").and_then(Json::as_str) {
+        Some("#") => root,
+        Some(reference) => {
+            reference.strip_prefix('#').and_then(|path| root.pointer(path)).unwrap_or(schema)
+        }
+        None => schema,
+    }
+}
+
+/// The schemas that a value may meet: itself, or those behind `oneOf` and `anyOf`.
+pub(super) fn alternatives<'s>(root: &'s Json, schema: &'s Json) -> Vec<&'s Json> {
+    let schema = resolve(root, schema);
+    let choice = ["oneOf", "anyOf"].iter().find_map(|key| schema.get(*key)?.as_array());
+    match choice {
+        Some(schemas) => schemas.iter().flat_map(|schema| alternatives(root, schema)).collect(),
+        None => vec![schema],
+    }
+}
+
+/// The words that a schema allows; `None` if it is not a closed set of words.
+pub(super) fn words<'s>(root: &'s Json, schema: &'s Json) -> Option<Vec<&'s str>> {
+    let mut all = Vec::new();
+    for schema in alternatives(root, schema) {
+        if let Some(word) = schema.get("const").and_then(Json::as_str) {
+            all.push(word);
+        } else {
+            let words = schema.get("enum")?.as_array()?;
+            all.extend(words.iter().filter_map(Json::as_str));
+        }
+    }
+    Some(all)
+}
+
+/// The keys of a table.
+pub(super) fn keys(schema: &Json) -> impl Iterator<Item = (&str, &Json)> {
+    schema
+        .get("properties")
+        .and_then(Json::as_object)
+        .into_iter()
+        .flatten()
+        .map(|(key, schema)| (key.as_str(), schema))
+}
+
+/// Tables and keys in which a key of this name exists, as paths.
+pub(super) fn paths_of(root: &Json, name: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    collect(root, root, "", &mut |path, key| {
+        if key == name && !found.iter().any(|other| other == path) {
+            found.push(path.to_owned());
+        }
+    });
+    found
+}
+
+fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &str)) {
+    for table in alternatives(root, schema) {
+        for (key, child) in keys(table) {
+            let path = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+            visit(&path, key);
+            collect(root, child, &path, visit);
+        }
+    }
+}
+
+fn property<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Option<&'s Json> {
+    let (first, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
+    alternatives(root, schema).into_iter().find_map(|table| {
+        let child = table.get("properties")?.get(first)?;
+        match rest {
+            Some(rest) => property(root, child, rest),
+            None => alternatives(root, child).first().copied(),
+        }
+    })
+}
+
+fn number_of(schema: &Json) -> &Json {
+    schema.get("items").unwrap_or(schema)
+}

@@ -1,0 +1,474 @@
+//! `soil/1`: a soil with the units of soil laboratories.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::{DocumentError, Problem};
+use super::text::Node;
+use super::{Document, Kind, Overrides, not_stated, note_birthplace, told_by, unnamed};
+use crate::contact::Theory;
+use crate::error::ParameterError;
+use crate::soil::{
+    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+};
+
+/// The largest exit-angle ratio that a soil may reach at any slip [-].
+const LARGEST_EXIT_RATIO: f64 = 1.5;
+/// The smallest and the largest sinkage exponent that a soil may reach at any slip [-].
+const SMALLEST_EXPONENT: f64 = 0.3;
+const LARGEST_EXPONENT: f64 = 3.0;
+/// The smallest and the largest shear deformation modulus at zero slip angle [m].
+const SMALLEST_MODULUS: f64 = 1e-4;
+const LARGEST_MODULUS: f64 = 1.0;
+
+/// A homogeneous soil: how it carries, how it shears, how it is pushed aside.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SoilDocument {
+    /// Kind and version of this document.
+    #[serde(default)]
+    pub schema: SoilSchema,
+    /// What people call it.
+    #[serde(default = "unnamed")]
+    pub name: String,
+    /// Where the values come from.
+    #[serde(default = "not_stated")]
+    pub source: String,
+    /// Anything else worth knowing.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub notes: String,
+    /// Values that the source does not give, each as `key: why this value`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub assumed: Vec<String>,
+    /// The theory that the values were made for; without it, `ishigami`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "TheoryWord")]
+    pub model: Option<TheoryWord>,
+    /// Cohesion, c [kPa].
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub cohesion_kpa: f64,
+    /// Angle of internal friction, φ [°].
+    #[schemars(range(min = 5.0, max = 60.0))]
+    pub friction_angle_deg: f64,
+    /// Bulk density, ρ [kg/m³].
+    #[schemars(range(min = 200.0, max = 4000.0))]
+    pub density_kg_m3: f64,
+    /// How pressure grows with sinkage.
+    pub pressure_sinkage: PressureSinkageSection,
+    /// Where along the arc the normal stress peaks.
+    pub stress_peak: StressPeakSection,
+    /// How shear stress is mobilised.
+    pub shear: ShearSection,
+    /// Where the wheel leaves the soil; without it, ratio = 1.0.
+    #[serde(default)]
+    pub exit: ExitSection,
+    /// How soil pushed aside loads the flank; without it, law = "sine".
+    #[serde(default)]
+    pub bulldozing: BulldozingSection,
+}
+
+/// The `schema` of a soil.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum SoilSchema {
+    /// This version.
+    #[default]
+    #[serde(rename = "soil/1")]
+    Version1,
+}
+
+/// A theory of the wheel-soil reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TheoryWord {
+    /// Stresses along the arc (Ishigami et al. 2007).
+    Ishigami,
+    /// Bekker's closed form.
+    Bekker,
+}
+
+impl TheoryWord {
+    /// The theory of that name.
+    #[must_use]
+    pub fn theory(self) -> Theory {
+        match self {
+            Self::Ishigami => Theory::Ishigami,
+            Self::Bekker => Theory::Bekker,
+        }
+    }
+}
+
+/// Pressure over sinkage, σ = K_σ zⁿ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum PressureSinkageSection {
+    /// K_σ = (c k_c + γ b k_phi) / bⁿ (Reece 1965).
+    Reece {
+        /// Cohesive modulus, k'_c [-].
+        #[schemars(range(min = 0.0, max = 1e4))]
+        k_c: f64,
+        /// Frictional modulus, k'_φ [-].
+        #[schemars(range(min = 0.0, max = 1e5))]
+        k_phi: f64,
+        /// Sinkage exponent at zero slip, n [-].
+        #[schemars(range(min = SMALLEST_EXPONENT, max = LARGEST_EXPONENT))]
+        n: f64,
+        /// Growth of n with the slip ratio while driving [-].
+        #[serde(default)]
+        #[schemars(range(min = -3.0, max = 3.0))]
+        n_per_slip: f64,
+        /// Growth of n with the size of the slip ratio while skidding [-].
+        #[serde(default)]
+        #[schemars(range(min = -3.0, max = 3.0))]
+        n_per_skid: f64,
+    },
+    /// K_σ = k_c/b + k_phi (Bekker 1960).
+    Bekker {
+        /// Cohesive modulus, k_c [N/m^(n+1)].
+        #[schemars(range(min = 0.0, max = 1e9))]
+        k_c: f64,
+        /// Frictional modulus, k_φ [N/m^(n+2)].
+        #[schemars(range(min = 0.0, max = 1e12))]
+        k_phi: f64,
+        /// Sinkage exponent at zero slip, n [-].
+        #[schemars(range(min = SMALLEST_EXPONENT, max = LARGEST_EXPONENT))]
+        n: f64,
+        /// Growth of n with the slip ratio while driving [-].
+        #[serde(default)]
+        #[schemars(range(min = -3.0, max = 3.0))]
+        n_per_slip: f64,
+        /// Growth of n with the size of the slip ratio while skidding [-].
+        #[serde(default)]
+        #[schemars(range(min = -3.0, max = 3.0))]
+        n_per_skid: f64,
+    },
+}
+
+/// θ_m = (a0 + a1 |s|) θ_f.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StressPeakSection {
+    /// Share of the entry angle at zero slip, a₀ [-].
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub a0: f64,
+    /// Its growth with the slip ratio, a₁ [-].
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub a1: f64,
+}
+
+/// Shear stress over shear displacement (Janosi and Hanamoto 1961).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ShearSection {
+    /// Each axis on its own, with moduli linear in the slip angle (Ishigami et al. 2007).
+    Anisotropic {
+        /// Modulus along the wheel at zero slip angle, K_x [m].
+        #[schemars(range(min = SMALLEST_MODULUS, max = LARGEST_MODULUS))]
+        longitudinal_m: f64,
+        /// Its growth with the slip angle [m/rad].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        longitudinal_per_rad_m: f64,
+        /// Modulus across the wheel at zero slip angle, K_y [m].
+        #[schemars(range(min = SMALLEST_MODULUS, max = LARGEST_MODULUS))]
+        lateral_m: f64,
+        /// Its growth with the slip angle [m/rad].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        lateral_per_rad_m: f64,
+    },
+    /// Each axis on its own, with moduli quadratic in the slip angle (the laboratory's, 2007).
+    AnisotropicQuadratic {
+        /// Modulus along the wheel at zero slip angle, K_x [m].
+        #[schemars(range(min = SMALLEST_MODULUS, max = LARGEST_MODULUS))]
+        longitudinal_m: f64,
+        /// Its growth with the slip angle [m/rad].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        longitudinal_per_rad_m: f64,
+        /// Its growth with the square of the slip angle [m/rad²].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        longitudinal_per_rad2_m: f64,
+        /// Modulus across the wheel at zero slip angle, K_y [m].
+        #[schemars(range(min = SMALLEST_MODULUS, max = LARGEST_MODULUS))]
+        lateral_m: f64,
+        /// Its growth with the slip angle [m/rad].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        lateral_per_rad_m: f64,
+        /// Its growth with the square of the slip angle [m/rad²].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        lateral_per_rad2_m: f64,
+        /// The largest slip angle that the fits know; beyond it they stay [°].
+        #[serde(default = "right_angle")]
+        #[schemars(range(min = 0.0, max = 90.0))]
+        slip_angle_limit_deg: f64,
+    },
+    /// One stress, against the slip velocity; never above c + σ tan φ.
+    Isotropic {
+        /// Modulus at zero slip angle, K [m].
+        #[schemars(range(min = SMALLEST_MODULUS, max = LARGEST_MODULUS))]
+        longitudinal_m: f64,
+        /// Its growth with the slip angle [m/rad].
+        #[serde(default)]
+        #[schemars(range(min = -1.0, max = 1.0))]
+        longitudinal_per_rad_m: f64,
+    },
+}
+
+/// Exit-angle ratio λ: the share of the sinkage that the soil recovers behind the wheel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ExitSection {
+    /// The same for every slip.
+    Ratio(RatioSection),
+    /// λ = at_zero + per_slip s + per_slip2 s², skid counting as s = 0, λ never below 0.
+    QuadraticInSlip(QuadraticSection),
+}
+
+/// A constant λ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RatioSection {
+    /// The law; may be left out.
+    #[serde(default)]
+    pub law: RatioWord,
+    /// Exit-angle ratio, λ [-].
+    #[schemars(range(min = 0.0, max = LARGEST_EXIT_RATIO))]
+    pub ratio: f64,
+}
+
+/// The name of the constant exit law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RatioWord {
+    /// The same for every slip.
+    #[default]
+    Ratio,
+}
+
+/// A λ that follows the slip.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct QuadraticSection {
+    /// The law.
+    pub law: QuadraticWord,
+    /// λ at zero slip [-].
+    #[schemars(range(min = 0.0, max = LARGEST_EXIT_RATIO))]
+    pub at_zero: f64,
+    /// Its growth with the slip ratio [-].
+    #[schemars(range(min = -10.0, max = 10.0))]
+    pub per_slip: f64,
+    /// Its growth with the square of the slip ratio [-].
+    #[schemars(range(min = -10.0, max = 10.0))]
+    pub per_slip2: f64,
+}
+
+/// The name of the quadratic exit law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum QuadraticWord {
+    /// Quadratic in the slip ratio.
+    QuadraticInSlip,
+}
+
+impl Default for ExitSection {
+    fn default() -> Self {
+        Self::Ratio(RatioSection { law: RatioWord::Ratio, ratio: 1.0 })
+    }
+}
+
+/// How soil pushed aside loads the flank.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BulldozingSection {
+    /// How that force depends on the slip angle.
+    pub law: BulldozingWord,
+}
+
+/// Dependence of the bulldozing force on the slip angle β.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BulldozingWord {
+    /// No such force.
+    None,
+    /// Full force whatever the size of β; it jumps at β = 0.
+    Sign,
+    /// In proportion to sin β.
+    #[default]
+    Sine,
+    /// In proportion to sin² β, with its part along the wheel and the surcharge of piled soil.
+    SineSquared,
+}
+
+fn right_angle() -> f64 {
+    90.0
+}
+
+impl Document for SoilDocument {
+    const KIND: Kind = Kind::Soil;
+    type Value = Soil;
+
+    fn to_domain(&self, tree: &Node) -> Result<Soil, DocumentError> {
+        let soil = Soil {
+            cohesion: self.cohesion_kpa * 1e3,
+            friction_angle: self.friction_angle_deg.to_radians(),
+            density: self.density_kg_m3,
+            pressure_sinkage: self.pressure_sinkage.to_domain(),
+            stress_peak: StressPeak { a0: self.stress_peak.a0, a1: self.stress_peak.a1 },
+            shear: self.shear.to_domain(),
+            exit: self.exit.to_domain(),
+            bulldozing: self.bulldozing.law.to_domain(),
+        };
+        let at = |path: &'static str| {
+            move |error: ParameterError| {
+                DocumentError::at(tree.origin_of(path), Problem::Unfit(error))
+            }
+        };
+        soil.pressure_sinkage.check(soil.cohesion).map_err(at("pressure_sinkage"))?;
+        check_exponent(soil.pressure_sinkage).map_err(at("pressure_sinkage"))?;
+        soil.shear.check().map_err(at("shear"))?;
+        check_exit(soil.exit).map_err(at("exit"))?;
+        soil.check().map_err(at("schema"))?;
+        Ok(soil)
+    }
+
+    fn note(&mut self, tree: &Node, overrides: &Overrides) {
+        if tree.entry("exit").is_none() {
+            self.assumed.push("exit.ratio: not given; 1.0, as for Toyoura sand".to_owned());
+        }
+        if tree.entry("bulldozing").is_none() {
+            self.assumed.push("bulldozing.law: not given; \"sine\", the smooth one".to_owned());
+        }
+        note_birthplace(Self::KIND, tree, overrides, &mut self.assumed);
+    }
+
+    fn assumptions(&self) -> Vec<String> {
+        told_by(Self::KIND, &self.name, &self.assumed, &self.source)
+    }
+}
+
+impl SoilDocument {
+    /// The theory that the soil was made for, if it says one.
+    #[must_use]
+    pub fn theory(&self) -> Option<Theory> {
+        self.model.map(TheoryWord::theory)
+    }
+}
+
+/// That n stays in its range at every slip: it is linear, so its ends tell.
+fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
+    let (PressureSinkage::Reece { exponent, .. } | PressureSinkage::Bekker { exponent, .. }) = law;
+    for slip_ratio in [-1.0, 1.0] {
+        let n = exponent.at(slip_ratio);
+        if !(SMALLEST_EXPONENT..=LARGEST_EXPONENT).contains(&n) {
+            let name = format!("the sinkage exponent n at a slip ratio of {slip_ratio}");
+            return Err(ParameterError::new(name, n, "0.3 to 3"));
+        }
+    }
+    Ok(())
+}
+
+/// That λ stays in its range at every slip.
+fn check_exit(exit: Exit) -> Result<(), ParameterError> {
+    for percent in 0..=100 {
+        let slip_ratio = f64::from(percent) / 100.0;
+        let ratio = exit.ratio(slip_ratio);
+        if ratio > LARGEST_EXIT_RATIO {
+            let name = format!("the exit-angle ratio at a slip ratio of {slip_ratio}");
+            return Err(ParameterError::new(name, ratio, "0 to 1.5"));
+        }
+    }
+    Ok(())
+}
+
+impl PressureSinkageSection {
+    fn to_domain(&self) -> PressureSinkage {
+        let exponent_of = |n, n_per_slip, n_per_skid| SinkageExponent {
+            at_zero: n,
+            per_slip: n_per_slip,
+            per_skid: n_per_skid,
+        };
+        match *self {
+            Self::Reece { k_c, k_phi, n, n_per_slip, n_per_skid } => {
+                let exponent = exponent_of(n, n_per_slip, n_per_skid);
+                PressureSinkage::Reece { k_c, k_phi, exponent }
+            }
+            Self::Bekker { k_c, k_phi, n, n_per_slip, n_per_skid } => {
+                let exponent = exponent_of(n, n_per_slip, n_per_skid);
+                PressureSinkage::Bekker { k_c, k_phi, exponent }
+            }
+        }
+    }
+}
+
+impl ShearSection {
+    fn to_domain(&self) -> Shear {
+        let linear = |at_zero, per_radian| ShearModulus::Linear { at_zero, per_radian };
+        match *self {
+            Self::Anisotropic {
+                longitudinal_m,
+                longitudinal_per_rad_m,
+                lateral_m,
+                lateral_per_rad_m,
+            } => Shear::Anisotropic {
+                longitudinal: linear(longitudinal_m, longitudinal_per_rad_m),
+                lateral: linear(lateral_m, lateral_per_rad_m),
+            },
+            Self::AnisotropicQuadratic {
+                longitudinal_m,
+                longitudinal_per_rad_m,
+                longitudinal_per_rad2_m,
+                lateral_m,
+                lateral_per_rad_m,
+                lateral_per_rad2_m,
+                slip_angle_limit_deg,
+            } => {
+                let quadratic = |at_zero, per_radian, per_radian_squared| ShearModulus::Quadratic {
+                    at_zero,
+                    per_radian,
+                    per_radian_squared,
+                    angle_limit: slip_angle_limit_deg.to_radians(),
+                };
+                Shear::Anisotropic {
+                    longitudinal: quadratic(
+                        longitudinal_m,
+                        longitudinal_per_rad_m,
+                        longitudinal_per_rad2_m,
+                    ),
+                    lateral: quadratic(lateral_m, lateral_per_rad_m, lateral_per_rad2_m),
+                }
+            }
+            Self::Isotropic { longitudinal_m, longitudinal_per_rad_m } => {
+                Shear::Isotropic { modulus: linear(longitudinal_m, longitudinal_per_rad_m) }
+            }
+        }
+    }
+}
+
+impl ExitSection {
+    fn to_domain(&self) -> Exit {
+        match self {
+            Self::Ratio(RatioSection { ratio, .. }) => Exit::Ratio(*ratio),
+            Self::QuadraticInSlip(QuadraticSection { at_zero, per_slip, per_slip2, .. }) => {
+                Exit::QuadraticInSlip {
+                    at_zero: *at_zero,
+                    per_slip: *per_slip,
+                    per_slip_squared: *per_slip2,
+                }
+            }
+        }
+    }
+}
+
+impl BulldozingWord {
+    fn to_domain(self) -> Bulldozing {
+        match self {
+            Self::None => Bulldozing::None,
+            Self::Sign => Bulldozing::Sign,
+            Self::Sine => Bulldozing::Sine,
+            Self::SineSquared => Bulldozing::SineSquared,
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Where a document comes from: a preset, a file, or a text in memory.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::Kind;
+use super::check::nearest;
+use super::error::{DocumentError, Problem};
+use super::presets::{self, Preset};
+use super::text::Text;
+
+/// Where a document comes from.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// A document that comes with the program.
+    Preset(&'static Preset),
+    /// A file.
+    File(PathBuf),
+    /// A text with a name for messages; its relative paths start from the current folder.
+    Text {
+        /// What messages call it.
+        label: String,
+        /// The document.
+        content: String,
+    },
+}
+
+/// The largest file that is read [bytes]: a document has a few kilobytes.
+pub const LARGEST_FILE: u64 = 1 << 20;
+
+impl Source {
+    /// The preset of that name, or else the file at that path.
+    ///
+    /// What ends in `.toml` or has a slash in it is a path.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is neither.
+    pub fn find(kind: Kind, name: &str) -> Result<Self, DocumentError> {
+        Self::find_from(Path::new(""), kind, name)
+    }
+
+    /// A file.
+    #[must_use]
+    pub fn file(path: impl Into<PathBuf>) -> Self {
+        Self::File(path.into())
+    }
+
+    /// A text in memory.
+    #[must_use]
+    pub fn text(label: impl Into<String>, content: impl Into<String>) -> Self {
+        Self::Text { label: label.into(), content: content.into() }
+    }
+
+    /// The scenario that says nothing: every value is the default of its key.
+    #[must_use]
+    pub fn default_scenario() -> Self {
+        Self::text("the default scenario", "schema = \"scenario/1\"\nname = \"traverse\"\n")
+    }
+
+    /// [`find`](Self::find), with relative paths from a folder.
+    pub(super) fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+        if let Some(preset) = presets::preset(kind, name) {
+            return Ok(Self::Preset(preset));
+        }
+        let is_toml = Path::new(name).extension().is_some_and(|end| end == "toml");
+        let path = folder.join(name);
+        if is_toml || name.contains(['/', '\\']) || (!name.is_empty() && path.exists()) {
+            return Ok(Self::File(path));
+        }
+        let problem = Problem::NoSuchPresetOrFile { kind, name: name.escape_debug().to_string() };
+        let names: Vec<_> = presets::presets(kind).map(|preset| preset.name).collect();
+        let hint = nearest(name, names.iter().copied()).map_or_else(
+            || format!("the {kind} presets are {}", names.join(", ")),
+            |meant| format!("did you mean `{meant}`?"),
+        );
+        Err(DocumentError::whole(name.escape_debug().to_string(), problem).with_hint(hint))
+    }
+
+    pub(super) fn read(&self) -> Result<Arc<Text>, DocumentError> {
+        let (label, content, folder) = match self {
+            Self::Preset(preset) => {
+                (format!("preset {}", preset.name), preset.text.to_owned(), PathBuf::new())
+            }
+            Self::Text { label, content } => (label.clone(), content.clone(), PathBuf::new()),
+            Self::File(path) => {
+                let label = path.display().to_string();
+                let content =
+                    read_file(path).map_err(|problem| DocumentError::whole(&label, problem))?;
+                (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
+            }
+        };
+        Ok(Arc::new(Text { label, content, folder, is_argument: false }))
+    }
+}
+
+fn read_file(path: &Path) -> Result<String, Problem> {
+    let failed = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory | io::ErrorKind::InvalidInput => {
+            Problem::NoSuchFile
+        }
+        io::ErrorKind::IsADirectory => Problem::Folder,
+        kind => Problem::Unreadable { kind, message: error.to_string() },
+    };
+    if path.is_dir() {
+        return Err(Problem::Folder);
+    }
+    let mut bytes = Vec::new();
+    // One byte more than allowed tells a file that is too large from one that just fits, without
+    // trusting a length that pipes and devices do not have.
+    let file = File::open(path).map_err(failed)?;
+    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(Problem::TooLarge { limit: LARGEST_FILE });
+    }
+    String::from_utf8(bytes)
+        .map_err(|error| Problem::NotText { valid_up_to: error.utf8_error().valid_up_to() })
+}

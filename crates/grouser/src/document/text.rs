@@ -1,0 +1,269 @@
+//! Texts and the values in them, each with the spot it came from.
+//!
+//! A run's values come from several texts: a scenario names a rover, the rover a wheel, the command
+//! line overrides a key. They are brought together in one tree of [`Node`]s, each of which knows
+//! its own text, so that whatever is found wrong later is reported where its author wrote it.
+
+use std::ops::Range;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::error::{DocumentError, Problem};
+
+/// A text that values come from.
+#[derive(Debug)]
+pub(super) struct Text {
+    /// Its name in messages.
+    pub label: String,
+    /// What it says.
+    pub content: String,
+    /// Where its relative paths start.
+    pub folder: PathBuf,
+    /// Whether it is an argument: short, without lines, and quoted whole by its label.
+    pub is_argument: bool,
+}
+
+impl Text {
+    /// The bytes of the line around a byte, without its end.
+    pub(super) fn line_around(&self, byte: usize) -> Range<usize> {
+        let mut byte = byte.min(self.content.len());
+        while !self.content.is_char_boundary(byte) {
+            byte -= 1;
+        }
+        let start = self.content[..byte].rfind('\n').map_or(0, |at| at + 1);
+        let end = self.content[byte..].find('\n').map_or(self.content.len(), |at| byte + at);
+        start..end
+    }
+}
+
+/// Where a key or a value was written.
+#[derive(Clone, Debug)]
+pub(super) struct Origin {
+    pub text: Arc<Text>,
+    pub span: Range<usize>,
+}
+
+/// A value and where it was written.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub value: Value,
+    pub origin: Origin,
+}
+
+/// A value as TOML knows it.
+#[derive(Clone, Debug)]
+pub(super) enum Value {
+    String(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    Date(String),
+    List(Vec<Node>),
+    Table(Vec<Entry>),
+}
+
+/// A key of a table with its value.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub key: String,
+    pub key_origin: Origin,
+    pub node: Node,
+}
+
+/// Tables and lists may be nested this deep. Ours are five deep: a mount's position in a rover
+/// in a scenario.
+const DEEPEST: usize = 16;
+
+/// The tree of a TOML text.
+pub(super) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
+    let whole = Origin { text: text.clone(), span: 0..0 };
+    check_nesting(&whole)?;
+    let document = toml_edit::Document::parse(text.content.as_str()).map_err(|error| {
+        let span = error.span().unwrap_or(0..0);
+        let problem = Problem::Syntax(error.message().trim().replace('\n', ", "));
+        DocumentError::at(&Origin { text: text.clone(), span }, problem)
+    })?;
+    Reader { text }.table(document.as_table(), whole, 0)
+}
+
+/// That no key has more dots than any document needs: the parser limits brackets and dots each
+/// for itself, but together they could nest thousands of tables.
+fn check_nesting(whole: &Origin) -> Result<(), DocumentError> {
+    let mut depth = 0_usize;
+    let mut dots = 0_usize;
+    for (at, byte) in whole.text.content.bytes().enumerate() {
+        match byte {
+            b'.' => dots += 1,
+            b'{' | b'[' => depth += 1,
+            b'}' | b']' => depth = depth.saturating_sub(1),
+            b'\n' => dots = 0,
+            _ => {}
+        }
+        /// Far more than our documents have, far less than a stack holds.
+        const MOST_BRACKETS: usize = 64;
+        if depth > MOST_BRACKETS && dots > DEEPEST {
+            let origin = Origin { text: whole.text.clone(), span: at..at + 1 };
+            return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
+        }
+    }
+    Ok(())
+}
+
+/// Takes the parser's tables over into ours.
+struct Reader<'a> {
+    text: &'a Arc<Text>,
+}
+
+impl Reader<'_> {
+    fn origin(&self, span: Option<Range<usize>>, otherwise: &Origin) -> Origin {
+        span.map_or_else(|| otherwise.clone(), |span| Origin { text: self.text.clone(), span })
+    }
+
+    fn table(
+        &self,
+        table: &dyn toml_edit::TableLike,
+        origin: Origin,
+        depth: usize,
+    ) -> Result<Node, DocumentError> {
+        if depth > DEEPEST {
+            return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
+        }
+        let mut entries = Vec::new();
+        for (name, item) in table.iter() {
+            let key_origin = self.origin(table.key(name).and_then(toml_edit::Key::span), &origin);
+            let node = self.item(item, &key_origin, depth + 1)?;
+            entries.push(Entry { key: name.to_owned(), key_origin, node });
+        }
+        Ok(Node { value: Value::Table(entries), origin })
+    }
+
+    fn item(
+        &self,
+        item: &toml_edit::Item,
+        key: &Origin,
+        depth: usize,
+    ) -> Result<Node, DocumentError> {
+        match item {
+            toml_edit::Item::Value(value) => self.value(value, key, depth),
+            toml_edit::Item::Table(table) => self.table(table, key.clone(), depth),
+            toml_edit::Item::ArrayOfTables(tables) => {
+                let nodes = tables.iter().map(|table| {
+                    let header = self.origin(table.span(), key);
+                    self.table(table, header, depth)
+                });
+                let value = Value::List(nodes.collect::<Result<_, _>>()?);
+                Ok(Node { value, origin: key.clone() })
+            }
+            toml_edit::Item::None => {
+                Ok(Node { value: Value::Table(Vec::new()), origin: key.clone() })
+            }
+        }
+    }
+
+    fn value(
+        &self,
+        value: &toml_edit::Value,
+        key: &Origin,
+        depth: usize,
+    ) -> Result<Node, DocumentError> {
+        let origin = self.origin(value.span(), key);
+        let value = match value {
+            toml_edit::Value::String(string) => Value::String(string.value().clone()),
+            toml_edit::Value::Integer(integer) => Value::Integer(*integer.value()),
+            toml_edit::Value::Float(float) => Value::Float(*float.value()),
+            toml_edit::Value::Boolean(boolean) => Value::Boolean(*boolean.value()),
+            toml_edit::Value::Datetime(date) => Value::Date(date.value().to_string()),
+            toml_edit::Value::InlineTable(table) => return self.table(table, origin, depth),
+            toml_edit::Value::Array(_) if depth > DEEPEST => {
+                return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
+            }
+            toml_edit::Value::Array(array) => {
+                let nodes = array.iter().map(|value| self.value(value, &origin, depth + 1));
+                Value::List(nodes.collect::<Result<_, _>>()?)
+            }
+        };
+        Ok(Node { value, origin })
+    }
+}
+
+impl Node {
+    /// A table's entry of a name.
+    pub(super) fn entry(&self, key: &str) -> Option<&Entry> {
+        self.entries().iter().find(|entry| entry.key == key)
+    }
+
+    /// The same, to be changed.
+    pub(super) fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
+        match &mut self.value {
+            Value::Table(entries) => entries.iter_mut().find(|entry| entry.key == key),
+            _ => None,
+        }
+    }
+
+    /// A table's entries; none of anything else.
+    pub(super) fn entries(&self) -> &[Entry] {
+        match &self.value {
+            Value::Table(entries) => entries,
+            _ => &[],
+        }
+    }
+
+    /// Where a key further down was written, or the nearest table above it that was.
+    ///
+    /// * `path`: keys and, for lists, indices, joined by dots
+    pub(super) fn origin_of(&self, path: &str) -> &Origin {
+        let mut origin = &self.origin;
+        let mut node = self;
+        for step in path.split('.') {
+            if let Some(entry) = node.entry(step) {
+                node = &entry.node;
+                origin = if matches!(node.value, Value::Table(_)) {
+                    &entry.key_origin
+                } else {
+                    &node.origin
+                };
+            } else if let (Value::List(nodes), Ok(index)) = (&node.value, step.parse::<usize>())
+                && let Some(child) = nodes.get(index)
+            {
+                node = child;
+                origin = &child.origin;
+            } else {
+                break;
+            }
+        }
+        origin
+    }
+
+    /// The tree without its origins.
+    pub(super) fn to_toml(&self) -> toml::Value {
+        match &self.value {
+            Value::String(string) | Value::Date(string) => toml::Value::String(string.clone()),
+            Value::Integer(integer) => toml::Value::Integer(*integer),
+            Value::Float(float) => toml::Value::Float(*float),
+            Value::Boolean(boolean) => toml::Value::Boolean(*boolean),
+            Value::List(nodes) => toml::Value::Array(nodes.iter().map(Self::to_toml).collect()),
+            Value::Table(entries) => toml::Value::Table(
+                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_toml())).collect(),
+            ),
+        }
+    }
+
+    /// The value in a few words, as messages quote it.
+    pub(super) fn describe(&self) -> String {
+        /// Characters of a string that a message quotes.
+        const QUOTED: usize = 40;
+        match &self.value {
+            Value::String(string) if string.chars().count() > QUOTED => {
+                let start: String = string.chars().take(QUOTED).collect();
+                format!("the text \"{}…\"", start.escape_debug())
+            }
+            Value::String(string) => format!("the text \"{}\"", string.escape_debug()),
+            Value::Integer(integer) => format!("the integer {integer}"),
+            Value::Float(float) => format!("the number {float}"),
+            Value::Boolean(boolean) => format!("the truth value {boolean}"),
+            Value::Date(date) => format!("the date {date}"),
+            Value::List(_) => "a list".to_owned(),
+            Value::Table(_) => "a table".to_owned(),
+        }
+    }
+}
