@@ -12,7 +12,7 @@ pub(crate) mod wheel_test;
 use serde_json::{Value, json};
 
 /// The outer object of every JSON output: what it is, who made it, from what.
-pub(crate) fn envelope(command: &str, inputs: Value) -> serde_json::Map<String, Value> {
+pub(crate) fn envelope(command: &str, inputs: &Value) -> serde_json::Map<String, Value> {
     let envelope = json!({
         "schema": format!("grouser.{command}.v1"),
         "version": env!("CARGO_PKG_VERSION"),

@@ -42,7 +42,11 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
         ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
         ("--yaw-deg", "scenario.start.yaw_deg", &args.yaw_deg),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
-        ("--reference-slip-ratio", "scenario.drive.reference_slip_ratio", &args.reference_slip_ratio),
+        (
+            "--reference-slip-ratio",
+            "scenario.drive.reference_slip_ratio",
+            &args.reference_slip_ratio,
+        ),
     ];
     for (flag, key, value) in numbers {
         if let Some(value) = value {

@@ -27,6 +27,7 @@
 
 mod check;
 mod error;
+pub mod experiment;
 mod overrides;
 mod presets;
 mod rover;
@@ -34,7 +35,9 @@ mod scenario;
 mod schema;
 mod soil;
 mod source;
+pub mod study;
 mod text;
+pub mod trajectory;
 mod wheel;
 
 use std::fmt;

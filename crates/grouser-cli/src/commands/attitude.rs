@@ -41,7 +41,7 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     let document = &scenario.document;
     let mut map = envelope(
         "attitude",
-        json!({
+        &json!({
             "rover": document.rover,
             "soil": document.soil,
             "gravity_m_s2": document.gravity_m_s2,
@@ -94,8 +94,7 @@ fn limit_line(limit: &AttitudeLimit) -> String {
 /// Yaw over slope.
 fn chart(curve: &AttitudeCurve) -> Chart {
     let attitudes = curve.attitudes();
-    let points =
-        attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
+    let points = attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
     Chart {
         title: "Yaw that keeps a traverse level".into(),
         x_label: "slope [°]".into(),

@@ -23,7 +23,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                     None => failure,
                     Some(before) => {
                         eprintln!("error: {before}");
-                        if before.code() > failure.code() { Failure::Usage(failure.to_string()) } else { failure }
+                        if before.code() > failure.code() {
+                            Failure::Usage(failure.to_string())
+                        } else {
+                            failure
+                        }
                     }
                 });
             }

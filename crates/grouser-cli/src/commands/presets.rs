@@ -19,8 +19,7 @@ struct PresetRecord {
 
 pub(crate) fn run(args: &PresetsArgs) -> Result<(), Failure> {
     let kinds = args.kind.map_or(Kind::ALL.to_vec(), |word| vec![word.into()]);
-    let presets: Vec<&Preset> =
-        kinds.iter().flat_map(|kind| document::presets(*kind)).collect();
+    let presets: Vec<&Preset> = kinds.iter().flat_map(|kind| document::presets(*kind)).collect();
     match &args.name {
         Some(name) => print_preset(name, &presets),
         None => list(&presets, args.format),
@@ -34,9 +33,8 @@ fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> 
             let closest = presets
                 .iter()
                 .max_by(|a, b| likeness(name, a.name).total_cmp(&likeness(name, b.name)));
-            let hint = closest.map_or(String::new(), |preset| {
-                format!("; did you mean `{}`?", preset.name)
-            });
+            let hint = closest
+                .map_or(String::new(), |preset| format!("; did you mean `{}`?", preset.name));
             Err(Failure::Usage(format!("there is no preset called `{name}`{hint}")))
         }
         [preset] => output::print(preset.text),
@@ -68,7 +66,7 @@ fn list(presets: &[&'static Preset], format: Format) -> Result<(), Failure> {
         Format::Table => output::print(&rows.to_table(&["kind", "name", "title", "source"])),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => {
-            let mut map = envelope("presets", serde_json::json!({}));
+            let mut map = envelope("presets", &serde_json::json!({}));
             map.insert("rows".into(), rows.to_json());
             output::print(&json_text(map))
         }

@@ -15,16 +15,8 @@ use crate::output::rows::{Rows, four_digits};
 use crate::output::{self, Format};
 
 /// Columns of the table on a terminal.
-const COLUMNS: [&str; 8] = [
-    "time_s",
-    "x_m",
-    "y_m",
-    "yaw_deg",
-    "slip_ratio",
-    "slip_angle_deg",
-    "sinkage_mm",
-    "power_w",
-];
+const COLUMNS: [&str; 8] =
+    ["time_s", "x_m", "y_m", "yaw_deg", "slip_ratio", "slip_angle_deg", "sinkage_mm", "power_w"];
 /// Lines of that table, besides the start.
 const LINES: usize = 10;
 
@@ -33,7 +25,7 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let scenario = inputs::traverse(args)?;
     let run = Simulation::new(&scenario.value)?.run()?;
     let record = TrajectoryRecord::new(&run, &scenario.value.rover);
-    let mut map = envelope("traverse", json!({ "scenario": scenario.document }));
+    let mut map = envelope("traverse", &json!({ "scenario": scenario.document }));
     map.extend(object(&record));
     let json = json_text(map);
     match args.output.format {

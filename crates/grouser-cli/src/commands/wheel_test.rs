@@ -42,7 +42,7 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let rows = Rows::of(&records);
     let mut map = envelope(
         "wheel-test",
-        json!({
+        &json!({
             "soil": inputs.soil.document,
             "wheel": inputs.wheel.document,
             "gravity_m_s2": inputs.gravity,

@@ -75,20 +75,26 @@ pub(crate) fn short(value: &Value) -> String {
 
 /// A number with four significant digits.
 pub(crate) fn four_digits(value: f64) -> String {
-    if value == 0.0 {
-        return "0".into();
+    let scientific = format!("{value:.3e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    match exponent.parse::<usize>() {
+        // 0 to 9999: as many decimals as digits are left. Up to a million: none.
+        Ok(exponent @ 0..=3) => trimmed(&format!("{value:.*}", 3 - exponent)),
+        Ok(4..=6) => format!("{value:.0}"),
+        _ if value.abs() >= 1e-4 && value.abs() < 1.0 => {
+            let decimals = 3 + exponent.trim_start_matches('-').parse::<usize>().unwrap_or(0);
+            trimmed(&format!("{value:.decimals$}"))
+        }
+        _ => format!("{}e{exponent}", trimmed(digits)),
     }
-    let magnitude = value.abs().log10().floor();
-    if !(-4.0..7.0).contains(&magnitude) {
-        return format!("{value:.3e}");
-    }
-    // Between 0 and 7 decimals.
-    let decimals = (3.0 - magnitude).clamp(0.0, 7.0) as usize;
-    let text = format!("{value:.decimals$}");
+}
+
+/// Without the zeros that end a decimal fraction.
+fn trimmed(text: &str) -> String {
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
-        text
+        text.to_owned()
     }
 }
 

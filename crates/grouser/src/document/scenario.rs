@@ -292,6 +292,7 @@ impl Document for ScenarioDocument {
                 motion: self.start.motion.to_domain(),
             },
             duration: self.duration_s,
+            numerics: crate::simulation::Numerics::default(),
         };
         let at = |path: &'static str| {
             move |error: ParameterError| {

@@ -1,10 +1,19 @@
 //! Results of wheel tests and attitudes in the words of tables, JSON and CSV.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 
 use crate::studies::attitude::{AttitudeCurve, NoAttitude};
 use crate::studies::wheel_test::WheelTestRow;
 use crate::vehicle::Rover;
+
+/// Loads that a wheel test may ask for [N].
+pub const LOAD_N: RangeInclusive<f64> = 0.0..=1e5;
+/// Slip ratios that a wheel test may ask for [-].
+pub const SLIP_RATIO: RangeInclusive<f64> = -2.0..=2.0;
+/// Slip angles that a wheel test may ask for [°].
+pub const SLIP_ANGLE_DEG: RangeInclusive<f64> = -90.0..=90.0;
 
 /// Status of a row that has its results.
 pub const OK: &str = "ok";
@@ -97,7 +106,11 @@ impl From<&WheelTestRow> for WheelTestRecord {
 fn printed_degrees(angle: f64) -> f64 {
     let degrees = angle.to_degrees();
     let rounded = (degrees * 1e9).round() / 1e9;
-    if rounded.to_radians() == angle || (rounded - degrees).abs() < 1e-12 { rounded } else { degrees }
+    if rounded.to_radians() == angle || (rounded - degrees).abs() < 1e-12 {
+        rounded
+    } else {
+        degrees
+    }
 }
 
 /// The level attitude on one slope. Results are null where `status` is not `ok`.
@@ -163,10 +176,9 @@ pub struct AttitudeLimit {
 impl From<&AttitudeCurve> for AttitudeLimit {
     fn from(curve: &AttitudeCurve) -> Self {
         match curve.limit() {
-            Ok((slope, reason)) => Self {
-                limit_slope_deg: Some(slope.to_degrees()),
-                limit_reason: reason.into(),
-            },
+            Ok((slope, reason)) => {
+                Self { limit_slope_deg: Some(slope.to_degrees()), limit_reason: reason.into() }
+            }
             Err(NoAttitude::CannotMove(reason) | NoAttitude::TooSteep { reason, .. }) => {
                 Self { limit_slope_deg: None, limit_reason: reason }
             }

@@ -107,7 +107,9 @@ impl SampleRecord {
             soil_energy_j: energy.soil,
             kinetic_energy_j: energy.kinetic,
             potential_energy_j: energy.potential,
-            wheels: wheels.map(|(wheel, mount)| WheelSampleRecord::new(wheel, &mount.name)).collect(),
+            wheels: wheels
+                .map(|(wheel, mount)| WheelSampleRecord::new(wheel, &mount.name))
+                .collect(),
         }
     }
 }

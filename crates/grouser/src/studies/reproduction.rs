@@ -110,7 +110,14 @@ impl Plan {
 
     fn attitude_study(&self) -> AttitudeStudy {
         let Scenario { rover, site, theory, sharing, own_moments, .. } = self.scenario.clone();
-        AttitudeStudy { rover, soil: site.soil, gravity: site.gravity, theory, sharing, own_moments }
+        AttitudeStudy {
+            rover,
+            soil: site.soil,
+            gravity: site.gravity,
+            theory,
+            sharing,
+            own_moments,
+        }
     }
 
     fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {
@@ -177,11 +184,7 @@ impl Plan {
 
     fn traverse(&self, slope: f64, yaw: f64) -> Scenario {
         let base = self.scenario.clone();
-        Scenario {
-            site: Site { slope, ..base.site },
-            start: Start { yaw, ..base.start },
-            ..base
-        }
+        Scenario { site: Site { slope, ..base.site }, start: Start { yaw, ..base.start }, ..base }
     }
 }
 

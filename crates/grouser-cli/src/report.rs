@@ -1,0 +1,5 @@
+//! The report of `reproduce`: figures, tables and the page that holds them.
+
+pub(crate) mod figures;
+pub(crate) mod page;
+pub(crate) mod tables;

@@ -1,0 +1,212 @@
+//! The figures of the report, each with its data.
+
+use grouser::simulation::{Trajectory, WheelSample};
+use grouser::studies::comparison::MeasuredTraverse;
+use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
+use grouser::vehicle::Rover;
+use serde_json::{Map, Value, json};
+
+use crate::chart::{Chart, Series, Style};
+use crate::output::rows::Rows;
+
+/// A figure and the numbers it draws.
+pub(crate) struct Figure {
+    /// Name of its files, without ending.
+    pub(crate) file: &'static str,
+    /// What it shows and what to see in it.
+    pub(crate) caption: String,
+    /// The drawing.
+    pub(crate) chart: Chart,
+}
+
+impl Figure {
+    /// Its data in long form: a row for each point.
+    pub(crate) fn rows(&self) -> Rows {
+        let point = |series: &Series, (x, y): &(f64, f64)| {
+            let row = json!({
+                "series": series.name,
+                self.chart.x_label.as_str(): x,
+                self.chart.y_label.as_str(): y,
+            });
+            match row {
+                Value::Object(map) => map,
+                _ => unreachable!("an object was written"),
+            }
+        };
+        let points = self.chart.series.iter().flat_map(|series| {
+            series.points.iter().map(move |xy| point(series, xy)).collect::<Vec<Map<_, _>>>()
+        });
+        Rows::from_maps(points.collect())
+    }
+}
+
+/// All figures, in the order of the report.
+pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
+    vec![
+        attitude(study),
+        traverses(study),
+        wheel_curves(study),
+        slip_along_run(study, rover),
+        sinkage_along_run(study, rover),
+    ]
+}
+
+/// Fig. 10: attitude over slope.
+pub(crate) fn attitude(study: &Reproduction) -> Figure {
+    let curve = study.attitudes.attitudes();
+    let line = curve.iter().map(|a| (a.slope.to_degrees(), a.yaw.to_degrees()));
+    let points = |yaw: fn(&MeasuredTraverse) -> f64| {
+        let measured = study.slopes.iter().map(|runs| &runs.measured);
+        measured.map(|m| (m.slope.to_degrees(), yaw(m).to_degrees())).collect::<Vec<_>>()
+    };
+    Figure {
+        file: "fig10-attitude",
+        caption: "Fig. 10 of the paper: the yaw that keeps a traverse level, over the slope. The \
+                  curve ends where turning further uphill costs more thrust than it gains. The \
+                  measured runs lose yaw from start to end; on 20° they were started high on purpose."
+            .into(),
+        chart: Chart {
+            title: "Attitude for a level traverse".into(),
+            x_label: "slope [°]".into(),
+            y_label: "yaw, positive uphill [°]".into(),
+            series: vec![
+                Series::new("Grouser", Style::Line, 1, line),
+                Series::new("paper's model", Style::Squares, 0, points(|m| m.model_yaw)),
+                Series::new("measured, start", Style::Dots, 2, points(|m| m.initial_yaw)),
+                Series::new("measured, end", Style::Triangles, 3, points(|m| m.final_yaw)),
+            ],
+        },
+    }
+}
+
+/// Fig. 9: paths without and with compensation.
+fn traverses(study: &Reproduction) -> Figure {
+    let path = |run: &Trajectory| -> Vec<(f64, f64)> {
+        run.samples.iter().map(|s| (s.state.position.x, 1e3 * s.state.position.y)).collect()
+    };
+    let mut series = Vec::new();
+    for (index, SlopeRuns { measured, uncompensated, compensated, .. }) in
+        study.slopes.iter().enumerate()
+    {
+        let slope = measured.slope.to_degrees().round();
+        let colour = index + 1;
+        series.push(Series::new(
+            format!("{slope}°, nose level"),
+            Style::Line,
+            colour,
+            path(uncompensated),
+        ));
+        if let Some(run) = compensated {
+            let name = format!("{slope}°, at the attitude");
+            series.push(Series::new(name, Style::Dashed, colour, path(run)));
+        }
+    }
+    Figure {
+        file: "fig9-traverses",
+        caption: "Fig. 9 of the paper: paths on the slope, x along the contour and y uphill (note \
+                  the scales). Nose level, the rover drifts downhill; started at its attitude it \
+                  stays on the contour, and pays with slip and distance."
+            .into(),
+        chart: Chart {
+            title: "Traverses without and with compensation".into(),
+            x_label: "along the contour, x [m]".into(),
+            y_label: "uphill, y [mm]".into(),
+            series,
+        },
+    }
+}
+
+/// Fig. 7: drawbar pull over slip for three longitudinal moduli.
+fn wheel_curves(study: &Reproduction) -> Figure {
+    let styles = [Style::Line, Style::Dashed, Style::Dotted];
+    let curves = study.wheel_curves.iter().zip(styles.iter().cycle()).enumerate();
+    let series = curves.map(|(index, (curve, style))| {
+        let settled = curve
+            .rows
+            .iter()
+            .filter_map(|row| Some((row.slip_ratio, row.result.ok()?.forces.drawbar_pull)));
+        let name = format!("K_x = {} m", curve.longitudinal_modulus);
+        Series::new(name, *style, index + 1, settled)
+    });
+    let never = study.wheel_curves.iter().find(|curve| {
+        let pulls = |settled: grouser::contact::Settled| settled.forces.drawbar_pull > 0.0;
+        !curve.rows.iter().any(|row| row.result.is_ok_and(pulls))
+    });
+    let verdict = never.map_or(String::new(), |curve| {
+        format!(
+            " With the {} that the paper reports after tuning, read as metres, the wheel does not \
+             pull at any slip: a rover on such wheels could not move, so the number cannot be what \
+             was used. (0.03 would be near; a grouser thrust added apart would be another reading.)",
+            curve.longitudinal_modulus
+        )
+    });
+    Figure {
+        file: "fig7-wheel-test",
+        caption: format!(
+            "Fig. 7 of the paper: drawbar pull of one wheel over slip at slip angle 0, where the \
+             side force is zero by symmetry, for three values of K_x at slip angle 0.{verdict}"
+        ),
+        chart: Chart {
+            title: "Single-wheel test".into(),
+            x_label: "slip ratio".into(),
+            y_label: "drawbar pull [N]".into(),
+            series: series.collect(),
+        },
+    }
+}
+
+fn along_run(
+    study: &Reproduction,
+    rover: &Rover,
+    quantity: fn(&WheelSample) -> f64,
+) -> Vec<Series> {
+    let wheels = rover.mounts().iter().enumerate();
+    let styles = [Style::Line, Style::Dashed, Style::Dotted];
+    let series = wheels.map(|(index, mount)| {
+        let samples = &study.start_up.samples;
+        let points = samples
+            .iter()
+            .filter_map(|sample| Some((sample.time, quantity(sample.wheels.get(index)?))));
+        Series::new(mount.name.as_str(), styles[index % styles.len()], index + 1, points)
+    });
+    series.collect()
+}
+
+/// The slope of the run from rest, in words.
+fn start_up_slope(study: &Reproduction) -> String {
+    let runs = study.slopes.get(START_UP_ROW).or(study.slopes.first());
+    runs.map_or(String::new(), |runs| format!("{}°", runs.measured.slope.to_degrees().round()))
+}
+
+fn slip_along_run(study: &Reproduction, rover: &Rover) -> Figure {
+    Figure {
+        file: "slip-along-run",
+        caption: format!(
+            "Slip ratio of each wheel in the first second of a run from rest on {}, at the \
+             attitude. The wheels turn from the first instant; slip settles within a few tenths \
+             of a second and stays.",
+            start_up_slope(study)
+        ),
+        chart: Chart {
+            title: "Slip along a run from rest".into(),
+            x_label: "time [s]".into(),
+            y_label: "slip ratio".into(),
+            series: along_run(study, rover, |wheel| wheel.reaction.slip.ratio),
+        },
+    }
+}
+
+fn sinkage_along_run(study: &Reproduction, rover: &Rover) -> Figure {
+    Figure {
+        file: "sinkage-along-run",
+        caption: "Sinkage of each wheel in the same run: the downhill wheels carry more and sink \
+                  deeper; the classical theory lets sinkage follow slip at once."
+            .into(),
+        chart: Chart {
+            title: "Sinkage along a run from rest".into(),
+            x_label: "time [s]".into(),
+            y_label: "sinkage [mm]".into(),
+            series: along_run(study, rover, |wheel| 1e3 * wheel.reaction.settled.sinkage),
+        },
+    }
+}

@@ -1,0 +1,95 @@
+//! The page: one HTML file that needs nothing from outside.
+
+use std::fmt::Write as _;
+
+use super::figures::Figure;
+use super::tables::Table;
+
+/// A page in the making.
+pub(crate) struct Page {
+    title: String,
+    body: String,
+}
+
+impl Page {
+    pub(crate) fn new(title: &str) -> Self {
+        Self { title: title.to_owned(), body: format!("<h1>{}</h1>\n", escaped(title)) }
+    }
+
+    /// A section's heading.
+    pub(crate) fn heading(&mut self, text: &str) {
+        self.push(&format!("<h2>{}</h2>\n", escaped(text)));
+    }
+
+    /// A paragraph.
+    pub(crate) fn paragraph(&mut self, text: &str) {
+        self.push(&format!("<p>{}</p>\n", escaped(text)));
+    }
+
+    /// A paragraph that answers the question of the page.
+    pub(crate) fn answer(&mut self, text: &str) {
+        self.push(&format!("<p class=\"answer\">{}</p>\n", escaped(text)));
+    }
+
+    /// A list.
+    pub(crate) fn list<S: AsRef<str>>(&mut self, items: impl IntoIterator<Item = S>) {
+        self.push("<ul>\n");
+        for item in items {
+            self.push(&format!("<li>{}</li>\n", escaped(item.as_ref())));
+        }
+        self.push("</ul>\n");
+    }
+
+    /// Commands or documents, as they are.
+    pub(crate) fn code(&mut self, text: &str) {
+        self.push(&format!("<pre>{}</pre>\n", escaped(text)));
+    }
+
+    /// A table.
+    pub(crate) fn table(&mut self, table: &Table) {
+        let row = |tag: &str, cells: &[String]| {
+            let cells: Vec<String> =
+                cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
+            format!("<tr>{}</tr>\n", cells.concat())
+        };
+        let head = row("th", &table.header());
+        let body: String = table.cells().iter().map(|cells| row("td", cells)).collect();
+        let caption = escaped(table.caption);
+        self.push(&format!(
+            "<div class=\"table\"><table><caption>{caption}</caption>\n<thead>{head}</thead>\n\
+             <tbody>{body}</tbody></table></div>\n"
+        ));
+    }
+
+    /// A figure with its drawing in the page.
+    pub(crate) fn figure(&mut self, figure: &Figure, svg: &str) {
+        // Only the element: a declaration has no place inside a page.
+        let element = svg.find("<svg").map_or(svg, |start| &svg[start..]);
+        let caption = escaped(&figure.caption);
+        self.push(&format!("<figure>{element}<figcaption>{caption}</figcaption></figure>\n"));
+    }
+
+    /// The whole page.
+    pub(crate) fn to_html(&self) -> String {
+        let mut html = String::from("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n");
+        // Writing to a string does not fail.
+        let _ = write!(
+            html,
+            "<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+            escaped(&self.title),
+            include_str!("report.css"),
+            self.body
+        );
+        html
+    }
+
+    fn push(&mut self, html: &str) {
+        self.body.push_str(html);
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

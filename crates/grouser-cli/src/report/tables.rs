@@ -1,0 +1,205 @@
+//! The tables of the report: our attitudes and runs beside the paper's model and measurements.
+
+use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
+use grouser::studies::reproduction::{Reproduction, SlopeRuns};
+use serde_json::{Map, Value, json};
+
+use crate::output::rows::{Rows, aligned, four_digits};
+
+/// A table: words for people, keys for files.
+pub(crate) struct Table {
+    /// What it shows, in a line.
+    pub(crate) caption: &'static str,
+    /// Name of its CSV file, without ending.
+    pub(crate) file: &'static str,
+    columns: Vec<Column>,
+    rows: Vec<Map<String, Value>>,
+}
+
+/// A column: key in files, header for people, decimals.
+struct Column {
+    key: &'static str,
+    header: &'static str,
+    decimals: usize,
+}
+
+const fn column(key: &'static str, header: &'static str, decimals: usize) -> Column {
+    Column { key, header, decimals }
+}
+
+impl Table {
+    /// The headers.
+    pub(crate) fn header(&self) -> Vec<String> {
+        self.columns.iter().map(|column| column.header.to_owned()).collect()
+    }
+
+    /// The cells, rounded for reading; what does not exist is a dash.
+    pub(crate) fn cells(&self) -> Vec<Vec<String>> {
+        let cell = |row: &Map<String, Value>, column: &Column| match row.get(column.key) {
+            Some(Value::Number(number)) => {
+                number.as_f64().map_or("-".into(), |value| format!("{value:.*}", column.decimals))
+            }
+            Some(Value::String(text)) => text.clone(),
+            _ => "-".into(),
+        };
+        let cells_of = |row| self.columns.iter().map(|column| cell(row, column)).collect();
+        self.rows.iter().map(cells_of).collect()
+    }
+
+    /// For a terminal.
+    pub(crate) fn to_text(&self) -> String {
+        aligned(&self.header(), &self.cells())
+    }
+
+    /// For a file: every digit.
+    pub(crate) fn to_rows(&self) -> Rows {
+        Rows::from_maps(self.rows.clone())
+    }
+}
+
+fn row_of(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(map) => map,
+        other => unreachable!("a row is an object, not {other}"),
+    }
+}
+
+/// The yaw that keeps a traverse level: ours, the paper's model's, and the measured starts.
+pub(crate) fn attitudes(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let attitude = runs.attitude.as_ref().ok();
+        row_of(json!({
+            "slope_deg": printed(runs.measured.slope),
+            "yaw_deg": attitude.map(|a| a.yaw.to_degrees()),
+            "slip_ratio": attitude.map(|a| a.slip_ratio),
+            "sinkage_mm": attitude.map(|a| a.mean_sinkage() * 1e3),
+            "paper_model_yaw_deg": printed(runs.measured.model_yaw),
+            "measured_initial_yaw_deg": printed(runs.measured.initial_yaw),
+            "measured_final_yaw_deg": printed(runs.measured.final_yaw),
+        }))
+    };
+    Table {
+        caption: "Yaw that keeps a traverse level, in degrees",
+        file: "attitudes",
+        columns: vec![
+            column("slope_deg", "slope", 0),
+            column("yaw_deg", "Grouser", 2),
+            column("slip_ratio", "slip ratio", 3),
+            column("sinkage_mm", "sinkage [mm]", 1),
+            column("paper_model_yaw_deg", "paper's model", 1),
+            column("measured_initial_yaw_deg", "measured, start", 2),
+            column("measured_final_yaw_deg", "measured, end", 2),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// Table 4: the experiment against the paper's model, as printed, and against ours.
+pub(crate) fn table_4(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let MeasuredTraverse { slope, model_yaw, initial_yaw, final_yaw, .. } = runs.measured;
+        let ours = runs.attitude.as_ref().ok().map(|attitude| attitude.yaw);
+        let percent = |measured: f64, predicted: f64| 100.0 * yaw_error(measured, predicted);
+        let run = Levelness::of(&runs.from_measured_yaw);
+        row_of(json!({
+            "slope_deg": printed(slope),
+            "initial_error_percent": ours.map(|ours| percent(initial_yaw, ours)),
+            "final_error_percent": ours.map(|ours| percent(final_yaw, ours)),
+            "rms_distance_error_percent": 100.0 * run.rms_distance_error,
+            "final_distance_error_m": run.final_distance_error,
+            "paper_initial_error_percent": 100.0 * runs.measured.initial_yaw_error,
+            "paper_final_error_percent": 100.0 * runs.measured.final_yaw_error,
+            "paper_initial_error_recomputed_percent": percent(initial_yaw, model_yaw),
+            "paper_final_error_recomputed_percent": percent(final_yaw, model_yaw),
+            "paper_rms_distance_error_percent": 100.0 * runs.measured.rms_distance_error,
+            "paper_final_distance_error_m": runs.measured.final_distance_error,
+        }))
+    };
+    Table {
+        caption: "Table 4 of the paper, beside the same errors against Grouser's attitude",
+        file: "table4",
+        columns: vec![
+            column("slope_deg", "slope [°]", 0),
+            column("paper_initial_error_percent", "initial yaw, paper [%]", 2),
+            column("initial_error_percent", "initial yaw, Grouser [%]", 2),
+            column("paper_final_error_percent", "final yaw, paper [%]", 2),
+            column("final_error_percent", "final yaw, Grouser [%]", 2),
+            column("paper_rms_distance_error_percent", "rms distance, measured [%]", 2),
+            column("rms_distance_error_percent", "rms distance, simulated [%]", 2),
+            column("paper_final_distance_error_m", "final distance, measured [m]", 3),
+            column("final_distance_error_m", "final distance, simulated [m]", 3),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// Yaw lost during the runs: measured, and with two ways of sharing the weight.
+pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let loss = |run| Levelness::of(run).yaw_loss.to_degrees();
+        row_of(json!({
+            "slope_deg": printed(runs.measured.slope),
+            "measured_yaw_loss_deg": printed(runs.measured.yaw_loss()),
+            "quasi_static_yaw_loss_deg": loss(&runs.from_measured_yaw),
+            "quasi_static_torque_yaw_loss_deg": loss(&runs.from_measured_yaw_with_torque),
+        }))
+    };
+    Table {
+        caption: "Yaw lost on the way from the measured start, in degrees",
+        file: "yaw-loss",
+        columns: vec![
+            column("slope_deg", "slope", 0),
+            column("measured_yaw_loss_deg", "measured", 2),
+            column("quasi_static_yaw_loss_deg", "loads quasi-static", 2),
+            column("quasi_static_torque_yaw_loss_deg", "loads quasi-static-torque", 2),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// Drift of the runs without compensation, and what compensation leaves of it.
+pub(crate) fn drift(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let end = |run: &grouser::simulation::Trajectory| run.last().state.position;
+        let compensated = runs.compensated.as_ref();
+        row_of(json!({
+            "slope_deg": printed(runs.measured.slope),
+            "uncompensated_x_m": end(&runs.uncompensated).x,
+            "uncompensated_y_m": end(&runs.uncompensated).y,
+            "compensated_x_m": compensated.map(|run| end(run).x),
+            "compensated_y_m": compensated.map(|run| end(run).y),
+            "uncompensated_energy_j": runs.uncompensated.last().energy.motors,
+            "compensated_energy_j": compensated.map(|run| run.last().energy.motors),
+        }))
+    };
+    Table {
+        caption: "Where the runs end",
+        file: "drift",
+        columns: vec![
+            column("slope_deg", "slope [°]", 0),
+            column("uncompensated_x_m", "x without [m]", 3),
+            column("uncompensated_y_m", "y without [m]", 4),
+            column("compensated_x_m", "x with compensation [m]", 3),
+            column("compensated_y_m", "y with compensation [m]", 4),
+            column("uncompensated_energy_j", "energy without [J]", 2),
+            column("compensated_energy_j", "energy with [J]", 2),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// The limit slope in a sentence.
+pub(crate) fn limit_sentence(study: &Reproduction) -> String {
+    match study.attitudes.limit() {
+        Ok((slope, reason)) => format!(
+            "The steepest slope with a level attitude is {}°, {reason}.",
+            four_digits(slope.to_degrees())
+        ),
+        Err(error) => format!("{error}."),
+    }
+}
+
+/// Degrees as the paper prints them: 3.31, not 3.3100000000000001.
+fn printed(angle: f64) -> f64 {
+    (angle.to_degrees() * 1e6).round() / 1e6
+}
