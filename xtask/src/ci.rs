@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, schema, texts, workspace};
+use crate::{figures, rustdoc, schema, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,13 +51,7 @@ pub(crate) fn run(extent: Extent) -> bool {
                 extent,
             )
         }),
-        step("documentation", || {
-            let mut rustdoc = workspace::cargo();
-            rustdoc
-                .args(["doc", "--workspace", "--no-deps"])
-                .env("RUSTDOCFLAGS", "--deny warnings");
-            succeeds(&mut rustdoc)
-        }),
+        step("documentation", || rustdoc::check().map(Count::one)),
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
