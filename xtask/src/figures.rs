@@ -14,7 +14,7 @@ use crate::workspace;
 pub(crate) fn write() -> Result<bool> {
     let mut written = 0;
     for file in made_files()? {
-        if file.is.as_deref() != Some(&file.should) {
+        if !file.differences.is_empty() {
             let path = workspace::root().join(&file.path);
             if let Some(folder) = path.parent() {
                 fs::create_dir_all(folder)?;
@@ -33,11 +33,10 @@ pub(crate) fn write() -> Result<bool> {
 /// Whether every block and picture is what the program makes now; prints what is not.
 pub(crate) fn check() -> Result<bool> {
     let files = made_files()?;
-    let stale: Vec<&MadeFile> =
-        files.iter().filter(|file| file.is.as_deref() != Some(&file.should)).collect();
+    let stale: Vec<&MadeFile> = files.iter().filter(|file| !file.differences.is_empty()).collect();
     for file in &stale {
         println!("{} is stale; `cargo xtask figures` refreshes it", file.path);
-        println!("{}", diff::between(file.is.as_deref().unwrap_or_default(), &file.should));
+        println!("{}", file.differences.join("\n"));
     }
     println!("{} files with made parts, {} stale", files.len(), stale.len());
     Ok(stale.is_empty())
@@ -47,9 +46,9 @@ pub(crate) fn check() -> Result<bool> {
 struct MadeFile {
     /// From the root.
     path: String,
-    /// What it holds; nothing if it is missing.
-    is: Option<String>,
     should: String,
+    /// Where it is something else, for people.
+    differences: Vec<String>,
 }
 
 fn made_files() -> Result<Vec<MadeFile>> {
@@ -57,7 +56,7 @@ fn made_files() -> Result<Vec<MadeFile>> {
     for (path, text) in workspace::texts_with_extension("md")? {
         let pieces = markers::pieces(&text).with_context(|| path.clone())?;
         if pieces.iter().any(|piece| matches!(piece, Piece::Made(_))) {
-            sources.push((path, text, pieces));
+            sources.push((path, pieces));
         }
     }
     if sources.is_empty() {
@@ -65,8 +64,9 @@ fn made_files() -> Result<Vec<MadeFile>> {
     }
     let mut maker = Maker { program: workspace::build_program()?, folders: HashMap::new() };
     let mut files = Vec::new();
-    for (path, text, pieces) in sources {
+    for (path, pieces) in sources {
         let mut should = String::new();
+        let mut differences = Vec::new();
         for piece in pieces {
             match piece {
                 Piece::Text(text) => should.push_str(&text),
@@ -79,11 +79,16 @@ fn made_files() -> Result<Vec<MadeFile>> {
                             block.content.clone()
                         }),
                     };
-                    should.push_str(&made.with_context(place)?);
+                    let made = made.with_context(place)?;
+                    if made != block.content {
+                        let difference = diff::between(&block.content, &made);
+                        differences.push(format!("line {}:\n{difference}", block.line));
+                    }
+                    should.push_str(&made);
                 }
             }
         }
-        files.push(MadeFile { path, is: Some(text), should });
+        files.push(MadeFile { path, should, differences });
     }
     Ok(files)
 }
@@ -109,8 +114,9 @@ impl Maker {
         let made = self.folder(&block.arguments)?.join(name);
         ensure!(made.is_file(), "the command writes no file {}", name.display());
         let should = fs::read_to_string(&made)?;
-        let is = fs::read_to_string(workspace::root().join(&path)).ok();
-        Ok(MadeFile { path: path.display().to_string(), is, should })
+        let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
+        let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };
+        Ok(MadeFile { path: path.display().to_string(), should, differences })
     }
 
     /// Runs a command with `--out` a fresh folder, once, and returns that folder.
