@@ -1,1 +1,57 @@
-fn main() {}
+//! Chores of the workspace that need logic: `cargo xtask` lists them.
+
+mod ci;
+mod cited;
+mod diff;
+mod figures;
+mod hygiene;
+mod libtest;
+mod links;
+mod markdown;
+mod markers;
+mod rustdoc;
+mod schema;
+mod texts;
+mod workspace;
+
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+
+const USAGE: &str = "\
+cargo xtask CHORE
+
+  ci [--full]         everything that is checked; --full runs the slow tests too
+  schema [--check]    write schema/*.json from the program, or only compare
+  figures [--check]   write what the program makes inside the Markdown files, or only compare
+  texts               check the texts of the repository: links, hosts, paths, cited code
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments.iter().map(String::as_str).collect::<Vec<_>>()) {
+        Ok(code) => code,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &[&str]) -> Result<ExitCode> {
+    let done = match arguments {
+        [] | ["help" | "--help" | "-h"] => {
+            print!("{USAGE}");
+            true
+        }
+        ["ci"] => ci::run(ci::Extent::Usual),
+        ["ci", "--full"] => ci::run(ci::Extent::Full),
+        ["schema"] => schema::write()?,
+        ["schema", "--check"] => schema::check()?,
+        ["figures"] => figures::write()?,
+        ["figures", "--check"] => figures::check()?,
+        ["texts"] => texts::check()?,
+        other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
+    };
+    Ok(if done { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

@@ -1,6 +1,6 @@
 //! Floor 3: a run, from its [`Scenario`] to its [`Trajectory`].
 //!
-//! [`equations`] is one evaluation of the motion, [`integrate`] carries it through time, and
+//! [`equations`] is one evaluation of the motion, `integrate` carries it through time, and
 //! [`run`] puts both together, watches what becomes of the rover and keeps the samples.
 //! [`power`] does the books of the energy.
 

@@ -135,8 +135,7 @@ impl ShearModulus {
             let slip_angle = 2.0 * FRAC_PI_4 * f64::from(trial) / f64::from(TRIALS);
             let modulus = self.at(slip_angle);
             if !(modulus.is_finite() && modulus > 0.0) {
-                let at = slip_angle.to_degrees();
-                let name = format!("{name} at a slip angle of {at:.0}°");
+                let name = format!("{name} at a slip angle of {slip_angle:.2} rad");
                 return Err(ParameterError::new(name, modulus, "above zero"));
             }
         }

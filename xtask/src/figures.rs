@@ -1,0 +1,141 @@
+//! Keeps what the documents show equal to what the program makes.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::diff;
+use crate::markers::{self, Block, Kind, Piece};
+use crate::workspace;
+
+/// Writes every block and picture anew.
+pub(crate) fn write() -> Result<bool> {
+    let mut written = 0;
+    for file in made_files()? {
+        if !file.differences.is_empty() {
+            let path = workspace::root().join(&file.path);
+            if let Some(folder) = path.parent() {
+                fs::create_dir_all(folder)?;
+            }
+            fs::write(&path, &file.should).with_context(|| format!("writing {}", file.path))?;
+            println!("{} written", file.path);
+            written += 1;
+        }
+    }
+    if written == 0 {
+        println!("everything that the program makes was fresh");
+    }
+    Ok(true)
+}
+
+/// Whether every block and picture is what the program makes now; prints what is not.
+pub(crate) fn check() -> Result<bool> {
+    let files = made_files()?;
+    let stale: Vec<&MadeFile> = files.iter().filter(|file| !file.differences.is_empty()).collect();
+    for file in &stale {
+        println!("{} is stale; `cargo xtask figures` refreshes it", file.path);
+        println!("{}", file.differences.join("\n"));
+    }
+    println!("{} files with made parts, {} stale", files.len(), stale.len());
+    Ok(stale.is_empty())
+}
+
+/// A file that the program makes, or makes parts of.
+struct MadeFile {
+    /// From the root.
+    path: String,
+    should: String,
+    /// Where it is something else, for people.
+    differences: Vec<String>,
+}
+
+fn made_files() -> Result<Vec<MadeFile>> {
+    let mut sources = Vec::new();
+    for (path, text) in workspace::texts_with_extension("md")? {
+        let pieces = markers::pieces(&text).with_context(|| path.clone())?;
+        if pieces.iter().any(|piece| matches!(piece, Piece::Made(_))) {
+            sources.push((path, pieces));
+        }
+    }
+    if sources.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut maker = Maker { program: workspace::build_program()?, folders: HashMap::new() };
+    let mut files = Vec::new();
+    for (path, pieces) in sources {
+        let mut should = String::new();
+        let mut differences = Vec::new();
+        for piece in pieces {
+            match piece {
+                Piece::Text(text) => should.push_str(&text),
+                Piece::Made(block) => {
+                    let place = || format!("{path}, line {}", block.line);
+                    let made = match block.kind {
+                        Kind::Output => maker.output(&block),
+                        Kind::Picture => maker.picture(&path, &block).map(|picture| {
+                            files.push(picture);
+                            block.content.clone()
+                        }),
+                    };
+                    let made = made.with_context(place)?;
+                    if made != block.content {
+                        let difference = diff::between(&block.content, &made);
+                        differences.push(format!("line {}:\n{difference}", block.line));
+                    }
+                    should.push_str(&made);
+                }
+            }
+        }
+        files.push(MadeFile { path, should, differences });
+    }
+    Ok(files)
+}
+
+struct Maker {
+    program: PathBuf,
+    /// Where each picture command that has already run wrote its files.
+    folders: HashMap<Vec<String>, PathBuf>,
+}
+
+impl Maker {
+    fn output(&self, block: &Block) -> Result<String> {
+        let output = workspace::output_of(&self.program, &block.arguments)?;
+        Ok(markers::as_markdown(&output, &block.arguments))
+    }
+
+    /// The picture that a block of a document links to: the file of the same name among those
+    /// that its command writes.
+    fn picture(&mut self, document: &str, block: &Block) -> Result<MadeFile> {
+        let target = markers::picture_of(&block.content)?;
+        let path = Path::new(document).parent().unwrap_or(Path::new("")).join(target);
+        let name = path.file_name().context("the image link names no file")?;
+        let made = self.folder(&block.arguments)?.join(name);
+        ensure!(made.is_file(), "the command writes no file {}", name.display());
+        let should = fs::read_to_string(&made)?;
+        let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
+        let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };
+        Ok(MadeFile { path: path.display().to_string(), should, differences })
+    }
+
+    /// Runs a command with `--out` a fresh folder, once, and returns that folder.
+    fn folder(&mut self, arguments: &[String]) -> Result<PathBuf> {
+        if let Some(folder) = self.folders.get(arguments) {
+            return Ok(folder.clone());
+        }
+        let number = self.folders.len();
+        let folder = workspace::root().join("target/xtask/figures").join(number.to_string());
+        if folder.exists() {
+            fs::remove_dir_all(&folder)?;
+        }
+        if let Some(parent) = folder.parent() {
+            fs::create_dir_all(parent)?;
+        }
+        let mut all = arguments.to_vec();
+        all.extend(["--out".into(), folder.display().to_string()]);
+        workspace::output_of(&self.program, &all)?;
+        self.folders.insert(arguments.to_vec(), folder.clone());
+        Ok(folder)
+    }
+}

@@ -1,0 +1,76 @@
+//! Builds the documentation without warnings, but for one kind that is none.
+//!
+//! Our docs write units and sources in brackets, `[m]` or `[FourWheel]`, which rustdoc takes for
+//! links. So `Cargo.toml` switches its lint of broken links off, and here it is switched on by
+//! force: what is left after the units and sources are links that really lead nowhere.
+
+use std::process::Stdio;
+
+use anyhow::{Context, Result};
+
+use crate::workspace;
+
+/// What may stand in brackets without being a link: units, and names of sources.
+const NO_LINKS: [&str; 10] = ["FourWheel", "J", "K", "N", "Pa", "W", "kg", "m", "rad", "s"];
+
+/// Whether the documentation of all crates builds without a warning; prints those it has.
+pub(crate) fn check() -> Result<bool> {
+    let output = workspace::cargo()
+        .args(["doc", "--workspace", "--no-deps"])
+        .env("RUSTDOCFLAGS", "--deny warnings --force-warn rustdoc::broken_intra_doc_links")
+        .stderr(Stdio::piped())
+        .output()
+        .context("cargo did not start")?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let broken = broken_links(&said);
+    if output.status.success() {
+        println!("{}", broken.join("\n\n"));
+    } else {
+        println!("{}", without_mistaken_links(&said).join("\n\n"));
+    }
+    println!("{} broken links", broken.len());
+    Ok(output.status.success() && broken.is_empty())
+}
+
+/// The reports of rustdoc on links that lead nowhere.
+fn broken_links(said: &str) -> Vec<&str> {
+    without_mistaken_links(said)
+        .into_iter()
+        .filter(|report| report.contains("unresolved link to `"))
+        .collect()
+}
+
+/// What rustdoc said, report by report, without those on units and sources.
+fn without_mistaken_links(said: &str) -> Vec<&str> {
+    said.split("\n\n")
+        .filter(|report| {
+            let link = report.split("unresolved link to `").nth(1);
+            let target = link.and_then(|rest| rest.split('`').next());
+            !target.is_some_and(|target| NO_LINKS.contains(&target))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SAID: &str = "\
+ Documenting grouser
+warning: unresolved link to `m`
+  --> a.rs:1:1
+
+warning: unresolved link to `Soil::chek`
+  --> a.rs:2:1
+
+error: something else
+  --> a.rs:3:1";
+
+    #[test]
+    fn units_are_no_links_and_the_rest_is_reported() {
+        let broken = broken_links(SAID);
+        assert_eq!(broken.len(), 1);
+        assert!(broken[0].contains("Soil::chek"));
+        assert_eq!(without_mistaken_links(SAID).len(), 2);
+    }
+}

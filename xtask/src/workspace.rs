@@ -1,0 +1,98 @@
+//! Where the workspace is, what belongs to it, and the program that it builds.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+/// The folder of the workspace's `Cargo.toml`.
+pub(crate) fn root() -> PathBuf {
+    let manifest_dir = std::env::var_os("CARGO_MANIFEST_DIR")
+        .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
+    manifest_dir.parent().map_or(manifest_dir.clone(), Path::to_path_buf)
+}
+
+/// Cargo itself, to be run at the root.
+pub(crate) fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(root()).stdin(Stdio::null());
+    // What `cargo run` told this program about its own package must not leak into other builds.
+    for (name, _) in std::env::vars_os() {
+        if name.to_string_lossy().starts_with("CARGO_PKG_") {
+            command.env_remove(&name);
+        }
+    }
+    command.env_remove("CARGO_MANIFEST_DIR").env_remove("CARGO_MANIFEST_PATH");
+    command
+}
+
+/// Files of the repository, as paths from its root: those under version control and new ones
+/// that are not ignored.
+pub(crate) fn files() -> Result<Vec<String>> {
+    let output = Command::new("git")
+        .args(["ls-files", "-z", "--cached", "--others", "--exclude-standard"])
+        .current_dir(root())
+        .output()
+        .context("`git ls-files` did not start")?;
+    ensure!(output.status.success(), "`git ls-files` failed: {}", lossy(&output.stderr));
+    let root = root();
+    Ok(lossy(&output.stdout)
+        .split('\0')
+        .filter(|path| !path.is_empty() && root.join(path).is_file())
+        .map(String::from)
+        .collect())
+}
+
+/// Whether a file's name has this extension.
+pub(crate) fn has_extension(path: &str, extension: &str) -> bool {
+    Path::new(path).extension().is_some_and(|found| found == extension)
+}
+
+/// The repository's files with this extension, and their text.
+pub(crate) fn texts_with_extension(extension: &str) -> Result<Vec<(String, String)>> {
+    let mut texts = Vec::new();
+    for path in files()? {
+        if has_extension(&path, extension) {
+            let text = std::fs::read_to_string(root().join(&path))
+                .with_context(|| format!("{path} cannot be read"))?;
+            texts.push((path, text));
+        }
+    }
+    Ok(texts)
+}
+
+/// Builds the program `grouser`, optimised, and returns its path.
+pub(crate) fn build_program() -> Result<PathBuf> {
+    let status = cargo()
+        .args(["build", "--release", "--package", "grouser-cli"])
+        .status()
+        .context("cargo did not start")?;
+    ensure!(status.success(), "the program `grouser` does not build");
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
+    Ok(root().join(target).join("release").join(format!("grouser{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// Runs the program at the root and returns what it prints.
+pub(crate) fn output_of(program: &Path, arguments: &[String]) -> Result<String> {
+    let said = || format!("`grouser {}`", arguments.join(" "));
+    let output = Command::new(program)
+        .args(arguments)
+        .current_dir(root())
+        .stdin(Stdio::null())
+        .env("NO_COLOR", "1")
+        .output()
+        .with_context(|| format!("{} did not start", said()))?;
+    ensure!(
+        output.status.success(),
+        "{} ended with {}: {}",
+        said(),
+        output.status,
+        lossy(&output.stderr).trim_end()
+    );
+    String::from_utf8(output.stdout).with_context(|| format!("{} printed no text", said()))
+}
+
+fn lossy(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
