@@ -1,3 +1,4 @@
 //! The claims of the library, tested from outside.
 
+mod documents;
 mod reference;
