@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::contact::Theory;
+use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
     Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
@@ -164,6 +164,24 @@ fn the_mit_rig_has_its_stiffness() {
         let width = wheel("mit-rig").width;
         let stiffness = soil.pressure_sinkage.stiffness(width, soil.cohesion, 0.0, 0.3);
         assert!((stiffness.pressure(width) / k_eq - 1.0).abs() < 1e-12, "{name}");
+    }
+}
+
+/// Complete enough to run: on every soil the HAKUTO wheel stands under a quarter of its rover's
+/// weight, at every slip.
+#[test]
+fn every_soil_carries_a_wheel() {
+    for preset in document::presets(Kind::Soil) {
+        for slip_ratio in [-0.5, 0.0, 0.2, 0.8] {
+            let contact = Contact {
+                wheel: wheel("hakuto"),
+                soil: soil(preset.name),
+                slip: Slip::on_test_stand(slip_ratio, deg(10.0)),
+                gravity: 9.80665,
+            };
+            let settled = settle(&Ishigami::default(), &contact, 17.0);
+            assert!(settled.is_ok(), "{} at slip {slip_ratio}: {settled:?}", preset.name);
+        }
     }
 }
 
