@@ -431,7 +431,8 @@ fn note_birthplace(kind: Kind, tree: &Node, overrides: &Overrides, assumed: &mut
 fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> DocumentError {
     match (error.problem(), source) {
         (Problem::NoSuchFile, Source::File(path))
-            if error.place().document == path.display().to_string() =>
+            if error.place().spot.is_none()
+                && error.place().document == path.display().to_string() =>
         {
             let hint = format!("looked for {}", path.display());
             error.seen_from(origin).with_hint(hint)

@@ -7,7 +7,7 @@
 use serde_json::Value as Json;
 
 use super::Kind;
-use super::error::{DocumentError, Problem};
+use super::error::{DocumentError, Problem, number};
 use super::schema::{alternatives, json, keys, paths_of, words};
 use super::text::{Entry, Node, Origin, Value};
 
@@ -16,13 +16,13 @@ use super::text::{Entry, Node, Origin, Value};
 /// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
 pub(super) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
     let root = json(kind);
-    Checker { root }.value(root, tree, prefix, &tree.origin)
+    Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
 }
 
 /// The keys that a table of a document may have, given what it says already.
 pub(super) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'static str>> {
     let root = json(kind);
-    let checker = Checker { root };
+    let checker = Checker { root, prefix: "" };
     let (mut schema, mut node) = (root, tree);
     for step in path {
         let table = checker.choose(schema, node, "", &node.origin).ok()?;
@@ -47,11 +47,12 @@ pub(super) fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) 
         .map(|(_, known)| known)
 }
 
-struct Checker {
+struct Checker<'a> {
     root: &'static Json,
+    prefix: &'a str,
 }
 
-impl Checker {
+impl Checker<'_> {
     /// * `path`: the value's key, with the tables it stands in
     /// * `key`: where that key was written
     fn value(
@@ -166,9 +167,9 @@ impl Checker {
         let hint = if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
             format!("did you mean `{meant}`?")
         } else if let [only] = &paths_of(self.root, &entry.key)[..]
-            && *only != path
+            && join(self.prefix, only) != path
         {
-            format!("did you mean `{only}`?")
+            format!("did you mean `{}`?", join(self.prefix, only))
         } else {
             format!("the keys here{law} are {}", quoted(&known, '`'))
         };
@@ -211,7 +212,8 @@ fn check_range(schema: &Json, node: &Node, value: f64, path: &str) -> Result<(),
     let end = |name: &str| schema.get(name).and_then(Json::as_f64);
     let (least, most) = (end("minimum"), end("maximum"));
     let above = end("exclusiveMinimum");
-    let range = match (least, above, most) {
+    let words = |end: Option<f64>| end.map(number);
+    let range = match (words(least), words(above), words(most)) {
         (Some(least), _, Some(most)) => Some(format!("{least} to {most}")),
         (None, Some(above), Some(most)) => Some(format!("above {above} and at most {most}")),
         (Some(least), _, None) => Some(format!("at least {least}")),
@@ -329,5 +331,25 @@ pub(super) fn unknown_tag(tags: &[&str], node: &Node) -> DocumentError {
     match check_word(tags, node, "schema") {
         Err(error) => error,
         Ok(()) => DocumentError::at(&node.origin, Problem::Empty),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_misspelling_finds_what_was_meant_and_nothing_else() {
+        let keys = ["cohesion_kpa", "friction_angle_deg", "density_kg_m3", "shear", "exit"];
+        for (word, meant) in [
+            ("cohesion", Some("cohesion_kpa")),
+            ("Cohesion_kPa", Some("cohesion_kpa")),
+            ("friction_angel_deg", Some("friction_angle_deg")),
+            ("shaer", Some("shear")),
+            ("radius_m", None),
+            ("x", None),
+        ] {
+            assert_eq!(nearest(word, keys), meant, "{word}");
+        }
     }
 }

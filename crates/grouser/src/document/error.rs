@@ -135,7 +135,7 @@ pub enum Problem {
         range: String,
     },
     /// A number outside its range.
-    #[error("`{key}` is {value}, it must be {range}")]
+    #[error("`{key}` is {}, it must be {range}", number(*value))]
     OutOfRange {
         /// The key.
         key: String,
@@ -186,6 +186,13 @@ pub enum Problem {
     /// An argument that is not `document.key=value`.
     #[error("{0}")]
     Malformed(&'static str),
+}
+
+/// A number as messages write it: without hundreds of zeros.
+pub(super) fn number(value: f64) -> String {
+    let size = value.abs();
+    let is_short = size == 0.0 || (1e-5..1e9).contains(&size) || !size.is_finite();
+    if is_short { format!("{value}") } else { format!("{value:e}") }
 }
 
 impl DocumentError {
@@ -306,3 +313,49 @@ impl fmt::Display for DocumentError {
 }
 
 impl std::error::Error for DocumentError {}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+    use std::sync::Arc;
+
+    use super::*;
+
+    fn message(content: &str, marked: &str) -> String {
+        let start = content.find(marked).expect("it is there");
+        let text = Arc::new(Text {
+            label: "a.toml".to_owned(),
+            content: content.to_owned(),
+            folder: PathBuf::new(),
+            is_argument: false,
+        });
+        let origin = Origin { text, span: start..start + marked.len() };
+        DocumentError::at(&origin, Problem::Empty).to_string()
+    }
+
+    #[test]
+    fn the_mark_stands_under_the_value_whatever_the_characters_before_it() {
+        let message = message("x = 1\n\"φρ\" = 25 # µ\n", "25");
+        let lines: Vec<_> = message.lines().collect();
+        assert!(lines[0].starts_with("a.toml:2:8: "), "{message}");
+        assert_eq!(lines[2], "2 | \"φρ\" = 25 # µ");
+        assert_eq!(lines[3], "  |        ^^");
+    }
+
+    #[test]
+    fn a_long_line_is_shown_around_the_mark() {
+        let content = format!("{}25{}", "a".repeat(5000), "b".repeat(5000));
+        let message = message(&content, "25");
+        assert!(message.starts_with("a.toml:1:5001: "), "{message}");
+        let lines: Vec<_> = message.lines().collect();
+        assert!(lines[2].len() < 120 && lines[2].contains("a25b"), "{message}");
+        assert_eq!(lines[3].find('^'), lines[2].find("25"));
+    }
+
+    #[test]
+    fn huge_numbers_stay_short() {
+        assert_eq!(number(1e300), "1e300");
+        assert_eq!(number(-0.06), "-0.06");
+        assert_eq!(number(86_400.0), "86400");
+    }
+}

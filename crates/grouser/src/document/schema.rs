@@ -20,16 +20,21 @@ pub fn schema(kind: Kind) -> String {
     text
 }
 
-/// The range that a number of a document may have, both ends included where they are finite.
+/// The range that a number of a document may have, both ends included unless they are 0 and
+/// excluded there. Where the keys depend on a `law`, the widest range of all laws.
 ///
-/// * `path`: the key with its tables, such as `pressure_sinkage.n`; where the keys depend on a
-///   `law`, the first law that has the key counts
+/// * `path`: the key with its tables, such as `pressure_sinkage.n`; entries of a list have the
+///   list's key
 #[must_use]
 pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
-    let schema = property(json(kind), json(kind), path)?;
-    let number = number_of(schema);
-    let end = |names: [&str; 2]| names.iter().find_map(|name| number.get(*name)?.as_f64());
-    Some(end(["minimum", "exclusiveMinimum"])?..=end(["maximum", "exclusiveMaximum"])?)
+    let root = json(kind);
+    let ranges = properties(root, root, path).into_iter().filter_map(|schema| {
+        let number = schema.get("items").unwrap_or(schema);
+        let end = |names: [&str; 2]| names.iter().find_map(|name| number.get(*name)?.as_f64());
+        Some((end(["minimum", "exclusiveMinimum"])?, end(["maximum", "exclusiveMaximum"])?))
+    });
+    let widest = ranges.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+    widest.map(|(least, most)| least..=most)
 }
 
 /// The same schema as a value, made once.
@@ -123,17 +128,16 @@ fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &
     }
 }
 
-fn property<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Option<&'s Json> {
+/// Everything that a key may be, over all laws.
+fn properties<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Vec<&'s Json> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
-    alternatives(root, schema).into_iter().find_map(|table| {
-        let child = table.get("properties")?.get(first)?;
-        match rest {
-            Some(rest) => property(root, child, rest),
-            None => alternatives(root, child).first().copied(),
-        }
-    })
-}
-
-fn number_of(schema: &Json) -> &Json {
-    schema.get("items").unwrap_or(schema)
+    let tables = alternatives(root, schema).into_iter();
+    let tables = tables.map(|table| table.get("items").map_or(table, |items| resolve(root, items)));
+    let children = tables.filter_map(|table| table.get("properties")?.get(first));
+    children
+        .flat_map(|child| match rest {
+            Some(rest) => properties(root, child, rest),
+            None => alternatives(root, child),
+        })
+        .collect()
 }

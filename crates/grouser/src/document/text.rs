@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::error::{DocumentError, Problem};
+use super::error::{DocumentError, Problem, number};
 
 /// A text that values come from.
 #[derive(Debug)]
@@ -75,38 +75,17 @@ pub(super) struct Entry {
 const DEEPEST: usize = 16;
 
 /// The tree of a TOML text.
+///
+/// The parser gives up at 80 brackets and at 80 dots, which together can nest a few thousand
+/// tables: little enough for any stack. Our own limit is far below.
 pub(super) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
-    check_nesting(&whole)?;
     let document = toml_edit::Document::parse(text.content.as_str()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let problem = Problem::Syntax(error.message().trim().replace('\n', ", "));
         DocumentError::at(&Origin { text: text.clone(), span }, problem)
     })?;
     Reader { text }.table(document.as_table(), whole, 0)
-}
-
-/// That no key has more dots than any document needs: the parser limits brackets and dots each
-/// for itself, but together they could nest thousands of tables.
-fn check_nesting(whole: &Origin) -> Result<(), DocumentError> {
-    let mut depth = 0_usize;
-    let mut dots = 0_usize;
-    for (at, byte) in whole.text.content.bytes().enumerate() {
-        match byte {
-            b'.' => dots += 1,
-            b'{' | b'[' => depth += 1,
-            b'}' | b']' => depth = depth.saturating_sub(1),
-            b'\n' => dots = 0,
-            _ => {}
-        }
-        /// Far more than our documents have, far less than a stack holds.
-        const MOST_BRACKETS: usize = 64;
-        if depth > MOST_BRACKETS && dots > DEEPEST {
-            let origin = Origin { text: whole.text.clone(), span: at..at + 1 };
-            return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
-        }
-    }
-    Ok(())
 }
 
 /// Takes the parser's tables over into ours.
@@ -259,11 +238,45 @@ impl Node {
             }
             Value::String(string) => format!("the text \"{}\"", string.escape_debug()),
             Value::Integer(integer) => format!("the integer {integer}"),
-            Value::Float(float) => format!("the number {float}"),
+            Value::Float(float) => format!("the number {}", number(*float)),
             Value::Boolean(boolean) => format!("the truth value {boolean}"),
             Value::Date(date) => format!("the date {date}"),
             Value::List(_) => "a list".to_owned(),
             Value::Table(_) => "a table".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tree(content: &str) -> Node {
+        let text = Text {
+            label: "test".to_owned(),
+            content: content.to_owned(),
+            folder: PathBuf::new(),
+            is_argument: false,
+        };
+        parse(&Arc::new(text)).expect("it is TOML")
+    }
+
+    #[test]
+    fn every_value_knows_where_it_was_written() {
+        let content = "a = 1\n[t]\nb = [2, 33]\n[[m]]\nc = 4\n[[m]]\nc = 5\n";
+        let tree = tree(content);
+        for (path, written) in [
+            ("a", "1"),
+            ("t", "t"),
+            ("t.b", "[2, 33]"),
+            ("t.b.1", "33"),
+            ("m.1", "[[m]]"),
+            ("m.1.c", "5"),
+            ("t.none", "t"),
+            ("t.b.1.none", "33"),
+        ] {
+            let span = tree.origin_of(path).span.clone();
+            assert_eq!(&content[span], written, "{path}");
         }
     }
 }

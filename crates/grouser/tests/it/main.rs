@@ -1,4 +1,5 @@
 //! The claims of the library, tested from outside.
 
+mod documents;
 mod floors;
 mod reference;

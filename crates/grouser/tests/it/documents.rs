@@ -1,0 +1,772 @@
+//! Documents: the presets, the way there and back, and everything that can be wrong with one.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
+use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
+use grouser::soil::{
+    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+};
+use grouser::units::deg;
+use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
+use grouser::wheel::{Grousers, Wheel};
+use proptest::prelude::*;
+use serde_json::Value;
+
+// ---- Presets ----
+
+/// What reading any document gives that all kinds have.
+#[derive(Debug)]
+struct Read {
+    resolved: String,
+    meaning: String,
+    assumptions: Vec<String>,
+}
+
+fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, DocumentError> {
+    macro_rules! read {
+        ($reader:ident) => {{
+            let loaded = document::$reader(source, overrides)?;
+            let meaning = format!("{:?}", loaded.value);
+            Ok(Read { resolved: loaded.to_toml(), meaning, assumptions: loaded.assumptions })
+        }};
+    }
+    match kind {
+        Kind::Soil => read!(read_soil),
+        Kind::Wheel => read!(read_wheel),
+        Kind::Rover => read!(read_rover),
+        Kind::Scenario => read!(read_scenario),
+    }
+}
+
+fn all_presets() -> impl Iterator<Item = &'static document::Preset> {
+    Kind::ALL.into_iter().flat_map(document::presets)
+}
+
+#[test]
+fn every_preset_is_read_and_its_resolved_document_means_the_same() {
+    for preset in all_presets() {
+        let first = read(preset.kind, &Source::Preset(preset), &Overrides::none());
+        let first = first.unwrap_or_else(|error| panic!("{error}"));
+        let again = Source::text("resolved", &first.resolved);
+        let second = read(preset.kind, &again, &Overrides::none())
+            .unwrap_or_else(|error| panic!("{}: {error}", preset.name));
+        assert_eq!(first.meaning, second.meaning, "{}", preset.name);
+        assert_eq!(first.resolved, second.resolved, "{}", preset.name);
+        assert_eq!(first.assumptions, second.assumptions, "{}", preset.name);
+    }
+}
+
+#[test]
+fn every_preset_says_its_name_and_its_source() {
+    for preset in all_presets() {
+        let (name, source) = preset.title_and_source();
+        assert_ne!(name, "unnamed", "{}", preset.name);
+        if preset.kind != Kind::Scenario {
+            assert!(!source.is_empty() && source != "not stated", "{}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn every_file_of_the_data_is_a_preset() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folders = ["data/soils", "data/wheels", "data/rovers", "scenarios"];
+    for (kind, folder) in Kind::ALL.into_iter().zip(folders) {
+        let entries = fs::read_dir(root.join(folder)).expect("the folder is there");
+        let mut files: Vec<_> = entries
+            .map(|entry| entry.expect("it can be listed").path())
+            .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+            .collect();
+        files.sort();
+        let mut presets: Vec<_> =
+            document::presets(kind).map(|preset| preset.name.to_owned()).collect();
+        presets.sort();
+        assert_eq!(files, presets, "{folder}");
+    }
+}
+
+fn soil(name: &str) -> Soil {
+    let source = Source::find(Kind::Soil, name).expect("a preset");
+    document::read_soil(&source, &Overrides::none()).expect("it is read").value
+}
+
+fn wheel(name: &str) -> Wheel {
+    let source = Source::find(Kind::Wheel, name).expect("a preset");
+    document::read_wheel(&source, &Overrides::none()).expect("it is read").value
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("not a number: {value}"))
+}
+
+/// A soil of the reference files, whose keys are in SI.
+fn reference_soil(case: &str) -> Soil {
+    let json: Value = serde_json::from_str(include_str!("reference/wheel_equilibrium.json"))
+        .expect("the reference files are JSON");
+    let rows = json["rows"].as_array().expect("they have rows");
+    let soil = &rows.iter().find(|row| row["case"] == case).expect("the case is there")["soil"];
+    let law = &soil["pressure_sinkage"];
+    let (k_c, k_phi) = (number(&law["k_c"]), number(&law["k_phi"]));
+    let exponent = SinkageExponent::constant(number(&law["n"]));
+    let modulus = |axis: &str| ShearModulus::Linear {
+        at_zero: number(&soil["shear_modulus"][format!("{axis}_m")]),
+        per_radian: number(&soil["shear_modulus"][format!("{axis}_per_rad_m")]),
+    };
+    Soil {
+        cohesion: number(&soil["cohesion_pa"]),
+        friction_angle: deg(number(&soil["friction_angle_deg"])),
+        density: number(&soil["density_kg_m3"]),
+        pressure_sinkage: if law["law"] == "reece" {
+            PressureSinkage::Reece { k_c, k_phi, exponent }
+        } else {
+            PressureSinkage::Bekker { k_c, k_phi, exponent }
+        },
+        stress_peak: grouser::soil::StressPeak {
+            a0: number(&soil["max_stress"]["a0"]),
+            a1: number(&soil["max_stress"]["a1"]),
+        },
+        shear: Shear::Anisotropic {
+            longitudinal: modulus("longitudinal"),
+            lateral: modulus("lateral"),
+        },
+        exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
+        bulldozing: Bulldozing::Sine,
+    }
+}
+
+/// All equal; the moduli to the last but one bit, which is how well the JSON is read here.
+fn check_constants(soil: &Soil, reference: &Soil) {
+    let pressure_sinkage = reference.pressure_sinkage;
+    assert_eq!(&Soil { pressure_sinkage, ..*soil }, reference);
+    let stiffness = |soil: &Soil| soil.pressure_sinkage.stiffness(0.1, soil.cohesion, 1e4, 0.0);
+    let (ours, theirs) = (stiffness(soil), stiffness(reference));
+    assert_eq!(ours.exponent, theirs.exponent);
+    assert!((ours.modulus / theirs.modulus - 1.0).abs() < 4.0 * f64::EPSILON);
+}
+
+#[test]
+fn presets_have_the_constants_of_the_reference() {
+    check_constants(&soil("toyoura"), &reference_soil("toyoura_17n"));
+    check_constants(&soil("simulant-2007"), &reference_soil("simulant_2007"));
+    check_constants(&soil("lunar-nominal"), &reference_soil("lunar_nominal"));
+    let grousers = Some(Grousers { height: 0.010, count: 24 });
+    assert_eq!(wheel("hakuto"), Wheel { radius: 0.10, width: 0.08, grousers });
+    assert_eq!(wheel("jfr-2007"), Wheel { radius: 0.092, width: 0.107, grousers: None });
+}
+
+/// k_eq (z/b)ⁿ of the MIT rig, written as Reece's law: at a sinkage of b the pressure is k_eq.
+#[test]
+fn the_mit_rig_has_its_stiffness() {
+    for (name, k_eq) in [("mit-rig-a", 2.54e5), ("mit-rig-b", 0.141e6)] {
+        let soil = soil(name);
+        let width = wheel("mit-rig").width;
+        let stiffness = soil.pressure_sinkage.stiffness(width, soil.cohesion, 0.0, 0.3);
+        assert!((stiffness.pressure(width) / k_eq - 1.0).abs() < 1e-12, "{name}");
+    }
+}
+
+/// Complete enough to run: on every soil the HAKUTO wheel stands under a quarter of its rover's
+/// weight, at every slip.
+#[test]
+fn every_soil_carries_a_wheel() {
+    for preset in document::presets(Kind::Soil) {
+        for slip_ratio in [-0.5, 0.0, 0.2, 0.8] {
+            let contact = Contact {
+                wheel: wheel("hakuto"),
+                soil: soil(preset.name),
+                slip: Slip::on_test_stand(slip_ratio, deg(10.0)),
+                gravity: 9.80665,
+            };
+            let settled = settle(&Ishigami::default(), &contact, 17.0);
+            assert!(settled.is_ok(), "{} at slip {slip_ratio}: {settled:?}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn the_laboratory_blocks_keep_their_shapes() {
+    let lab_2007 = soil("toyoura-lab-2007");
+    assert_eq!(lab_2007.bulldozing, Bulldozing::SineSquared);
+    let Shear::Anisotropic { longitudinal, .. } = lab_2007.shear else { panic!("{lab_2007:?}") };
+    let beta = deg(30.0);
+    let k_x = -0.0073 * beta * beta - 0.0403 * beta + 0.07;
+    assert!((longitudinal.at(beta) - k_x).abs() < 1e-15);
+    assert_eq!(longitudinal.at(deg(60.0)), longitudinal.at(deg(45.0)));
+    let lab_2012 = soil("toyoura-lab-2012");
+    assert_eq!(lab_2012.bulldozing, Bulldozing::None);
+    assert!((lab_2012.exit.ratio(0.463) - 0.3634).abs() < 1e-4);
+}
+
+#[test]
+fn rovers_weigh_what_their_sources_say() {
+    for (name, mass, height) in [
+        ("hakuto", 6.928, 0.11 + 0.0454),
+        ("hakuto-flight", 4.5, 0.11 + 0.0454),
+        ("el-dorado-2", 22.36, 0.2115),
+    ] {
+        let source = Source::find(Kind::Rover, name).expect("a preset");
+        let rover = document::read_rover(&source, &Overrides::none()).expect("it is read").value;
+        assert!((rover.mass() - mass).abs() < 1e-8, "{name} weighs {}", rover.mass());
+        assert!((rover.centre_height() - height).abs() < 5e-5, "{name}");
+    }
+}
+
+/// Design, section 4: the example is the default.
+#[test]
+fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
+    let overrides = Overrides::none();
+    let default = document::read_scenario(&Source::default_scenario(), &overrides);
+    let run = default.expect("it is read").value;
+    let written = Source::find(Kind::Scenario, "traverse-10-deg").expect("a preset");
+    assert_eq!(run, document::read_scenario(&written, &overrides).expect("it is read").value);
+    assert_eq!(run.site.slope, deg(10.0));
+    assert_eq!(run.site.gravity, 9.80665);
+    assert_eq!(run.duration, 20.0);
+    assert_eq!(run.theory, Theory::Ishigami);
+    assert_eq!(run.drive, DriveLaw::Constant(0.06));
+    assert_eq!((run.sharing, run.own_moments), (LoadSharing::QuasiStatic, OwnMoments::Neglected));
+    assert_eq!(run.site.soil, soil("toyoura"));
+    assert_eq!(run.rover.mounts()[0].name, "front-left");
+}
+
+#[test]
+fn gravities_have_names() {
+    assert_eq!(document::gravity("earth"), Some(9.80665));
+    assert_eq!(document::gravity("moon"), Some(1.62));
+    assert_eq!(document::gravity("mars"), Some(3.71));
+    assert_eq!(document::gravity("venus"), None);
+}
+
+// ---- Overrides ----
+
+fn override_scenario(settings: &[&str]) -> Result<document::LoadedScenario, DocumentError> {
+    document::read_scenario(&Source::default_scenario(), &Overrides::parse(settings)?)
+}
+
+#[test]
+fn overrides_reach_every_part_of_a_scenario() {
+    let run = override_scenario(&[
+        "scenario.rover=el-dorado-2",
+        "scenario.slope_deg = 5",
+        "soil.cohesion_kpa=0.5",
+        "wheel.radius_m=0.2",
+        "rover.body.mass_kg=20",
+        "rover.mount.0.position_m=[0.31, 0.275, -0.14]",
+        "scenario.drive.speed_m_s=[0.1, 0.1, -0.1, -0.1]",
+    ]);
+    let error = run.expect_err("the hubs are no longer level");
+    assert!(error.to_string().contains("height z of wheel"), "{error}");
+    let run = override_scenario(&[
+        "scenario.rover=el-dorado-2",
+        "scenario.slope_deg = 5",
+        "soil.cohesion_kpa=0.5",
+        "wheel.radius_m=0.2",
+        "rover.body.mass_kg=20",
+        "scenario.drive={speed_m_s=[0.1, 0.1, -0.1, -0.1]}",
+    ]);
+    let run = run.expect("all are allowed");
+    assert_eq!(run.value.site.slope, deg(5.0));
+    assert_eq!(run.value.site.soil.cohesion, 500.0);
+    assert_eq!(run.value.rover.wheel().radius, 0.2);
+    assert_eq!(run.value.rover.mass(), 24.0);
+    assert_eq!(run.value.drive, DriveLaw::ConstantEach(vec![0.1, 0.1, -0.1, -0.1]));
+    let set = "soil Toyoura sand: cohesion_kpa: set to 0.5";
+    assert!(run.assumptions.iter().any(|one| one.starts_with(set)), "{:#?}", run.assumptions);
+}
+
+#[test]
+fn an_override_ends_the_assumption_it_replaces() {
+    let run = override_scenario(&["soil.exit.ratio=0.8"]).expect("allowed");
+    let of_exit: Vec<_> =
+        run.assumptions.iter().filter(|one| one.contains("exit.ratio:")).collect();
+    assert_eq!(of_exit.len(), 1, "{of_exit:?}");
+}
+
+#[test]
+fn a_new_law_needs_no_cleaning_up() {
+    let run = override_scenario(&["soil.shear.law=isotropic", "soil.bulldozing.law=none"]);
+    let soil = run.expect("allowed").value.site.soil;
+    assert!(matches!(soil.shear, Shear::Isotropic { .. }));
+    assert_eq!(soil.bulldozing, Bulldozing::None);
+    let run = override_scenario(&["scenario.drive.law=eq18", "scenario.drive.speed_m_s=0.1"]);
+    assert!(matches!(run.expect("allowed").value.drive, DriveLaw::Eq18(_)));
+}
+
+#[test]
+fn a_soil_names_its_theory_and_a_scenario_overrules_it() {
+    let theory = |settings: &[&str]| override_scenario(settings).expect("allowed").value.theory;
+    assert_eq!(theory(&["soil.model=bekker"]), Theory::Bekker);
+    assert_eq!(theory(&["soil.model=bekker", "scenario.model=ishigami"]), Theory::Ishigami);
+}
+
+#[test]
+fn flags_are_named_in_messages() {
+    let mut overrides = Overrides::none();
+    overrides.flag("--slope-deg", "scenario.slope_deg", "80").expect("it is a value");
+    let error = document::read_scenario(&Source::default_scenario(), &overrides);
+    let error = error.expect_err("too steep").to_string();
+    assert!(error.starts_with("--slope-deg 80: `slope_deg` is 80, it must be 0 to 60"), "{error}");
+    overrides.flag_text("--soil", "scenario.soil", "1e5").expect("a name is a name");
+    let error = document::read_scenario(&Source::default_scenario(), &overrides);
+    let error = error.expect_err("no such soil").to_string();
+    assert!(error.starts_with("--soil 1e5: there is no soil preset and no file"), "{error}");
+}
+
+#[test]
+fn wrong_overrides_say_so() {
+    for (setting, message) in [
+        ("soil.cohesion_kpa", "not of the form document.key=value"),
+        ("sol.cohesion_kpa=1", "did you mean `soil`?"),
+        ("soil=1", "there is no key"),
+        ("soil..x=1", "there is no key"),
+        ("soil.cohesion_kpa=", "there is no value"),
+        ("soil.cohesion_kpa=[1", "not TOML"),
+        ("soil.cohesion_kpa=1\nx=2", "this is not one value"),
+        ("soil.cohesion_kpa=much", "`soil.cohesion_kpa` is the text \"much\", it must be a number"),
+        ("soil.cohesion_kpa=\"1\"", "a number is written without quotes"),
+        ("soil.cohesion_kpa.x=1", "leads through a value that is not a table"),
+        ("soil.n=-1", "did you mean `soil.pressure_sinkage.n`?"),
+        ("soil.cohesion=1", "did you mean `cohesion_kpa`?"),
+        ("soil.density_kg_m3=inf", "it must be a finite number, 200 to 4000"),
+        ("scenario.rover=hakutoo", "did you mean `hakuto`?"),
+        ("scenario.model=bekke", "did you mean \"bekker\"?"),
+    ] {
+        let error = override_scenario(&[setting]).expect_err(setting).to_string();
+        assert!(error.contains(message), "{setting}: {error}");
+        let first_line = setting.lines().next().unwrap_or_default();
+        assert!(error.starts_with(&format!("--set {first_line}")), "{error}");
+    }
+    let overrides = Overrides::parse(["rover.body.mass_kg=1"]).expect("it is a value");
+    let error = overrides.check_kinds(&[Kind::Soil, Kind::Wheel]).expect_err("no rover is read");
+    assert!(error.to_string().contains("it reads: soil, wheel"), "{error}");
+}
+
+// ---- Bad documents ----
+
+/// A preset's text with one piece replaced.
+fn changed(kind: Kind, name: &str, from: &str, to: &str) -> String {
+    let text = document::preset(kind, name).expect("a preset").text;
+    assert!(text.contains(from), "{name} has no `{from}`");
+    text.replacen(from, to, 1)
+}
+
+fn fail(kind: Kind, content: &str) -> DocumentError {
+    let source = Source::text("bad.toml", content);
+    read(kind, &source, &Overrides::none()).expect_err(content)
+}
+
+/// The whole of a message, once: place, line, mark, hint.
+#[test]
+fn a_message_reads_like_a_compilers() {
+    let text = changed(
+        Kind::Soil,
+        "toyoura",
+        "friction_angle_deg = 38.0",
+        "friction_angle_deg = 80.0 # steep",
+    );
+    let line = text.lines().position(|line| line.contains("80.0")).expect("it is there") + 1;
+    let expected = format!(
+        "bad.toml:{line}:22: `friction_angle_deg` is 80, it must be 5 to 60\n   \
+         |\n{line} | friction_angle_deg = 80.0 # steep\n   \
+         |                      ^^^^\n\
+         hint: Angle of internal friction, φ [°]."
+    );
+    assert_eq!(fail(Kind::Soil, &text).to_string(), expected);
+}
+
+#[test]
+fn wrong_soils_say_what_where_and_how_to_mend_it() {
+    for (from, to, message) in [
+        ("cohesion_kpa ", "cohesion_pka ", "hint: did you mean `cohesion_kpa`?"),
+        ("cohesion_kpa ", "cohesion ", "unknown key `cohesion`\n"),
+        ("cohesion_kpa       = 0.0", "", ":1:1: `cohesion_kpa` is missing"),
+        ("= 38.0", "= \"38.0\"", "`friction_angle_deg` is the text \"38.0\", it must be a number"),
+        ("= 38.0", "= true", "is the truth value true, it must be a number"),
+        ("= 38.0", "= 2020-01-01", "is the date 2020-01-01, it must be a number"),
+        ("= 38.0", "= [38.0]", "is a list, it must be a number"),
+        ("= 38.0", "= nan", "`friction_angle_deg` is NaN, it must be a finite number, 5 to 60"),
+        ("= 38.0", "= -inf", "`friction_angle_deg` is -inf, it must be a finite number, 5 to 60"),
+        ("= 38.0", "= 4.999", "is 4.999, it must be 5 to 60"),
+        ("= 1490.0", "= 9999999999999999999", "not TOML"),
+        ("cohesion_kpa ", "density_kg_m3 = 1.0\ncohesion_kpa ", "duplicate key"),
+        ("[exit]", "[shear]", "duplicate key"),
+        ("\"reece\"", "\"rece\"", "`pressure_sinkage.law` is \"rece\", it must be"),
+        ("\"reece\"", "\"rece\"", "hint: did you mean \"reece\"?"),
+        ("law   = \"reece\"", "", "`pressure_sinkage.law` is missing\n"),
+        ("n     = 1.703", "", "`pressure_sinkage.n` is missing"),
+        ("n     = 1.703", "n     = 2.9\nn_per_slip = 1", "at a slip ratio of 1 is 3.9"),
+        ("k_phi = 122.72692509674557", "k_phi = 0", "together is 0, it must be"),
+        ("k_phi = 122.72692509674557", "k_phi = 1e6", "it must be 0 to 100000"),
+        ("longitudinal_per_rad_m = 0.043", "longitudinal_per_rad_m = -0.1", "at a slip angle of"),
+        ("ratio = 1.0", "ratios = 1.0", "did you mean `ratio`?"),
+        ("ratio = 1.0", "law = \"quadratic-in-slip\"", "`exit.at_zero` is missing"),
+        (
+            "ratio = 1.0",
+            "law = \"quadratic-in-slip\"\nat_zero = 1\nper_slip = 1\nper_slip2 = 0",
+            "the exit-angle ratio at a slip ratio of 0.51",
+        ),
+        ("\"sine\"", "\"cosine\"", "`bulldozing.law` is \"cosine\", it must be \"none\", \"sign\""),
+        ("[shear]", "[shears]", "unknown key `shears`"),
+        ("\"soil/1\"", "\"soil/2\"", "`schema` is \"soil/2\", it must be \"soil/1\""),
+        (
+            "\"soil/1\"",
+            "\"wheel/1\"",
+            "this is a `wheel/1` document, a `soil/1` document is needed",
+        ),
+        ("\"soil/1\"", "1", "`schema` is the integer 1, it must be"),
+        ("schema = \"soil/1\"", "", "`schema` is missing"),
+        ("n     = 1.703", "n     = 1.703 1.8", "not TOML"),
+    ] {
+        let text = changed(Kind::Soil, "toyoura", from, to);
+        let error = fail(Kind::Soil, &text).to_string();
+        assert!(error.contains(message), "`{to}`: {error}");
+        assert!(error.starts_with("bad.toml:"), "{error}");
+        assert!(error.lines().nth(2).is_some_and(|line| line.contains(" | ")), "{error}");
+    }
+}
+
+#[test]
+fn wrong_rovers_say_what_where_and_how_to_mend_it() {
+    let cut = |from: &str| {
+        let text = document::preset(Kind::Rover, "hakuto").expect("a preset").text;
+        text[..text.find(from).expect("it is there")].to_owned()
+    };
+    let two_wheels = fail(Kind::Rover, &cut("[[mount]]\nname = \"rear-right\""));
+    assert!(two_wheels.to_string().contains("`mount` has 2 entries, it must have 3 or more"));
+    assert!(two_wheels.place().spot.as_ref().is_some_and(|spot| spot.line > 10), "{two_wheels}");
+    for (from, to, message) in [
+        ("mass_kg = 5.24", "mass_kg = 0", "`body.mass_kg` is 0, it must be 0.01 to 100000"),
+        ("zz = 0.230", "zz = -1", "`body.inertia_kg_m2.zz` is -1, it must be"),
+        (
+            "[0.19, 0.24, -0.06]",
+            "[0.19, 0.24]",
+            "`mount.0.position_m` has 2 entries, it must have 3",
+        ),
+        ("[0.19, 0.24, -0.06]", "[0.19, nan, -0.06]", "`mount.0.position_m.1` is NaN"),
+        (
+            "[-0.17, 0.24, -0.06]",
+            "[-0.17, 0.24, -0.07]",
+            "height z of wheel rear-left [m] is -0.07",
+        ),
+        ("\"rear-left\"", "\"front-left\"", "`mount.1.name` is \"front-left\" a second time"),
+        ("wheel = \"hakuto\"", "wheel = \"hakuot\"", "did you mean `hakuto`?"),
+        ("wheel = \"hakuto\"", "wheel = \"w/none.toml\"", "there is no such file"),
+        (
+            "wheel = \"hakuto\"",
+            "wheel = 5",
+            "is the integer 5, it must be a text in quotes or a table",
+        ),
+        (
+            "wheel = \"hakuto\"",
+            "wheel = { radius_m = 2, width_m = 0.1 }",
+            "`wheel_unit.wheel.radius_m` is 2, it must be 0.01 to 1",
+        ),
+        (
+            "wheel = \"hakuto\"",
+            "wheel = { schema = \"soil/1\", radius_m = 0.1, width_m = 0.1 }",
+            "this is a `soil/1` document, a `wheel/1` document is needed",
+        ),
+        ("wheel = \"hakuto\"", "", "`wheel_unit.wheel` is missing"),
+    ] {
+        let text = changed(Kind::Rover, "hakuto", from, to);
+        let error = fail(Kind::Rover, &text);
+        assert!(error.to_string().contains(message), "`{to}`: {error}");
+        let line = error.place().spot.as_ref().map(|spot| spot.line);
+        assert!(line > Some(1), "`{to}`: {error}");
+    }
+    let in_line = document::preset(Kind::Rover, "hakuto").expect("a preset").text;
+    let in_line = in_line.replace(" 0.24,", " 0.0,").replace("-0.24,", "0.0,");
+    let error = fail(Kind::Rover, &in_line);
+    assert!(error.to_string().contains("the wheels must not stand in one line"), "{error}");
+    assert!(error.to_string().contains("[[mount]]"), "{error}");
+}
+
+#[test]
+fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
+    for (lines, message) in [
+        ("gravity_m_s2 = -1.62", "`gravity_m_s2` is -1.62, it must be 0.01 to 30"),
+        ("duration_s = 0", "`duration_s` is 0, it must be above 0 and at most 86400"),
+        ("slope_deg = 60.1", "`slope_deg` is 60.1, it must be 0 to 60"),
+        ("loads = \"quasistatic\"", "did you mean \"quasi-static\"?"),
+        ("moments = true", "it must be \"neglected\" or \"included\""),
+        ("drive = 1", "`drive` is the integer 1, it must be a table"),
+        ("drive.speed_m_s = [1, 2, 3]", "the number of rim speeds is 3"),
+        ("drive.speed_m_s = [1, 2, 3, 11]", "`drive.speed_m_s.3` is 11, it must be -10 to 10"),
+        ("drive.speed_m_s = \"fast\"", "it must be a number or a list"),
+        ("drive = { law = \"eq18\", speed_m_s = 0 }", "it must be above 0 and at most 10"),
+        ("drive = { law = \"eq-18\" }", "did you mean \"eq18\"?"),
+        ("drive = { reference_slip_ratio = 0.1 }", "unknown key `drive.reference_slip_ratio`"),
+        ("start.yaw_deg = 181", "`start.yaw_deg` is 181, it must be -180 to 180"),
+        ("soil = \"hakuto\"", "there is no soil preset and no file called `hakuto`"),
+        ("[soil]\ndensity_kg_m3 = 1500", "`soil.cohesion_kpa` is missing"),
+        ("[rover.wheel_unit.wheel]\nradius = 1", "did you mean `radius_m`?"),
+    ] {
+        let error = fail(Kind::Scenario, &format!("schema = \"scenario/1\"\n{lines}\n"));
+        assert!(error.to_string().contains(message), "`{lines}`: {error}");
+        assert!(error.to_string().starts_with("bad.toml:"), "`{lines}`: {error}");
+    }
+}
+
+/// A number outside its range names the range, at both ends of every range of every preset.
+#[test]
+fn every_end_of_every_range_is_kept() {
+    let mut ends = 0;
+    for preset in all_presets() {
+        let resolved = read(preset.kind, &Source::Preset(preset), &Overrides::none());
+        let resolved = resolved.expect("it is read").resolved;
+        let table: toml_edit::DocumentMut = resolved.parse().expect("it is TOML");
+        visit_numbers(table.as_item(), "", &mut |path| {
+            let schema_path = path.split('.').filter(|step| step.parse::<usize>().is_err());
+            let key = schema_path.collect::<Vec<_>>().join(".");
+            let range = document::range(preset.kind, &key);
+            let range = range.unwrap_or_else(|| panic!("{} has no range of {key}", preset.name));
+            for value in [range.start() - 1.0, range.end() * 1.01 + 1.0] {
+                let whole = if key.ends_with("count") { value.round() } else { value };
+                let setting = format!("{}.{path}={whole}", preset.kind);
+                let overrides = Overrides::parse([&setting]).expect("it is a value");
+                let error = read(preset.kind, &Source::text("resolved", &resolved), &overrides);
+                let error = error.expect_err(&setting);
+                let is_told = matches!(error.problem(), Problem::OutOfRange { .. });
+                assert!(is_told, "{}: {error}", preset.name);
+                ends += 1;
+            }
+        });
+    }
+    assert!(ends > 500, "only {ends} ends were tried");
+}
+
+fn visit_numbers(item: &toml_edit::Item, path: &str, visit: &mut dyn FnMut(&str)) {
+    let join = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    if item.is_float() || item.is_integer() {
+        visit(path);
+    } else if let Some(table) = item.as_table_like() {
+        table.iter().for_each(|(key, item)| visit_numbers(item, &join(key), visit));
+    } else if let Some(tables) = item.as_array_of_tables() {
+        for (index, table) in tables.iter().enumerate() {
+            let item = toml_edit::Item::Table(table.clone());
+            visit_numbers(&item, &join(&index.to_string()), visit);
+        }
+    } else if let Some(values) = item.as_array() {
+        for (index, value) in values.iter().enumerate() {
+            let item = toml_edit::Item::Value(value.clone());
+            visit_numbers(&item, &join(&index.to_string()), visit);
+        }
+    }
+}
+
+// ---- Files ----
+
+/// A folder of its own for a test, removed afterwards.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("grouser-{name}-{}", std::process::id()));
+        fs::create_dir_all(&path).expect("a folder can be made");
+        Self(path)
+    }
+
+    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.0.join(name);
+        fs::create_dir_all(path.parent().expect("it has one")).expect("a folder can be made");
+        fs::write(&path, content).expect("a file can be written");
+        path
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What is left over in the temporary folder does no harm.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn files_that_are_no_documents_are_told_apart() {
+    let folder = Folder::new("no-documents");
+    let deep =
+        |open: &str, close: &str| format!("a = {}{}", open.repeat(70_000), close.repeat(70_000));
+    let table = format!("{{ {}a = ", "a.".repeat(75));
+    let dotted_tables = format!("x = {}1{}", table.repeat(75), "}".repeat(75));
+    for (name, content, message) in [
+        ("empty.toml", b"".to_vec(), "is empty"),
+        ("comment.toml", b"# nothing\n".to_vec(), "is empty"),
+        (
+            "binary.toml",
+            vec![0x7f, b'E', b'L', b'F', 0xff, 0xfe],
+            "is not a text: no UTF-8 after byte 4",
+        ),
+        ("zeros.toml", vec![0; 64], "not TOML"),
+        ("huge.toml", vec![b'#'; 1 << 21], "is larger than 1048576 bytes"),
+        ("arrays.toml", deep("[", "]").into_bytes(), "not TOML"),
+        ("tables.toml", deep("{a=", "}").into_bytes(), "not TOML"),
+        ("both.toml", dotted_tables.into_bytes(), "nested more than 16 levels deep"),
+        ("keys.toml", format!("{}a = 1", "a.".repeat(70)).into_bytes(), "nested more than 16"),
+        ("long-key.toml", format!("{}a = 1", "a.".repeat(300_000)).into_bytes(), "recursion"),
+    ] {
+        let path = folder.file(name, content);
+        let error = document::check(&Source::file(&path)).expect_err(name);
+        let told = error.to_string();
+        assert!(told.contains(message) && told.contains(name), "{name}: {told}");
+        assert!(!error.is_environment(), "{told}");
+        assert!(told.lines().all(|line| line.chars().count() < 300), "{name}: {told}");
+    }
+    let error = document::check(&Source::file(&folder.0)).expect_err("a folder");
+    assert!(error.to_string().contains("this is a folder, not a file"), "{error}");
+    assert!(!error.is_environment());
+    let error = document::check(&Source::file(folder.0.join("none.toml"))).expect_err("nothing");
+    assert_eq!(error.problem(), &Problem::NoSuchFile);
+    assert!(!error.is_environment());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_refused_permission_is_the_environments_fault() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = Folder::new("permission");
+    let path = folder.file("closed.toml", "schema = \"soil/1\"");
+    fs::set_permissions(&path, fs::Permissions::from_mode(0o000)).expect("it is ours");
+    // The superuser may read everything.
+    if fs::read(&path).is_err() {
+        let error = document::check(&Source::file(&path)).expect_err("it is closed");
+        assert!(error.is_environment(), "{error}");
+        assert!(error.to_string().contains("cannot be read"), "{error}");
+    }
+}
+
+#[test]
+fn paths_start_from_the_folder_of_the_document_that_names_them() {
+    let folder = Folder::new("paths");
+    let text = |kind, name| document::preset(kind, name).expect("a preset").text;
+    folder.file("parts/wheel.toml", text(Kind::Wheel, "jfr-2007"));
+    let rover = changed(Kind::Rover, "hakuto", "wheel = \"hakuto\"", "wheel = \"wheel.toml\"");
+    folder.file("parts/rover.toml", rover);
+    let run = "schema = \"scenario/1\"\nrover = \"parts/rover.toml\"\n";
+    let path = folder.file("run.toml", run);
+    let run = document::read_scenario(&Source::file(&path), &Overrides::none());
+    let run = run.expect("all parts are found");
+    assert_eq!(run.value.rover.wheel(), &wheel("jfr-2007"));
+    assert_eq!(document::check(&Source::file(&path)), Ok(Kind::Scenario));
+
+    folder.file("parts/wheel.toml", text(Kind::Wheel, "jfr-2007").replace("0.092", "9.2"));
+    let error = document::check(&Source::file(&path)).expect_err("the wheel is too large");
+    assert!(error.place().document.ends_with("wheel.toml"), "{error}");
+    assert!(error.to_string().contains("`rover.wheel_unit.wheel.radius_m` is 9.2"), "{error}");
+    fs::remove_file(folder.0.join("parts/wheel.toml")).expect("it is ours");
+    let error = document::check(&Source::file(&path)).expect_err("the wheel is gone");
+    assert!(error.place().document.ends_with("rover.toml"), "{error}");
+    assert!(error.to_string().contains("hint: looked for"), "{error}");
+}
+
+#[test]
+fn what_a_document_leaves_out_is_told() {
+    let text = "schema = \"soil/1\"\ncohesion_kpa = 1\nfriction_angle_deg = 30\n\
+                density_kg_m3 = 1500\npressure_sinkage = { law = \"bekker\", k_c = 0, k_phi = 1e6, n = 1 }\n\
+                stress_peak = { a0 = 0.4, a1 = 0.15 }\n\
+                shear = { law = \"isotropic\", longitudinal_m = 0.02 }\n";
+    let loaded = document::read_soil(&Source::text("short", text), &Overrides::none());
+    let loaded = loaded.expect("all that is needed is there");
+    assert_eq!(loaded.value.exit, Exit::Ratio(1.0));
+    assert_eq!(loaded.value.bulldozing, Bulldozing::Sine);
+    for key in ["exit.ratio", "bulldozing.law", "source"] {
+        let start = format!("soil unnamed: {key}: not");
+        assert!(loaded.assumptions.iter().any(|one| one.starts_with(&start)), "{key}");
+    }
+}
+
+// ---- Schema ----
+
+/// The schemas in `schema/` are those of this code. To write them anew, run this test with
+/// `GROUSER_WRITE_SCHEMA=1`.
+#[test]
+fn the_checked_in_schemas_are_fresh() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schema");
+    for kind in Kind::ALL {
+        let path = folder.join(format!("{kind}.json"));
+        let made = document::schema(kind);
+        if std::env::var_os("GROUSER_WRITE_SCHEMA").is_some() {
+            fs::write(&path, &made).expect("the schema can be written");
+        }
+        let checked_in = fs::read_to_string(&path).unwrap_or_default();
+        assert!(made == checked_in, "schema/{kind}.json is stale");
+    }
+}
+
+/// Every key that takes a number says its range and, like all keys, what it is.
+#[test]
+fn every_key_of_the_schemas_is_described() {
+    for kind in Kind::ALL {
+        let schema: Value = serde_json::from_str(&document::schema(kind)).expect("it is JSON");
+        check_described(&schema, kind.name());
+    }
+}
+
+fn check_described(schema: &Value, place: &str) {
+    for (key, property) in schema["properties"].as_object().into_iter().flatten() {
+        let is_law = key == "law";
+        assert!(is_law || property["description"].is_string(), "{place}: {key} is not described");
+    }
+    if schema["type"] == "number" || schema["type"] == "integer" {
+        let has = |names: [&str; 2]| names.iter().any(|name| schema[*name].is_number());
+        assert!(has(["minimum", "exclusiveMinimum"]), "{place} has no lower end");
+        assert!(has(["maximum", "exclusiveMaximum"]), "{place} has no upper end");
+    }
+    match schema {
+        Value::Object(table) => {
+            let children = table.iter().filter(|(key, _)| *key != "default");
+            children.for_each(|(key, child)| check_described(child, &format!("{place}/{key}")));
+        }
+        Value::Array(list) => list.iter().for_each(|child| check_described(child, place)),
+        _ => {}
+    }
+}
+
+// ---- Anything at all ----
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn arbitrary_text_never_panics(text in ".{0,400}") {
+        for kind in Kind::ALL {
+            let _ = read(kind, &Source::text("any", &text), &Overrides::none());
+        }
+        let _ = Overrides::parse([format!("soil.{text}")]);
+        let _ = Overrides::parse([&text]);
+    }
+
+    #[test]
+    fn arbitrary_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let folder = Folder::new("bytes");
+        let error = document::check(&Source::file(folder.file("any.toml", bytes)));
+        prop_assert!(error.is_err());
+        let _ = error.map_err(|error| error.to_string());
+    }
+
+    /// What still can be read after a change means the same when it is written and read again.
+    #[test]
+    fn changed_presets_never_panic(
+        which in any::<prop::sample::Index>(),
+        at in any::<prop::sample::Index>(),
+        length in 0_usize..12,
+        piece in "([0-9.eE+-]{0,6}|[\\[\\]{}=\"'.,\n#a-z_µ]{0,6}|nan|inf|-1e400)",
+    ) {
+        let presets: Vec<_> = all_presets().collect();
+        let preset = presets[which.index(presets.len())];
+        let chars: Vec<char> = preset.text.chars().collect();
+        let start = at.index(chars.len());
+        let end = (start + length).min(chars.len());
+        let text: String = chars[..start].iter().chain(&piece.chars().collect::<Vec<_>>())
+            .chain(&chars[end..]).collect();
+        match read(preset.kind, &Source::text("changed", &text), &Overrides::none()) {
+            Ok(first) => {
+                let again = Source::text("resolved", &first.resolved);
+                let second = read(preset.kind, &again, &Overrides::none());
+                prop_assert_eq!(second.map(|read| read.meaning), Ok(first.meaning));
+            }
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
+    }
+}
