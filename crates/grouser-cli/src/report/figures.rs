@@ -182,9 +182,9 @@ fn slip_along_run(study: &Reproduction, rover: &Rover) -> Figure {
     Figure {
         file: "slip-along-run",
         caption: format!(
-            "Slip ratio of each wheel in the first second of a run from rest on {}, at the \
-             attitude. The wheels turn from the first instant; slip settles within a few tenths \
-             of a second and stays.",
+            "Slip ratio of each wheel in the first moments of a run from rest on {}, at the \
+             attitude. The wheels turn from the first instant; slip settles within a tenth of a \
+             second and stays for the rest of the run.",
             start_up_slope(study)
         ),
         chart: Chart {

@@ -81,7 +81,7 @@ static PRESETS: &[Preset] = &[
     preset!(Wheel, "data/wheels", "jfr-2007"),
     preset!(Wheel, "data/wheels", "lab-2007"),
     preset!(Wheel, "data/wheels", "cmu-smooth"),
-    preset!(Wheel, "data/wheels", "cmu-grousers"),
+    preset!(Wheel, "data/wheels", "cmu-grouser"),
     preset!(Wheel, "data/wheels", "mit-rig"),
     preset!(Rover, "data/rovers", "hakuto"),
     preset!(Rover, "data/rovers", "hakuto-flight"),

@@ -11,7 +11,7 @@ use super::text::Node;
 use super::{DEFAULT_ROVER, DEFAULT_SOIL, Document, Kind, Overrides, Reference, told_by, unnamed};
 use crate::error::ParameterError;
 use crate::simulation::scenario::LONGEST_DURATION;
-use crate::simulation::{Motion, Scenario, Start};
+use crate::simulation::{Motion, Numerics, Scenario, Start};
 use crate::site::Site;
 use crate::units::EARTH_GRAVITY;
 use crate::vehicle::drive::SlipTarget;
@@ -61,6 +61,10 @@ pub struct ScenarioDocument {
     #[serde(default = "default_duration")]
     #[schemars(range(max = LONGEST_DURATION), extend("exclusiveMinimum" = 0.0))]
     pub duration_s: f64,
+    /// Time between two recorded samples [s].
+    #[serde(default = "default_sample_interval")]
+    #[schemars(range(min = 1e-3, max = 3600.0))]
+    pub sample_interval_s: f64,
     /// How the weight is shared among the wheels.
     #[serde(default)]
     pub loads: LoadsWord,
@@ -254,6 +258,10 @@ fn default_slope() -> f64 {
 }
 
 /// About the length of the source's runs, which is not printed [s].
+fn default_sample_interval() -> f64 {
+    Numerics::default().sample_interval
+}
+
 fn default_duration() -> f64 {
     20.0
 }
@@ -292,7 +300,7 @@ impl Document for ScenarioDocument {
                 motion: self.start.motion.to_domain(),
             },
             duration: self.duration_s,
-            numerics: crate::simulation::Numerics::default(),
+            numerics: Numerics { sample_interval: self.sample_interval_s, ..Numerics::default() },
         };
         let at = |path: &'static str| {
             move |error: ParameterError| {

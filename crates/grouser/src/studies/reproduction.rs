@@ -34,7 +34,7 @@ pub struct Reproduction {
     pub attitudes: AttitudeCurve,
     /// The traverses on each measured slope.
     pub slopes: Vec<SlopeRuns>,
-    /// The first seconds of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
+    /// The first moments of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
     pub start_up: Trajectory,
 }
 
@@ -67,7 +67,7 @@ pub struct SlopeRuns {
 /// Which measured slope the run from rest is on.
 pub const START_UP_ROW: usize = 1;
 /// Length of the run from rest [s], and its sample interval [s].
-const START_UP: (f64, f64) = (1.0, 0.005);
+const START_UP: (f64, f64) = (0.3, 0.002);
 
 /// Why the study could not be run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
