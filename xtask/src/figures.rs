@@ -1,10 +1,11 @@
 //! Keeps what the documents show equal to what the program makes.
 
 use std::collections::HashMap;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 use crate::diff;
 use crate::markers::{self, Block, Kind, Piece};
@@ -93,6 +94,24 @@ fn made_files() -> Result<Vec<MadeFile>> {
     Ok(files)
 }
 
+/// The file of a name in a folder or in one inside it.
+fn file_below(folder: &Path, name: &OsStr) -> Result<Option<PathBuf>> {
+    let mut entries = fs::read_dir(folder)?
+        .map(|entry| Ok(entry?.path()))
+        .collect::<Result<Vec<PathBuf>>>()?;
+    entries.sort();
+    for entry in entries {
+        if entry.is_dir() {
+            if let Some(found) = file_below(&entry, name)? {
+                return Ok(Some(found));
+            }
+        } else if entry.file_name() == Some(name) {
+            return Ok(Some(entry));
+        }
+    }
+    Ok(None)
+}
+
 struct Maker {
     program: PathBuf,
     /// Where each picture command that has already run wrote its files.
@@ -111,8 +130,8 @@ impl Maker {
         let target = markers::picture_of(&block.content)?;
         let path = Path::new(document).parent().unwrap_or(Path::new("")).join(target);
         let name = path.file_name().context("the image link names no file")?;
-        let made = self.folder(&block.arguments)?.join(name);
-        ensure!(made.is_file(), "the command writes no file {}", name.display());
+        let made = file_below(&self.folder(&block.arguments)?, name)?
+            .with_context(|| format!("the command writes no file {}", name.display()))?;
         let should = fs::read_to_string(&made)?;
         let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
         let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };

@@ -1,4 +1,52 @@
-//! Grouser predicts how a wheeled rover moves on loose soil.
+//! Grouser predicts how a wheeled rover moves on loose soil: sinkage, slip, drift on slopes, the yaw
+//! that keeps a traverse level, and energy.
+//!
+//! It grows from one paper, the dynamics simulator of HAKUTO's four-wheel micro rover, which the
+//! documentation calls [FourWheel].
+//!
+//! # The floors
+//!
+//! A module may use those below it, never those above:
+//!
+//! | floor | modules | what they are about |
+//! |---|---|---|
+//! | 5 door | [`document`] | documents with units in their names, presets, results in words |
+//! | 4 studies | [`studies`] | questions: a wheel test, the attitude, the paper's comparison |
+//! | 3 simulation | [`simulation`] | a run, from its scenario to its trajectory |
+//! | 2 vehicle | [`vehicle`] | the rover: loads, motion, drives |
+//! | 1 contact | [`contact`] | what the soil does to one wheel |
+//! | 0 ground | [`units`] [`error`] [`soil`] [`wheel`] [`site`] | what things are |
+//!
+//! Inside, everything is in SI units and radians; the door converts. Below the door there is no
+//! file, no clock and no printing: a [`Scenario`](simulation::Scenario) alone determines its
+//! [`Trajectory`](simulation::Trajectory), bit for bit. What a rover does is a value (it may get
+//! stuck, slide or tip over); what cannot be computed is an error.
+//!
+//! # An example
+//!
+//! Which way to point the HAKUTO rover on a slope of 10°, and does it then stay level?
+//!
+//! ```
+//! use grouser::document::{self, Overrides, Source};
+//! use grouser::simulation::{Outcome, Scenario, Simulation, Start};
+//! use grouser::studies::attitude::AttitudeStudy;
+//! use grouser::units::deg;
+//!
+//! // The default scenario: the paper's rover on Toyoura sand, on 10°, nose along the contour.
+//! let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+//! let drift = Simulation::new(&scenario)?.run()?.last().state.position.y;
+//! assert!(drift < -0.09); // 9 cm downhill in 20 s
+//!
+//! let attitude = AttitudeStudy::of(&scenario).curve()?.at(scenario.site.slope)?;
+//! assert!((attitude.yaw - deg(5.04)).abs() < deg(0.01));
+//!
+//! let start = Start { yaw: attitude.yaw, ..scenario.start };
+//! let run = Simulation::new(&Scenario { start, ..scenario })?.run()?;
+//! assert_eq!(run.outcome, Outcome::Completed);
+//! assert!(run.last().state.position.y.abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
 pub mod contact;
 pub mod document;
 pub mod error;

@@ -1,6 +1,5 @@
 //! `grouser attitude`
 
-use grouser::document::LoadedScenario;
 use grouser::document::study::{AttitudeLimit, AttitudeRecord};
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
 use serde_json::{Value, json};
@@ -28,7 +27,7 @@ const COLUMNS: [&str; 7] = [
 pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::attitude(args)?;
-    let curve = study(&scenario).curve()?;
+    let curve = AttitudeStudy::of(&scenario.value).curve()?;
     let rover = &scenario.value.rover;
     let records: Vec<AttitudeRecord> = args
         .slope_deg
@@ -66,19 +65,6 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     folder.add("attitude.svg", chart(&curve).to_svg());
     folder.add("scenario.toml", scenario.to_toml());
     folder.finish()
-}
-
-/// The attitude study of a scenario's rover and soil.
-pub(crate) fn study(scenario: &LoadedScenario) -> AttitudeStudy {
-    let run = scenario.value.clone();
-    AttitudeStudy {
-        rover: run.rover,
-        soil: run.site.soil,
-        gravity: run.site.gravity,
-        theory: run.theory,
-        sharing: run.sharing,
-        own_moments: run.own_moments,
-    }
 }
 
 fn limit_line(limit: &AttitudeLimit) -> String {

@@ -18,6 +18,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::contact::{Slip, Theory};
 use crate::error::ParameterError;
 use crate::root;
+use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::soil::Soil;
 use crate::vehicle::reaction::{Ground, forces_of};
@@ -121,6 +122,19 @@ const BALANCED: f64 = 1e-10;
 const JUST_TURNED: f64 = 1e-9;
 
 impl AttitudeStudy {
+    /// The study of a scenario's rover and soil, whatever its slope and drive.
+    #[must_use]
+    pub fn of(scenario: &Scenario) -> Self {
+        Self {
+            rover: scenario.rover.clone(),
+            soil: scenario.site.soil,
+            gravity: scenario.site.gravity,
+            theory: scenario.theory,
+            sharing: scenario.sharing,
+            own_moments: scenario.own_moments,
+        }
+    }
+
     /// Follows the curve from level ground to its end.
     ///
     /// # Errors

@@ -97,7 +97,7 @@ impl Plan {
             self.longitudinal_moduli.iter().map(|&modulus| self.wheel_curve(modulus, progress));
         let wheel_curves = wheel_curves.collect();
         progress("attitudes");
-        let attitudes = self.attitude_study().curve()?;
+        let attitudes = AttitudeStudy::of(&self.scenario).curve()?;
         let slopes = self
             .measured
             .iter()
@@ -106,18 +106,6 @@ impl Plan {
         progress("start from rest");
         let start_up = self.start_up(&slopes)?;
         Ok(Reproduction { wheel_curves, attitudes, slopes, start_up })
-    }
-
-    fn attitude_study(&self) -> AttitudeStudy {
-        let Scenario { rover, site, theory, sharing, own_moments, .. } = self.scenario.clone();
-        AttitudeStudy {
-            rover,
-            soil: site.soil,
-            gravity: site.gravity,
-            theory,
-            sharing,
-            own_moments,
-        }
     }
 
     fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {
