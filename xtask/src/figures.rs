@@ -96,9 +96,8 @@ fn made_files() -> Result<Vec<MadeFile>> {
 
 /// The file of a name in a folder or in one inside it.
 fn file_below(folder: &Path, name: &OsStr) -> Result<Option<PathBuf>> {
-    let mut entries = fs::read_dir(folder)?
-        .map(|entry| Ok(entry?.path()))
-        .collect::<Result<Vec<PathBuf>>>()?;
+    let mut entries =
+        fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<Result<Vec<PathBuf>>>()?;
     entries.sort();
     for entry in entries {
         if entry.is_dir() {
