@@ -1,3 +1,9 @@
 //! The claims of the library, tested from outside.
 
+mod given;
+mod laws;
+mod million;
+mod paper;
 mod reference;
+mod rover;
+mod runs;
