@@ -62,7 +62,7 @@ impl Ishigami {
         let resistance =
             WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
         let flank = bulldozing::flank_load(&resistance, &field.patch, r);
-        let (across, along) = bulldozing::shares(contact.soil.bulldozing, contact.slip.angle);
+        let (across, along) = bulldozing::shares(contact.soil.bulldozing, &contact.slip);
         let (flank_y, flank_x) = (across * flank.force, along * flank.force);
 
         let thrust = area * sums.shear_forward;

@@ -205,7 +205,8 @@ proptest! {
     fn a_mirror_between_left_and_right_swaps_the_side_forces(
         contact in given::any_contact(), depth in given::any_depth(),
     ) {
-        let slip = Slip { angle: -contact.slip.angle, lateral: -contact.slip.lateral, ..contact.slip };
+        let Slip { angle, lateral, sideways, .. } = contact.slip;
+        let slip = Slip { angle: -angle, lateral: -lateral, sideways: -sideways, ..contact.slip };
         for theory in THEORIES {
             let here = sunk(theory.model(), &contact, depth);
             let there = sunk(theory.model(), &Contact { slip, ..contact }, depth);
