@@ -180,7 +180,8 @@ impl Exit {
 pub enum Bulldozing {
     /// No such force.
     None,
-    /// Full force whatever the size of β (Ishigami et al. 2007). It jumps at β = 0.
+    /// Full force whatever the size of β (Ishigami et al. 2007). It jumps at β = 0; in a run it
+    /// reverses within a lateral speed of a micrometre per second.
     Sign,
     /// In proportion to sin β (Jia 2012): smooth.
     Sine,

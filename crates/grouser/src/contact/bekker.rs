@@ -50,7 +50,7 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
     // ∫ R_b over the parabola: its mean depth is 2/3 h, its mean square 8/15 h².
     let wall = WallResistance::new(soil, unit_weight);
     let flank = length * wall.mean_over_parabola(h);
-    let (across, along) = bulldozing::shares(soil.bulldozing, slip.angle);
+    let (across, along) = bulldozing::shares(soil.bulldozing, slip);
     let motion_resistance = along * flank - compaction;
     let side_force = side_shear + across * flank;
     WheelForces {

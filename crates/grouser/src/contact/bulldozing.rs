@@ -2,6 +2,7 @@
 
 use super::gauss::GAUSS_8;
 use super::patch::ContactPatch;
+use super::slip::Slip;
 use crate::soil::{Bulldozing, Soil};
 
 /// Resistance of a wall pushed through soil, per metre of wall: *R_b* [N/m].
@@ -103,16 +104,19 @@ pub fn flank_load(
     FlankLoad { force, below_hub: below / force, ahead_of_hub: ahead / force }
 }
 
-/// How the flank's load acts at a slip angle: its shares across and along the wheel [-].
+/// How the flank's load acts in a motion: its shares across and along the wheel [-].
 ///
 /// Across, positive to the left: against the lateral motion. Along: against the travel.
+///
+/// The full force of [`Bulldozing::Sign`] reverses within
+/// [`CREEP_SPEED`](super::slip::CREEP_SPEED), as all forces of a wheel that comes to rest do:
+/// without that no integrator gets past a rover that rolls straight ahead.
 #[must_use]
-pub fn shares(law: Bulldozing, slip_angle: f64) -> (f64, f64) {
-    let beta = slip_angle;
+pub fn shares(law: Bulldozing, slip: &Slip) -> (f64, f64) {
+    let beta = slip.angle;
     match law {
         Bulldozing::None => (0.0, 0.0),
-        Bulldozing::Sign if beta == 0.0 => (0.0, 0.0),
-        Bulldozing::Sign => (-beta.signum(), 0.0),
+        Bulldozing::Sign => (-slip.sideways, 0.0),
         Bulldozing::Sine => (-beta.sin(), 0.0),
         Bulldozing::SineSquared => (-beta.sin() * beta.sin().abs(), -beta.sin().abs() * beta.cos()),
     }
@@ -134,10 +138,11 @@ mod tests {
 
     #[test]
     fn every_law_but_sign_is_continuous_at_zero_slip_angle() {
+        let just_turned = Slip::on_test_stand(0.2, 1e-9);
         for law in [Bulldozing::None, Bulldozing::Sine, Bulldozing::SineSquared] {
-            let (across, along) = shares(law, 1e-9);
+            let (across, along) = shares(law, &just_turned);
             assert!(across.abs() <= 1e-9 && along.abs() <= 1e-9, "{law:?}");
         }
-        assert_eq!(shares(Bulldozing::Sign, 1e-9).0, -1.0);
+        assert_eq!(shares(Bulldozing::Sign, &just_turned).0, -1.0);
     }
 }

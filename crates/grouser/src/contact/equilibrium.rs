@@ -44,7 +44,9 @@ const LOAD_TOLERANCE: f64 = 1e-12;
 /// F_z starts at 0 and grows like a power of the sinkage, so the search goes by the logarithms of
 /// both, where it is nearly a straight line: about six evaluations. The root is bracketed before
 /// it is closed in on, and where the growth ends before the load is reached (deep, skidding
-/// wheels on strong soil) the highest F_z is sought before the wheel is given up.
+/// wheels on strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil
+/// F_z may also rise and fall while the wheel has hardly sunk and shear outweighs pressure; there
+/// the answer is one of the sinkages with F_z = W, not always the smallest.)
 ///
 /// # Errors
 /// [`SettleError::SunkToAxle`] if the soil carries less at every sinkage down to the axle;

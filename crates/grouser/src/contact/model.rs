@@ -42,14 +42,15 @@ pub(super) fn from_both_sides(
         entering_front(&mirrored).front_to_back()
     };
     let side = contact.slip.entering_side;
-    let share = 0.5 * (1.0 + side);
+    // Each share by itself, so that a mirrored wheel has the mirrored bits.
+    let (front_share, back_share) = (0.5 * (1.0 + side), 0.5 * (1.0 - side));
     if side >= 1.0 {
         front()
     } else if side <= -1.0 {
         back()
     } else if side >= 0.0 {
-        front() * share + back() * (1.0 - share)
+        front() * front_share + back() * back_share
     } else {
-        back() * (1.0 - share) + front() * share
+        back() * back_share + front() * front_share
     }
 }

@@ -60,6 +60,8 @@ pub struct Slip {
     pub forward: f64,
     /// Hub speed across the wheel over the rim's, v_y / |ω r_s| [-].
     pub lateral: f64,
+    /// Sense of the hub's motion across the wheel, v_y / |v_y| [-]: 1 to the left, −1 to the right.
+    pub sideways: f64,
     /// Which side of the wheel enters the soil [-]: 1 the front, −1 the back.
     ///
     /// Rim and hub agree on it in ordinary rolling. Where they oppose each other it passes from
@@ -82,6 +84,7 @@ impl Slip {
             rim: rim_speed / rim_size,
             forward: v_x / rim_size,
             lateral: hub_velocity.y / rim_size,
+            sideways: hub_velocity.y / hub_velocity.y.hypot(CREEP_SPEED),
             entering_side: (rim_speed + v_x) / (rim_speed.abs() + v_x.abs()).max(CREEP_SPEED),
         }
     }
@@ -102,7 +105,9 @@ impl Slip {
         let v_y = slip_angle.tan() * f64::abs(v_x);
         let motion = Self::of_motion(rim_speed, Vec2::new(v_x, v_y));
         // Spinning on the spot, the motion alone no longer tells the slip angle.
-        Self { ratio: s, angle: slip_angle, ..motion }
+        // And on a stand the smallest slip angle has a side.
+        let sideways = if slip_angle == 0.0 { 0.0 } else { slip_angle.signum() };
+        Self { ratio: s, angle: slip_angle, sideways, ..motion }
     }
 
     /// The same motion seen in a mirror that swaps front and back.

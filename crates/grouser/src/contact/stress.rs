@@ -227,12 +227,19 @@ impl StressField {
         };
         // Where the rim is as fast as the soil under it: cos θ = r_s ω / v_x.
         let still = self.slip.rim / self.slip.forward;
+        if matches!(self.shear, MobilisedShear::Isotropic { .. }) {
+            /// A rim slightly faster than its hub is never as fast as the soil, but nearly so under
+            /// the hub, where the slip velocity then turns; up to here [-] too sharply for the rule.
+            const TURNS_UNDER_HUB: f64 = 1.25;
+            if still > 0.0 && still < 1.0 {
+                add(still.acos());
+                add(-still.acos());
+            } else if (1.0..TURNS_UNDER_HUB).contains(&still) {
+                add(0.0);
+            }
+        }
         if still > 0.0 && still < 1.0 {
             let still = still.acos();
-            if matches!(self.shear, MobilisedShear::Isotropic { .. }) {
-                add(still);
-                add(-still);
-            }
             // Between these angles j_x is monotone.
             self.displacement_zero(-still, still).map(&mut add);
             self.displacement_zero(exit, -still).map(&mut add);

@@ -2,4 +2,10 @@
 
 mod documents;
 mod floors;
+mod given;
+mod laws;
+mod million;
+mod paper;
 mod reference;
+mod rover;
+mod runs;
