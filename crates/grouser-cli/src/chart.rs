@@ -116,7 +116,8 @@ impl Chart {
             .with_font_family("Helvetica, Arial, sans-serif");
         let heights = || self.series.iter().flat_map(|series| &series.points).map(|point| point.1);
         if heights().any(|y| y < 0.0) && heights().any(|y| y > 0.0) {
-            layout = layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color("#888888"));
+            layout =
+                layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color("#888888"));
         }
         SvgBackend.render_scene(&render_multiple(plots, layout))
     }

@@ -22,7 +22,9 @@ use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::soil::Soil;
 use crate::vehicle::reaction::{Ground, forces_of};
-use crate::vehicle::{LoadSharing, OwnMoments, ReactionError, Rover, WheelReaction, dynamics};
+use crate::vehicle::{
+    LoadSharing, OwnMoments, ReactionError, Rover, WheelReaction, dynamics, load,
+};
 
 /// A rover and its ground, on slopes yet to be chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,7 +181,7 @@ impl AttitudeStudy {
     fn imbalance(&self, point: &Point) -> Result<[f64; 2], ReactionError> {
         let forces = forces_of(&self.reactions(point)?);
         let (soil, _) = dynamics::soil_resultant(&self.rover, &forces, self.own_moments);
-        let pull = dynamics::slope_pull(&self.rover, &self.site(point.z), point.y);
+        let pull = load::slope_pull(&self.rover, &self.site(point.z), point.y);
         let left_over = (soil + pull) / (self.rover.mass() * self.gravity);
         Ok([left_over.x, left_over.y])
     }

@@ -13,20 +13,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::load::OwnMoments;
+use super::load::{OwnMoments, slope_pull};
 use super::rover::Rover;
 use super::state::{Acceleration, RoverState};
 use crate::contact::WheelForces;
 use crate::site::Site;
 use crate::units::Vec2;
-
-/// The weight's pull along the slope, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
-/// 12-13, with the signs it leaves out): m g sin α points downhill, to −y of the slope frame.
-#[must_use]
-pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
-    let pull = rover.mass() * site.gravity * site.slope.sin();
-    -pull * Vec2::new(yaw.sin(), yaw.cos())
-}
 
 /// Forces of the soil on the rover: their sum [N] in the body frame, and their moment about the
 /// body's centre of mass [N·m].

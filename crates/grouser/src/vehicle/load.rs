@@ -14,7 +14,6 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::dynamics::slope_pull;
 use super::rover::Rover;
 use crate::contact::WheelForces;
 use crate::site::Site;
@@ -46,6 +45,14 @@ pub enum OwnMoments {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the weight falls outside the wheels")]
 pub struct Tipping;
+
+/// The weight's pull along the slope, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
+/// 12-13, with the signs it leaves out): m g sin α points downhill, to −y of the slope frame.
+#[must_use]
+pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
+    let pull = rover.mass() * site.gravity * site.slope.sin();
+    -pull * Vec2::new(yaw.sin(), yaw.cos())
+}
 
 /// Moments that the loads balance, *(P, R)* = (Σ d_x N, Σ d_y N) [N·m].
 ///

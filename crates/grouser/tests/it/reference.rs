@@ -9,7 +9,7 @@ use grouser::soil::{
 use grouser::studies::attitude::{Attitude, AttitudeStudy};
 use grouser::studies::comparison::Levelness;
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
-use grouser::vehicle::load::wheel_loads;
+use grouser::vehicle::load::{slope_pull, wheel_loads};
 use grouser::vehicle::{LoadSharing, OwnMoments, RoverState, dynamics};
 use grouser::wheel::{Grousers, Wheel};
 use serde_json::Value;
@@ -251,7 +251,7 @@ fn yaw_moment_with_transfers(slope_deg: f64, pitch: f64, roll: f64) -> f64 {
     let rover = given::hakuto();
     let site = Site { soil: given::toyoura(), slope: deg(slope_deg), gravity: EARTH_GRAVITY };
     let weight = rover.mass() * site.gravity * site.slope.cos();
-    let pull = TABLE_HEIGHT * dynamics::slope_pull(&rover, &site, attitude.yaw);
+    let pull = TABLE_HEIGHT * slope_pull(&rover, &site, attitude.yaw);
     let moments = Vec2::new(pitch * pull.x, roll * pull.y);
     let loads = wheel_loads(&rover, LoadSharing::QuasiStatic, weight, moments).expect("it stands");
     let slip = Slip::on_test_stand(attitude.slip_ratio, -attitude.yaw);

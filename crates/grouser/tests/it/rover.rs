@@ -282,7 +282,7 @@ proptest! {
     fn the_weight_pulls_downhill_whatever_the_yaw(yaw in -PI..PI, slope in 0.0..1.5) {
         let (rover, site) = (given::hakuto(), site(slope));
         let weight = rover.mass() * site.gravity;
-        let pull = dynamics::slope_pull(&rover, &site, yaw);
+        let pull = load::slope_pull(&rover, &site, yaw);
         prop_assert!((pull.x + weight * slope.sin() * yaw.sin()).abs() < 1e-12 * weight);
         prop_assert!((pull.y + weight * slope.sin() * yaw.cos()).abs() < 1e-12 * weight);
         let in_slope = Rotation2::new(yaw) * pull;
@@ -396,7 +396,7 @@ fn a_wheel_lifts_before_the_rover_tips() {
     assert_eq!(loads[0], 0.0);
     assert!(loads[1..].iter().all(|load| *load > 0.0), "{loads:?}");
     let weight = rover.mass() * site.gravity * site.slope.cos();
-    let moments = rover.centre_height() * dynamics::slope_pull(&rover, &site, yaw);
+    let moments = rover.centre_height() * load::slope_pull(&rover, &site, yaw);
     check_balance(&rover, &loads, weight, moments).expect("they balance");
 }
 
