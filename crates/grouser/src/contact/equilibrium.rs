@@ -187,19 +187,25 @@ impl Search<'_> {
         /// The peak is flat: a width of 1e-7 finds its height to 1e-14.
         const NARROW: f64 = 1e-7;
         let (mut low, mut high) = (best.0 - step, (best.0 + step).min(axle));
+        let mut at = |x: f64| (x, self.excess(x));
+        let mut shallower = at(high - GOLDEN * (high - low));
+        let mut deeper = at(low + GOLDEN * (high - low));
         let mut best = best;
         while high - low > NARROW {
-            let (one, two) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            let (excess_one, excess_two) = (self.excess(one), self.excess(two));
-            for point in [(one, excess_one), (two, excess_two)] {
+            for point in [shallower, deeper] {
                 if point.1 > best.1 {
                     best = point;
                 }
             }
-            if excess_one > excess_two {
-                high = two;
+            // The inner point that stays is one of the golden sections of what is left.
+            if shallower.1 > deeper.1 {
+                high = deeper.0;
+                deeper = shallower;
+                shallower = at(high - GOLDEN * (high - low));
             } else {
-                low = one;
+                low = shallower.0;
+                shallower = deeper;
+                deeper = at(low + GOLDEN * (high - low));
             }
         }
         best

@@ -54,7 +54,8 @@ pub enum Integrator {
     },
     /// Classical Runge-Kutta with a fixed step: slow, and independent of the other.
     Rk4 {
-        /// Step [s]; stable up to about a millisecond.
+        /// Step [s]; stable up to about a millisecond while all hubs move, and a thousandth of that
+        /// where one comes to rest.
         step: f64,
     },
 }

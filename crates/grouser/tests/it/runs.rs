@@ -85,9 +85,11 @@ fn check_together(name: &str, one: &Trajectory, other: &Trajectory, within: f64)
 }
 
 /// Implicit with steps of its own, explicit with fixed ones: they share no code but the equations.
+/// But for the locked wheel: its hub comes to rest, where forces change within the creep speed, and
+/// an explicit step would have to be a microsecond.
 #[test]
 fn bdf_and_rk4_agree() {
-    for (name, scenario) in all_kinds() {
+    for (name, scenario) in all_kinds().into_iter().filter(|(name, _)| *name != "locked wheel") {
         // The control period of Eq. 18 would not be the same time for both past a second.
         let scenario = Scenario { duration: 1.0, ..scenario };
         let rk4 = with_integrator(Integrator::Rk4 { step: 1e-3 }, &scenario);
