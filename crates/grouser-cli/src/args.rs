@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::Kind;
@@ -93,12 +94,13 @@ pub(crate) struct BalanceArgs {
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     /// The rover: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) rover: Option<String>,
     /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) soil: Option<String>,
     /// Inclination of the slope [°].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
@@ -132,10 +134,10 @@ pub(crate) struct TraverseArgs {
 #[derive(Debug, Args)]
 pub(crate) struct WheelTestArgs {
     /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", default_value = "toyoura")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), default_value = "toyoura")]
     pub(crate) soil: String,
     /// The wheel: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", default_value = "hakuto")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), default_value = "hakuto")]
     pub(crate) wheel: String,
     /// Loads on the wheel [N]: a list (5,10) or a range (0:20:5).
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "17", allow_hyphen_values = true)]
@@ -155,12 +157,16 @@ pub(crate) struct WheelTestArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct AttitudeArgs {
+    /// A scenario's file or preset, for its rover, soil, gravity and balance; without it the
+    /// default scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
     /// The rover: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", default_value = "hakuto")]
-    pub(crate) rover: String,
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
     /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", default_value = "toyoura")]
-    pub(crate) soil: String,
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: Option<String>,
     /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
     pub(crate) slope_deg: Numbers,
@@ -181,13 +187,14 @@ pub(crate) struct CheckArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct PresetsArgs {
-    /// The preset to print; where kinds share a name, all of that name, or those of --kind.
+    /// The preset to print as TOML; where kinds share its name, --kind says which.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) name: Option<String>,
     /// Only presets of this kind.
     #[arg(long, value_enum)]
     pub(crate) kind: Option<KindWord>,
     /// Form of the list.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
     pub(crate) format: Format,
 }
 

@@ -9,22 +9,27 @@ pub(crate) mod schema;
 pub(crate) mod traverse;
 pub(crate) mod wheel_test;
 
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
-/// The outer object of every JSON output: what it is, who made it, from what.
-pub(crate) fn envelope(command: &str, inputs: &Value) -> serde_json::Map<String, Value> {
-    let envelope = json!({
-        "schema": format!("grouser.{command}.v1"),
-        "version": env!("CARGO_PKG_VERSION"),
-        "inputs": inputs,
-    });
-    match envelope {
-        Value::Object(map) => map,
-        _ => unreachable!("an object was written"),
-    }
+/// A JSON output: what it is, who made it, from what, and the results.
+#[derive(Serialize)]
+pub(crate) struct Answer<R> {
+    schema: String,
+    version: &'static str,
+    inputs: Value,
+    #[serde(flatten)]
+    results: R,
 }
 
-/// A JSON object as text.
-pub(crate) fn json_text(map: serde_json::Map<String, Value>) -> String {
-    format!("{:#}\n", Value::Object(map))
+impl<R: Serialize> Answer<R> {
+    pub(crate) fn new(command: &str, inputs: Value, results: R) -> Self {
+        let schema = format!("grouser.{command}.v1");
+        Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, results }
+    }
+
+    /// The text for a file.
+    pub(crate) fn to_text(&self) -> String {
+        serde_json::to_string_pretty(self).expect("text keys, and writing to memory") + "\n"
+    }
 }

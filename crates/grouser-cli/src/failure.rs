@@ -1,6 +1,6 @@
 //! How the program fails: a message for the person, an exit code for the script.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Why a command did not do what it was asked to.
 #[derive(Debug, thiserror::Error)]
@@ -8,14 +8,17 @@ pub(crate) enum Failure {
     /// The command line or a document is wrong: exit code 2.
     #[error("{0}")]
     Usage(String),
+    /// The same, and the parser of the command line has said so already.
+    #[error("the command line is wrong")]
+    UsageToldAlready,
     /// A computation failed: exit code 1.
     #[error("{0}")]
     Run(String),
     /// The disk, its permissions or the terminal failed: exit code 1.
-    #[error("{path}: {source}", path = .path.display())]
+    #[error("{what}: {source}")]
     Environment {
-        /// The file or folder.
-        path: PathBuf,
+        /// What could not be done, with the file or folder.
+        what: String,
         /// What the system said.
         source: std::io::Error,
     },
@@ -30,13 +33,32 @@ impl Failure {
         match self {
             Self::ReaderGone => 0,
             Self::Run(_) | Self::Environment { .. } => 1,
-            Self::Usage(_) => 2,
+            Self::Usage(_) | Self::UsageToldAlready => 2,
         }
     }
 
-    /// A failed operation on a file or folder.
-    pub(crate) fn at(path: &Path) -> impl FnOnce(std::io::Error) -> Self + '_ {
-        move |source| Self::Environment { path: path.to_owned(), source }
+    /// Whether a message is still due.
+    pub(crate) fn is_to_be_told(&self) -> bool {
+        !matches!(self, Self::ReaderGone | Self::UsageToldAlready)
+    }
+
+    /// A failed operation on a file or folder, such as `cannot write`.
+    pub(crate) fn at<'a>(
+        operation: &'a str,
+        path: &'a Path,
+    ) -> impl FnOnce(std::io::Error) -> Self + 'a {
+        move |error| Self::Environment {
+            what: format!("{operation} {}", path.display()),
+            source: without_path(error),
+        }
+    }
+}
+
+/// The system's own words: `tempfile` adds a random path to them.
+fn without_path(error: std::io::Error) -> std::io::Error {
+    match error.to_string().split_once(" at path ") {
+        Some((words, _)) => std::io::Error::new(error.kind(), words),
+        None => error,
     }
 }
 

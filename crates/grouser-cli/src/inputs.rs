@@ -21,10 +21,7 @@ impl From<DocumentError> for Failure {
 
 /// The scenario of a traverse.
 pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
-    let source = match &args.scenario {
-        Some(name) => Source::find(Kind::Scenario, name)?,
-        None => Source::default_scenario(),
-    };
+    let source = scenario_source("traverse", args.scenario.as_deref())?;
     let mut overrides = Overrides::parse(&args.setting.settings)?;
     scenario_settings(&mut overrides, &args.setting, &args.balance)?;
     let texts = [
@@ -54,7 +51,9 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
         }
     }
     if let Some(speeds) = &args.speed_m_s {
-        overrides.flag("--speed-m-s", "scenario.drive.speed_m_s", &speed_value(speeds)?)?;
+        let Numbers(numbers) = list::parse(speeds)
+            .map_err(|problem| Failure::Usage(format!("--speed-m-s {speeds}: {problem}")))?;
+        overrides.flag_numbers("--speed-m-s", "scenario.drive.speed_m_s", speeds, &numbers)?;
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     Ok(document::read_scenario(&source, &overrides)?)
@@ -62,13 +61,24 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
 
 /// The scenario whose rover, soil and balance an attitude study takes; its slope is not used.
 pub(crate) fn attitude(args: &AttitudeArgs) -> Result<LoadedScenario, Failure> {
+    let source = scenario_source("attitude", args.scenario.as_deref())?;
     let mut overrides = Overrides::parse(&args.setting.settings)?;
+    overrides.refuse(
+        Kind::Scenario,
+        &["slope_deg", "duration_s", "sample_interval_s", "drive", "start"],
+        "slopes are given by --slope-deg; a level attitude has no drive, start or duration",
+    )?;
     scenario_settings(&mut overrides, &args.setting, &args.balance)?;
-    overrides.flag_text("--rover", "scenario.rover", &args.rover)?;
-    overrides.flag_text("--soil", "scenario.soil", &args.soil)?;
+    for (flag, key, value) in
+        [("--rover", "scenario.rover", &args.rover), ("--soil", "scenario.soil", &args.soil)]
+    {
+        if let Some(value) = value {
+            overrides.flag_text(flag, key, value)?;
+        }
+    }
     let slopes = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--slope-deg", &args.slope_deg, &slopes)?;
-    Ok(document::read_scenario(&Source::default_scenario(), &overrides)?)
+    Ok(document::read_scenario(&source, &overrides)?)
 }
 
 /// Wheel, soil, gravity and theory of a wheel test.
@@ -86,8 +96,10 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<WheelTestInputs, Failur
     check_numbers("--load-n", &args.load_n, &study::LOAD_N)?;
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
     check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
-    let soil = document::read_soil(&Source::find(Kind::Soil, &args.soil)?, &overrides)?;
-    let wheel = document::read_wheel(&Source::find(Kind::Wheel, &args.wheel)?, &overrides)?;
+    check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
+    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, &args.soil)?, &overrides)?;
+    let wheel =
+        document::read_wheel(&flag_source("--wheel", Kind::Wheel, &args.wheel)?, &overrides)?;
     // Gravity and theory are keys of scenarios: read them as such, to check them as such.
     let mut scenario = Overrides::none();
     scenario_settings(&mut scenario, &args.setting, &BalanceArgs { loads: None, moments: None })?;
@@ -115,20 +127,50 @@ fn scenario_settings(
         }
     }
     if let Some(gravity) = &setting.gravity {
-        let value = document::gravity(gravity).map_or_else(|| gravity.clone(), |g| g.to_string());
-        overrides.flag("--gravity-m-s2", "scenario.gravity_m_s2", &value)?;
+        let value = gravity_value(gravity)?;
+        overrides.flag_numbers("--gravity-m-s2", "scenario.gravity_m_s2", gravity, &[value])?;
     }
     Ok(())
 }
 
-/// One speed, or a TOML list of several.
-fn speed_value(text: &str) -> Result<String, Failure> {
-    let Numbers(speeds) = list::parse(text)
-        .map_err(|problem| Failure::Usage(format!("--speed-m-s {text}: {problem}")))?;
-    Ok(match speeds[..] {
-        [speed] => format!("{speed:?}"),
-        _ => format!("{speeds:?}"),
+/// A number, or what a name stands for [m/s²].
+fn gravity_value(text: &str) -> Result<f64, Failure> {
+    let number = text.trim().parse().ok();
+    document::gravity(text.trim()).or(number).ok_or_else(|| {
+        let names = document::GRAVITIES.map(|(name, _)| name);
+        let hint = match document::nearest(text, names) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => format!("in m/s², such as 9.80665, or one of {}", names.join(", ")),
+        };
+        Failure::Usage(format!(
+            "--gravity-m-s2 {text}: this is neither a number nor the name of a gravity\nhint: {hint}"
+        ))
     })
+}
+
+fn scenario_source(command: &str, name: Option<&str>) -> Result<Source, Failure> {
+    match name {
+        Some(name) => flag_source(command, Kind::Scenario, name),
+        None => Ok(Source::default_scenario()),
+    }
+}
+
+/// The document that an argument names; if there is none, the message shows the argument.
+fn flag_source(flag: &str, kind: Kind, name: &str) -> Result<Source, Failure> {
+    let source = Source::find(kind, name);
+    Ok(source.map_err(|error| error.in_argument(format!("{flag} {}", name.escape_debug())))?)
+}
+
+/// That lists together do not ask for more than anyone can have meant.
+fn check_count(lists: &[&Numbers]) -> Result<(), Failure> {
+    let count: f64 = lists.iter().map(|list| list.0.len() as f64).product();
+    if count <= list::MOST as f64 {
+        return Ok(());
+    }
+    let most = list::MOST;
+    Err(Failure::Usage(format!(
+        "the lists together ask for {count} rows, it must be at most {most}"
+    )))
 }
 
 fn check_numbers(

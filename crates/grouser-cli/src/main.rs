@@ -21,14 +21,16 @@ use args::{Cli, Command};
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
     interrupt::exit_on_ctrl_c();
-    match run(&cli.command) {
+    interrupt::fail_at_file_size_limit();
+    let done = match Cli::try_parse() {
+        Ok(cli) => run(&cli.command),
+        Err(answer) => output::print_answer(&answer),
+    };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if failure.code() != 0 {
-                eprintln!("error: {failure}");
-            }
+            output::report(&failure);
             ExitCode::from(failure.code())
         }
     }

@@ -1,23 +1,56 @@
-//! What the program says: rows to the standard output, files to a folder.
+//! What the program says: results to the standard output, talk to the standard error, files to a
+//! folder.
 
 pub(crate) mod folder;
 pub(crate) mod rows;
 
-use std::io::Write as _;
+use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
 use std::path::Path;
+
+use serde::Serialize;
 
 use crate::failure::Failure;
 
 /// Writes text to the standard output.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut stdout = std::io::stdout().lock();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(|error| {
-        if error.kind() == std::io::ErrorKind::BrokenPipe {
-            Failure::ReaderGone
-        } else {
-            Failure::at(Path::new("standard output"))(error)
-        }
-    })
+    let mut stdout = stdout().lock();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(failed_to_print)
+}
+
+/// Writes JSON to the standard output, without keeping the text: that of a long run is large.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let mut stdout = BufWriter::new(stdout().lock());
+    serde_json::to_writer_pretty(&mut stdout, value)
+        .map_err(std::io::Error::from)
+        .and_then(|()| writeln!(stdout))
+        .and_then(|()| stdout.flush())
+        .map_err(failed_to_print)
+}
+
+/// What the parser of the command line has to say: help and version to the standard output, what
+/// is wrong to the standard error.
+pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
+    let printed = answer.print().and_then(|()| stdout().flush());
+    if answer.use_stderr() {
+        Err(Failure::UsageToldAlready)
+    } else {
+        printed.map_err(failed_to_print)
+    }
+}
+
+/// Says what went wrong, to whoever still listens.
+pub(crate) fn report(failure: &Failure) {
+    if failure.is_to_be_told() {
+        let _ = writeln!(stderr(), "error: {failure}");
+    }
+}
+
+fn failed_to_print(error: std::io::Error) -> Failure {
+    if error.kind() == ErrorKind::BrokenPipe {
+        Failure::ReaderGone
+    } else {
+        Failure::at("cannot write to the", Path::new("standard output"))(error)
+    }
 }
 
 /// How results are printed.

@@ -46,6 +46,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+pub use check::nearest;
 pub use error::{DocumentError, Place, Problem, Spot};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
@@ -434,7 +435,9 @@ fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> Documen
             if error.place().spot.is_none()
                 && error.place().document == path.display().to_string() =>
         {
-            let hint = format!("looked for {}", path.display());
+            // Where the name is the whole path, the place shows it already.
+            let is_whole = origin.text.folder.as_os_str().is_empty();
+            let hint = (!is_whole).then(|| format!("looked for {}", path.display()));
             error.seen_from(origin).with_hint(hint)
         }
         _ => error,

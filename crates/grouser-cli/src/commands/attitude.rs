@@ -2,9 +2,10 @@
 
 use grouser::document::study::{AttitudeLimit, AttitudeRecord};
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::json;
 
-use super::{envelope, json_text};
+use super::Answer;
 use crate::args::AttitudeArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -38,33 +39,35 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     let limit = AttitudeLimit::from(&curve);
     let rows = Rows::of(&records);
     let document = &scenario.document;
-    let mut map = envelope(
-        "attitude",
-        &json!({
-            "rover": document.rover,
-            "soil": document.soil,
-            "gravity_m_s2": document.gravity_m_s2,
-            "model": scenario.value.theory.name(),
-            "loads": document.loads,
-            "moments": document.moments,
-        }),
-    );
-    if let Value::Object(limit) = json!(limit) {
-        map.extend(limit);
+    let inputs = json!({
+        "rover": document.rover,
+        "soil": document.soil,
+        "gravity_m_s2": document.gravity_m_s2,
+        "model": scenario.value.theory.name(),
+        "loads": document.loads,
+        "moments": document.moments,
+        "slope_deg": args.slope_deg.0,
+    });
+    let answer = Answer::new("attitude", inputs, Results { limit: &limit, rows: &records });
+    if let Some(mut folder) = folder {
+        folder.add("attitude.json", answer.to_text());
+        folder.add("attitude.csv", rows.to_csv()?);
+        folder.add("attitude.svg", chart(&curve).to_svg());
+        folder.add("scenario.toml", scenario.to_toml());
+        folder.finish()?;
     }
-    map.insert("rows".into(), rows.to_json());
-    let json = json_text(map);
     match args.output.format {
-        Format::Table => output::print(&(rows.to_table(&COLUMNS) + &limit_line(&limit)))?,
-        Format::Csv => output::print(&rows.to_csv()?)?,
-        Format::Json => output::print(&json)?,
+        Format::Table => output::print(&(rows.to_table(&COLUMNS) + &limit_line(&limit))),
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => output::print_json(&answer),
     }
-    let Some(mut folder) = folder else { return Ok(()) };
-    folder.add("attitude.json", json);
-    folder.add("attitude.csv", rows.to_csv()?);
-    folder.add("attitude.svg", chart(&curve).to_svg());
-    folder.add("scenario.toml", scenario.to_toml());
-    folder.finish()
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    #[serde(flatten)]
+    limit: &'a AttitudeLimit,
+    rows: &'a [AttitudeRecord],
 }
 
 fn limit_line(limit: &AttitudeLimit) -> String {

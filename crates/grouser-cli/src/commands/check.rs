@@ -22,7 +22,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 worst = Some(match worst {
                     None => failure,
                     Some(before) => {
-                        eprintln!("error: {before}");
+                        output::report(&before);
                         if before.code() > failure.code() {
                             Failure::Usage(failure.to_string())
                         } else {

@@ -3,7 +3,7 @@
 use grouser::document::{self, Kind, Preset};
 use serde::Serialize;
 
-use super::{envelope, json_text};
+use super::Answer;
 use crate::args::PresetsArgs;
 use crate::failure::Failure;
 use crate::output::rows::Rows;
@@ -15,6 +15,11 @@ struct PresetRecord {
     name: &'static str,
     title: String,
     source: String,
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    rows: &'a [PresetRecord],
 }
 
 pub(crate) fn run(args: &PresetsArgs) -> Result<(), Failure> {
@@ -30,27 +35,23 @@ fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> 
     let named: Vec<_> = presets.iter().filter(|preset| preset.name == name).collect();
     match named[..] {
         [] => {
-            let closest = presets
-                .iter()
-                .max_by(|a, b| likeness(name, a.name).total_cmp(&likeness(name, b.name)));
-            let hint = closest
-                .map_or(String::new(), |preset| format!("; did you mean `{}`?", preset.name));
-            Err(Failure::Usage(format!("there is no preset called `{name}`{hint}")))
+            let hint = match document::nearest(name, presets.iter().map(|preset| preset.name)) {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => "`grouser presets` lists them".to_owned(),
+            };
+            let name = name.escape_debug();
+            Err(Failure::Usage(format!("there is no preset called `{name}`\nhint: {hint}")))
         }
         [preset] => output::print(preset.text),
         _ => {
             let kinds: Vec<_> = named.iter().map(|preset| preset.kind.name()).collect();
             Err(Failure::Usage(format!(
-                "`{name}` is the name of a {}: add --kind {}",
+                "`{name}` is the name of a {}\nhint: add --kind {}",
                 kinds.join(" and of a "),
                 kinds.join(" or --kind ")
             )))
         }
     }
-}
-
-fn likeness(one: &str, other: &str) -> f64 {
-    strsim::jaro_winkler(one, other)
 }
 
 fn list(presets: &[&'static Preset], format: Format) -> Result<(), Failure> {
@@ -66,9 +67,8 @@ fn list(presets: &[&'static Preset], format: Format) -> Result<(), Failure> {
         Format::Table => output::print(&rows.to_table(&["kind", "name", "title", "source"])),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => {
-            let mut map = envelope("presets", &serde_json::json!({}));
-            map.insert("rows".into(), rows.to_json());
-            output::print(&json_text(map))
+            let results = Results { rows: &records };
+            output::print_json(&Answer::new("presets", serde_json::json!({}), results))
         }
     }
 }

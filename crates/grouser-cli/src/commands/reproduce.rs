@@ -1,19 +1,19 @@
 //! `grouser reproduce`: the paper's study, to a report one can open.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use grouser::document::{self, LoadedScenario, Overrides, Source, experiment};
 use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::traverse::sample_rows;
+use super::traverse::sample_csv;
 use crate::args::ReproduceArgs;
 use crate::failure::Failure;
 use crate::output;
-use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::folder::{OldFiles, OutputFolder, has_entries};
 use crate::report::figures;
-use crate::report::page::Page;
+use crate::report::page::{self, Page};
 use crate::report::tables::{self, Table};
 
 /// The folder without `--out`.
@@ -63,12 +63,22 @@ fn open_folder(args: &ReproduceArgs) -> Result<(PathBuf, OutputFolder), Failure>
         Some(out) => (out.clone(), OldFiles::Keep),
         None => {
             let target = PathBuf::from(DEFAULT_FOLDER);
-            let ours = target.join(REPORT).is_file();
-            (target, if ours { OldFiles::Replace } else { OldFiles::Keep })
+            if has_entries(&target)? && !is_ours(&target.join(REPORT)) {
+                return Err(Failure::Usage(format!(
+                    "the folder {DEFAULT_FOLDER} holds other files than a report of this program: \
+                     name another folder with --out DIR"
+                )));
+            }
+            (target, OldFiles::Replace)
         }
     };
     let folder = OutputFolder::open(&target, old_files)?;
     Ok((target, folder))
+}
+
+/// Whether a file is a report that this program wrote.
+fn is_ours(report: &Path) -> bool {
+    std::fs::read_to_string(report).is_ok_and(|html| html.contains(page::GENERATOR))
 }
 
 fn run_with_bar(plan: &Plan) -> Result<Reproduction, Failure> {
@@ -135,7 +145,7 @@ fn write_report(
         let slope = runs.measured.slope.to_degrees().round();
         let mut add = |name: &str, run: &grouser::simulation::Trajectory| {
             let record = document::trajectory::TrajectoryRecord::new(run, rover);
-            let rows = sample_rows(&record.samples).to_csv()?;
+            let rows = sample_csv(&record.samples)?;
             folder.add(&format!("data/traverse-{slope}deg-{name}.csv"), rows);
             Ok::<(), Failure>(())
         };

@@ -5,13 +5,13 @@ use grouser::simulation::Simulation;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::{envelope, json_text};
+use super::Answer;
 use crate::args::TraverseArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::{Rows, csv, four_digits};
 use crate::output::{self, Format};
 
 /// Columns of the table on a terminal.
@@ -25,20 +25,19 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let scenario = inputs::traverse(args)?;
     let run = Simulation::new(&scenario.value)?.run()?;
     let record = TrajectoryRecord::new(&run, &scenario.value.rover);
-    let mut map = envelope("traverse", &json!({ "scenario": scenario.document }));
-    map.extend(object(&record));
-    let json = json_text(map);
-    match args.output.format {
-        Format::Table => output::print(&table(&record))?,
-        Format::Csv => output::print(&sample_rows(&record.samples).to_csv()?)?,
-        Format::Json => output::print(&json)?,
+    let answer = Answer::new("traverse", json!({ "scenario": scenario.document }), &record);
+    if let Some(mut folder) = folder {
+        folder.add("traverse.json", answer.to_text());
+        folder.add("traverse.csv", sample_csv(&record.samples)?);
+        folder.add("traverse.svg", chart(&record).to_svg());
+        folder.add("scenario.toml", scenario.to_toml());
+        folder.finish()?;
     }
-    let Some(mut folder) = folder else { return Ok(()) };
-    folder.add("traverse.json", json);
-    folder.add("traverse.csv", sample_rows(&record.samples).to_csv()?);
-    folder.add("traverse.svg", chart(&record).to_svg());
-    folder.add("scenario.toml", scenario.to_toml());
-    folder.finish()
+    match args.output.format {
+        Format::Table => output::print(&table(&record)),
+        Format::Csv => output::print(&sample_csv(&record.samples)?),
+        Format::Json => output::print_json(&answer),
+    }
 }
 
 fn object(record: &impl Serialize) -> Map<String, Value> {
@@ -48,29 +47,26 @@ fn object(record: &impl Serialize) -> Map<String, Value> {
     }
 }
 
-/// A row for each sample; the columns of a wheel start with its name, as in
+/// CSV with a row for each sample; the columns of a wheel start with its name, as in
 /// `front-left.slip_ratio`. A rover that has just tipped over has empty ones.
-pub(crate) fn sample_rows(samples: &[SampleRecord]) -> Rows {
-    let rows = samples.iter().map(|sample| {
-        let mut row = object(sample);
-        row.remove("wheels");
-        for wheel in &sample.wheels {
-            let mut columns = object(wheel);
-            columns.remove("wheel");
-            row.extend(
-                columns.into_iter().map(|(key, value)| (format!("{}.{key}", wheel.wheel), value)),
-            );
-        }
-        row
-    });
-    let mut rows: Vec<Map<String, Value>> = rows.collect();
-    let longest = rows.iter().max_by_key(|row| row.len()).cloned().unwrap_or_default();
-    for row in &mut rows {
-        for key in longest.keys() {
-            row.entry(key).or_insert(Value::Null);
-        }
+pub(crate) fn sample_csv(samples: &[SampleRecord]) -> Result<String, Failure> {
+    let fullest = samples.iter().max_by_key(|sample| sample.wheels.len());
+    let columns: Vec<String> =
+        fullest.map_or(Vec::new(), |sample| sample_row(sample).keys().cloned().collect());
+    csv(&columns, samples.iter().map(sample_row))
+}
+
+fn sample_row(sample: &SampleRecord) -> Map<String, Value> {
+    let mut row = object(sample);
+    row.remove("wheels");
+    for wheel in &sample.wheels {
+        let mut columns = object(wheel);
+        columns.remove("wheel");
+        row.extend(
+            columns.into_iter().map(|(key, value)| (format!("{}.{key}", wheel.wheel), value)),
+        );
     }
-    Rows::from_maps(rows)
+    row
 }
 
 /// Some of the samples with the mean of their wheels, and what became of the rover.

@@ -2,9 +2,10 @@
 
 use grouser::document::study::WheelTestRecord;
 use grouser::studies::wheel_test::WheelTest;
+use serde::Serialize;
 use serde_json::json;
 
-use super::{envelope, json_text};
+use super::Answer;
 use crate::args::WheelTestArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -40,29 +41,34 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     };
     let records: Vec<WheelTestRecord> = test.run().iter().map(WheelTestRecord::from).collect();
     let rows = Rows::of(&records);
-    let mut map = envelope(
-        "wheel-test",
-        &json!({
-            "soil": inputs.soil.document,
-            "wheel": inputs.wheel.document,
-            "gravity_m_s2": inputs.gravity,
-            "model": inputs.theory.name(),
-        }),
-    );
-    map.insert("rows".into(), rows.to_json());
-    let json = json_text(map);
-    match args.output.format {
-        Format::Table => output::print(&rows.to_table(&COLUMNS))?,
-        Format::Csv => output::print(&rows.to_csv()?)?,
-        Format::Json => output::print(&json)?,
+    let settings = json!({
+        "soil": inputs.soil.document,
+        "wheel": inputs.wheel.document,
+        "gravity_m_s2": inputs.gravity,
+        "model": inputs.theory.name(),
+        "load_n": args.load_n.0,
+        "slip_angle_deg": args.slip_angle_deg.0,
+        "slip_ratio": args.slip_ratio.0,
+    });
+    let answer = Answer::new("wheel-test", settings, Results { rows: &records });
+    if let Some(mut folder) = folder {
+        folder.add("wheel-test.json", answer.to_text());
+        folder.add("wheel-test.csv", rows.to_csv()?);
+        folder.add("wheel-test.svg", chart(&records).to_svg());
+        folder.add("soil.toml", inputs.soil.to_toml());
+        folder.add("wheel.toml", inputs.wheel.to_toml());
+        folder.finish()?;
     }
-    let Some(mut folder) = folder else { return Ok(()) };
-    folder.add("wheel-test.json", json);
-    folder.add("wheel-test.csv", rows.to_csv()?);
-    folder.add("wheel-test.svg", chart(&records).to_svg());
-    folder.add("soil.toml", inputs.soil.to_toml());
-    folder.add("wheel.toml", inputs.wheel.to_toml());
-    folder.finish()
+    match args.output.format {
+        Format::Table => output::print(&rows.to_table(&COLUMNS)),
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    rows: &'a [WheelTestRecord],
 }
 
 /// Drawbar pull over slip ratio, a curve for each load and slip angle.

@@ -2,20 +2,28 @@
 
 use std::fs;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+
+use tempfile::TempDir;
 
 use crate::args::OutputArgs;
 use crate::failure::Failure;
 use crate::interrupt;
 
+/// Start of the names of temporary folders. A killed program may leave one behind.
+const TEMPORARY: &str = ".grouser-";
+
 /// Files that appear in a folder together, or not at all.
 ///
-/// They are kept in memory, then written to a temporary folder beside the target. Only when all
-/// are on the disk are they moved to their place, so that a full disk or a kill leaves nothing
-/// half-written.
+/// They are kept in memory, then written to a temporary folder on the same disk. Only when all are
+/// whole do they go to their place: a new folder in one step, so that a full disk or a kill leaves
+/// all of it or nothing; into a folder that is there already file by file, each of them whole.
 pub(crate) struct OutputFolder {
     target: PathBuf,
-    parent: PathBuf,
+    /// The target if it is there, or else the nearest folder above it that is.
+    base: PathBuf,
+    /// The way from there to the target; empty if that is there.
+    missing: PathBuf,
     files: Vec<(String, String)>,
 }
 
@@ -35,25 +43,23 @@ impl OutputFolder {
         args.out.as_ref().map(|target| Self::open(target, old_files)).transpose()
     }
 
-    /// Prepares for writing to a folder: what would fail later fails now.
+    /// Prepares for writing to a folder: what would fail later fails now, and nothing is made yet.
     pub(crate) fn open(target: &Path, old_files: OldFiles) -> Result<Self, Failure> {
         let shown = target.display();
-        if target.exists() && !target.is_dir() {
-            return Err(Failure::Usage(format!("--out {shown}: there is a file of that name")));
-        }
-        let parent = match target.parent() {
-            Some(parent) if parent != Path::new("") => parent,
-            _ => Path::new("."),
-        };
-        if old_files == OldFiles::Keep && has_entries(target)? {
+        if target.symlink_metadata().is_ok() && !target.is_dir() {
             return Err(Failure::Usage(format!(
-                "--out {shown}: the folder is not empty; choose another, or add --force to \
-                 replace the files of the same names"
+                "{shown} is a file: the output needs a folder, a new one or an empty one"
             )));
         }
-        fs::create_dir_all(parent).map_err(Failure::at(parent))?;
-        check_writable(if target.is_dir() { target } else { parent })?;
-        Ok(Self { target: target.to_owned(), parent: parent.to_owned(), files: Vec::new() })
+        if old_files == OldFiles::Keep && has_entries(target)? {
+            return Err(Failure::Usage(format!(
+                "the folder {shown} is not empty: choose another, or add --force to replace the \
+                 files of the same names"
+            )));
+        }
+        let (base, missing) = split_at_existing(target)?;
+        check_writable(&base)?;
+        Ok(Self { target: target.to_owned(), base, missing, files: Vec::new() })
     }
 
     /// Adds a file; folders in its name are made.
@@ -64,16 +70,84 @@ impl OutputFolder {
     /// Writes all files and moves them to their place.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let _not_now = interrupt::not_now();
-        let staging = tempfile::Builder::new()
-            .prefix(".grouser-")
-            .tempdir_in(&self.parent)
-            .map_err(Failure::at(&self.parent))?;
+        let staging = temporary_folder(&self.base)?;
+        let staged = staging.path().join(&self.missing);
         for (name, content) in &self.files {
-            write(&staging.path().join(name), content)
-                .map_err(Failure::at(&self.target.join(name)))?;
+            let place = self.target.join(name);
+            write(&staged.join(name), content).map_err(Failure::at("cannot write", &place))?;
         }
-        move_entries(staging.path(), &self.target)
+        match self.missing.iter().next() {
+            Some(first) => {
+                let place = self.base.join(first);
+                fs::rename(staging.path().join(first), &place)
+                    .map_err(Failure::at("cannot make the folder", &place))
+            }
+            None => {
+                self.check_room()?;
+                move_entries(&staged, &self.target)
+            }
+        }
     }
+
+    /// That no folder stands where a file has to go, and no file where a folder has to.
+    fn check_room(&self) -> Result<(), Failure> {
+        for (name, _) in &self.files {
+            let place = self.target.join(name);
+            let above = place.parent().filter(|above| above.exists() && !above.is_dir());
+            if let Some(file) = above {
+                let file = file.display();
+                return Err(Failure::Usage(format!("{file} is a file where a folder has to be")));
+            }
+            if place.is_dir() {
+                let folder = place.display();
+                return Err(Failure::Usage(format!("{folder} is a folder where a file has to be")));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether there is something in a folder; there is nothing in one that does not exist.
+pub(crate) fn has_entries(folder: &Path) -> Result<bool, Failure> {
+    if !folder.is_dir() {
+        return Ok(false);
+    }
+    let mut entries = fs::read_dir(folder).map_err(Failure::at("cannot look into", folder))?;
+    Ok(entries.next().is_some())
+}
+
+/// The part of a path that is there, and the way from it to the end.
+fn split_at_existing(target: &Path) -> Result<(PathBuf, PathBuf), Failure> {
+    let is_there = |path: &Path| path == Path::new("") || path.symlink_metadata().is_ok();
+    let there = target.ancestors().find(|path| is_there(path)).unwrap_or(Path::new(""));
+    let missing = target.strip_prefix(there).unwrap_or(target).to_owned();
+    let base = if there == Path::new("") { PathBuf::from(".") } else { there.to_owned() };
+    if !base.is_dir() {
+        return Err(Failure::Run(format!(
+            "cannot make the folder {}: {} is a file",
+            target.display(),
+            base.display()
+        )));
+    }
+    if missing.components().any(|step| step == Component::ParentDir) {
+        let shown = target.display();
+        return Err(Failure::Usage(format!("{shown} leads through a folder that does not exist")));
+    }
+    // `a/./b` is `a/b`.
+    Ok((base, missing.components().collect()))
+}
+
+fn temporary_folder(base: &Path) -> Result<TempDir, Failure> {
+    tempfile::Builder::new()
+        .prefix(TEMPORARY)
+        .tempdir_in(base)
+        .map_err(Failure::at("cannot write to the folder", base))
+}
+
+/// A folder that cannot be written to is found before anything is computed.
+fn check_writable(folder: &Path) -> Result<(), Failure> {
+    let _not_now = interrupt::not_now();
+    temporary_folder(folder).map(drop)
 }
 
 fn write(path: &Path, content: &str) -> std::io::Result<()> {
@@ -85,32 +159,15 @@ fn write(path: &Path, content: &str) -> std::io::Result<()> {
     file.sync_all()
 }
 
-fn has_entries(folder: &Path) -> Result<bool, Failure> {
-    if !folder.is_dir() {
-        return Ok(false);
-    }
-    let mut entries = fs::read_dir(folder).map_err(Failure::at(folder))?;
-    Ok(entries.next().is_some())
-}
-
-/// A folder that cannot be written to is found before anything is computed.
-fn check_writable(folder: &Path) -> Result<(), Failure> {
-    tempfile::Builder::new()
-        .prefix(".grouser-")
-        .tempfile_in(folder)
-        .map(drop)
-        .map_err(Failure::at(folder))
-}
-
+/// Moves what is in a folder to another, whole folders where the other has none of the name.
 fn move_entries(from: &Path, to: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(to).map_err(Failure::at(to))?;
-    for entry in fs::read_dir(from).map_err(Failure::at(from))? {
-        let entry = entry.map_err(Failure::at(from))?;
+    for entry in fs::read_dir(from).map_err(Failure::at("cannot look into", from))? {
+        let entry = entry.map_err(Failure::at("cannot look into", from))?;
         let target = to.join(entry.file_name());
-        if entry.path().is_dir() {
+        if target.is_dir() {
             move_entries(&entry.path(), &target)?;
         } else {
-            fs::rename(entry.path(), &target).map_err(Failure::at(&target))?;
+            fs::rename(entry.path(), &target).map_err(Failure::at("cannot write", &target))?;
         }
     }
     Ok(())
@@ -127,27 +184,44 @@ mod tests {
         let mut folder = OutputFolder::open(&target, OldFiles::Keep).unwrap();
         folder.add("one.csv", "1\n".into());
         folder.add("figures/two.svg", "2\n".into());
-        assert!(!target.exists());
+        assert!(!place.path().join("a").exists());
         folder.finish().unwrap();
         assert_eq!(fs::read_to_string(target.join("figures/two.svg")).unwrap(), "2\n");
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
         assert_eq!(fs::read_dir(place.path().join("a")).unwrap().count(), 1);
 
         let refused = OutputFolder::open(&target, OldFiles::Keep).err().unwrap();
         assert!(refused.to_string().contains("--force"));
         let mut again = OutputFolder::open(&target, OldFiles::Replace).unwrap();
         again.add("one.csv", "3\n".into());
+        again.add("figures/three.svg", "3\n".into());
         again.finish().unwrap();
         assert_eq!(fs::read_to_string(target.join("one.csv")).unwrap(), "3\n");
         assert_eq!(fs::read_to_string(target.join("figures/two.svg")).unwrap(), "2\n");
+        assert_eq!(fs::read_to_string(target.join("figures/three.svg")).unwrap(), "3\n");
+        assert_eq!(fs::read_dir(&target).unwrap().count(), 2);
     }
 
     #[test]
     fn what_is_given_up_leaves_nothing() {
         let place = tempfile::tempdir().unwrap();
-        let target = place.path().join("out");
+        let target = place.path().join("a/out");
         let mut folder = OutputFolder::open(&target, OldFiles::Keep).unwrap();
         folder.add("one.csv", "1\n".into());
         drop(folder);
         assert_eq!(fs::read_dir(place.path()).unwrap().count(), 0);
+    }
+
+    #[test]
+    fn a_folder_in_the_way_of_a_file_is_found_before_anything_is_replaced() {
+        let place = tempfile::tempdir().unwrap();
+        fs::write(place.path().join("a.csv"), "old").unwrap();
+        fs::create_dir(place.path().join("b.csv")).unwrap();
+        let mut folder = OutputFolder::open(place.path(), OldFiles::Replace).unwrap();
+        folder.add("a.csv", "new".into());
+        folder.add("b.csv", "new".into());
+        assert!(folder.finish().is_err());
+        assert_eq!(fs::read_to_string(place.path().join("a.csv")).unwrap(), "old");
+        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 2);
     }
 }

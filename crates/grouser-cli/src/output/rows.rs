@@ -1,5 +1,7 @@
 //! Records as rows of a table, of CSV or of JSON: the keys are the columns.
 
+use std::borrow::Borrow;
+
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -25,23 +27,11 @@ impl Rows {
         Self(maps)
     }
 
-    /// The rows as JSON.
-    pub(crate) fn to_json(&self) -> Value {
-        Value::Array(self.0.iter().cloned().map(Value::Object).collect())
-    }
-
     /// The rows as CSV with a header; null is an empty field.
     pub(crate) fn to_csv(&self) -> Result<String, Failure> {
-        let failed = |error: csv::Error| Failure::Run(format!("CSV: {error}"));
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        if let Some(first) = self.0.first() {
-            writer.write_record(first.keys()).map_err(failed)?;
-        }
-        for row in &self.0 {
-            writer.write_record(row.values().map(exact)).map_err(failed)?;
-        }
-        let bytes = writer.into_inner().map_err(|error| Failure::Run(format!("CSV: {error}")))?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        let columns: Vec<String> =
+            self.0.first().map_or(Vec::new(), |row| row.keys().cloned().collect());
+        csv(&columns, self.0.iter())
     }
 
     /// The rows as an aligned table of some of their columns; a column's header is its key.
@@ -52,6 +42,25 @@ impl Rows {
         });
         aligned(&header, &cells.collect::<Vec<Vec<String>>>())
     }
+}
+
+/// Rows as CSV with a header; what is null or missing is an empty field.
+pub(crate) fn csv<M: Borrow<Map<String, Value>>>(
+    columns: &[String],
+    rows: impl Iterator<Item = M>,
+) -> Result<String, Failure> {
+    let failed = |error: csv::Error| Failure::Run(format!("CSV: {error}"));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    if !columns.is_empty() {
+        writer.write_record(columns).map_err(failed)?;
+    }
+    for row in rows {
+        let row = row.borrow();
+        let cells = columns.iter().map(|column| row.get(column).map_or(String::new(), exact));
+        writer.write_record(cells).map_err(failed)?;
+    }
+    let bytes = writer.into_inner().map_err(|error| Failure::Run(format!("CSV: {error}")))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
 /// A value with every digit.

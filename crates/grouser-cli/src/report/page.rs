@@ -5,6 +5,9 @@ use std::fmt::Write as _;
 use super::figures::Figure;
 use super::tables::Table;
 
+/// The element by which a page is known as ours.
+pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"Grouser";
+
 /// A page in the making.
 pub(crate) struct Page {
     title: String,
@@ -77,7 +80,9 @@ impl Page {
             html,
             "<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             {GENERATOR} {}\">\n\
              <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+            env!("CARGO_PKG_VERSION"),
             escaped(&self.title),
             include_str!("report.css"),
             self.body

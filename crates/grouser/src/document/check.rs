@@ -34,7 +34,8 @@ pub(super) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'
 }
 
 /// The word that was probably meant.
-pub(super) fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
+#[must_use]
+pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
     /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;
     /// `cohesion` finds `cohesion_kpa`, `sand` does not find `sine`.
     const ALIKE: f64 = 0.8;
@@ -46,6 +47,9 @@ pub(super) fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) 
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, known)| known)
 }
+
+/// The key that chooses among tables.
+const LAW: &str = "law";
 
 struct Checker<'a> {
     root: &'static Json,
@@ -65,9 +69,10 @@ impl Checker<'_> {
         if let Some(words) = words(self.root, schema) {
             return check_word(&words, node, path);
         }
+        let all = alternatives(self.root, schema);
         let schema = self.choose(schema, node, path, key)?;
         match &node.value {
-            Value::Table(entries) => self.table(schema, node, entries, path, key),
+            Value::Table(entries) => self.table(schema, node, entries, path, key, &all),
             Value::List(nodes) => self.list(schema, node, nodes, path),
             Value::Integer(integer) => check_range(schema, node, *integer as f64, path),
             Value::Float(float) => check_range(schema, node, *float, path),
@@ -86,7 +91,7 @@ impl Checker<'_> {
         let all = alternatives(self.root, schema);
         let fitting: Vec<_> = all.iter().copied().filter(|one| fits(one, node)).collect();
         match fitting[..] {
-            [] => Err(wrong_type(&all, node, path)),
+            [] => Err(wrong_type(&all, node, path, schema)),
             [one] => Ok(one),
             _ => self.choose_law(&fitting, node, path, key),
         }
@@ -100,10 +105,7 @@ impl Checker<'_> {
         path: &str,
         key: &Origin,
     ) -> Result<&'static Json, DocumentError> {
-        const LAW: &str = "law";
-        let words_of = |table: &'static Json| {
-            table.get("properties").and_then(|keys| words(self.root, keys.get(LAW)?))
-        };
+        let words_of = |table: &'static Json| self.laws_of(table);
         let Some(entry) = node.entry(LAW) else {
             let without = tables.iter().copied().find(|table| !requires(table, LAW));
             let all: Vec<_> = tables.iter().copied().filter_map(words_of).flatten().collect();
@@ -118,9 +120,15 @@ impl Checker<'_> {
             matches!((&entry.node.value, words_of(table)),
                 (Value::String(law), Some(words)) if words.contains(&law.as_str()))
         });
-        named.ok_or_else(|| wrong_type(tables, node, path))
+        named.ok_or_else(|| wrong_type(tables, node, path, &Json::Null))
     }
 
+    /// The laws that a table's keys belong to.
+    fn laws_of(&self, table: &'static Json) -> Option<Vec<&'static str>> {
+        words(self.root, table.get("properties")?.get(LAW)?)
+    }
+
+    /// * `all`: the schemas among which `schema` was chosen
     fn table(
         &self,
         schema: &'static Json,
@@ -128,6 +136,7 @@ impl Checker<'_> {
         entries: &[Entry],
         path: &str,
         key: &Origin,
+        all: &[&'static Json],
     ) -> Result<(), DocumentError> {
         for entry in entries {
             let path = join(path, &entry.key);
@@ -135,7 +144,7 @@ impl Checker<'_> {
                 Some((_, schema)) => {
                     self.value(schema, &entry.node, &path, &entry.key_origin)?;
                 }
-                None => return Err(self.unknown_key(schema, node, entry, path)),
+                None => return Err(self.unknown_key(schema, all, node, entry, path)),
             }
         }
         let missing = keys(schema).find(|(key, _)| {
@@ -155,16 +164,21 @@ impl Checker<'_> {
     fn unknown_key(
         &self,
         schema: &'static Json,
+        all: &[&'static Json],
         table: &Node,
         entry: &Entry,
         path: String,
     ) -> DocumentError {
-        let law = match table.entry("law").map(|entry| &entry.node.value) {
+        let law = match table.entry(LAW).map(|entry| &entry.node.value) {
             Some(Value::String(law)) => format!(" with law = \"{law}\""),
             _ => String::new(),
         };
         let known: Vec<_> = keys(schema).map(|(key, _)| key).collect();
-        let hint = if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
+        let knowing = all.iter().filter(|table| keys(table).any(|(key, _)| key == entry.key));
+        let laws: Vec<_> = knowing.filter_map(|table| self.laws_of(table)).flatten().collect();
+        let hint = if !laws.is_empty() {
+            format!("it goes with law = {}", listed(&laws))
+        } else if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
             format!("did you mean `{meant}`?")
         } else if let [only] = &paths_of(self.root, &entry.key)[..]
             && join(self.prefix, only) != path
@@ -257,7 +271,8 @@ fn check_length(schema: &Json, node: &Node, count: usize, path: &str) -> Result<
     Err(DocumentError::at(&node.origin, problem))
 }
 
-fn wrong_type(schemas: &[&Json], node: &Node, path: &str) -> DocumentError {
+/// * `key`: the schema of the key, for what it says of it
+fn wrong_type(schemas: &[&Json], node: &Node, path: &str, key: &Json) -> DocumentError {
     let mut expected: Vec<_> = schemas.iter().map(|schema| type_in_words(schema)).collect();
     expected.dedup();
     let problem = Problem::WrongType {
@@ -269,7 +284,7 @@ fn wrong_type(schemas: &[&Json], node: &Node, path: &str) -> DocumentError {
         Value::String(text) if text.trim().parse::<f64>().is_ok() => {
             Some("a number is written without quotes".to_owned())
         }
-        _ => None,
+        _ => key.get("description").and_then(Json::as_str).map(first_line),
     };
     DocumentError::at(&node.origin, problem).with_hint(hint)
 }

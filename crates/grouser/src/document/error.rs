@@ -219,6 +219,15 @@ impl DocumentError {
         self
     }
 
+    /// The same, told as an argument's, such as `--soil moon`, if that names nothing there is.
+    #[must_use]
+    pub fn in_argument(mut self, argument: String) -> Self {
+        if matches!(self.problem(), Problem::NoSuchPresetOrFile { .. }) {
+            self.parts.place = Place { document: argument, spot: None };
+        }
+        self
+    }
+
     /// Where the trouble is.
     #[must_use]
     pub fn place(&self) -> &Place {

@@ -76,6 +76,29 @@ impl Overrides {
         self.add(&text, key, value, false)
     }
 
+    /// Adds the value of a flag that is one number, or a list of several.
+    ///
+    /// * `written`: the value as it was written, for messages
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is no such key.
+    pub fn flag_numbers(
+        &mut self,
+        flag: &str,
+        key: &str,
+        written: &str,
+        numbers: &[f64],
+    ) -> Result<(), DocumentError> {
+        let text = argument(format!("{flag} {written}"));
+        let origin = Origin { span: flag.len() + 1..text.content.len(), text: text.clone() };
+        let node = |number: &f64| Node { value: Value::Float(*number), origin: origin.clone() };
+        let value = match numbers {
+            [number] => node(number),
+            _ => Node { value: Value::List(numbers.iter().map(node).collect()), origin },
+        };
+        self.add(&text, key, value, false)
+    }
+
     /// Adds the value of a flag that is a text whatever it looks like: a name, a path.
     ///
     /// # Errors
@@ -102,6 +125,21 @@ impl Overrides {
         }
     }
 
+    /// That no value is set under some keys of a document, for which a command has no use.
+    ///
+    /// # Errors
+    /// [`DocumentError`] for the first that is, with a hint what to do instead.
+    pub fn refuse(&self, kind: Kind, keys: &[&str], hint: &str) -> Result<(), DocumentError> {
+        let is_refused = |one: &&Override| one.kind == kind && keys.contains(&one.path[0].as_str());
+        match self.all.iter().find(is_refused) {
+            None => Ok(()),
+            Some(one) => {
+                let problem = Problem::Malformed("this command does not use the key");
+                Err(DocumentError::at(&one.key_origin, problem).with_hint(hint.to_owned()))
+            }
+        }
+    }
+
     fn add(
         &mut self,
         text: &Arc<Text>,
@@ -121,12 +159,18 @@ impl Overrides {
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
         };
         let path: Vec<_> = steps.collect();
+        if path.is_empty() {
+            let problem = Problem::Malformed("a document is not set as a whole, only its keys");
+            let hint = format!("for instance --set {kind}.KEY=VALUE, or --{kind} NAME");
+            return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
+        }
         if path.is_empty() || path.iter().any(String::is_empty) {
             let problem = Problem::Malformed("there is no key between its dots");
             return Err(DocumentError::whole(&text.label, problem));
         }
         let start = text.content.find(key).unwrap_or(0);
         let key_origin = Origin { text: text.clone(), span: start..start + key.len() };
+        let (kind, path) = without_parts(kind, path);
         self.all.push(Override { kind, path, key_origin, value, changes_a_source });
         Ok(())
     }
@@ -207,6 +251,18 @@ impl Override {
     }
 }
 
+/// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or
+/// holds it.
+fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
+    while let Some(part) = kind.parts().iter().find(|part| {
+        path.len() > part.path.len() && path.iter().zip(part.path).all(|(a, b)| a == b)
+    }) {
+        path.drain(..part.path.len());
+        kind = part.kind;
+    }
+    (kind, path)
+}
+
 fn argument(content: String) -> Arc<Text> {
     let folder = PathBuf::new();
     Arc::new(Text { label: content.clone(), content, folder, is_argument: true })
@@ -234,7 +290,10 @@ fn parse_value(text: &Arc<Text>, start: usize) -> Result<Node, DocumentError> {
         }
         Err(error) if written.starts_with(['[', '{', '"', '\'']) => Err(error),
         Err(_) if !written.contains('\n') => {
-            Ok(Node { value: Value::String(written.to_owned()), origin })
+            // TOML has no `.5`, no `5.` and no overflow; people do.
+            let number = written.parse().map(Value::Float);
+            let value = number.unwrap_or_else(|_| Value::String(written.to_owned()));
+            Ok(Node { value, origin })
         }
         _ => Err(DocumentError::at(&origin, Problem::Malformed("this is not one value"))),
     }

@@ -197,9 +197,9 @@ pub enum Eq18Word {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Speeds {
-    /// The same for all [m/s].
+    /// Rim speed of every wheel [m/s].
     All(#[schemars(range(min = -FASTEST, max = FASTEST))] f64),
-    /// One for each mount, in their order [m/s].
+    /// Rim speed of each mount's wheel, in the mounts' order [m/s].
     Each(#[schemars(inner(range(min = -FASTEST, max = FASTEST)))] Vec<f64>),
 }
 
@@ -257,11 +257,11 @@ fn default_slope() -> f64 {
     10.0
 }
 
-/// About the length of the source's runs, which is not printed [s].
 fn default_sample_interval() -> f64 {
     Numerics::default().sample_interval
 }
 
+/// About the length of the source's runs, which is not printed [s].
 fn default_duration() -> f64 {
     20.0
 }
@@ -307,6 +307,8 @@ impl Document for ScenarioDocument {
                 DocumentError::at(tree.origin_of(path), Problem::Unfit(error))
             }
         };
+        check_sample_count(self.duration_s, self.sample_interval_s)
+            .map_err(at("sample_interval_s"))?;
         scenario.drive.check(&scenario.rover).map_err(at("drive.speed_m_s"))?;
         scenario.check().map_err(at("schema"))?;
         Ok(scenario)
@@ -330,6 +332,18 @@ impl Document for ScenarioDocument {
             .chain(soil.into_iter().flatten())
             .collect()
     }
+}
+
+/// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
+const MOST_SAMPLES: f64 = 1e6;
+
+fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
+    let count = (duration / interval).ceil();
+    if count <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let name = "the number of samples, duration_s / sample_interval_s,";
+    Err(ParameterError::new(name, count, "at most 1000000"))
 }
 
 /// A document inside the scenario, and the part of the tree it was made from.

@@ -319,7 +319,9 @@ fn wrong_overrides_say_so() {
     for (setting, message) in [
         ("soil.cohesion_kpa", "not of the form document.key=value"),
         ("sol.cohesion_kpa=1", "did you mean `soil`?"),
-        ("soil=1", "there is no key"),
+        ("soil=1", "not set as a whole, only its keys"),
+        ("scenario.soil.cohesion_kpa=200", "`soil.cohesion_kpa` is 200, it must be 0 to 100"),
+        ("scenario.drive.reference_slip_ratio=0.1", "it goes with law = \"eq18-as-printed\" or"),
         ("soil..x=1", "there is no key"),
         ("soil.cohesion_kpa=", "there is no value"),
         ("soil.cohesion_kpa=[1", "not TOML"),
@@ -329,6 +331,7 @@ fn wrong_overrides_say_so() {
         ("soil.cohesion_kpa.x=1", "leads through a value that is not a table"),
         ("soil.n=-1", "did you mean `soil.pressure_sinkage.n`?"),
         ("soil.cohesion=1", "did you mean `cohesion_kpa`?"),
+        ("soil.density_kg_m3=1e400", "is inf, it must be a finite number, 200 to 4000"),
         ("soil.density_kg_m3=inf", "it must be a finite number, 200 to 4000"),
         ("scenario.rover=hakutoo", "did you mean `hakuto`?"),
         ("scenario.model=bekke", "did you mean \"bekker\"?"),
