@@ -38,6 +38,12 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
     }
 }
 
+/// Says something beside the results, to the standard error.
+pub(crate) fn tell(text: &str) {
+    // Whoever cannot hear it still gets the results.
+    let _ = writeln!(stderr(), "{text}");
+}
+
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {

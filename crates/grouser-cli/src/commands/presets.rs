@@ -43,13 +43,15 @@ fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> 
             Err(Failure::Usage(format!("there is no preset called `{name}`\nhint: {hint}")))
         }
         [preset] => output::print(preset.text),
-        _ => {
-            let kinds: Vec<_> = named.iter().map(|preset| preset.kind.name()).collect();
-            Err(Failure::Usage(format!(
-                "`{name}` is the name of a {}\nhint: add --kind {}",
-                kinds.join(" and of a "),
-                kinds.join(" or --kind ")
-            )))
+        [..] => {
+            // Whoever asks for a rover's name means the rover; its wheel has the same name.
+            let whole = named.iter().max_by_key(|preset| preset.kind == Kind::Rover);
+            let others = named.iter().filter(|preset| Some(preset) != whole.as_ref());
+            for other in others {
+                let kind = other.kind;
+                output::tell(&format!("note: there is also a {kind} `{name}`: --kind {kind}"));
+            }
+            whole.map_or(Ok(()), |preset| output::print(preset.text))
         }
     }
 }
