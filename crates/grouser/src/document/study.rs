@@ -49,6 +49,10 @@ pub struct WheelRecord {
     pub drawbar_pull_n: Option<f64>,
     /// Force across the wheel [N], positive to the left.
     pub side_force_n: Option<f64>,
+    /// Part of the side force from shear [N].
+    pub side_force_from_shear_n: Option<f64>,
+    /// Full load of the soil that the flank pushes aside [N], before the slip angle's share of it.
+    pub bulldozing_load_n: Option<f64>,
     /// Force out of the ground [N].
     pub normal_force_n: Option<f64>,
     /// Driving torque [N·m].
@@ -75,6 +79,8 @@ impl WheelRecord {
             max_stress_angle_deg: Some(forces.patch.max_stress.to_degrees()),
             drawbar_pull_n: Some(forces.drawbar_pull),
             side_force_n: Some(forces.side_force),
+            side_force_from_shear_n: Some(forces.side_force_from_shear),
+            bulldozing_load_n: Some(forces.bulldozing_load),
             normal_force_n: Some(forces.normal_force),
             torque_nm: Some(forces.torque),
             overturning_moment_nm: Some(forces.overturning_moment),

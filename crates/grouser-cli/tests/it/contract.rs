@@ -1,0 +1,670 @@
+//! What scripts are written against: words, formats, flags, files.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use serde_json::Value;
+
+use crate::program::{Place, changed_preset, keys, number};
+
+// ---- Words ----
+
+#[test]
+fn json_says_what_it_is() {
+    let place = Place::new();
+    for (line, schema) in [
+        ("wheel-test", "grouser.wheel-test.v1"),
+        ("attitude", "grouser.attitude.v1"),
+        ("traverse --duration-s 0.1", "grouser.traverse.v1"),
+        ("presets", "grouser.presets.v1"),
+    ] {
+        let json = place.json(line);
+        assert_eq!(json["schema"], schema);
+        assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
+    }
+}
+
+/// The words of a wheel test that the design fixes.
+const WHEEL_WORDS: [&str; 12] = [
+    "load_n",
+    "slip_ratio",
+    "slip_angle_deg",
+    "status",
+    "sinkage_mm",
+    "entry_angle_deg",
+    "exit_angle_deg",
+    "max_stress_angle_deg",
+    "drawbar_pull_n",
+    "side_force_n",
+    "normal_force_n",
+    "torque_nm",
+];
+
+#[test]
+fn wheel_test_rows_have_the_words_of_the_design() {
+    let json = Place::new().json("wheel-test --load-n 5,10 --slip-ratio 0:0.2:0.1");
+    let rows = json["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 6);
+    for row in rows {
+        for word in WHEEL_WORDS {
+            assert!(!row[word].is_null(), "{word} in {row}");
+        }
+        assert_eq!(row["status"], "ok");
+        let load = number(&row["load_n"]);
+        assert!((number(&row["normal_force_n"]) - load).abs() < 1e-6 * load);
+    }
+}
+
+#[test]
+fn rows_are_ordered_by_load_then_angle_then_slip() {
+    let json =
+        Place::new().json("wheel-test --load-n 9,8 --slip-angle-deg 2,1 --slip-ratio 0.3,0.1");
+    let rows = json["rows"].as_array().expect("rows").iter();
+    let order: Vec<_> = rows
+        .map(|row| ["load_n", "slip_angle_deg", "slip_ratio"].map(|word| number(&row[word])))
+        .collect();
+    let mut expected = Vec::new();
+    for load in [9.0, 8.0] {
+        for angle in [2.0, 1.0] {
+            expected.extend([0.3, 0.1].map(|slip| [load, angle, slip]));
+        }
+    }
+    assert_eq!(order, expected);
+}
+
+#[test]
+fn attitude_rows_have_the_words_of_the_design_and_the_limit_stands_beside_them() {
+    let json = Place::new().json("attitude --slope-deg 5,10,15,20");
+    let limit = number(&json["limit_slope_deg"]);
+    assert!((20.0..21.0).contains(&limit), "{limit}");
+    for row in json["rows"].as_array().expect("rows") {
+        for word in ["slope_deg", "yaw_deg", "slip_ratio", "sinkage_mm", "torque_nm"] {
+            assert!(row[word].is_number(), "{word} in {row}");
+        }
+        assert_eq!(row["status"], "ok");
+    }
+}
+
+#[test]
+fn a_traverse_has_an_outcome_an_end_and_samples() {
+    let json = Place::new().json("traverse --slope-deg 10 --yaw-deg 5.5 --duration-s 2");
+    assert_eq!(json["outcome"], "completed");
+    let samples = json["samples"].as_array().expect("samples");
+    assert_eq!(json["final"], samples[samples.len() - 1]);
+    for word in ["time_s", "x_m", "y_m", "yaw_deg", "power_w", "energy_j"] {
+        assert!(json["final"][word].is_number(), "{word}");
+    }
+    assert_eq!(json["final"]["time_s"], 2.0);
+    assert_eq!(samples[0]["time_s"], 0.0);
+    assert_eq!(samples[0]["yaw_deg"], 5.5);
+    let wheels = samples[1]["wheels"].as_array().expect("wheels");
+    let names: Vec<_> = wheels.iter().map(|wheel| wheel["wheel"].as_str().unwrap_or("")).collect();
+    assert_eq!(names, ["front-left", "rear-left", "rear-right", "front-right"]);
+    for word in ["slip_ratio", "slip_angle_deg", "load_n", "sinkage_mm", "wheel_speed_rad_s"] {
+        assert!(wheels[0][word].is_number(), "{word}");
+    }
+}
+
+#[test]
+fn every_outcome_is_a_result() {
+    let place = Place::new();
+    for (line, outcome) in [
+        ("traverse --duration-s 1", "completed"),
+        ("traverse too-steep", "sliding"),
+        ("traverse --slope-deg 60 --yaw-deg 90 --duration-s 5 --set rover.body.mass_kg=6", ""),
+        ("traverse --set soil.pressure_sinkage.k_phi=0.1", ""),
+    ] {
+        let json = place.json(line);
+        let found = json["outcome"].as_str().expect("an outcome");
+        let known = ["completed", "immobilised", "sliding", "tipped_over"];
+        assert!(known.contains(&found), "{line}: {found}");
+        assert!(outcome.is_empty() || found == outcome, "{line}: {found}");
+        assert_eq!(json["reason"].is_null(), found == "completed", "{line}");
+    }
+}
+
+#[test]
+fn what_has_no_physical_answer_has_a_reason_and_nulls() {
+    let place = Place::new();
+    let json = place.json("wheel-test --load-n 100000 --slip-ratio 0.5");
+    let row = &json["rows"][0];
+    assert_eq!(row["load_n"], 1e5);
+    assert_eq!(row["slip_ratio"], 0.5);
+    assert!(row["status"].as_str().is_some_and(|status| status.contains("carries")), "{row}");
+    for word in keys(row) {
+        let is_input = ["load_n", "slip_ratio", "slip_angle_deg", "status"].contains(&word);
+        assert_eq!(row[word].is_null(), !is_input, "{word}");
+    }
+
+    let json = place.json("attitude --slope-deg 10,25");
+    let row = &json["rows"][1];
+    assert_eq!(row["slope_deg"], 25.0);
+    assert!(row["yaw_deg"].is_null() && row["slip_ratio"].is_null(), "{row}");
+    assert_ne!(row["status"], "ok");
+}
+
+#[test]
+fn the_header_of_csv_is_the_keys_of_json() {
+    let place = Place::new();
+    for line in ["wheel-test", "attitude", "presets"] {
+        let csv = place.results(&format!("{line} --format csv"));
+        let header: Vec<_> = csv.lines().next().expect("a header").split(',').collect();
+        assert_eq!(header, keys(&place.json(line)["rows"][0]), "{line}");
+    }
+    let csv = place.results("traverse --duration-s 0.1 --format csv");
+    let header = csv.lines().next().expect("a header");
+    assert!(header.starts_with("time_s,x_m,y_m,yaw_deg,"), "{header}");
+    assert!(header.contains(",front-left.slip_ratio,"), "{header}");
+}
+
+/// Read and written again, every number of CSV and JSON is the same text.
+#[test]
+fn floats_are_in_their_shortest_round_trip_form() {
+    let place = Place::new();
+    let line = "wheel-test --slip-ratio -1:1:0.25 --slip-angle-deg 0:30:10";
+    let csv = place.results(&format!("{line} --format csv"));
+    let json = place.json(line);
+    let rows = json["rows"].as_array().expect("rows");
+    let mut count = 0;
+    for (cells, row) in csv.lines().skip(1).zip(rows) {
+        for (cell, key) in cells.split(',').zip(keys(row)) {
+            if let Ok(value) = cell.parse::<f64>() {
+                assert_eq!(row[key].as_f64(), Some(value), "{key}");
+                assert_eq!(Value::from(value).to_string(), cell, "{key}");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 9 * 4 * 10, "{count}");
+}
+
+#[test]
+fn ranges_are_written_as_their_decimals() {
+    let place = Place::new();
+    let slips = |line: &str| -> Vec<f64> {
+        let json = place.json(line);
+        let rows = json["rows"].as_array().expect("rows").iter();
+        rows.map(|row| number(&row["slip_ratio"])).collect()
+    };
+    assert_eq!(
+        slips("wheel-test --slip-ratio 0:0.9:0.1"),
+        [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]
+    );
+    let both_ways = [-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0];
+    assert_eq!(slips("wheel-test --slip-ratio -1:1:0.25"), both_ways);
+    assert_eq!(slips("wheel-test --slip-ratio=-1:1:0.25"), both_ways);
+    assert_eq!(slips("wheel-test --slip-ratio -0.2,0.5,0.8:0.9:0.05"), [-0.2, 0.5, 0.8, 0.85, 0.9]);
+}
+
+// ---- Flags ----
+
+#[test]
+fn set_changes_one_key() {
+    let place = Place::new();
+    let json = place.json("wheel-test --set soil.cohesion_kpa=0.5 --set wheel.radius_m=0.12");
+    assert_eq!(json["inputs"]["soil"]["cohesion_kpa"], 0.5);
+    assert_eq!(json["inputs"]["wheel"]["radius_m"], 0.12);
+    let json = place.json(
+        "traverse --duration-s 0.1 --set rover.body.mass_kg=6 --set scenario.slope_deg=3 \
+         --set scenario.soil.density_kg_m3=1500 --set wheel.width_m=0.1",
+    );
+    let scenario = &json["inputs"]["scenario"];
+    assert_eq!(scenario["slope_deg"], 3.0);
+    assert_eq!(scenario["soil"]["density_kg_m3"], 1500.0);
+    assert_eq!(scenario["rover"]["body"]["mass_kg"], 6.0);
+    assert_eq!(scenario["rover"]["wheel_unit"]["wheel"]["width_m"], 0.1);
+}
+
+#[test]
+fn the_theory_is_the_flags_or_the_soils_or_ishigami() {
+    let place = Place::new();
+    assert_eq!(place.json("wheel-test")["inputs"]["model"], "ishigami");
+    assert_eq!(place.json("wheel-test --model bekker")["inputs"]["model"], "bekker");
+    let soil = format!("model = \"bekker\"\n{}", place.results("presets toyoura"));
+    place.write("sand.toml", soil);
+    assert_eq!(place.json("wheel-test --soil sand.toml")["inputs"]["model"], "bekker");
+    assert_eq!(place.json("attitude --soil sand.toml")["inputs"]["model"], "bekker");
+    let again = place.json("wheel-test --soil sand.toml --model ishigami");
+    assert_eq!(again["inputs"]["model"], "ishigami");
+    assert_eq!(again["rows"], place.json("wheel-test")["rows"]);
+    assert_ne!(again["rows"], place.json("wheel-test --model bekker")["rows"]);
+}
+
+#[test]
+fn gravity_is_a_number_or_a_name() {
+    let place = Place::new();
+    for (word, value) in [("earth", 9.80665), ("1.62", 1.62)] {
+        for command in ["wheel-test", "attitude"] {
+            let json = place.json(&format!("{command} --gravity-m-s2 {word}"));
+            assert_eq!(json["inputs"]["gravity_m_s2"], value, "{command} {word}");
+        }
+    }
+    let by_name = place.json("traverse --duration-s 0.1 --gravity-m-s2 moon");
+    let moon = by_name["inputs"]["scenario"]["gravity_m_s2"].clone();
+    let by_number = place.json(&format!("traverse --duration-s 0.1 --gravity-m-s2 {moon}"));
+    assert_eq!(by_name, by_number);
+    assert!((1.6..1.65).contains(&number(&moon)));
+    let mars = place.json("wheel-test --gravity-m-s2 mars")["inputs"]["gravity_m_s2"].clone();
+    assert!((3.7..3.75).contains(&number(&mars)));
+}
+
+#[test]
+fn loads_and_moments_change_the_balance() {
+    let place = Place::new();
+    let attitude = |flags: &str| {
+        let json = place.json(&format!("attitude --slope-deg 10 {flags}"));
+        number(&json["rows"][0]["yaw_deg"])
+    };
+    let plain = attitude("");
+    assert_eq!(plain, attitude("--loads quasi-static --moments neglected"));
+    for flags in ["--loads uniform", "--loads quasi-static-torque", "--moments included"] {
+        assert_ne!(plain, attitude(flags), "{flags}");
+    }
+}
+
+#[test]
+fn documents_are_presets_or_files() {
+    let place = Place::new();
+    place.write("sand.toml", place.results("presets toyoura"));
+    place.write("wheel.toml", place.results("presets hakuto --kind wheel"));
+    place.write("rover.toml", place.results("presets hakuto --kind rover"));
+    let preset = place.results("wheel-test --format json");
+    assert_eq!(
+        preset,
+        place.results("wheel-test --format json --soil sand.toml --wheel wheel.toml")
+    );
+    let preset = place.results("attitude --format json");
+    assert_eq!(
+        preset,
+        place.results("attitude --format json --soil ./sand.toml --rover rover.toml")
+    );
+    let preset = place.results("traverse --duration-s 1 --format json");
+    let line = "traverse --duration-s 1 --format json --rover rover.toml --soil sand.toml";
+    assert_eq!(preset, place.results(line));
+}
+
+#[test]
+fn every_flag_of_a_traverse_reaches_the_scenario() {
+    let json = Place::new().json(
+        "traverse --rover el-dorado-2 --soil simulant-2007 --slope-deg 7.5 --yaw-deg -5 \
+         --duration-s 0.2 --speed-m-s 0.05 --drive eq18 --reference-slip-ratio 0.1 --start rest \
+         --loads uniform --moments included --model bekker --gravity-m-s2 3.71",
+    );
+    let scenario = &json["inputs"]["scenario"];
+    assert_eq!(scenario["slope_deg"], 7.5);
+    assert_eq!(scenario["start"]["yaw_deg"], -5.0);
+    assert_eq!(scenario["start"]["motion"], "rest");
+    assert_eq!(scenario["duration_s"], 0.2);
+    assert_eq!(scenario["drive"]["law"], "eq18");
+    assert_eq!(scenario["drive"]["speed_m_s"], 0.05);
+    assert_eq!(scenario["drive"]["reference_slip_ratio"], 0.1);
+    assert_eq!(scenario["loads"], "uniform");
+    assert_eq!(scenario["moments"], "included");
+    assert_eq!(scenario["model"], "bekker");
+    assert_eq!(scenario["gravity_m_s2"], 3.71);
+    assert_eq!(json["samples"][0]["yaw_deg"], -5.0);
+}
+
+#[test]
+fn a_list_of_speeds_gives_one_to_each_wheel() {
+    let json = Place::new().json("traverse --duration-s 0.1 --speed-m-s -0.06,-0.06,0.06,0.06");
+    let speeds = json["inputs"]["scenario"]["drive"]["speed_m_s"].clone();
+    assert_eq!(speeds, serde_json::json!([-0.06, -0.06, 0.06, 0.06]));
+    let wheels = &json["samples"][1]["wheels"];
+    assert!(number(&wheels[0]["wheel_speed_rad_s"]) < 0.0);
+    assert!(number(&wheels[3]["wheel_speed_rad_s"]) > 0.0);
+}
+
+// ---- Streams ----
+
+#[test]
+fn the_same_command_says_the_same_bytes() {
+    let place = Place::new();
+    for line in [
+        "wheel-test --slip-angle-deg 0:90:10 --format json",
+        "attitude --format json",
+        "traverse --duration-s 5 --format json",
+        "traverse spot-turn --format csv",
+    ] {
+        assert_eq!(place.results(line), place.results(line), "{line}");
+    }
+}
+
+/// The escape codes themselves are looked for in every answer of every test.
+#[test]
+fn colours_are_for_terminals_that_want_them() {
+    let place = Place::new();
+    let plain = place.line("wheel-test --slip-ratio much");
+    let mut command = place.command(&["wheel-test", "--slip-ratio", "much"]);
+    let output = command.env("NO_COLOR", "1").env("CLICOLOR_FORCE", "1").output();
+    let output = output.expect("the program starts");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), plain.stderr);
+}
+
+#[test]
+fn the_progress_of_reproduce_is_not_told_where_nobody_watches() {
+    let place = Place::new();
+    let answer = place.line("reproduce --out study");
+    assert_eq!((answer.code(), answer.stderr.as_str()), (0, ""));
+}
+
+// ---- Folders ----
+
+/// Runs a line with `--out`, then again from what it wrote.
+fn check_repeats(line: &str, from_documents: &str, results: &str) {
+    let place = Place::new();
+    let printed = place.results(&format!("{line} --format json --out first"));
+    assert_eq!(printed, place.read(&format!("first/{results}")), "{line}");
+    let again = place.results(&format!("{from_documents} --format json"));
+    let [first, second]: [Value; 2] =
+        [&printed, &again].map(|text| serde_json::from_str(text).expect("JSON"));
+    assert_eq!(first, second, "{line}");
+    assert_eq!(place.names(), ["first"]);
+}
+
+#[test]
+fn a_run_is_repeated_from_its_folder() {
+    check_repeats(
+        "traverse spot-turn --slope-deg 4 --duration-s 2 --loads quasi-static-torque \
+         --set soil.cohesion_kpa=0.2 --gravity-m-s2 moon --model bekker",
+        "traverse first/scenario.toml",
+        "traverse.json",
+    );
+    check_repeats(
+        "attitude --soil simulant-2007 --rover hakuto-flight --slope-deg 3,6 --gravity-m-s2 mars \
+         --loads uniform --moments included --set wheel.radius_m=0.12",
+        "attitude first/scenario.toml --slope-deg 3,6",
+        "attitude.json",
+    );
+    check_repeats(
+        "wheel-test --soil lunar-nominal --wheel jfr-2007 --load-n 9 --set soil.cohesion_kpa=0.3 \
+         --set soil.bulldozing.law=none --slip-angle-deg 5",
+        "wheel-test --soil first/soil.toml --wheel first/wheel.toml --load-n 9 --slip-angle-deg 5",
+        "wheel-test.json",
+    );
+}
+
+#[test]
+fn a_soil_that_names_no_source_is_repeated_too() {
+    let place = Place::new();
+    let soil = changed_preset("soil", "toyoura", "source", "notes_of_old");
+    let soil: String = soil
+        .lines()
+        .filter(|line| !line.starts_with("notes_of_old"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    place.write("sand.toml", soil);
+    let first = place.results("wheel-test --soil sand.toml --format json --out first");
+    let again =
+        place.results("wheel-test --soil first/soil.toml --wheel first/wheel.toml --format json");
+    assert_eq!(first, again);
+}
+
+#[test]
+fn a_folder_holds_the_same_as_the_streams() {
+    let place = Place::new();
+    for command in ["wheel-test", "attitude", "traverse"] {
+        let csv = place.results(&format!("{command} --format csv --out {command}"));
+        assert_eq!(csv, place.read(&format!("{command}/{command}.csv")));
+        let svg = place.read(&format!("{command}/{command}.svg"));
+        assert!(svg.contains("<svg") && svg.trim_end().ends_with("</svg>"));
+    }
+}
+
+#[test]
+fn old_files_stay_unless_forced() {
+    let place = Place::new();
+    place.results("wheel-test --slip-ratio 0.1 --out results");
+    place.write("results/notes.txt", "mine");
+    let before = place.read("results/wheel-test.csv");
+    let refused = place.line("wheel-test --slip-ratio 0.2 --out results");
+    assert_eq!(refused.code(), 2);
+    assert!(refused.stderr.contains("--force"), "{}", refused.stderr);
+    assert_eq!(refused.stdout, "");
+    assert_eq!(before, place.read("results/wheel-test.csv"));
+
+    place.results("wheel-test --slip-ratio 0.2 --out results --force");
+    assert_ne!(before, place.read("results/wheel-test.csv"));
+    assert_eq!(place.read("results/notes.txt"), "mine");
+}
+
+#[test]
+fn an_empty_folder_is_taken_and_missing_ones_are_made() {
+    let place = Place::new();
+    fs::create_dir(place.file("empty")).expect("it can be made");
+    place.results("wheel-test --out empty");
+    place.results("wheel-test --out a/b/./c/");
+    assert!(place.file("empty/wheel-test.csv").is_file());
+    assert!(place.file("a/b/c/wheel-test.csv").is_file());
+    assert_eq!(place.names(), ["a", "empty"]);
+}
+
+/// A new folder is for others to read as the umask says, as one made by `mkdir` is.
+#[cfg(unix)]
+#[test]
+fn a_new_folder_has_the_usual_permissions() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let place = Place::new();
+    assert_eq!(place.shell("umask 022; grouser wheel-test --out results").code(), 0);
+    let mode = fs::metadata(place.file("results")).expect("it is there").permissions().mode();
+    assert_eq!(mode & 0o777, 0o755);
+}
+
+/// A reader that has seen enough does not keep the folder from being written.
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_ends_nothing_but_the_printing() {
+    let place = Place::new();
+    let line = "{ grouser traverse --format csv --out run; echo code $? >&2; } | head -n 1";
+    let answer = place.shell(line);
+    assert_eq!(answer.stderr, "code 0\n");
+    assert!(answer.stdout.starts_with("time_s,"));
+    assert!(place.read("run/traverse.csv").lines().count() > 100);
+    assert!(place.file("run/scenario.toml").is_file());
+}
+
+// ---- Reference numbers, through the program ----
+
+/// A soil of the reference files, whose keys are in SI, as a document.
+fn soil_document(soil: &Value) -> String {
+    let mut text = String::from("schema = \"soil/1\"\nname = \"reference\"\n");
+    let law = &soil["pressure_sinkage"];
+    let peak = &soil["max_stress"];
+    let modulus = &soil["shear_modulus"];
+    // Writing to a string does not fail.
+    let _ = write!(
+        text,
+        "cohesion_kpa = {:?}\nfriction_angle_deg = {}\ndensity_kg_m3 = {}\n\
+         [pressure_sinkage]\nlaw = {}\nk_c = {}\nk_phi = {}\nn = {}\n\
+         [stress_peak]\na0 = {}\na1 = {}\n\
+         [shear]\nlaw = {}\nlongitudinal_m = {}\nlongitudinal_per_rad_m = {}\nlateral_m = {}\n\
+         lateral_per_rad_m = {}\n[exit]\nratio = {}\n[bulldozing]\nlaw = {}\n",
+        number(&soil["cohesion_pa"]) / 1000.0,
+        soil["friction_angle_deg"],
+        soil["density_kg_m3"],
+        law["law"],
+        law["k_c"],
+        law["k_phi"],
+        law["n"],
+        peak["a0"],
+        peak["a1"],
+        soil["shear_law"],
+        modulus["longitudinal_m"],
+        modulus["longitudinal_per_rad_m"],
+        modulus["lateral_m"],
+        modulus["lateral_per_rad_m"],
+        soil["exit_angle_ratio"],
+        soil["bulldozing"],
+    );
+    text
+}
+
+fn wheel_document(wheel: &Value) -> String {
+    let (radius, width) = (&wheel["radius_m"], &wheel["width_m"]);
+    let text = format!("schema = \"wheel/1\"\nradius_m = {radius}\nwidth_m = {width}\n");
+    let height = number(&wheel["grouser_height_m"]);
+    if height == 0.0 {
+        text
+    } else {
+        text + &format!("[grousers]\nheight_m = {height}\ncount = 24\n")
+    }
+}
+
+fn reference(json: &str) -> Vec<Value> {
+    let document: Value = serde_json::from_str(json).expect("the reference files are JSON");
+    document["rows"].as_array().expect("they have rows").clone()
+}
+
+/// Every quantity to 1e-6 of its size, or of a thousandth of its scale, as in the library's tests.
+#[test]
+fn settled_wheels_of_the_reference_through_the_program() {
+    let rows =
+        reference(include_str!("../../../grouser/tests/it/reference/wheel_equilibrium.json"));
+    let place = Place::new();
+    let mut cases: Vec<(Value, Vec<&Value>)> = Vec::new();
+    for row in &rows {
+        let case =
+            serde_json::json!([row["soil"], row["wheel"], row["gravity_m_s2"], row["load_n"]]);
+        match cases.iter_mut().find(|(known, _)| *known == case) {
+            Some((_, rows)) => rows.push(row),
+            None => cases.push((case, vec![row])),
+        }
+    }
+    let mut checked = 0;
+    for (case, rows) in &cases {
+        place.write("soil.toml", soil_document(&case[0]));
+        place.write("wheel.toml", wheel_document(&case[1]));
+        let list = |word: &str| {
+            let mut values: Vec<String> = rows.iter().map(|row| row[word].to_string()).collect();
+            values.sort();
+            values.dedup();
+            values.join(",")
+        };
+        let json = place.json(&format!(
+            "wheel-test --soil soil.toml --wheel wheel.toml --gravity-m-s2 {} --load-n {} \
+             --slip-ratio {} --slip-angle-deg {}",
+            case[2],
+            case[3],
+            list("slip_ratio"),
+            list("slip_angle_deg"),
+        ));
+        for expected in rows {
+            let answers = json["rows"].as_array().expect("rows");
+            let same = |word: &str, row: &Value| number(&row[word]) == number(&expected[word]);
+            let row = answers
+                .iter()
+                .find(|row| same("slip_ratio", row) && same("slip_angle_deg", row))
+                .expect("it was asked for");
+            check_reference_row(expected, row);
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 140);
+}
+
+fn check_reference_row(expected: &Value, row: &Value) {
+    let load = number(&expected["load_n"]);
+    let wheel = &expected["wheel"];
+    let radius = number(&wheel["radius_m"]) + number(&wheel["grouser_height_m"]);
+    let degree = 1f64.to_radians();
+    for (theirs, ours, factor, scale) in [
+        ("sinkage_m", "sinkage_mm", 1e-3, radius),
+        ("entry_angle_rad", "entry_angle_deg", degree, 1.0),
+        ("max_stress_angle_rad", "max_stress_angle_deg", degree, 1.0),
+        ("exit_angle_rad", "exit_angle_deg", degree, 1.0),
+        ("drawbar_pull_n", "drawbar_pull_n", 1.0, load),
+        ("side_force_n", "side_force_n", 1.0, load),
+        ("side_force_from_shear_n", "side_force_from_shear_n", 1.0, load),
+        ("bulldozing_integral_n", "bulldozing_load_n", 1.0, load),
+        ("torque_nm", "torque_nm", 1.0, load * radius),
+    ] {
+        let (computed, right) = (number(&row[ours]) * factor, number(&expected[theirs]));
+        let error = (computed - right).abs() / right.abs().max(1e-3 * scale);
+        assert!(error < 1e-6, "{ours} is {computed}, not {right} ({error:.1e}): {expected}");
+    }
+}
+
+#[test]
+fn attitudes_of_the_reference_through_the_program() {
+    let json = Place::new().json("attitude --slope-deg 5,10,15,20");
+    let rows = json["rows"].as_array().expect("rows");
+    let expected = reference(include_str!("../../../grouser/tests/it/reference/attitude.json"));
+    assert_eq!(rows.len(), expected.len());
+    for (row, expected) in rows.iter().zip(&expected) {
+        assert_eq!(number(&row["slope_deg"]), number(&expected["slope_deg"]));
+        let error = number(&row["yaw_deg"]) - number(&expected["yaw_deg"]);
+        assert!(error.abs() < 0.02, "{row}");
+    }
+}
+
+// ---- Reproduce ----
+
+#[test]
+fn the_report_is_one_page_that_needs_no_network() {
+    let place = Place::new();
+    place.results("reproduce --out study");
+    let html = place.read("study/report.html");
+    assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
+    for address in html.match_indices("://").map(|(at, _)| address_around(&html, at)) {
+        assert!(address.starts_with("http://www.w3.org/"), "{address}");
+    }
+    let lower = html.to_lowercase();
+    for element in ["<script", "<link", "<img", "<iframe", "<object", "<embed", "@import", "url("] {
+        assert!(!lower.contains(element), "{element}");
+    }
+    for reference in [" src=", " href=\"http", "srcset"] {
+        assert!(!lower.contains(reference), "{reference}");
+    }
+    let figures = html.matches("<figure>").count();
+    assert!(figures >= 5, "{figures}");
+    assert_eq!(html.matches("<svg").count(), figures);
+    assert_eq!(html.matches("</svg>").count(), figures);
+    let drawn = fs::read_dir(place.file("study/figures")).expect("a folder").count();
+    assert_eq!(drawn, figures);
+    for said in ["Assumptions in force", "How the numbers were made", env!("CARGO_PKG_VERSION")] {
+        assert!(html.contains(said), "{said}");
+    }
+}
+
+fn address_around(text: &str, at: usize) -> &str {
+    let ends = |c: char| c.is_whitespace() || "\"'<>()".contains(c);
+    let start = text[..at].rfind(ends).map_or(0, |found| found + 1);
+    let end = text[at..].find(ends).map_or(text.len(), |found| at + found);
+    &text[start..end]
+}
+
+#[test]
+fn the_reports_scenario_gives_the_reports_numbers() {
+    let place = Place::new();
+    place.results("reproduce --out study");
+    place.results("traverse study/scenario.toml --yaw-deg 0 --slope-deg 10 --out again");
+    let report = place.read("study/data/traverse-10deg-nose-level.csv");
+    assert_eq!(report, place.read("again/traverse.csv"));
+}
+
+#[test]
+fn reproduce_replaces_its_own_report_and_nothing_else() {
+    let place = Place::new();
+    place.results("reproduce");
+    let first = place.read("reproduction/report.html");
+    place.write("reproduction/data/attitudes.csv", "spoilt");
+    place.results("reproduce");
+    assert_eq!(first, place.read("reproduction/report.html"));
+    assert_ne!(place.read("reproduction/data/attitudes.csv"), "spoilt");
+    assert_eq!(place.names(), ["reproduction"]);
+}
+
+#[test]
+fn reproduce_refuses_a_foreign_folder() {
+    for foreign in ["thesis.txt", "report.html"] {
+        let place = Place::new();
+        fs::create_dir(place.file("reproduction")).expect("it can be made");
+        place.write(&format!("reproduction/{foreign}"), "<html>mine</html>");
+        let answer = place.line("reproduce");
+        assert_eq!(answer.code(), 2);
+        assert!(answer.stderr.contains("--out DIR"), "{}", answer.stderr);
+        assert_eq!(place.read(&format!("reproduction/{foreign}")), "<html>mine</html>");
+        let left = fs::read_dir(place.file("reproduction")).expect("a folder").count();
+        assert_eq!((left, place.names()), (1, vec!["reproduction".to_owned()]));
+    }
+}
