@@ -17,6 +17,9 @@ use crate::vehicle::{Drive, ReactionError, WheelReaction};
 /// Time between two looks of a drive that varies [s]. Source: ours, a usual rate of rover control.
 pub const CONTROL_PERIOD: f64 = 0.1;
 
+/// Time between two looks at what becomes of the rover [s]: however rarely samples are recorded, a
+/// finding is found. Source: ours, a tenth of [`CERTAIN_AFTER`].
+pub const WATCH_PERIOD: f64 = 0.1;
 /// A finding about the motion must hold for this long [s], so that a jolt is none. Source: ours.
 pub const CERTAIN_AFTER: f64 = 1.0;
 /// Mean slip above which the wheels only dig [-]. Source: ours; Opportunity was given up for
@@ -43,7 +46,11 @@ pub enum SimulationError {
         source: ReactionError,
     },
     /// The integrator could not go on.
-    #[error("at {time:.3} s the integration stalled: {reason}")]
+    #[error(
+        "the run cannot be computed beyond {time:.3} s: no time step is short enough for the motion \
+         there ({reason}); a locked or suddenly braked wheel is the usual reason, another --speed-m-s \
+         or a rolling start may avoid it"
+    )]
     Stalled {
         /// When [s].
         time: f64,
@@ -60,6 +67,7 @@ pub struct Simulation<'a> {
     time: f64,
     point: Point,
     samples: Vec<Sample>,
+    slip_ratios: Vec<f64>,
     watch: Watch,
     outcome: Option<Outcome>,
     work: Work,
@@ -97,6 +105,7 @@ impl<'a> Simulation<'a> {
             time: 0.0,
             point: Point { state, motors: 0.0, soil: 0.0 },
             samples: Vec::new(),
+            slip_ratios,
             watch: Watch::default(),
             outcome: None,
             work: Work::default(),
@@ -133,7 +142,12 @@ impl<'a> Simulation<'a> {
         }
         self.ask_drive();
         let interval = self.scenario.numerics.sample_interval;
-        self.advance_through(&sample_times(self.time, until, interval))
+        let mut times = multiples_between(self.time, until, interval);
+        times.extend(multiples_between(self.time, until, WATCH_PERIOD));
+        times.push(until);
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| is_same_time(*later, *earlier));
+        self.advance_through(&times)
     }
 
     /// What became of the rover, if that is known already.
@@ -153,23 +167,31 @@ impl<'a> Simulation<'a> {
             return;
         }
         let rover = &self.scenario.rover;
-        let slip_ratios: Vec<f64> = self.samples.last().map_or_else(
-            || vec![0.0; rover.wheel_count()],
-            |sample| sample.wheels.iter().map(|wheel| wheel.reaction.slip.ratio).collect(),
-        );
         let radius = rover.wheel().shearing_radius();
         let wheel_speeds =
             |rims: &[f64]| rims.iter().map(|speed| speed / radius).collect::<Vec<f64>>();
         let before = power::spin_energy(rover, &wheel_speeds(&self.rim_speeds));
-        let input = DriveInput { rover, yaw: self.point.state.yaw, slip_ratios: &slip_ratios };
+        let input = DriveInput { rover, yaw: self.point.state.yaw, slip_ratios: &self.slip_ratios };
         self.drive.rim_speeds(&input, &mut self.rim_speeds);
         // The motors change the spin at once; the books must not lose that work.
         self.point.motors += power::spin_energy(rover, &wheel_speeds(&self.rim_speeds)) - before;
     }
 
-    /// Integrates through the given times and keeps a sample at each; with none, at the start.
+    /// Integrates through the given times and looks at the rover at each; with none, at the start.
+    /// Keeps a sample where one is due, and at the end.
     fn advance_through(&mut self, times: &[f64]) -> Result<(), SimulationError> {
-        let Self { scenario, rim_speeds, time, point, samples, watch, outcome, work, .. } = self;
+        let Self {
+            scenario,
+            rim_speeds,
+            time,
+            point,
+            samples,
+            slip_ratios,
+            watch,
+            outcome,
+            work,
+            ..
+        } = self;
         let ground = Ground {
             rover: &scenario.rover,
             site: &scenario.site,
@@ -186,7 +208,11 @@ impl<'a> Simulation<'a> {
                 Ok(wheels) => {
                     let sample = sample_of(scenario, &equations, now, reached, &wheels);
                     *outcome = watch.look(scenario, &sample, rim_speeds);
-                    samples.push(sample);
+                    slip_ratios.clear();
+                    slip_ratios.extend(wheels.iter().map(|wheel| wheel.slip.ratio));
+                    if outcome.is_some() || is_sample_due(scenario, now) {
+                        samples.push(sample);
+                    }
                 }
                 Err(error) => {
                     samples.push(sample_of(scenario, &equations, now, reached, &[]));
@@ -232,18 +258,32 @@ impl<'a> Simulation<'a> {
     }
 }
 
-/// Multiples of the interval after one time and before another, and that other one.
-fn sample_times(after: f64, until: f64, interval: f64) -> Vec<f64> {
-    /// Nearer than this share of the interval, two samples would be one.
-    const APART: f64 = 1e-6;
+/// Multiples of an interval after one time and before another.
+fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f64> {
     let mut times = Vec::new();
-    let mut count = (after / interval + APART).floor() + 1.0;
-    while count * interval < until - APART * interval {
-        times.push(count * interval);
+    let mut count = (after / interval).floor();
+    while count * interval < until {
+        let time = count * interval;
+        if time > after && !is_same_time(time, after) && !is_same_time(time, until) {
+            times.push(time);
+        }
         count += 1.0;
     }
-    times.push(until);
     times
+}
+
+/// Whether two times are one, but for rounding.
+fn is_same_time(one: f64, other: f64) -> bool {
+    /// Far below any step, far above the rounding of a day in seconds [s].
+    const APART: f64 = 1e-9;
+    (one - other).abs() < APART
+}
+
+/// Whether a sample belongs at a time: at the start, the end and the intervals between.
+fn is_sample_due(scenario: &Scenario, time: f64) -> bool {
+    let interval = scenario.numerics.sample_interval;
+    let nearest = (time / interval).round() * interval;
+    is_same_time(time, nearest) || is_same_time(time, scenario.duration)
 }
 
 /// The outcome that a missing reaction means, if it means one.
