@@ -11,7 +11,7 @@ use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::{Rows, rounded_down};
 use crate::output::{self, Format};
 
 /// Columns of the table on a terminal.
@@ -73,7 +73,7 @@ struct Results<'a> {
 fn limit_line(limit: &AttitudeLimit) -> String {
     match limit.limit_slope_deg {
         Some(slope) => {
-            let slope = four_digits(slope);
+            let slope = rounded_down(slope);
             format!("steepest slope with a level attitude: {slope}°, {}\n", limit.limit_reason)
         }
         None => format!("no level attitude on any slope: {}\n", limit.limit_reason),

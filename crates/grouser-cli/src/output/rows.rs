@@ -98,6 +98,11 @@ pub(crate) fn four_digits(value: f64) -> String {
     }
 }
 
+/// A limit with two decimals, rounded down: what is rounded up is beyond it.
+pub(crate) fn rounded_down(limit: f64) -> String {
+    format!("{:.2}", (limit * 100.0).floor() / 100.0)
+}
+
 /// Without the zeros that end a decimal fraction.
 fn trimmed(text: &str) -> String {
     if text.contains('.') {

@@ -1,8 +1,10 @@
 //! The figures of the report, each with its data.
 
+use grouser::contact::Settled;
 use grouser::simulation::{Trajectory, WheelSample};
 use grouser::studies::comparison::MeasuredTraverse;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
+use grouser::studies::wheel_test::WheelTestRow;
 use grouser::vehicle::Rover;
 use serde_json::{Map, Value, json};
 
@@ -46,6 +48,16 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
         attitude(study),
         traverses(study),
         wheel_curves(study),
+        by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
+            settled.forces.drawbar_pull
+        }),
+        by_slip_angle(study, "side-force-over-slip", "Side force", "side force [N]", |settled| {
+            settled.forces.side_force
+        }),
+        by_slip_angle(study, "torque-over-slip", "Torque", "torque [N·m]", |settled| {
+            settled.forces.torque
+        }),
+        sinkage_by_load(study),
         slip_along_run(study, rover),
         sinkage_along_run(study, rover),
     ]
@@ -153,6 +165,71 @@ fn wheel_curves(study: &Reproduction) -> Figure {
             series: series.collect(),
         },
     }
+}
+
+/// One quantity of the single-wheel test over slip, a curve for each slip angle.
+fn by_slip_angle(
+    study: &Reproduction,
+    file: &'static str,
+    title: &str,
+    y_label: &str,
+    quantity: fn(&Settled) -> f64,
+) -> Figure {
+    let key = |row: &WheelTestRow| format!("slip angle {:.0}°", row.slip_angle.to_degrees());
+    Figure {
+        file,
+        caption: format!(
+            "{title} of one wheel over slip, for several slip angles, under the load of the \
+             paper's test and with the K_x of its Table 3. Side force is positive to the left: a \
+             wheel that moves to the left is pushed to the right."
+        ),
+        chart: Chart {
+            title: format!("Single-wheel test: {}", title.to_lowercase()),
+            x_label: "slip ratio".into(),
+            y_label: y_label.into(),
+            series: curves(&study.by_slip_angle, key, quantity),
+        },
+    }
+}
+
+fn sinkage_by_load(study: &Reproduction) -> Figure {
+    Figure {
+        file: "sinkage-over-slip",
+        caption: "Sinkage of one wheel over slip at slip angle 0, under several loads. Measured \
+                  wheels sink faster with slip than this theory lets them."
+            .into(),
+        chart: Chart {
+            title: "Single-wheel test: sinkage".into(),
+            x_label: "slip ratio".into(),
+            y_label: "sinkage [mm]".into(),
+            series: curves(
+                &study.by_load,
+                |row| format!("load {} N", row.load),
+                |settled| 1e3 * settled.sinkage,
+            ),
+        },
+    }
+}
+
+/// A curve over slip for each run of rows with the same key; rows without a result are left out.
+fn curves(
+    rows: &[WheelTestRow],
+    key: impl Fn(&WheelTestRow) -> String,
+    quantity: impl Fn(&Settled) -> f64,
+) -> Vec<Series> {
+    let styles = [Style::Line, Style::Dashed, Style::Dotted];
+    let mut series: Vec<Series> = Vec::new();
+    for row in rows {
+        let name = key(row);
+        if series.last().is_none_or(|last| last.name != name) {
+            let index = series.len();
+            series.push(Series::new(name, styles[index % styles.len()], index + 1, []));
+        }
+        if let (Some(last), Ok(settled)) = (series.last_mut(), &row.result) {
+            last.points.push((row.slip_ratio, quantity(settled)));
+        }
+    }
+    series
 }
 
 fn along_run(

@@ -4,7 +4,7 @@ use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use serde_json::{Map, Value, json};
 
-use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::rows::{Rows, aligned, rounded_down};
 
 /// A table: words for people, keys for files.
 pub(crate) struct Table {
@@ -177,12 +177,12 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
         file: "drift",
         columns: vec![
             column("slope_deg", "slope [°]", 0),
-            column("uncompensated_x_m", "x without [m]", 3),
-            column("uncompensated_y_m", "y without [m]", 4),
-            column("compensated_x_m", "x with compensation [m]", 3),
-            column("compensated_y_m", "y with compensation [m]", 4),
-            column("uncompensated_energy_j", "energy without [J]", 2),
-            column("compensated_energy_j", "energy with [J]", 2),
+            column("uncompensated_x_m", "x nose level [m]", 3),
+            column("uncompensated_y_m", "y nose level [m]", 4),
+            column("compensated_x_m", "x at the attitude [m]", 3),
+            column("compensated_y_m", "y at the attitude [m]", 4),
+            column("uncompensated_energy_j", "energy nose level [J]", 2),
+            column("compensated_energy_j", "energy at the attitude [J]", 2),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }
@@ -193,7 +193,7 @@ pub(crate) fn limit_sentence(study: &Reproduction) -> String {
     match study.attitudes.limit() {
         Ok((slope, reason)) => format!(
             "The steepest slope with a level attitude is {}°, {reason}.",
-            four_digits(slope.to_degrees())
+            rounded_down(slope.to_degrees())
         ),
         Err(error) => format!("{error}."),
     }

@@ -158,8 +158,9 @@ impl Search<'_> {
 
     /// The bracket where F_z has a highest value: seek it, and look whether it is enough.
     fn bracket_below_the_peak(&mut self, axle: f64) -> Result<(Point, Point), SettleError> {
-        /// Steps of the scan from the axle up, each this long [ln h], over four decades.
-        const STEPS: i32 = 100;
+        /// Steps of the scan from the axle up, each this long [ln h], over twelve decades: on
+        /// cohesive soil tiny loads are carried by shear at sinkages that are as tiny.
+        const STEPS: i32 = 300;
         const STEP: f64 = 0.092;
         let at = |step: i32| axle - STEP * f64::from(step);
         let mut best = (axle, self.excess(axle));

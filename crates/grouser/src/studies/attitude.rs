@@ -87,7 +87,11 @@ pub enum NoAttitude {
     #[error("the wheels cannot move the rover on level ground: {0}")]
     CannotMove(String),
     /// The slope is above the steepest that can be crossed.
-    #[error("no level attitude: the steepest slope is {:.2}°, {reason}", .limit.to_degrees())]
+    /// (The slope is rounded down: one that is rounded up has no attitude.)
+    #[error(
+        "no level attitude: the steepest slope is {:.2}°, {reason}",
+        (.limit.to_degrees() * 100.0).floor() / 100.0
+    )]
     TooSteep {
         /// The steepest slope [rad].
         limit: f64,

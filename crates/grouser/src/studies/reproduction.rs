@@ -23,6 +23,10 @@ pub struct Plan {
     pub wheel_load: f64,
     /// Values tried for K_x at slip angle 0 [m].
     pub longitudinal_moduli: Vec<f64>,
+    /// Slip angles at which the soil's own K_x is tested [rad].
+    pub slip_angles: Vec<f64>,
+    /// Loads under which it is tested at slip angle 0 [N].
+    pub loads: Vec<f64>,
 }
 
 /// Everything that the report shows.
@@ -30,6 +34,10 @@ pub struct Plan {
 pub struct Reproduction {
     /// The single-wheel test for each longitudinal modulus.
     pub wheel_curves: Vec<WheelCurve>,
+    /// The single-wheel test at each slip angle, under the plan's wheel load.
+    pub by_slip_angle: Vec<WheelTestRow>,
+    /// The single-wheel test under each load, at slip angle 0.
+    pub by_load: Vec<WheelTestRow>,
     /// The attitude over the slope.
     pub attitudes: AttitudeCurve,
     /// The traverses on each measured slope.
@@ -84,7 +92,7 @@ impl Plan {
     /// How many steps [`run`](Self::run) reports.
     #[must_use]
     pub fn step_count(&self) -> usize {
-        self.longitudinal_moduli.len() + 1 + RUNS_PER_SLOPE * self.measured.len() + 1
+        self.longitudinal_moduli.len() + 2 + RUNS_PER_SLOPE * self.measured.len() + 1
     }
 
     /// Runs the study; `progress` is told the name of each step as it begins.
@@ -96,6 +104,9 @@ impl Plan {
         let wheel_curves =
             self.longitudinal_moduli.iter().map(|&modulus| self.wheel_curve(modulus, progress));
         let wheel_curves = wheel_curves.collect();
+        progress("wheel test");
+        let by_slip_angle = self.wheel_test(&[self.wheel_load], &self.slip_angles).run();
+        let by_load = self.wheel_test(&self.loads, &[0.0]).run();
         progress("attitudes");
         let attitudes = AttitudeStudy::of(&self.scenario).curve()?;
         let slopes = self
@@ -105,24 +116,30 @@ impl Plan {
             .collect::<Result<Vec<_>, _>>()?;
         progress("start from rest");
         let start_up = self.start_up(&slopes)?;
-        Ok(Reproduction { wheel_curves, attitudes, slopes, start_up })
+        Ok(Reproduction { wheel_curves, by_slip_angle, by_load, attitudes, slopes, start_up })
     }
 
     fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {
         progress("wheel test");
-        /// Slip ratios of the curve: 0 to 1 in steps of 1/50.
+        let test = self.wheel_test(&[self.wheel_load], &[0.0]);
+        let soil = with_longitudinal_modulus(&test.soil, modulus);
+        WheelCurve { longitudinal_modulus: modulus, rows: WheelTest { soil, ..test }.run() }
+    }
+
+    /// The rover's wheel on the scenario's soil, over slip ratios from 0 to 1.
+    fn wheel_test(&self, loads: &[f64], slip_angles: &[f64]) -> WheelTest {
+        /// Steps from slip ratio 0 to 1.
         const STEPS: u32 = 50;
         let Scenario { rover, site, theory, .. } = &self.scenario;
-        let test = WheelTest {
+        WheelTest {
             wheel: *rover.wheel(),
-            soil: with_longitudinal_modulus(&site.soil, modulus),
+            soil: site.soil,
             gravity: site.gravity,
             theory: *theory,
-            loads: vec![self.wheel_load],
-            slip_angles: vec![0.0],
+            loads: loads.to_vec(),
+            slip_angles: slip_angles.to_vec(),
             slip_ratios: (0..=STEPS).map(|step| f64::from(step) / f64::from(STEPS)).collect(),
-        };
-        WheelCurve { longitudinal_modulus: modulus, rows: test.run() }
+        }
     }
 
     fn slope_runs(
