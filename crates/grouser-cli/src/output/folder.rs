@@ -76,17 +76,13 @@ impl OutputFolder {
             let place = self.target.join(name);
             write(&staged.join(name), content).map_err(Failure::at("cannot write", &place))?;
         }
-        match self.missing.iter().next() {
-            Some(first) => {
-                let place = self.base.join(first);
-                fs::rename(staging.path().join(first), &place)
-                    .map_err(Failure::at("cannot make the folder", &place))
-            }
-            None => {
-                self.check_room()?;
-                move_entries(&staged, &self.target)
-            }
-        }
+        let Some(first) = self.missing.iter().next() else {
+            self.check_room()?;
+            return move_entries(&staged, &self.target);
+        };
+        let place = self.base.join(first);
+        fs::rename(staging.path().join(first), &place)
+            .map_err(Failure::at("cannot make the folder", &place))
     }
 
     /// That no folder stands where a file has to go, and no file where a folder has to.
