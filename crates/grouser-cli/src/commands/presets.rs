@@ -26,12 +26,17 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), Failure> {
     let kinds = args.kind.map_or(Kind::ALL.to_vec(), |word| vec![word.into()]);
     let presets: Vec<&Preset> = kinds.iter().flat_map(|kind| document::presets(*kind)).collect();
     match &args.name {
-        Some(name) => print_preset(name, &presets),
+        Some(name) => print_preset(name, args.kind.map(Kind::from), &presets),
         None => list(&presets, args.format),
     }
 }
 
-fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> {
+/// * `kind`: the one that was asked for, if any
+fn print_preset(
+    name: &str,
+    kind: Option<Kind>,
+    presets: &[&'static Preset],
+) -> Result<(), Failure> {
     let named: Vec<_> = presets.iter().filter(|preset| preset.name == name).collect();
     match named[..] {
         [] => {
@@ -40,7 +45,8 @@ fn print_preset(name: &str, presets: &[&'static Preset]) -> Result<(), Failure> 
                 None => "`grouser presets` lists them".to_owned(),
             };
             let name = name.escape_debug();
-            Err(Failure::Usage(format!("there is no preset called `{name}`\nhint: {hint}")))
+            let preset = kind.map_or("preset".to_owned(), |kind| format!("{kind} preset"));
+            Err(Failure::Usage(format!("there is no {preset} called `{name}`\nhint: {hint}")))
         }
         [preset] => output::print(preset.text),
         [..] => {

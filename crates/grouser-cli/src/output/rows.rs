@@ -84,6 +84,9 @@ pub(crate) fn short(value: &Value) -> String {
 
 /// A number with four significant digits.
 pub(crate) fn four_digits(value: f64) -> String {
+    /// What is smaller is left over where terms cancel, in any unit of ours.
+    const NOISE: f64 = 1e-9;
+    let value = if value.abs() < NOISE { 0.0 } else { value };
     let scientific = format!("{value:.3e}");
     let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     match exponent.parse::<usize>() {
@@ -146,6 +149,7 @@ mod tests {
             (17.0, "17"),
             (1203.54, "1204"),
             (1.234e-9, "1.234e-9"),
+            (-3.4e-13, "0"),
             (123_456_789.0, "1.235e8"),
         ] {
             assert_eq!(four_digits(value), text);

@@ -253,7 +253,7 @@ fn wrong_rovers() {
     rover("two-coordinates", "[0.19, 0.24, -0.06]", "[0.19, 0.24]");
     rover("no-such-wheel", "wheel = \"hakuto\"", "wheel = \"hakutto\"");
     rover("no-such-file", "wheel = \"hakuto\"", "wheel = \"wheels/mine.toml\"");
-    rover("inertia", "xx = 0.138", "xx = 0.9");
+    rover("negative-inertia", "xx = 0.138", "xx = -0.138");
     rover("misspelt", "[body]", "[bdoy]");
     let whole = changed_preset("rover", "hakuto", "schema", "schema");
     let mounts: Vec<_> = whole.match_indices("[[mount]]").map(|(at, _)| at).collect();
@@ -517,7 +517,7 @@ mod signals {
 
     #[test]
     fn an_interrupted_reproduction_is_whole_or_not_there() {
-        for moment in [0, 300, 900, 1400, 1700, 1900] {
+        for moment in [0, 300, 1300, 1700] {
             let place = Place::new();
             let mut child = start(&place, "reproduce --out study");
             std::thread::sleep(Duration::from_millis(moment));
@@ -545,7 +545,7 @@ mod signals {
         place.results("reproduce --out whole");
         let takes = begun.elapsed();
         // Most of the moments are around the end, where the files are written.
-        for share in [0.3, 0.8, 0.9, 0.94, 0.96, 0.98, 0.99, 1.0, 1.01, 1.02] {
+        for share in [0.3, 0.9, 0.95, 0.98, 1.0, 1.02] {
             let place = Place::new();
             let mut child = start(&place, "reproduce --out study");
             std::thread::sleep(takes.mul_f64(share));

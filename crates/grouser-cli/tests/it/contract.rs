@@ -157,25 +157,24 @@ fn the_header_of_csv_is_the_keys_of_json() {
     assert!(header.contains(",front-left.slip_ratio,"), "{header}");
 }
 
-/// Read and written again, every number of CSV and JSON is the same text.
+/// Read and written again, every number is the same text, in CSV and in JSON alike.
 #[test]
 fn floats_are_in_their_shortest_round_trip_form() {
     let place = Place::new();
     let line = "wheel-test --slip-ratio -1:1:0.25 --slip-angle-deg 0:30:10";
     let csv = place.results(&format!("{line} --format csv"));
-    let json = place.json(line);
-    let rows = json["rows"].as_array().expect("rows");
+    let json = place.results(&format!("{line} --format json"));
+    let header: Vec<_> = csv.lines().next().expect("a header").split(',').collect();
     let mut count = 0;
-    for (cells, row) in csv.lines().skip(1).zip(rows) {
-        for (cell, key) in cells.split(',').zip(keys(row)) {
-            if let Ok(value) = cell.parse::<f64>() {
-                assert_eq!(row[key].as_f64(), Some(value), "{key}");
-                assert_eq!(Value::from(value).to_string(), cell, "{key}");
-                count += 1;
-            }
+    for cells in csv.lines().skip(1) {
+        for (cell, key) in cells.split(',').zip(&header) {
+            let Ok(value) = cell.parse::<f64>() else { continue };
+            assert_eq!(Value::from(value).to_string(), cell, "{key}");
+            assert!(json.contains(&format!("\"{key}\": {cell}")), "{key}: {cell}");
+            count += 1;
         }
     }
-    assert!(count > 9 * 4 * 10, "{count}");
+    assert_eq!(count, 9 * 4 * (header.len() - 1));
 }
 
 #[test]
@@ -339,13 +338,6 @@ fn colours_are_for_terminals_that_want_them() {
     let output = command.env("NO_COLOR", "1").env("CLICOLOR_FORCE", "1").output();
     let output = output.expect("the program starts");
     assert_eq!(String::from_utf8_lossy(&output.stderr), plain.stderr);
-}
-
-#[test]
-fn the_progress_of_reproduce_is_not_told_where_nobody_watches() {
-    let place = Place::new();
-    let answer = place.line("reproduce --out study");
-    assert_eq!((answer.code(), answer.stderr.as_str()), (0, ""));
 }
 
 // ---- Folders ----
@@ -609,9 +601,11 @@ fn the_report_is_one_page_that_needs_no_network() {
         assert!(address.starts_with("http://www.w3.org/"), "{address}");
     }
     let lower = html.to_lowercase();
-    for element in ["<script", "<link", "<img", "<iframe", "<object", "<embed", "@import", "url("] {
+    for element in ["<script", "<link", "<img", "<iframe", "<object", "<embed", "@import"] {
         assert!(!lower.contains(element), "{element}");
     }
+    // Within the page, a drawing may name its own parts.
+    assert_eq!(lower.matches("url(").count(), lower.matches("url(#").count());
     for reference in [" src=", " href=\"http", "srcset"] {
         assert!(!lower.contains(reference), "{reference}");
     }

@@ -19,7 +19,7 @@ fn check_rounded(name: &str, line: &str, round: fn(&str, &str) -> String) {
     assert_snapshot!(name, answer.conversation());
 }
 
-/// JSON with its numbers rounded to six digits.
+/// JSON with its numbers rounded to four digits.
 fn rounded_json(line: &str, text: &str) -> String {
     let mut value = serde_json::from_str(text).unwrap_or_else(|error| panic!("{line}: {error}"));
     round_numbers(&mut value);
@@ -39,12 +39,12 @@ fn round_numbers(value: &mut Value) {
     }
 }
 
-/// Six digits; what is left over where terms cancel is zero.
+/// Four digits; what is left over where terms cancel is zero.
 fn rounded(value: f64) -> f64 {
-    if value.abs() < 1e-9 {
+    if value.abs() < 1e-7 {
         return 0.0;
     }
-    format!("{value:.5e}").parse().expect("a number was written")
+    format!("{value:.3e}").parse().expect("a number was written")
 }
 
 fn rounded_csv(_: &str, text: &str) -> String {

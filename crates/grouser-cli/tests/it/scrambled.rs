@@ -79,9 +79,10 @@ impl Dice {
 
 /// One change at one place: a word left out, put in, doubled, swapped, or changed within.
 fn scramble(words: &mut Vec<String>, dice: &mut Dice) {
-    let at = dice.below(words.len());
+    // What comes after the command is where there is more to go wrong.
+    let at = dice.below(words.len()).max(dice.below(words.len()));
     let word = WORDS[dice.below(WORDS.len())].to_owned();
-    match dice.below(8) {
+    match dice.below(14) {
         0 if words.len() > 1 => drop(words.remove(at)),
         1 => words.insert(at, word),
         2 => words.insert(at, words[at].clone()),
@@ -92,14 +93,14 @@ fn scramble(words: &mut Vec<String>, dice: &mut Dice) {
         4 | 5 => words[at] = word,
         kind => {
             let mut letters: Vec<char> = words[at].chars().collect();
-            if letters.is_empty() {
+            if letters.is_empty() || (words[at].starts_with("--") && kind > 7) {
                 return;
             }
             let place = dice.below(letters.len());
-            if kind == 6 {
+            if kind < 9 {
                 letters.remove(place);
             } else {
-                letters[place] = ['-', '.', '9', '0', ':', ',', '=', 'e', 'µ'][dice.below(9)];
+                letters[place] = ['-', '.', '9', '0', '1', '5', ',', 'e', 'µ'][dice.below(9)];
             }
             words[at] = letters.into_iter().collect();
         }
@@ -115,12 +116,8 @@ fn scrambled_command_lines_end_with_an_exit_code_of_ours() {
     for round in 0..400 {
         let mut words: Vec<String> =
             LINES[round % LINES.len()].split(' ').map(str::to_owned).collect();
-        for _ in 0..=dice.below(3) {
+        for _ in 0..=dice.below(3) / 2 {
             scramble(&mut words, &mut dice);
-        }
-        // A day's traverse is no error, only long.
-        if words.iter().any(|word| word == "reproduce") {
-            continue;
         }
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
         let answer = place.run(&words);
@@ -131,5 +128,5 @@ fn scrambled_command_lines_end_with_an_exit_code_of_ours() {
         assert_eq!(answer.code() == 2, answer.stderr.contains("error: "), "{words:?}");
     }
     // Some must be understood and some not, or the lines are scrambled too little or too much.
-    assert!(codes[0] > 50 && codes[2] > 100, "{codes:?}");
+    assert!(codes[0] > 40 && codes[2] > 100, "{codes:?}");
 }

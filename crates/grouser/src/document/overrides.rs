@@ -211,7 +211,10 @@ impl Override {
                 Value::Table(entries) => entries,
                 Value::List(nodes) => {
                     let index = step.parse::<usize>().ok();
-                    node = index.and_then(|index| nodes.get_mut(index)).ok_or_else(not_a_table)?;
+                    let count = nodes.len();
+                    node = index
+                        .and_then(|index| nodes.get_mut(index))
+                        .ok_or_else(|| self.no_such_entry(count))?;
                     continue;
                 }
                 _ => return Err(not_a_table()),
@@ -227,6 +230,12 @@ impl Override {
         }
         *node = self.value.clone();
         Ok(())
+    }
+
+    fn no_such_entry(&self, count: usize) -> DocumentError {
+        let problem = Problem::Malformed("the key leads to an entry that the list does not have");
+        DocumentError::at(&self.key_origin, problem)
+            .with_hint(format!("it has {count}, counted from 0"))
     }
 
     /// A new law has keys of its own: what only the old one knew would be an error nobody made.

@@ -309,7 +309,12 @@ impl Document for ScenarioDocument {
         };
         check_sample_count(self.duration_s, self.sample_interval_s)
             .map_err(at("sample_interval_s"))?;
-        scenario.drive.check(&scenario.rover).map_err(at("drive.speed_m_s"))?;
+        scenario.drive.check(&scenario.rover).map_err(|error| {
+            let names: Vec<_> =
+                scenario.rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+            at("drive.speed_m_s")(error)
+                .with_hint(format!("the wheels are {}, in this order", names.join(", ")))
+        })?;
         scenario.check().map_err(at("schema"))?;
         Ok(scenario)
     }

@@ -82,8 +82,15 @@ pub(super) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
     let document = toml_edit::Document::parse(text.content.as_str()).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
-        let problem = Problem::Syntax(error.message().trim().replace('\n', ", "));
-        DocumentError::at(&Origin { text: text.clone(), span }, problem)
+        let line = text.line_around(span.start);
+        let part = |range: Range<usize>| text.content.get(range).unwrap_or_default().trim();
+        let (before, after) = (part(line.start..span.start), part(span.start..line.end));
+        let says = if before.ends_with('=') && after.is_empty() {
+            "there is no value after `=`".to_owned()
+        } else {
+            error.message().trim().replace('\n', ", ")
+        };
+        DocumentError::at(&Origin { text: text.clone(), span }, Problem::Syntax(says))
     })?;
     Reader { text }.table(document.as_table(), whole, 0)
 }
