@@ -207,7 +207,9 @@ impl<'a> Simulation<'a> {
             match equations.reactions(&reached.state) {
                 Ok(wheels) => {
                     let sample = sample_of(scenario, &equations, now, reached, &wheels);
-                    *outcome = watch.look(scenario, &sample, rim_speeds);
+                    if is_multiple(now, WATCH_PERIOD) {
+                        *outcome = watch.look(scenario, &sample, rim_speeds);
+                    }
                     slip_ratios.clear();
                     slip_ratios.extend(wheels.iter().map(|wheel| wheel.slip.ratio));
                     if outcome.is_some() || is_sample_due(scenario, now) {
@@ -281,9 +283,11 @@ fn is_same_time(one: f64, other: f64) -> bool {
 
 /// Whether a sample belongs at a time: at the start, the end and the intervals between.
 fn is_sample_due(scenario: &Scenario, time: f64) -> bool {
-    let interval = scenario.numerics.sample_interval;
-    let nearest = (time / interval).round() * interval;
-    is_same_time(time, nearest) || is_same_time(time, scenario.duration)
+    is_multiple(time, scenario.numerics.sample_interval) || is_same_time(time, scenario.duration)
+}
+
+fn is_multiple(time: f64, interval: f64) -> bool {
+    is_same_time(time, (time / interval).round() * interval)
 }
 
 /// The outcome that a missing reaction means, if it means one.

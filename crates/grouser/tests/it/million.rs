@@ -49,7 +49,8 @@ impl Draw {
     }
 
     fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[(self.bits() % choices.len() as u64) as usize]
+        let place = usize::try_from(self.bits() % choices.len() as u64);
+        choices[place.expect("it is below the number of choices")]
     }
 
     /// Evenly between two numbers, but once in eight one of these.
@@ -224,13 +225,13 @@ fn check_case(theory: Theory, case: u64, tally: &mut Tally) {
 
 /// Cases 0 to `count`, on both cores.
 fn check_cases(theory: Theory, count: u64) -> Tally {
-    const THREADS: u64 = 2;
+    const THREADS: u8 = 2;
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..THREADS)
             .map(|worker| {
                 scope.spawn(move || {
                     let mut tally = Tally::default();
-                    for case in (worker..count).step_by(THREADS as usize) {
+                    for case in (u64::from(worker)..count).step_by(usize::from(THREADS)) {
                         check_case(theory, case, &mut tally);
                     }
                     tally

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use grouser::contact::Theory;
+use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::{
     Integrator, Motion, Numerics, Outcome, Scenario, Start, StuckBecause, Trajectory,
 };
@@ -490,4 +491,64 @@ fn in_mud_a_wheel_sinks_to_its_axle() {
         &mud,
         |because| matches!(because, StuckBecause::SunkToAxle { load, capacity, .. } if capacity < load),
     );
+}
+
+// ---- every soil, with wheels that stand still ----
+
+/// Wheels that are locked, dragged or turned against each other bring hubs to rest, where forces
+/// change within the creep speed: on every soil that comes with the program the run goes on.
+#[test]
+fn runs_with_locked_wheels_are_computed_on_every_soil() {
+    let speeds = [
+        [0.0, 0.0, RIM_SPEED, RIM_SPEED],
+        [RIM_SPEED, RIM_SPEED, -RIM_SPEED, 0.0],
+        [0.0, RIM_SPEED, RIM_SPEED, RIM_SPEED],
+    ];
+    let soils: Vec<Soil> = document::presets(Kind::Soil)
+        .map(|preset| document::read_soil(&Source::Preset(preset), &Overrides::none()))
+        .map(|soil| soil.expect("presets are good").value)
+        .collect();
+    assert!(soils.len() >= 20);
+    for (soil, slope) in soils.iter().flat_map(|soil| [(soil, 0.0), (soil, deg(15.0))]) {
+        for speeds in speeds {
+            let base = traverse(slope, 0.0);
+            let site = Site { soil: *soil, ..base.site };
+            let drive = DriveLaw::ConstantEach(speeds.to_vec());
+            run(&Scenario { site, drive, duration: 5.0, ..base });
+        }
+    }
+}
+
+/// Two left wheels locked, on a steep slope, for a minute: many steps in which a hub all but stops.
+#[test]
+fn a_long_run_with_locked_wheels_is_computed_to_its_end() {
+    let drive = DriveLaw::ConstantEach(vec![0.0, 0.0, RIM_SPEED, RIM_SPEED]);
+    let end = run(&Scenario { drive, duration: 60.0, ..traverse(deg(20.0), 0.0) });
+    assert_eq!(end.outcome.name(), "immobilised");
+}
+
+/// Samples are a record; what becomes of the rover is looked at by itself.
+#[test]
+fn the_outcome_does_not_depend_on_how_often_samples_are_kept() {
+    let outcome_at = |sample_interval: f64| {
+        let base = traverse(deg(35.0), 0.0);
+        let numerics = Numerics { sample_interval, ..base.numerics };
+        run(&Scenario { numerics, ..base }).outcome
+    };
+    let usual = outcome_at(0.1);
+    assert_eq!(usual.name(), "sliding");
+    for sample_interval in [0.01, 0.7, 1.0, 30.0] {
+        assert_eq!(outcome_at(sample_interval), usual, "every {sample_interval} s");
+    }
+}
+
+/// A drive that is asked ten times a second records no more for it.
+#[test]
+fn a_drive_that_varies_keeps_to_the_sample_interval() {
+    let base =
+        Scenario { drive: DriveLaw::Eq18(TARGET), duration: 3.0, ..traverse(deg(10.0), 0.0) };
+    let numerics = Numerics { sample_interval: 1.0, ..base.numerics };
+    let times: Vec<f64> =
+        run(&Scenario { numerics, ..base }).samples.iter().map(|sample| sample.time).collect();
+    assert_eq!(times, [0.0, 1.0, 2.0, 3.0]);
 }
