@@ -260,6 +260,35 @@ proptest! {
     }
 }
 
+// ---- moments ----
+
+proptest! {
+    #![proptest_config(cases(500))]
+
+    /// With λ = 0 all soil lies ahead of the hub and below it, and all of it pushes to one side. So
+    /// the levers of the side force are within the arc, for shear alone as for the flank alone.
+    #[test]
+    fn the_moments_of_the_side_force_have_levers_within_the_arc(
+        (soil, wheel) in (given::any_soil(), given::any_wheel()),
+        s in 0.0..0.9, beta in deg(5.0)..deg(85.0), depth in 1e-3..0.9,
+    ) {
+        let soil = Soil { exit: Exit::Ratio(0.0), ..soil };
+        let shear_alone = Soil { bulldozing: Bulldozing::None, ..soil };
+        // A flank needs friction; with moduli without end the rim still shears nothing.
+        let (friction_angle, bulldozing) = (soil.friction_angle, Bulldozing::Sine);
+        let flank_alone = Soil { friction_angle, bulldozing, ..shearless(soil) };
+        for soil in [shear_alone, flank_alone] {
+            let forces = sunk(&Ishigami::default(), &given::on_stand(soil, wheel, s, beta), depth);
+            let (r, entry) = (wheel.shearing_radius(), forces.patch.entry);
+            let ahead = forces.aligning_moment / forces.side_force / r;
+            let below = forces.overturning_moment / forces.side_force / r;
+            prop_assert!(forces.side_force < 0.0);
+            prop_assert!(0.0 < ahead && ahead < entry.sin(), "{ahead} radii ahead");
+            prop_assert!(entry.cos() < below && below < 1.0, "{below} radii below");
+        }
+    }
+}
+
 // ---- sinkage and load ----
 
 proptest! {

@@ -49,8 +49,9 @@ impl Draw {
     }
 
     fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        let place = usize::try_from(self.bits() % choices.len() as u64);
-        choices[place.expect("it is below the number of choices")]
+        let count = choices.len() as u64;
+        let index = usize::try_from(self.bits() % count).expect("an index");
+        choices[index]
     }
 
     /// Evenly between two numbers, but once in eight one of these.
@@ -127,7 +128,14 @@ fn any_soil(draw: &mut Draw) -> Soil {
 }
 
 /// A contact and a load: mostly one that the soil carries at some depth, sometimes of any size.
-fn any_case(theory: Theory, case: u64) -> (Contact, f64) {
+struct Case {
+    contact: Contact,
+    load: f64,
+    /// Whether the load was read off at a depth, so that there is one at which it is carried.
+    carried: bool,
+}
+
+fn any_case(theory: Theory, case: u64) -> Case {
     let mut draw = Draw::of_case(case);
     let (wheel, soil) = (any_wheel(&mut draw), any_soil(&mut draw));
     let slip_ratio = draw.or_special(-2.0, 2.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]);
@@ -135,18 +143,21 @@ fn any_case(theory: Theory, case: u64) -> (Contact, f64) {
     let slip = Slip::on_test_stand(slip_ratio, slip_angle);
     let contact = Contact { wheel, soil, slip, gravity: draw.sized(0.01, 30.0) };
     let any_size = draw.sized(1e-3, MOST_LOAD);
-    let sinkage = draw.sized(1e-3, 1.0) * wheel.shearing_radius();
-    let load = match draw.bits() % 32 {
-        0 => 0.0,
-        1 => any_size,
-        // Cohesion may pull a shallow wheel down; at the axle most soils carry something.
-        _ => [sinkage, wheel.shearing_radius()]
+    let sinkage = draw.sized(1e-3, 0.999) * wheel.shearing_radius();
+    match draw.bits() % 32 {
+        0 => Case { contact, load: 0.0, carried: true },
+        1 => Case { contact, load: any_size, carried: false },
+        // Cohesion may pull a shallow wheel down; near the axle most soils carry something.
+        _ => [sinkage, 0.999 * wheel.shearing_radius()]
             .map(|sinkage| theory.model().forces(&contact, sinkage).normal_force)
             .into_iter()
-            .find(|carried| *carried > 0.0 && *carried <= MOST_LOAD)
-            .unwrap_or(any_size.min(1.0)),
-    };
-    (contact, load)
+            .find(|load| *load > 0.0 && *load <= MOST_LOAD)
+            .map_or(Case { contact, load: any_size.min(1.0), carried: false }, |load| Case {
+                contact,
+                load,
+                carried: true,
+            }),
+    }
 }
 
 /// The heaviest wheel [N]. Source: the documents' range.
@@ -182,9 +193,10 @@ impl Tally {
     }
 }
 
-/// That a wheel either carries its load with finite forces, or is said to sink to its axle.
+/// That a wheel either carries its load with finite forces, or is said to sink to its axle where
+/// no depth is known that carries it.
 fn check_case(theory: Theory, case: u64, tally: &mut Tally) {
-    let (contact, load) = any_case(theory, case);
+    let Case { contact, load, carried } = any_case(theory, case);
     match settle(theory.model(), &contact, load) {
         Ok(settled) => {
             let forces = &settled.forces;
@@ -218,20 +230,27 @@ fn check_case(theory: Theory, case: u64, tally: &mut Tally) {
             assert!(good, "case {case}, {theory:?}: {settled:?} under {load} N: {contact:?}");
             tally.add(&settled);
         }
-        Err(SettleError::SunkToAxle { capacity, .. }) if capacity < load => tally.sunk += 1,
+        Err(SettleError::SunkToAxle { capacity, .. }) if capacity < load && !carried => {
+            tally.sunk += 1;
+            // What is said to be the most must be true to a thousandth; a sample will do.
+            if case % 8 == 1 && capacity > 1e-3 {
+                let most = settle(theory.model(), &contact, 0.999 * capacity);
+                assert!(most.is_ok(), "case {case}, {theory:?}: {most:?}: {contact:?}");
+            }
+        }
         Err(error) => panic!("case {case}, {theory:?}: {error}: {contact:?}"),
     }
 }
 
 /// Cases 0 to `count`, on both cores.
 fn check_cases(theory: Theory, count: u64) -> Tally {
-    const THREADS: u8 = 2;
+    const THREADS: u64 = 2;
     std::thread::scope(|scope| {
         let workers: Vec<_> = (0..THREADS)
             .map(|worker| {
                 scope.spawn(move || {
                     let mut tally = Tally::default();
-                    for case in (u64::from(worker)..count).step_by(usize::from(THREADS)) {
+                    for case in (0..count).filter(|case| case % THREADS == worker) {
                         check_case(theory, case, &mut tally);
                     }
                     tally

@@ -440,6 +440,29 @@ fn the_papers_rover_tips_at_57_degrees() {
     assert!((slope - (0.24_f64 / 0.1554).atan().to_degrees()).abs() < 0.01, "{slope}°");
 }
 
+/// Moments of the wheels' forces and own moments about the common centre of mass, by the levers:
+/// the hubs lie H − r_s below it. Forces that balance the slope's pull, so that nothing accelerates.
+#[test]
+fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
+    let (rover, site, yaw) = (given::hakuto(), site(deg(15.0)), deg(20.0));
+    let pull = dynamics::slope_pull(&rover, &site, yaw);
+    let wheel = WheelForces {
+        drawbar_pull: -pull.x / 4.0,
+        side_force: -pull.y / 4.0,
+        torque: 0.3,
+        overturning_moment: -0.2,
+        ..WheelForces::default()
+    };
+    let below = rover.centre_height() - rover.wheel().shearing_radius();
+    let (sharing, own) = (LoadSharing::QuasiStaticTorque, OwnMoments::Included);
+    let moments = load::moments(&rover, &site, yaw, sharing, own, &[wheel; 4]);
+    // About y: −Σ d_x N + (−below) ΣF_x − ΣT = 0, for the soil turns a driven wheel backward.
+    let pitch = -below * 4.0 * wheel.drawbar_pull - 4.0 * wheel.torque;
+    // About x: Σ d_y N + below ΣF_y + ΣM_x = 0.
+    let roll = -below * 4.0 * wheel.side_force - 4.0 * wheel.overturning_moment;
+    assert!((moments - Vec2::new(pitch, roll)).norm() < 1e-12, "{moments}, not {pitch}, {roll}");
+}
+
 // ---- the stance ----
 
 #[test]
