@@ -510,7 +510,7 @@ mod signals {
         let place = Place::new();
         let line = "traverse --duration-s 86400 --out run";
         let child = start(&place, line);
-        std::thread::sleep(Duration::from_millis(1000));
+        std::thread::sleep(Duration::from_secs(1));
         send("-INT", &child);
         let answer = Answer::new(line, &child.wait_with_output().expect("it ends"));
         assert_eq!(answer.code(), 130);
