@@ -592,7 +592,7 @@ fn attitudes_of_the_reference_through_the_program() {
 // ---- Reproduce ----
 
 #[test]
-fn the_report_is_one_page_that_needs_no_network() {
+fn the_report_is_one_page_that_needs_no_network_and_can_be_repeated() {
     let place = Place::new();
     place.results("reproduce --out study");
     let html = place.read("study/report.html");
@@ -618,6 +618,11 @@ fn the_report_is_one_page_that_needs_no_network() {
     for said in ["Assumptions in force", "How the numbers were made", env!("CARGO_PKG_VERSION")] {
         assert!(html.contains(said), "{said}");
     }
+
+    // And it says how to have its numbers again.
+    place.results("traverse study/scenario.toml --yaw-deg 0 --slope-deg 10 --out again");
+    let told = place.read("study/data/traverse-10deg-nose-level.csv");
+    assert_eq!(told, place.read("again/traverse.csv"));
 }
 
 fn address_around(text: &str, at: usize) -> &str {
@@ -625,15 +630,6 @@ fn address_around(text: &str, at: usize) -> &str {
     let start = text[..at].rfind(ends).map_or(0, |found| found + 1);
     let end = text[at..].find(ends).map_or(text.len(), |found| at + found);
     &text[start..end]
-}
-
-#[test]
-fn the_reports_scenario_gives_the_reports_numbers() {
-    let place = Place::new();
-    place.results("reproduce --out study");
-    place.results("traverse study/scenario.toml --yaw-deg 0 --slope-deg 10 --out again");
-    let report = place.read("study/data/traverse-10deg-nose-level.csv");
-    assert_eq!(report, place.read("again/traverse.csv"));
 }
 
 #[test]
