@@ -271,7 +271,8 @@ fn a_million_wheels_settle() {
     assert!(tally.settled > 900_000 && tally.sunk > 1000, "{tally:?}");
     // Measured: 6.4 each, and 227 where the load is just below the most that the soil carries.
     assert!(tally.mean_evaluations() < 8.0, "{} each", tally.mean_evaluations());
-    assert!(tally.most_evaluations <= 400, "{tally:?}");
+    // Three hundred of them are the scan for a highest F_z.
+    assert!(tally.most_evaluations <= 450, "{tally:?}");
 }
 
 #[test]

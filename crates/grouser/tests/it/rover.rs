@@ -445,7 +445,7 @@ fn the_papers_rover_tips_at_57_degrees() {
 #[test]
 fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
     let (rover, site, yaw) = (given::hakuto(), site(deg(15.0)), deg(20.0));
-    let pull = dynamics::slope_pull(&rover, &site, yaw);
+    let pull = load::slope_pull(&rover, &site, yaw);
     let wheel = WheelForces {
         drawbar_pull: -pull.x / 4.0,
         side_force: -pull.y / 4.0,
