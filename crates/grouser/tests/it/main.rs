@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
 mod documents;
+mod extended;
 mod floors;
 mod reference;
