@@ -60,8 +60,7 @@ pub use schema::{range, schema};
 pub use soil::{
     BulldozingSection, BulldozingWord, ExitSection, ExitShiftSection, ExtendedSection,
     FlankSection, HeapSection, PressureSinkageSection, RimSection, ShearSection,
-    SinkageGrowthSection,
-    SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
+    SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
 pub use source::{LARGEST_FILE, Source};
 pub use wheel::{GrousersSection, WheelDocument, WheelSchema};

@@ -61,7 +61,7 @@ impl WheelSoilModel for Extended {
 impl Extended {
     fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         let Contact { wheel, soil, gravity, .. } = contact;
-        let field = StressField::of_response(contact, sinkage, &response(contact));
+        let field = StressField::of_response(contact, sinkage, &response(contact, sinkage));
         let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
         let flank = flank_load(contact, &field, &wall);
         let pushed = wheel.width * wall.at(sinkage);
@@ -73,13 +73,14 @@ impl Extended {
     }
 }
 
-/// What the soil makes of the motion.
-fn response(contact: &Contact) -> Response {
+/// What the soil makes of a wheel's motion at a sinkage [m].
+fn response(contact: &Contact, sinkage: f64) -> Response {
     let classical = Response::classical(contact);
     let terms = &contact.soil.extended;
     let (total_slip, beta) = (contact.slip.total(), contact.slip.angle);
+    let depth = sinkage / contact.wheel.shearing_radius();
     Response {
-        sinkage_growth: terms.sinkage.at(total_slip, beta),
+        sinkage_growth: terms.sinkage.at(total_slip, beta, depth),
         exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
         friction: terms
             .rim_friction_angle
@@ -138,8 +139,7 @@ fn soil_in_front(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
         drawbar_pull: along,
         motion_resistance: along,
         side_force: across,
-        overturning_moment: across
-            * (contact.wheel.shearing_radius() - HEIGHT_OF_CENTRE * sinkage),
+        overturning_moment: across * (contact.wheel.shearing_radius() - HEIGHT_OF_CENTRE * sinkage),
         ..WheelForces::default()
     }
 }

@@ -10,7 +10,8 @@ use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
 use crate::soil::{
-    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    StressPeak,
 };
 
 /// The largest exit-angle ratio that a soil may reach at any slip [-].
@@ -598,10 +599,7 @@ impl ExtendedSection {
                 locked: sinkage.locked,
                 sharpness: sinkage.sharpness,
             },
-            exit: ExitShift {
-                with_slip: exit.with_slip,
-                with_slip_angle: exit.with_slip_angle,
-            },
+            exit: ExitShift { with_slip: exit.with_slip, with_slip_angle: exit.with_slip_angle },
             rim_friction_angle: rim.friction_angle_deg.map(f64::to_radians),
             flank: Flank {
                 pressure_factor: flank.pressure_factor,
