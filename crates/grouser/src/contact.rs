@@ -4,7 +4,8 @@
 //! angle; [`patch`] says which arc of the rim touches the soil; [`stress`] gives the normal and
 //! shear stress along it; [`bulldozing`] the soil pushed by the flank; [`forces`] is what comes
 //! out. A theory puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is the
-//! source paper's, [`bekker`] a closed form to check it against. [`equilibrium`] finds the sinkage
+//! source paper's, [`extended`] adds what small wheels need, [`bekker`] is a closed form to check
+//! them against. [`equilibrium`] finds the sinkage
 //! at which a wheel carries its load.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
@@ -13,6 +14,7 @@
 pub mod bekker;
 pub mod bulldozing;
 pub mod equilibrium;
+pub mod extended;
 pub mod forces;
 mod gauss;
 pub mod ishigami;
@@ -24,6 +26,7 @@ mod theory;
 
 pub use bekker::Bekker;
 pub use equilibrium::{SettleError, Settled, settle};
+pub use extended::Extended;
 pub use forces::WheelForces;
 pub use ishigami::Ishigami;
 pub use model::{Contact, WheelSoilModel};

@@ -59,8 +59,9 @@ pub use scenario::{
 };
 pub use schema::{range, schema};
 pub use soil::{
-    BulldozingSection, BulldozingWord, ExitSection, PressureSinkageSection, ShearSection,
-    SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
+    BulldozingSection, BulldozingWord, ExitSection, ExitShiftSection, ExtendedSection,
+    FlankSection, HeapSection, PressureSinkageSection, RimSection, ShearSection,
+    SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
 pub use source::{LARGEST_FILE, Source};
 pub use wheel::{GrousersSection, WheelDocument, WheelSchema};

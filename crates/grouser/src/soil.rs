@@ -3,10 +3,12 @@
 //! A [`Soil`] is a set of constants of the theories in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod extended;
 pub mod pressure_sinkage;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use extended::Extended;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 
 use crate::error::{ParameterError, finite, not_negative, positive};
@@ -30,6 +32,8 @@ pub struct Soil {
     pub exit: Exit,
     /// How soil pushed aside loads the flank.
     pub bulldozing: Bulldozing,
+    /// What the extended theory adds; the others leave it aside.
+    pub extended: Extended,
 }
 
 /// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
@@ -218,6 +222,7 @@ impl Soil {
         finite("stress peak a1", self.stress_peak.a1)?;
         self.pressure_sinkage.check(self.cohesion)?;
         self.shear.check()?;
+        self.extended.check()?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

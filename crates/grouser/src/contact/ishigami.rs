@@ -12,7 +12,7 @@
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
-use super::bulldozing::{self, WallResistance};
+use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
 use super::gauss::{GAUSS_16, GAUSS_64, Rule};
 use super::model::{Contact, WheelSoilModel, from_both_sides};
@@ -55,33 +55,43 @@ impl WheelSoilModel for Ishigami {
 impl Ishigami {
     fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         let field = StressField::new(contact, sinkage);
-        let sums = integrate(&field, self.rule);
-        let r = contact.wheel.shearing_radius();
-        let area = r * contact.wheel.width;
-
         let resistance =
             WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
-        let flank = bulldozing::flank_load(&resistance, &field.patch, r);
-        let (across, along) = bulldozing::shares(contact.soil.bulldozing, &contact.slip);
-        let (flank_y, flank_x) = (across * flank.force, along * flank.force);
+        let radius = contact.wheel.shearing_radius();
+        let flank = bulldozing::flank_load(&resistance, &field.patch, radius);
+        reaction(contact, &field, &flank, self.rule)
+    }
+}
 
-        let thrust = area * sums.shear_forward;
-        let motion_resistance = flank_x - area * sums.normal_back;
-        let side_force_from_shear = area * sums.lateral;
-        WheelForces {
-            drawbar_pull: thrust + motion_resistance,
-            side_force: side_force_from_shear + flank_y,
-            normal_force: area * sums.up,
-            torque: area * r * sums.shear,
-            overturning_moment: area * r * sums.lateral_below + flank_y * flank.below_hub,
-            aligning_moment: area * r * sums.lateral_ahead + flank_y * flank.ahead_of_hub,
-            thrust,
-            motion_resistance,
-            side_force_from_shear,
-            bulldozing_load: flank.force,
-            max_normal_stress: field.max_normal(),
-            patch: field.patch,
-        }
+/// The stresses on the rim and the load on the flank, added up.
+pub(super) fn reaction(
+    contact: &Contact,
+    field: &StressField,
+    flank: &FlankLoad,
+    rule: &Rule,
+) -> WheelForces {
+    let sums = integrate(field, rule);
+    let r = contact.wheel.shearing_radius();
+    let area = r * contact.wheel.width;
+    let (across, along) = bulldozing::shares(contact.soil.bulldozing, &contact.slip);
+    let (flank_y, flank_x) = (across * flank.force, along * flank.force);
+
+    let thrust = area * sums.shear_forward;
+    let motion_resistance = flank_x - area * sums.normal_back;
+    let side_force_from_shear = area * sums.lateral;
+    WheelForces {
+        drawbar_pull: thrust + motion_resistance,
+        side_force: side_force_from_shear + flank_y,
+        normal_force: area * sums.up,
+        torque: area * r * sums.shear,
+        overturning_moment: area * r * sums.lateral_below + flank_y * flank.below_hub,
+        aligning_moment: area * r * sums.lateral_ahead + flank_y * flank.ahead_of_hub,
+        thrust,
+        motion_resistance,
+        side_force_from_shear,
+        bulldozing_load: flank.force,
+        max_normal_stress: field.max_normal(),
+        patch: field.patch,
     }
 }
 

@@ -27,13 +27,18 @@ impl ContactPatch {
     /// * `slip_ratio`: *s* [-], counted along the rolling direction
     #[must_use]
     pub fn new(soil: &Soil, shearing_radius: f64, sinkage: f64, slip_ratio: f64) -> Self {
-        let depth = sinkage / shearing_radius;
+        let (peak, exit) = (soil.stress_peak.share(slip_ratio), soil.exit.ratio(slip_ratio));
+        Self::of_depth(sinkage / shearing_radius, peak, exit)
+    }
+
+    /// The arc of a wheel sunk by so many radii.
+    ///
+    /// * `depth`: h/r_s [-], 0 to 2
+    /// * `peak_share`: θ_m/θ_f [-]
+    /// * `exit_ratio`: *λ* [-]
+    pub(super) fn of_depth(depth: f64, peak_share: f64, exit_ratio: f64) -> Self {
         let entry = angle_at_depth(depth);
-        Self {
-            entry,
-            max_stress: soil.stress_peak.share(slip_ratio) * entry,
-            exit: -angle_at_depth(soil.exit.ratio(slip_ratio) * depth),
-        }
+        Self { entry, max_stress: peak_share * entry, exit: -angle_at_depth(exit_ratio * depth) }
     }
 }
 

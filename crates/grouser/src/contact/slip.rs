@@ -110,6 +110,26 @@ impl Slip {
         Self { ratio: s, angle: slip_angle, sideways, ..motion }
     }
 
+    /// Slip by the total speed, *S* [-]: positive while the rim outruns the hub in any direction.
+    ///
+    /// ```text
+    /// S = (|ω r_s| − V) / max(|ω r_s|, V)      V = √(v_x² + v_y²)      after Pavlov (2024)
+    /// ```
+    ///
+    /// −1 is a locked wheel, 1 one that spins on the spot. Unlike the slip ratio it counts a
+    /// wheel pushed sideways as one that skids. A wheel at rest has *S* = 0.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        let (rim, travel) = (self.rim.abs(), self.forward.hypot(self.lateral));
+        (rim - travel) / rim.max(travel).hypot(self.creep())
+    }
+
+    /// [`CREEP_SPEED`] over the rim's speed [-]: what keeps ratios finite at rest.
+    pub(super) fn creep(&self) -> f64 {
+        // rim = ω r_s/√(ω² r_s² + creep²), so the rest of its square is the creep's.
+        (1.0 - self.rim * self.rim).max(0.0).sqrt()
+    }
+
     /// The same motion seen in a mirror that swaps front and back.
     #[must_use]
     pub fn front_to_back(&self) -> Self {
@@ -151,6 +171,18 @@ mod tests {
     fn a_wheel_at_rest_does_not_slip() {
         let rest = Slip::of_motion(0.0, Vec2::zeros());
         assert_eq!((rest.ratio, rest.angle, rest.forward, rest.lateral), (0.0, 0.0, 0.0, 0.0));
+    }
+
+    /// Source: the definition of the CMU files (theory notes), at a slip angle of 60°.
+    #[test]
+    fn the_total_slip_knows_no_direction() {
+        let total = |rim, v_x, v_y| Slip::of_motion(rim, Vec2::new(v_x, v_y)).total();
+        let (v_x, v_y) = (0.005, 0.005 * deg(60.0).tan());
+        for (rim, expected) in [(0.0, -1.0), (0.005, -0.5), (0.01, 0.0), (0.1, 0.9)] {
+            assert!((total(rim, v_x, v_y) - expected).abs() < 1e-6, "{rim}");
+            assert!((total(-rim, -v_x, v_y) - expected).abs() < 1e-6, "{rim}");
+        }
+        assert_eq!(total(0.0, 0.0, 0.0), 0.0);
     }
 
     #[test]

@@ -60,6 +60,28 @@ pub struct StressField {
     entry: RimPoint,
 }
 
+/// What a theory decides about a soil under a moving wheel before the stresses are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Response {
+    /// Sinkage growth, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
+    pub(super) sinkage_growth: f64,
+    /// Exit-angle ratio, *λ* [-].
+    pub(super) exit_ratio: f64,
+    /// Coefficient of friction between rim and soil [-].
+    pub(super) friction: f64,
+}
+
+impl Response {
+    /// That of the classical theory.
+    pub(super) fn classical(contact: &Contact) -> Self {
+        Self {
+            sinkage_growth: 1.0,
+            exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
+            friction: contact.soil.friction_angle.tan(),
+        }
+    }
+}
+
 /// The shear law with its moduli at the slip angle.
 #[derive(Clone, Copy, Debug)]
 enum MobilisedShear {
@@ -87,23 +109,28 @@ impl StressField {
     /// The stresses of a wheel sunk by `sinkage` [m].
     #[must_use]
     pub fn new(contact: &Contact, sinkage: f64) -> Self {
+        Self::of_response(contact, sinkage, &Response::classical(contact))
+    }
+
+    /// The stresses of a wheel sunk by `sinkage` [m] in a soil that responds in its own way.
+    pub(super) fn of_response(contact: &Contact, sinkage: f64, response: &Response) -> Self {
         let Contact { wheel, soil, slip, gravity } = contact;
         let unit_weight = soil.unit_weight(*gravity);
         let radius = wheel.shearing_radius();
-        let patch = ContactPatch::new(soil, radius, sinkage, slip.ratio);
+        let peak_share = soil.stress_peak.share(slip.ratio);
+        let patch = ContactPatch::of_depth(sinkage / radius, peak_share, response.exit_ratio);
+        let law = soil.pressure_sinkage;
+        let rigid = law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio);
+        // σ = K (z/ζ)ⁿ, written as a modulus of its own.
+        let modulus = rigid.modulus / response.sinkage_growth.powf(rigid.exponent);
         Self {
             patch,
             entry: RimPoint::new(patch.entry, 0.0),
             radius,
             slip: *slip,
-            stiffness: soil.pressure_sinkage.stiffness(
-                wheel.width,
-                soil.cohesion,
-                unit_weight,
-                slip.ratio,
-            ),
+            stiffness: Stiffness { modulus, ..rigid },
             cohesion: soil.cohesion,
-            friction: soil.friction_angle.tan(),
+            friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
         }
     }

@@ -1,6 +1,7 @@
 //! The theories by name.
 
 use super::bekker::Bekker;
+use super::extended::Extended;
 use super::ishigami::Ishigami;
 use super::model::WheelSoilModel;
 
@@ -12,11 +13,13 @@ pub enum Theory {
     Ishigami,
     /// Bekker's closed form, as a cross-check.
     Bekker,
+    /// The source paper's with the terms that small wheels need.
+    Extended,
 }
 
 impl Theory {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Ishigami, Self::Bekker];
+    pub const ALL: [Self; 3] = [Self::Ishigami, Self::Bekker, Self::Extended];
 
     /// Its name in documents and commands.
     #[must_use]
@@ -24,6 +27,7 @@ impl Theory {
         match self {
             Self::Ishigami => "ishigami",
             Self::Bekker => "bekker",
+            Self::Extended => "extended",
         }
     }
 
@@ -32,9 +36,11 @@ impl Theory {
     pub fn model(self) -> &'static dyn WheelSoilModel {
         static ISHIGAMI: Ishigami = Ishigami::DEFAULT;
         static BEKKER: Bekker = Bekker;
+        static EXTENDED: Extended = Extended::DEFAULT;
         match self {
             Self::Ishigami => &ISHIGAMI,
             Self::Bekker => &BEKKER,
+            Self::Extended => &EXTENDED,
         }
     }
 }

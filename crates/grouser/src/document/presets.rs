@@ -73,6 +73,8 @@ static PRESETS: &[Preset] = &[
     preset!(Soil, "data/soils", "clay"),
     preset!(Soil, "data/soils", "direct-90"),
     preset!(Soil, "data/soils", "direct-90-grousers"),
+    preset!(Soil, "data/soils", "cmu-direct90-smooth"),
+    preset!(Soil, "data/soils", "cmu-direct90-grouser"),
     preset!(Soil, "data/soils", "krex-granite"),
     preset!(Soil, "data/soils", "mit-rig-a"),
     preset!(Soil, "data/soils", "mit-rig-b"),

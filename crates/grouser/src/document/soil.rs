@@ -8,8 +8,10 @@ use super::text::Node;
 use super::{Document, Kind, Overrides, not_stated, note_birthplace, told_by, unnamed};
 use crate::contact::Theory;
 use crate::error::ParameterError;
+use crate::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
 use crate::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    StressPeak,
 };
 
 /// The largest exit-angle ratio that a soil may reach at any slip [-].
@@ -65,6 +67,10 @@ pub struct SoilDocument {
     /// How soil pushed aside loads the flank; without it, law = "sine".
     #[serde(default)]
     pub bulldozing: BulldozingSection,
+    /// Terms of the theory `extended`, for one wheel on this soil; all off without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "ExtendedSection")]
+    pub extended: Option<ExtendedSection>,
 }
 
 /// The `schema` of a soil.
@@ -84,6 +90,8 @@ pub enum TheoryWord {
     Ishigami,
     /// Bekker's closed form.
     Bekker,
+    /// Stresses along the arc, with the terms that small wheels need.
+    Extended,
 }
 
 impl TheoryWord {
@@ -93,6 +101,7 @@ impl TheoryWord {
         match self {
             Self::Ishigami => Theory::Ishigami,
             Self::Bekker => Theory::Bekker,
+            Self::Extended => Theory::Extended,
         }
     }
 }
@@ -302,6 +311,121 @@ pub enum BulldozingWord {
     SineSquared,
 }
 
+/// What a small wheel's soil does beyond the classical law. Each key is off by default.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExtendedSection {
+    /// How a moving wheel sinks deeper than a plate.
+    pub sinkage: SinkageGrowthSection,
+    /// How the exit moves with the motion.
+    pub exit: ExitShiftSection,
+    /// Friction between rim and soil.
+    pub rim: RimSection,
+    /// The soil's load on the flank.
+    pub flank: FlankSection,
+    /// Soil pushed by the width of the rim.
+    pub heap: HeapSection,
+}
+
+/// Sinkage growth ζ: the moving wheel meets at depth z what a plate meets at z/ζ.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SinkageGrowthSection {
+    /// Growth per sin β/(cos β + 0.3) [-].
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub with_slip_angle: f64,
+    /// Growth with the slip by total speed, S/(1 − bend S) [-].
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub with_slip: f64,
+    /// How that growth bends: above 0 it speeds up with slip, below 0 it slows down [-].
+    #[schemars(range(min = -10.0, max = 0.95))]
+    pub bend: f64,
+    /// Growth of a locked wheel [-].
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub locked: f64,
+    /// How much the larger of two growths hides the smaller; at 1 they add up [-].
+    #[schemars(range(min = 1.0, max = 20.0))]
+    pub sharpness: f64,
+}
+
+/// What is added to the exit-angle ratio λ; it stays within 0 and 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExitShiftSection {
+    /// Growth with the slip by total speed, while driving [-].
+    #[schemars(range(min = -2.0, max = 2.0))]
+    pub with_slip: f64,
+    /// Growth with |sin β| [-].
+    #[schemars(range(min = -2.0, max = 2.0))]
+    pub with_slip_angle: f64,
+}
+
+/// Friction between rim and soil.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RimSection {
+    /// Friction angle between rim and soil, δ, where below the soil's own [°].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(min = 1.0, max = 60.0))]
+    pub friction_angle_deg: Option<f64>,
+}
+
+/// The soil's load on the flank.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct FlankSection {
+    /// Factor on the passive pressure, for the heap on it and for its ends [-].
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub pressure_factor: f64,
+    /// How fast the load fades with slip or skid: e^(−fading |S|) [-].
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub fading: f64,
+    /// Coefficient of friction of the side face, μ_f [-].
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub friction: f64,
+}
+
+/// Soil pushed by the width of the rim, as factors on b R_b(h).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct HeapSection {
+    /// In front of a wheel that skids [-].
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub front: f64,
+    /// Behind a wheel that spins [-].
+    #[schemars(range(min = 0.0, max = 20.0))]
+    pub behind: f64,
+}
+
+impl Default for SinkageGrowthSection {
+    fn default() -> Self {
+        let SinkageGrowth { with_slip_angle, with_slip, bend, locked, sharpness } =
+            Extended::OFF.sinkage;
+        Self { with_slip_angle, with_slip, bend, locked, sharpness }
+    }
+}
+
+impl Default for ExitShiftSection {
+    fn default() -> Self {
+        let ExitShift { with_slip, with_slip_angle } = Extended::OFF.exit;
+        Self { with_slip, with_slip_angle }
+    }
+}
+
+impl Default for FlankSection {
+    fn default() -> Self {
+        let Flank { pressure_factor, fading, friction } = Extended::OFF.flank;
+        Self { pressure_factor, fading, friction }
+    }
+}
+
+impl Default for HeapSection {
+    fn default() -> Self {
+        let Heap { front, behind } = Extended::OFF.heap;
+        Self { front, behind }
+    }
+}
+
 fn right_angle() -> f64 {
     90.0
 }
@@ -320,6 +444,7 @@ impl Document for SoilDocument {
             shear: self.shear.to_domain(),
             exit: self.exit.to_domain(),
             bulldozing: self.bulldozing.law.to_domain(),
+            extended: self.extended.as_ref().map_or(Extended::OFF, ExtendedSection::to_domain),
         };
         let at = |path: &'static str| {
             move |error: ParameterError| {
@@ -329,6 +454,7 @@ impl Document for SoilDocument {
         soil.pressure_sinkage.check(soil.cohesion).map_err(at("pressure_sinkage"))?;
         check_exponent(soil.pressure_sinkage).map_err(at("pressure_sinkage"))?;
         soil.shear.check().map_err(at("shear"))?;
+        soil.extended.check().map_err(at("extended"))?;
         check_exit(soil.exit).map_err(at("exit"))?;
         soil.check().map_err(at("schema"))?;
         Ok(soil)
@@ -458,6 +584,29 @@ impl ExitSection {
                     per_slip_squared: *per_slip2,
                 }
             }
+        }
+    }
+}
+
+impl ExtendedSection {
+    fn to_domain(&self) -> Extended {
+        let Self { sinkage, exit, rim, flank, heap } = self;
+        Extended {
+            sinkage: SinkageGrowth {
+                with_slip_angle: sinkage.with_slip_angle,
+                with_slip: sinkage.with_slip,
+                bend: sinkage.bend,
+                locked: sinkage.locked,
+                sharpness: sinkage.sharpness,
+            },
+            exit: ExitShift { with_slip: exit.with_slip, with_slip_angle: exit.with_slip_angle },
+            rim_friction_angle: rim.friction_angle_deg.map(f64::to_radians),
+            flank: Flank {
+                pressure_factor: flank.pressure_factor,
+                fading: flank.fading,
+                friction: flank.friction,
+            },
+            heap: Heap { front: heap.front, behind: heap.behind },
         }
     }
 }

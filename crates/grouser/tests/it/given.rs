@@ -6,7 +6,8 @@ use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Scenario, Simulation, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    StressPeak,
 };
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
@@ -60,6 +61,7 @@ pub(crate) fn toyoura() -> Soil {
         },
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
+        extended: Extended::OFF,
     }
 }
 
@@ -237,6 +239,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 shear,
                 exit,
                 bulldozing,
+                extended: Extended::OFF,
             }
         },
     )

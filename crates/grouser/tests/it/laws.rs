@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use super::given::{self, cases};
 
 /// Both theories: a law of mechanics is one for either.
-const THEORIES: [Theory; 2] = Theory::ALL;
+const THEORIES: [Theory; 3] = Theory::ALL;
 
 /// Forces over a load, moments over load times radius, largest stress over load per square radius,
 /// angles: everything a theory says about a wheel, without units.

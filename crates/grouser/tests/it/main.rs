@@ -1,6 +1,7 @@
 //! The claims of the library, tested from outside.
 
 mod documents;
+mod extended;
 mod floors;
 mod given;
 mod laws;

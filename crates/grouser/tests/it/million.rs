@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
 use grouser::soil::{
-    Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
 };
 use grouser::units::deg;
 use grouser::wheel::{Grousers, Wheel};
@@ -124,6 +124,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
         shear,
         exit,
         bulldozing: draw.one_of(&BULLDOZING),
+        extended: Extended::OFF,
     }
 }
 

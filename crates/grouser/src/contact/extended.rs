@@ -1,0 +1,160 @@
+//! The classical theory extended for small rovers: one parameter set for a wheel and a soil.
+//!
+//! The stresses of [`ishigami`](super::ishigami) on an arc of its own, in a soil that gives way to
+//! a moving wheel, and four forces more. Each term is off unless the soil sets it
+//! ([`crate::soil::extended`]); with none the theory is `ishigami`, to the last bit.
+//!
+//! ```text
+//! σ   = K_σ (z/ζ)ⁿ                                     ζ(S, β): the moving wheel digs itself in
+//! λ   = λ₀ + λ_s S⁺ + λ_β |sin β|                      within 0 and 1
+//! |τ| ≤ c + σ min(tan φ, tan δ)                        friction of the rim
+//! F_s = k_f e^(−ζ_b |S|) ∫ R_b(h(θ)) [r_s − h cos θ] dθ     the flank, loaded by the heap on it
+//! X_f = μ_f |F_s sin β| u_x/√(u_x² + v_y²)             u_x = ω r_F − v_x: friction of the side face
+//! Q   = −f_front b R_b(h) S⁻ (v_x, v_y)/V              soil pushed in front of a skidding wheel
+//! X_b = f_behind b R_b(h) S⁺²                          soil pushed back by a spinning wheel
+//! ```
+//!
+//! S is the slip by the total speed ([`Slip::total`]), S⁺ its driving part and S⁻ its skid. What
+//! each term brings, out of sample, is told in `docs/models/extended.md`.
+//!
+//! [`Slip::total`]: super::slip::Slip::total
+
+use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::forces::WheelForces;
+use super::gauss::{GAUSS_16, GAUSS_64, Rule};
+use super::ishigami;
+use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::stress::{Response, StressField};
+
+/// The classical theory with the terms of [`crate::soil::Extended`].
+#[derive(Clone, Copy, Debug)]
+pub struct Extended {
+    rule: &'static Rule,
+}
+
+impl Default for Extended {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+impl Extended {
+    /// Sixteen nodes for each smooth piece of the arc, as in the classical theory.
+    pub const DEFAULT: Self = Self { rule: &GAUSS_16 };
+
+    /// The same theory with four times as many nodes, to measure the error of the quadrature.
+    #[must_use]
+    pub fn reference() -> Self {
+        Self { rule: &GAUSS_64 }
+    }
+}
+
+impl WheelSoilModel for Extended {
+    fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        if sinkage <= 0.0 {
+            return WheelForces::default();
+        }
+        from_both_sides(contact, |contact| self.entering_front(contact, sinkage))
+    }
+}
+
+impl Extended {
+    fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        let Contact { wheel, soil, gravity, .. } = contact;
+        let field = StressField::of_response(contact, sinkage, &response(contact, sinkage));
+        let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
+        let flank = flank_load(contact, &field, &wall);
+        let pushed = wheel.width * wall.at(sinkage);
+
+        ishigami::reaction(contact, &field, &flank, self.rule)
+            + face_friction(contact, &flank)
+            + soil_in_front(contact, pushed, sinkage)
+            + soil_behind(contact, pushed)
+    }
+}
+
+/// What the soil makes of a wheel's motion at a sinkage [m].
+fn response(contact: &Contact, sinkage: f64) -> Response {
+    let classical = Response::classical(contact);
+    let terms = &contact.soil.extended;
+    let (total_slip, beta) = (contact.slip.total(), contact.slip.angle);
+    let depth = sinkage / contact.wheel.shearing_radius();
+    Response {
+        sinkage_growth: terms.sinkage.at(total_slip, beta, depth),
+        exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
+        friction: terms
+            .rim_friction_angle
+            .map_or(classical.friction, |delta| classical.friction.min(delta.tan())),
+    }
+}
+
+/// The flank's load: larger than a bare wall's, and fading as the wheel slips or skids.
+fn flank_load(contact: &Contact, field: &StressField, wall: &WallResistance) -> FlankLoad {
+    let terms = &contact.soil.extended.flank;
+    let bare = bulldozing::flank_load(wall, &field.patch, contact.wheel.shearing_radius());
+    let fading = (-terms.fading * contact.slip.total().abs()).exp();
+    FlankLoad { force: bare.force * (terms.pressure_factor * fading), ..bare }
+}
+
+/// Friction of the loaded side face, along the wheel.
+///
+/// The face slides over the soil with u_x = ω r_F − v_x at the load's line of action, r_F below
+/// the hub, and presses into it with v_y. Friction acts against the sum of both; its part across
+/// belongs to the flank's load already.
+fn face_friction(contact: &Contact, flank: &FlankLoad) -> WheelForces {
+    let slip = &contact.slip;
+    let (across, _) = bulldozing::shares(contact.soil.bulldozing, slip);
+    let below = flank.below_hub / contact.wheel.shearing_radius();
+    let sliding = slip.rim * below - slip.forward;
+    let speed = sliding.hypot(slip.lateral).hypot(slip.creep());
+    if speed == 0.0 {
+        return WheelForces::default();
+    }
+    let limit = contact.soil.extended.flank.friction * (across * flank.force).abs();
+    let force = limit * sliding / speed;
+    WheelForces {
+        drawbar_pull: force,
+        thrust: force,
+        torque: force * flank.below_hub,
+        ..WheelForces::default()
+    }
+}
+
+/// The heap in front of a skidding wheel: a wall of the rim's width and of the sinkage's height.
+///
+/// It acts against the hub's motion, at two thirds of the depth, and on the arc it has no lever
+/// about the axle.
+fn soil_in_front(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
+    let slip = &contact.slip;
+    let travel = slip.forward.hypot(slip.lateral);
+    let skid = (-slip.total()).max(0.0);
+    if travel == 0.0 || skid == 0.0 {
+        return WheelForces::default();
+    }
+    let force = contact.soil.extended.heap.front * pushed * skid;
+    let (along, across) = (-force * slip.forward / travel, -force * slip.lateral / travel);
+    /// The pressure's centre, above the lowest point, in sinkages. Source: Rankine.
+    const HEIGHT_OF_CENTRE: f64 = 1.0 / 3.0;
+    WheelForces {
+        drawbar_pull: along,
+        motion_resistance: along,
+        side_force: across,
+        overturning_moment: across * (contact.wheel.shearing_radius() - HEIGHT_OF_CENTRE * sinkage),
+        ..WheelForces::default()
+    }
+}
+
+/// The heap behind a spinning wheel, against which the rim pushes itself off.
+///
+/// Its lever is the shearing radius: what the rim does on the heap the drive has to hold.
+fn soil_behind(contact: &Contact, pushed: f64) -> WheelForces {
+    let slip = &contact.slip;
+    let spin = slip.total().max(0.0);
+    let force = contact.soil.extended.heap.behind * pushed * spin * spin * slip.rim;
+    WheelForces {
+        drawbar_pull: force,
+        thrust: force,
+        torque: force * contact.wheel.shearing_radius(),
+        ..WheelForces::default()
+    }
+}

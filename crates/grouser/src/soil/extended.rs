@@ -1,0 +1,233 @@
+//! The constants of the extended theory ([`contact::extended`](crate::contact::extended)): what a
+//! small wheel's soil does beyond the classical law. They belong to one soil under one wheel.
+//!
+//! Every term is off in [`Extended::OFF`], and then the theory is the classical one.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::error::{ParameterError, finite, not_negative, positive};
+
+/// The terms of the extended theory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extended {
+    /// How a moving wheel sinks deeper than a plate.
+    pub sinkage: SinkageGrowth,
+    /// How the exit moves with the motion.
+    pub exit: ExitShift,
+    /// Friction angle between rim and soil, *δ* [rad], where it is below the soil's own.
+    pub rim_friction_angle: Option<f64>,
+    /// The soil's load on the flank.
+    pub flank: Flank,
+    /// The soil pushed in front of the wheel and behind it.
+    pub heap: Heap,
+}
+
+/// Sinkage growth, *ζ* [-]: the moving wheel meets at depth z what a plate meets at z/ζ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SinkageGrowth {
+    /// Growth with the slip angle, *ζ_β* [-].
+    pub with_slip_angle: f64,
+    /// Growth with slip, *ζ_s* [-], at its start.
+    pub with_slip: f64,
+    /// How that growth bends [-]: above 0 it speeds up with slip, below 0 it slows down.
+    pub bend: f64,
+    /// Growth of a locked wheel, *ζ_locked* − 1 [-].
+    pub locked: f64,
+    /// How much the larger of two growths hides the smaller, *q* [-]: at 1 they add up.
+    pub sharpness: f64,
+}
+
+/// What is added to the exit-angle ratio *λ*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExitShift {
+    /// Growth with slip [-].
+    pub with_slip: f64,
+    /// Growth with |sin β| [-].
+    pub with_slip_angle: f64,
+}
+
+/// The soil's load on the flank of a small wheel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flank {
+    /// Factor on the passive pressure *R_b* [-], for the heap on the wall and for its ends.
+    pub pressure_factor: f64,
+    /// How fast the load fades with slip or skid, *ζ_b* [-].
+    pub fading: f64,
+    /// Coefficient of friction of the side face, *μ_f* [-].
+    pub friction: f64,
+}
+
+/// Soil pushed by the width of the rim, as factors on b R_b(h) [-].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Heap {
+    /// In front of a wheel that skids, *f_front* [-].
+    pub front: f64,
+    /// Behind a wheel that spins, *f_behind* [-].
+    pub behind: f64,
+}
+
+/// The side motion at which a wheel's sinkage no longer grows in proportion to tan β [-].
+///
+/// Source: theory notes on the CMU wheels (sin β/(cos β + 0.3)); fitted values scatter from 0.25
+/// to 0.3.
+const ROLLING_SHARE: f64 = 0.3;
+
+/// How sharply a wheel's digging ends at its axle [-], as a power of h/r_s.
+///
+/// Source: ours. A wheel digs with its rim, and the rim of a wheel sunk to the axle no longer
+/// reaches the soil in front of it. The power decides how steeply the soil's capacity rises in
+/// the last tenth of the radius; powers of 12 to 24 fit the CMU wheels equally well.
+const END_OF_DIGGING: i32 = 16;
+
+impl Extended {
+    /// No term at all: the classical theory.
+    pub const OFF: Self = Self {
+        sinkage: SinkageGrowth {
+            with_slip_angle: 0.0,
+            with_slip: 0.0,
+            bend: 0.0,
+            locked: 0.0,
+            sharpness: 1.0,
+        },
+        exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
+        rim_friction_angle: None,
+        flank: Flank { pressure_factor: 1.0, fading: 0.0, friction: 0.0 },
+        heap: Heap { front: 0.0, behind: 0.0 },
+    };
+
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+        let Self { sinkage, exit, rim_friction_angle, flank, heap } = self;
+        not_negative("sinkage growth with slip angle", sinkage.with_slip_angle)?;
+        not_negative("sinkage growth with slip", sinkage.with_slip)?;
+        not_negative("sinkage growth of a locked wheel", sinkage.locked)?;
+        if !(sinkage.bend.is_finite() && sinkage.bend < 1.0) {
+            let expected = "finite and below 1";
+            return Err(ParameterError::new("bend of the sinkage growth", sinkage.bend, expected));
+        }
+        if !(sinkage.sharpness.is_finite() && sinkage.sharpness >= 1.0) {
+            let name = "sharpness of the sinkage growth";
+            return Err(ParameterError::new(name, sinkage.sharpness, "finite and at least 1"));
+        }
+        finite("exit ratio's growth with slip", exit.with_slip)?;
+        finite("exit ratio's growth with slip angle", exit.with_slip_angle)?;
+        if let Some(angle) = *rim_friction_angle {
+            positive("rim friction angle [rad]", angle)?;
+            if angle >= FRAC_PI_2 {
+                let name = "rim friction angle [rad]";
+                return Err(ParameterError::new(name, angle, "below π/2"));
+            }
+        }
+        not_negative("pressure factor of the flank", flank.pressure_factor)?;
+        not_negative("fading of the flank", flank.fading)?;
+        not_negative("friction of the flank", flank.friction)?;
+        not_negative("heap in front", heap.front)?;
+        not_negative("heap behind", heap.behind)
+    }
+}
+
+impl Default for Extended {
+    fn default() -> Self {
+        Self::OFF
+    }
+}
+
+impl SinkageGrowth {
+    /// The growth *ζ* [-], at least 1.
+    ///
+    /// ```text
+    /// ζ_lateral = 1 + ζ_β |sin β|/(cos β + 0.3)      ζ_driven = 1 + ζ_s S⁺/(1 − bend S⁺)
+    /// ζ_rolling = (ζ_lateral^q + ζ_driven^q − 1)^(1/q)
+    /// ζ = ζ_rolling + S⁻² max(1 + ζ_locked − ζ_rolling, 0)
+    /// ```
+    ///
+    /// with the total slip S, its driving part S⁺ = max(S, 0) and its skid S⁻ = max(−S, 0). A
+    /// locked wheel is a plough: it digs to its own depth, whatever its direction.
+    ///
+    /// * `total_slip`: *S* [-], −1 to 1
+    /// * `slip_angle`: *β* [rad]
+    /// * `depth`: h/r_s [-], from which on the growth ends: ζ − 1 shrinks by 1 − (h/r_s)¹⁶
+    #[must_use]
+    pub fn at(&self, total_slip: f64, slip_angle: f64, depth: f64) -> f64 {
+        let shallow = self.at_the_surface(total_slip, slip_angle);
+        1.0 + (shallow - 1.0) * (1.0 - depth.clamp(0.0, 1.0).powi(END_OF_DIGGING))
+    }
+
+    fn at_the_surface(&self, total_slip: f64, slip_angle: f64) -> f64 {
+        let q = self.sharpness;
+        let (driving, skid) = (total_slip.clamp(0.0, 1.0), (-total_slip).clamp(0.0, 1.0));
+        let (sin, cos) = slip_angle.sin_cos();
+        let lateral = 1.0 + self.with_slip_angle * sin.abs() / (cos.max(0.0) + ROLLING_SHARE);
+        let driven = 1.0 + self.with_slip * driving / (1.0 - self.bend * driving);
+        // By the larger of the two, so that no power overflows; exactly 1 where both are.
+        let (more, less) = (lateral.max(driven), lateral.min(driven));
+        let rest = ((less / more).powf(q) - more.powf(-q)).max(0.0);
+        let rolling = more * (1.0 + rest).powf(1.0 / q);
+        rolling + skid * skid * (1.0 + self.locked - rolling).max(0.0)
+    }
+}
+
+impl ExitShift {
+    /// The exit-angle ratio *λ* [-] of a moving wheel: at least 0, and above 1 only where the
+    /// soil at rest already is.
+    ///
+    /// * `at_rest`: the classical *λ* [-]
+    /// * `total_slip`: *S* [-], −1 to 1
+    /// * `slip_angle`: *β* [rad]
+    #[must_use]
+    pub fn ratio(&self, at_rest: f64, total_slip: f64, slip_angle: f64) -> f64 {
+        let shift = self.with_slip * total_slip.clamp(0.0, 1.0)
+            + self.with_slip_angle * slip_angle.sin().abs();
+        (at_rest + shift).clamp(0.0, at_rest.max(1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::deg;
+
+    const SAND: SinkageGrowth = SinkageGrowth {
+        with_slip_angle: 2.0,
+        with_slip: 3.0,
+        bend: -1.0,
+        locked: 4.0,
+        sharpness: 3.0,
+    };
+
+    #[test]
+    fn no_growth_is_exactly_one() {
+        for (total_slip, degrees) in [(-1.0, 0.0), (-0.3, 50.0), (0.0, 90.0), (1.0, 30.0)] {
+            assert_eq!(Extended::OFF.sinkage.at(total_slip, deg(degrees), 0.3), 1.0);
+        }
+    }
+
+    #[test]
+    fn growth_alone_is_its_own_term() {
+        assert!((SAND.at(1.0, 0.0, 0.0) - 2.5).abs() < 1e-12);
+        assert!((SAND.at(0.0, deg(90.0), 0.0) - (1.0 + 2.0 / 0.3)).abs() < 1e-12);
+        assert!((SAND.at(-1.0, 0.0, 0.0) - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_locked_wheel_digs_to_one_depth_at_any_moderate_angle() {
+        for degrees in [0.0, 15.0, 45.0, 60.0] {
+            assert!((SAND.at(-1.0, deg(degrees), 0.0) - 5.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_wheel_sunk_to_its_axle_digs_no_deeper() {
+        assert_eq!(SAND.at(-1.0, 0.3, 1.0), 1.0);
+        assert!((SAND.at(-1.0, 0.3, 0.5) / SAND.at(-1.0, 0.3, 0.0) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn growth_rises_with_slip_angle_and_slip() {
+        for percent in 0..100 {
+            let (here, next) = (f64::from(percent) / 100.0, f64::from(percent + 1) / 100.0);
+            assert!(SAND.at(next, 0.4, 0.2) > SAND.at(here, 0.4, 0.2));
+            assert!(SAND.at(0.3, next, 0.2) > SAND.at(0.3, here, 0.2) - 1e-12);
+            assert!(SAND.at(-next, 0.4, 0.2) > SAND.at(-here, 0.4, 0.2));
+        }
+    }
+}
