@@ -1,0 +1,190 @@
+//! Calibration: which parameters a series of measurements speaks for, how surely, and which run
+//! to make next.
+//!
+//! An [`Experiment`] is measurements and the theory that predicts them: [`WheelTestExperiment`] for
+//! a wheel on a test stand, [`PlateTest`] for a bevameter. A [`Calibration`] asks it about a
+//! [`ParameterSpace`]. An observation y_i of channel k, the mean over repeated trials, is taken as
+//!
+//! ```text
+//! y_i = f_i(θ) + N(0, s_i² + δ_k²)
+//! ```
+//!
+//! with the scatter s_i of the trials, which is known, and a model discrepancy δ_k, which is found
+//! along with θ: no theory is exact, and one that is not must not be made sure of its parameters
+//! by the number of trials. Discrepancies are taken as independent from one observation to the next.
+//!
+//! The order of work, each step on its own:
+//!
+//! 1. [`Calibration::fit`]: bounded least squares from several starts;
+//! 2. [`Calibration::start_posterior`] and [`Calibration::advance`]: samples of all parameter sets
+//!    that agree with the data, in blocks, between which a run can be stopped, kept and resumed;
+//! 3. [`diagnostics`]: whether the samples suffice, and what they say;
+//! 4. [`identifiability`]: what these data cannot tell apart;
+//! 5. [`design`]: which run to make next;
+//! 6. [`cross_validation`]: the same fit with some measurements left out.
+//!
+//! Everything has the same bits for any number of threads.
+
+pub mod cross_validation;
+pub mod design;
+pub mod diagnostics;
+mod ensemble;
+pub mod experiment;
+pub mod fit;
+pub mod identifiability;
+mod least_squares;
+pub mod parameter;
+pub mod plate_test;
+pub mod posterior;
+pub mod scatter;
+pub mod wheel_test;
+
+pub use experiment::{Channel, Experiment, Observation, Regime};
+pub use fit::{Fit, FitSettings};
+pub use parameter::{Parameter, ParameterSpace, Scale};
+pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
+pub use posterior::{PosteriorState, SamplerSettings};
+pub use wheel_test::{Resolution, WheelTestExperiment};
+
+use crate::error::ParameterError;
+
+/// An experiment, and the parameters that it is asked about.
+#[derive(Clone)]
+pub struct Calibration<'a> {
+    experiment: &'a dyn Experiment,
+    space: ParameterSpace,
+    discrepancies: ParameterSpace,
+}
+
+/// Why a calibration gives no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// There is nothing to find.
+    #[error("no parameter is to be fitted")]
+    NoParameters,
+    /// There are not enough observations for the parameters.
+    #[error("{observations} observations cannot determine {parameters} parameters")]
+    TooFewObservations {
+        /// How many there are.
+        observations: usize,
+        /// How many parameters they are to determine.
+        parameters: usize,
+    },
+    /// An observation is not a finite number, or its scatter is negative.
+    #[error("observation {number} is {value} with a scatter of {scatter}: both must be finite")]
+    BadObservation {
+        /// Its place, from 0.
+        number: usize,
+        /// Its value.
+        value: f64,
+        /// Its scatter.
+        scatter: f64,
+    },
+    /// A parameter makes no sense.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// At no start do the parameters make a soil with finite predictions.
+    #[error("none of {starts} starts gives finite predictions; the first fails: {reason}")]
+    NoStart {
+        /// How many starts were tried.
+        starts: usize,
+        /// What the given start fails with.
+        reason: String,
+    },
+    /// The observer asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+    /// A state of the sampler that belongs to another problem, or was damaged.
+    #[error("the sampler's state does not fit the problem: {what}")]
+    ForeignState {
+        /// What does not fit.
+        what: String,
+    },
+}
+
+impl<'a> Calibration<'a> {
+    /// An experiment asked about its parameters.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] if there are no parameters, fewer observations than parameters, or
+    /// observations that are no numbers.
+    pub fn new(
+        experiment: &'a dyn Experiment,
+        space: ParameterSpace,
+    ) -> Result<Self, CalibrationError> {
+        if space.is_empty() {
+            return Err(CalibrationError::NoParameters);
+        }
+        let observations = experiment.observations();
+        if observations.len() < space.len() {
+            let (observations, parameters) = (observations.len(), space.len());
+            return Err(CalibrationError::TooFewObservations { observations, parameters });
+        }
+        for (number, &Observation { value, scatter, .. }) in observations.iter().enumerate() {
+            if !(value.is_finite() && scatter.is_finite() && scatter >= 0.0) {
+                return Err(CalibrationError::BadObservation { number, value, scatter });
+            }
+        }
+        let discrepancies = ParameterSpace::new(experiment::discrepancies(experiment))?;
+        Ok(Self { experiment, space, discrepancies })
+    }
+
+    /// The experiment.
+    #[must_use]
+    pub fn experiment(&self) -> &'a dyn Experiment {
+        self.experiment
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn space(&self) -> &ParameterSpace {
+        &self.space
+    }
+
+    /// The model discrepancies δ, one for each channel, as parameters with priors of their own.
+    #[must_use]
+    pub fn discrepancies(&self) -> &ParameterSpace {
+        &self.discrepancies
+    }
+
+    /// Parameters and discrepancies: what a sample of the posterior has coordinates of.
+    #[must_use]
+    pub fn dimension(&self) -> usize {
+        self.space.len() + self.discrepancies.len()
+    }
+
+    /// Predictions of all observations; `None` where the values make no soil or no numbers.
+    fn predictions(&self, values: &[f64]) -> Option<Vec<f64>> {
+        let mut predictions = vec![0.0; self.experiment.observations().len()];
+        self.experiment.predict(values, &mut predictions).ok()?;
+        predictions.iter().all(|prediction| prediction.is_finite()).then_some(predictions)
+    }
+
+    /// Variances of all observations about the theory, s² + δ².
+    fn variances(&self, discrepancies: &[f64]) -> Vec<f64> {
+        let observations = self.experiment.observations().iter();
+        let variance = |one: &Observation| one.scatter.powi(2) + discrepancies[one.channel].powi(2);
+        observations.map(variance).collect()
+    }
+
+    /// Logarithm of the posterior's density in coordinates, up to a constant.
+    ///
+    /// * `coordinates`: of the parameters, then of the discrepancies
+    #[must_use]
+    pub fn log_posterior(&self, coordinates: &[f64]) -> f64 {
+        let (parameters, discrepancies) = coordinates.split_at(self.space.len());
+        let Some(predictions) = self.predictions(&self.space.values(parameters)) else {
+            return f64::NEG_INFINITY;
+        };
+        let variances = self.variances(&self.discrepancies.values(discrepancies));
+        let observations = self.experiment.observations();
+        let mut log_density = ParameterSpace::log_prior(coordinates);
+        for ((observation, prediction), variance) in
+            observations.iter().zip(predictions).zip(variances)
+        {
+            let residual = observation.value - prediction;
+            log_density -= 0.5 * (residual * residual / variance + variance.ln());
+        }
+        if log_density.is_finite() { log_density } else { f64::NEG_INFINITY }
+    }
+}

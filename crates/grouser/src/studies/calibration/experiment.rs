@@ -1,0 +1,96 @@
+//! What was measured, and what parameters make of it.
+
+use super::parameter::{Parameter, Scale};
+use crate::error::ParameterError;
+use crate::studies::measurement::Quantity;
+
+/// A kind of observation; one standard deviation tells how far the theory is from all of its kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Channel {
+    /// A quantity of a wheel on a test stand.
+    Wheel {
+        /// Which quantity.
+        quantity: Quantity,
+        /// In which motion.
+        regime: Regime,
+    },
+    /// Pressure under a plate [Pa].
+    PlatePressure,
+    /// Anything else that a face or a test makes up.
+    Other,
+}
+
+/// Motions that share one model discrepancy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Regime {
+    /// Every motion.
+    Any,
+    /// A wheel that drives.
+    Driven,
+    /// A wheel that skids.
+    Skid,
+}
+
+/// A number that was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observation {
+    /// What it is, in its SI unit: the mean over repeated trials.
+    pub value: f64,
+    /// Standard deviation of that mean from trial to trial; 0 where nothing is known of it.
+    pub scatter: f64,
+    /// Its kind, by the place in [`Experiment::channels`].
+    pub channel: usize,
+}
+
+/// Measurements, and the theory that predicts them.
+pub trait Experiment: Sync {
+    /// The kinds of observations.
+    fn channels(&self) -> &[Channel];
+
+    /// What was measured.
+    fn observations(&self) -> &[Observation];
+
+    /// What parameters predict for each observation: finite for all values within the bounds.
+    ///
+    /// * `values`: of the parameters, in their order
+    /// * `predictions`: to be filled, one for each observation
+    ///
+    /// # Errors
+    /// [`ParameterError`] if the values make no soil at all: the search turns away from them.
+    fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError>;
+}
+
+/// A discrepancy below this share of the trials' scatter cannot be told from none [-].
+const LEAST_OF_SCATTER: f64 = 0.1;
+
+/// And no theory is trusted beyond this share of the measurements' range [-]: it keeps the
+/// weights finite where no scatter is known.
+const LEAST_OF_SPREAD: f64 = 1e-4;
+
+/// The model discrepancy of each channel, δ, as a parameter.
+///
+/// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it
+/// cannot be told from none) to the spread of the measured values (above which the theory says
+/// nothing).
+#[must_use]
+pub fn discrepancies(experiment: &dyn Experiment) -> Vec<Parameter> {
+    let channels = 0..experiment.channels().len();
+    channels.map(|channel| discrepancy(experiment.observations(), channel)).collect()
+}
+
+fn discrepancy(observations: &[Observation], channel: usize) -> Parameter {
+    let own = || observations.iter().filter(|observation| observation.channel == channel);
+    let count = (own().count() as f64).max(1.0);
+    let rms = |squares: f64| (squares / count).sqrt();
+    let mean = own().map(|observation| observation.value).sum::<f64>() / count;
+    let scatter = rms(own().map(|observation| observation.scatter.powi(2)).sum());
+    let spread = rms(own().map(|observation| (observation.value - mean).powi(2)).sum());
+    let size = rms(own().map(|observation| observation.value.powi(2)).sum());
+    // Values that are all alike have no spread; their size is the next best measure, or one unit.
+    let spread = [spread, scatter, size, 1.0].into_iter().find(|&one| one > 0.0).unwrap_or(1.0);
+    let spread = spread.max(scatter);
+    let lower = (LEAST_OF_SCATTER * scatter).max(LEAST_OF_SPREAD * spread);
+    let start = (LEAST_OF_SCATTER * spread).max(lower);
+    let name = format!("discrepancy of channel {channel}");
+    Parameter { name, lower, upper: spread, scale: Scale::Logarithmic, start }
+}

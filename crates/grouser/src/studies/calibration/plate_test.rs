@@ -1,0 +1,139 @@
+//! Bevameter tests as an experiment: pressure under plates of several widths as they sink in.
+//!
+//! One width alone cannot tell the cohesive modulus from the frictional one; a calibration of
+//! such data says so ([`identifiability`](super::identifiability)).
+
+use super::experiment::{Channel, Experiment, Observation};
+use crate::error::{ParameterError, not_negative, positive};
+use crate::soil::{PressureSinkage, SinkageExponent};
+
+/// A plate pressed into the soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateCurve {
+    /// The plate's smaller dimension, *b* [m].
+    pub width: f64,
+    /// Sinkage [m] and pressure [Pa], as they were read.
+    pub points: Vec<PlatePoint>,
+}
+
+/// A point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlatePoint {
+    /// Sinkage, *z* [m].
+    pub sinkage: f64,
+    /// Pressure, *p* [Pa].
+    pub pressure: f64,
+    /// Standard deviation of the pressure; 0 where it is unknown.
+    pub scatter: f64,
+}
+
+/// Which law is fitted, and what it needs to know of the soil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PlateLaw {
+    /// p = (k_c/b + k_φ) zⁿ.
+    Bekker,
+    /// p = (c k'_c + γ b k'_φ) (z/b)ⁿ.
+    Reece {
+        /// Cohesion, *c* [Pa].
+        cohesion: f64,
+        /// Unit weight, *γ* [N/m³].
+        unit_weight: f64,
+    },
+}
+
+impl PlateLaw {
+    /// Names of the parameters, in the order of [`Experiment::predict`]'s values.
+    pub const PARAMETERS: [&'static str; 3] = ["k_c", "k_phi", "n"];
+
+    /// The law with values of its parameters: k_c, k_φ and n, of the law's own units.
+    #[must_use]
+    pub fn with(&self, [k_c, k_phi, n]: [f64; 3]) -> PressureSinkage {
+        let exponent = SinkageExponent::constant(n);
+        match self {
+            Self::Bekker => PressureSinkage::Bekker { k_c, k_phi, exponent },
+            Self::Reece { .. } => PressureSinkage::Reece { k_c, k_phi, exponent },
+        }
+    }
+}
+
+/// Curves of one soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlateTest {
+    law: PlateLaw,
+    curves: Vec<PlateCurve>,
+    observations: Vec<Observation>,
+}
+
+impl PlateTest {
+    /// The experiment of some curves.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a width, sinkage or pressure that no plate has.
+    pub fn new(law: PlateLaw, curves: Vec<PlateCurve>) -> Result<Self, ParameterError> {
+        if let PlateLaw::Reece { cohesion, unit_weight } = law {
+            not_negative("cohesion [Pa]", cohesion)?;
+            positive("unit weight [N/m³]", unit_weight)?;
+        }
+        let mut observations = Vec::new();
+        for curve in &curves {
+            positive("plate width [m]", curve.width)?;
+            for point in &curve.points {
+                not_negative("plate sinkage [m]", point.sinkage)?;
+                not_negative("plate pressure [Pa]", point.pressure)?;
+                not_negative("scatter of a plate pressure [Pa]", point.scatter)?;
+                let PlatePoint { pressure: value, scatter, .. } = *point;
+                observations.push(Observation { value, scatter, channel: 0 });
+            }
+        }
+        Ok(Self { law, curves, observations })
+    }
+
+    /// The law that is fitted.
+    #[must_use]
+    pub fn law(&self) -> PlateLaw {
+        self.law
+    }
+
+    /// How many widths of plates there are; two moduli need two.
+    #[must_use]
+    pub fn widths(&self) -> usize {
+        let mut widths: Vec<f64> = self.curves.iter().map(|curve| curve.width).collect();
+        widths.sort_by(f64::total_cmp);
+        widths.dedup();
+        widths.len()
+    }
+}
+
+impl Experiment for PlateTest {
+    fn channels(&self) -> &[Channel] {
+        &[Channel::PlatePressure]
+    }
+
+    fn observations(&self) -> &[Observation] {
+        &self.observations
+    }
+
+    fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
+        let &[k_c, k_phi, n] = values else {
+            let expected = "three: k_c, k_phi, n";
+            let count = values.len() as f64;
+            return Err(ParameterError::new("number of plate parameters", count, expected));
+        };
+        let (cohesion, unit_weight) = match self.law {
+            // Bekker's moduli contain both.
+            PlateLaw::Bekker => (0.0, 0.0),
+            PlateLaw::Reece { cohesion, unit_weight } => (cohesion, unit_weight),
+        };
+        let law = self.law.with([k_c, k_phi, n]);
+        /// A plate does not slip.
+        const SLIP_RATIO: f64 = 0.0;
+        let pressures = self.curves.iter().flat_map(|curve| {
+            let stiffness = law.stiffness(curve.width, cohesion, unit_weight, SLIP_RATIO);
+            curve.points.iter().map(move |point| stiffness.pressure(point.sinkage))
+        });
+        for (prediction, pressure) in predictions.iter_mut().zip(pressures) {
+            *prediction = pressure;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,236 @@
+//! Single-wheel tests as an experiment: a soil is asked for the forces and the sinkage of every
+//! cell of a test series.
+
+use super::experiment::{Channel, Experiment, Observation, Regime};
+use super::scatter::{self, Repeats};
+use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use crate::error::{ParameterError, finite, not_negative};
+use crate::soil::Soil;
+use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
+use crate::wheel::Wheel;
+
+/// Makes the soil of parameter values.
+pub type SoilOf<'a> = dyn Fn(&[f64]) -> Result<Soil, ParameterError> + Sync + 'a;
+
+/// How finely a test series is predicted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resolution {
+    /// Each trial at its own load and motion, averaged over the cell.
+    Trials,
+    /// Each cell at the mean load and motion of its trials: as many times faster as there are
+    /// repeats. On the wheel tests of [Pavlov2024] the two differ by less than the trials' scatter.
+    #[default]
+    Cells,
+}
+
+/// Model discrepancies of a test series.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Discrepancies {
+    /// One for each quantity.
+    #[default]
+    PerQuantity,
+    /// One for each quantity of driven wheels, and another of skidding ones, which theories
+    /// predict less well.
+    PerRegime,
+}
+
+/// A series of wheel tests, and the theory that is to explain it.
+pub struct WheelTestExperiment<'a> {
+    wheel: Wheel,
+    theory: Theory,
+    gravity: f64,
+    soil_of: &'a SoilOf<'a>,
+    channels: Vec<Channel>,
+    observations: Vec<Observation>,
+    /// The quantity and the cell of each observation.
+    sources: Vec<(Quantity, usize)>,
+    /// The runs to predict, cell by cell.
+    runs: Vec<Vec<Run>>,
+}
+
+/// A load and a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Run {
+    slip: Slip,
+    load: f64,
+}
+
+/// What a wheel is tested with, and what for.
+#[derive(Clone, Copy)]
+pub struct Setup<'a> {
+    /// The wheel.
+    pub wheel: Wheel,
+    /// The theory.
+    pub theory: Theory,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// Makes the soil of parameter values.
+    pub soil_of: &'a SoilOf<'a>,
+    /// How finely the tests are predicted.
+    pub resolution: Resolution,
+    /// Which observations share a model discrepancy.
+    pub discrepancies: Discrepancies,
+}
+
+impl<'a> WheelTestExperiment<'a> {
+    /// The experiment of a test series: an observation for each cell and each quantity read there.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a load or a reading that is no number, or a negative load.
+    pub fn new(tests: &WheelTests, setup: Setup<'a>) -> Result<Self, ParameterError> {
+        let Setup { wheel, theory, gravity, soil_of, resolution, discrepancies } = setup;
+        for trial in &tests.trials {
+            not_negative("load of a trial [N]", trial.load)?;
+            for reading in Quantity::ALL.into_iter().filter_map(|one| trial.readings[one]) {
+                finite("reading of a trial", reading.value)?;
+            }
+        }
+        let runs = tests.cells.iter().map(|cell| runs_of(tests, cell, resolution)).collect();
+        let mut experiment = Self {
+            wheel,
+            theory,
+            gravity,
+            soil_of,
+            channels: Vec::new(),
+            observations: Vec::new(),
+            sources: Vec::new(),
+            runs,
+        };
+        for quantity in Quantity::ALL {
+            experiment.observe(tests, quantity, discrepancies);
+        }
+        Ok(experiment)
+    }
+
+    /// The soil of parameter values: the first ones, if there are more.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if they make none.
+    pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
+        (self.soil_of)(values)
+    }
+
+    /// The quantity and the place of the cell of each observation.
+    #[must_use]
+    pub fn sources(&self) -> &[(Quantity, usize)] {
+        &self.sources
+    }
+
+    /// What the stand would read of a wheel: for every soil and every load.
+    ///
+    /// A soil that cannot carry the load must not end a search, and should tell it which way to
+    /// turn: the wheel counts as one sunk to its axle, with all readings larger by
+    /// 1 + ln(load/capacity), so that they come down as the soil gets stronger.
+    #[must_use]
+    pub fn readings(&self, soil: &Soil, slip: Slip, load: f64) -> PerQuantity<f64> {
+        /// The load counts as no more than e^10 times what the soil carries.
+        const WEAKEST: f64 = 10.0;
+        let contact = Contact { wheel: self.wheel, soil: *soil, slip, gravity: self.gravity };
+        let model = self.theory.model();
+        match settle(model, &contact, load) {
+            Ok(settled) => PerQuantity::from_fn(|quantity| quantity.of(&settled)),
+            Err(error) => {
+                let capacity = match error {
+                    SettleError::SunkToAxle { capacity, .. } => capacity,
+                    SettleError::BadLoad { .. } => 0.0,
+                };
+                let overload = (load.ln() - capacity.ln()).clamp(0.0, WEAKEST);
+                let sinkage = self.wheel.shearing_radius();
+                let forces = model.forces(&contact, sinkage);
+                let sunk = Settled { sinkage, forces, evaluations: 0 };
+                PerQuantity::from_fn(|quantity| quantity.of(&sunk) * (1.0 + overload))
+            }
+        }
+    }
+
+    /// Adds the observations of a quantity, if there are any, in channels of its own.
+    fn observe(&mut self, tests: &WheelTests, quantity: Quantity, discrepancies: Discrepancies) {
+        // Driven and skidding wheels scatter differently, and are pooled apart.
+        for (driven, regime) in [(true, Regime::Driven), (false, Regime::Skid)] {
+            let cells: Vec<usize> = (0..tests.cells.len())
+                .filter(|&cell| tests.cells[cell].is_driven() == driven)
+                .filter(|&cell| tests.readings_of(&tests.cells[cell], quantity).next().is_some())
+                .collect();
+            if cells.is_empty() {
+                continue;
+            }
+            let regime = match discrepancies {
+                Discrepancies::PerQuantity => Regime::Any,
+                Discrepancies::PerRegime => regime,
+            };
+            let channel = self.channel(Channel::Wheel { quantity, regime });
+            let repeats: Vec<Repeats> =
+                cells.iter().map(|&cell| repeats_of(tests, cell, quantity)).collect();
+            for ((cell, repeats), scatter) in
+                cells.into_iter().zip(&repeats).zip(scatter::of_means(&repeats))
+            {
+                self.observations.push(Observation { value: repeats.mean(), scatter, channel });
+                self.sources.push((quantity, cell));
+            }
+        }
+    }
+
+    /// The place of a channel, which is added if it is new.
+    fn channel(&mut self, channel: Channel) -> usize {
+        let place = self.channels.iter().position(|one| *one == channel);
+        place.unwrap_or_else(|| {
+            self.channels.push(channel);
+            self.channels.len() - 1
+        })
+    }
+}
+
+fn repeats_of(tests: &WheelTests, cell: usize, quantity: Quantity) -> Repeats {
+    let readings = || tests.readings_of(&tests.cells[cell], quantity);
+    Repeats {
+        values: readings().map(|reading| reading.value).collect(),
+        within: readings().filter_map(|reading| reading.scatter).collect(),
+    }
+}
+
+fn runs_of(tests: &WheelTests, cell: &Cell, resolution: Resolution) -> Vec<Run> {
+    let trials = cell.trials.iter().map(|&trial| &tests.trials[trial]);
+    let runs: Vec<Run> = trials.map(|trial| Run { slip: trial.slip, load: trial.load }).collect();
+    if resolution == Resolution::Trials || runs.len() < 2 {
+        return runs;
+    }
+    let mean = |of: &dyn Fn(&Run) -> f64| runs.iter().map(of).sum::<f64>() / runs.len() as f64;
+    let slip = Slip {
+        ratio: mean(&|run| run.slip.ratio),
+        angle: mean(&|run| run.slip.angle),
+        rim: mean(&|run| run.slip.rim),
+        forward: mean(&|run| run.slip.forward),
+        lateral: mean(&|run| run.slip.lateral),
+        sideways: mean(&|run| run.slip.sideways),
+        entering_side: mean(&|run| run.slip.entering_side),
+    };
+    vec![Run { slip, load: mean(&|run| run.load) }]
+}
+
+impl Experiment for WheelTestExperiment<'_> {
+    fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    fn observations(&self) -> &[Observation] {
+        &self.observations
+    }
+
+    fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
+        let soil = self.soil(values)?;
+        soil.check()?;
+        let of_cell = |runs: &Vec<Run>| {
+            let readings: Vec<PerQuantity<f64>> =
+                runs.iter().map(|run| self.readings(&soil, run.slip, run.load)).collect();
+            let count = (readings.len() as f64).max(1.0);
+            PerQuantity::from_fn(|quantity| {
+                readings.iter().map(|reading| reading[quantity]).sum::<f64>() / count
+            })
+        };
+        let cells: Vec<PerQuantity<f64>> = self.runs.iter().map(of_cell).collect();
+        for (prediction, &(quantity, cell)) in predictions.iter_mut().zip(&self.sources) {
+            *prediction = cells[cell][quantity];
+        }
+        Ok(())
+    }
+}
