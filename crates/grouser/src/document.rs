@@ -28,6 +28,7 @@
 mod check;
 mod error;
 pub mod experiment;
+pub mod measurements;
 mod overrides;
 mod presets;
 mod rover;

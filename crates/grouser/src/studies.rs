@@ -2,10 +2,12 @@
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
 //! [`measurement`] what a real stand reads, [`comparison`] the metrics by which the source paper
-//! judges a run, and [`reproduction`] runs the whole of its study again.
+//! judges a run, [`validation`] judges a theory by measured wheel tests, and [`reproduction`] runs
+//! the whole of the paper's study again.
 
 pub mod attitude;
 pub mod comparison;
 pub mod measurement;
 pub mod reproduction;
+pub mod validation;
 pub mod wheel_test;
