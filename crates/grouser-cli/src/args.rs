@@ -219,6 +219,7 @@ pub(crate) enum KindWord {
     Wheel,
     Rover,
     Scenario,
+    DataSet,
 }
 
 impl From<KindWord> for Kind {
@@ -228,6 +229,7 @@ impl From<KindWord> for Kind {
             KindWord::Wheel => Self::Wheel,
             KindWord::Rover => Self::Rover,
             KindWord::Scenario => Self::Scenario,
+            KindWord::DataSet => Self::DataSet,
         }
     }
 }
