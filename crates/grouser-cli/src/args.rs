@@ -6,6 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::Kind;
+use grouser::document::measurements::Condition;
 
 use crate::list::{self, Numbers};
 use crate::output::Format;
@@ -32,6 +33,8 @@ pub(crate) enum Command {
     WheelTest(WheelTestArgs),
     /// The yaw that keeps a traverse level on a slope, and the steepest slope that has one.
     Attitude(AttitudeArgs),
+    /// Compare a theory with measured wheel tests, or rank all theories.
+    Validate(ValidateArgs),
     /// Check documents: soils, wheels, rovers, scenarios.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
@@ -172,6 +175,39 @@ pub(crate) struct AttitudeArgs {
     pub(crate) slope_deg: Numbers,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ValidateArgs {
+    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        required_unless_present = "all",
+        requires = "wheel",
+        requires = "soil"
+    )]
+    pub(crate) data: Option<PathBuf>,
+    /// The wheel that was tested: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) wheel: Option<String>,
+    /// The soil to judge: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) soil: Option<String>,
+    /// Only rows where a column has one of some values, or none of them:
+    /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
+    #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
+    pub(crate) conditions: Vec<Condition>,
+    /// Rank every theory on every data set in a folder.
+    #[arg(long, conflicts_with = "data")]
+    pub(crate) all: bool,
+    /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
+    #[arg(long, value_name = "DIR", requires = "all")]
+    pub(crate) data_dir: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]

@@ -7,6 +7,7 @@ pub(crate) mod presets;
 pub(crate) mod reproduce;
 pub(crate) mod schema;
 pub(crate) mod traverse;
+pub(crate) mod validate;
 pub(crate) mod wheel_test;
 
 use serde::Serialize;

@@ -1,5 +1,7 @@
 //! Which rows are wanted: `slip_angle_deg=0,15`, `wheel!=grouser`.
 
+use std::fmt;
+
 /// What the value in a column must be, or must not be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
@@ -33,6 +35,13 @@ impl Condition {
     #[must_use]
     pub fn is_met_by(&self, cell: &str) -> bool {
         self.values.iter().any(|value| same(value, cell)) == self.wanted
+    }
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = if self.wanted { "=" } else { "!=" };
+        write!(f, "{}{sign}{}", self.column, self.values.join(","))
     }
 }
 
