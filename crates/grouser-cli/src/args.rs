@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::Kind;
-use grouser::document::measurements::Condition;
+use grouser::document::measurements::{Condition, Mapping};
 
 use crate::list::{self, Numbers};
 use crate::output::Format;
@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Attitude(AttitudeArgs),
     /// Compare a theory with measured wheel tests, or rank all theories.
     Validate(ValidateArgs),
+    /// Turn another laboratory's CSV into the layout that `validate` reads.
+    Import(ImportArgs),
     /// Check documents: soils, wheels, rovers, scenarios.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
@@ -212,6 +214,52 @@ pub(crate) struct ValidateArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  grouser import lab.csv --column 'drawbar_pull_n=Fx [kN]:kN' \\\n    \
+                        --column 'slip_ratio=slip:%' --column load_n=W --out ours.csv\n\
+                        Columns that have our names already are taken along."
+)]
+pub(crate) struct ImportArgs {
+    /// The file (CSV).
+    #[arg(value_name = "FILE.csv")]
+    pub(crate) file: PathBuf,
+    /// A column of ours from one of theirs, with its unit; a minus turns the sign. Can be
+    /// repeated.
+    #[arg(long = "column", value_name = "OURS=[-]THEIRS[:UNIT]", value_parser = Mapping::parse)]
+    pub(crate) columns: Vec<Mapping>,
+    /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) slip_definition: SlipWord,
+    /// What stands between two fields: a character, or `tab`.
+    #[arg(long, value_name = "CHAR", default_value = ",")]
+    pub(crate) delimiter: String,
+    /// Decimals are written with a comma.
+    #[arg(long)]
+    pub(crate) decimal_comma: bool,
+    /// Lines before the header.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) skip_lines: usize,
+    /// Write to a file instead of the standard output.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace that file.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// A definition of the slip ratio.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SlipWord {
+    /// (wr - v)/max(wr, v): Grouser's.
+    #[default]
+    Larger,
+    /// 1 - v/wr, in braking too.
+    Rim,
+    /// wr/v - 1, in driving too.
+    Hub,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 pub(crate) mod attitude;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod import;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
 pub(crate) mod schema;

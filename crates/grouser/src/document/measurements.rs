@@ -14,6 +14,7 @@
 pub mod columns;
 mod condition;
 mod error;
+mod import;
 mod row;
 
 use std::collections::HashMap;
@@ -24,6 +25,7 @@ use std::path::Path;
 pub use columns::{Column, Meaning};
 pub use condition::Condition;
 pub use error::{MeasurementError, MeasurementProblem};
+pub use import::{Layout, Mapping, SlipDefinition, import};
 
 use crate::studies::measurement::{Cell, Trial, WheelTests};
 use row::{Header, Row};

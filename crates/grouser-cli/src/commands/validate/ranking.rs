@@ -7,6 +7,7 @@ use grouser::contact::Theory;
 use grouser::document::measurements::{self, Choice};
 use grouser::document::validation::GroupRecord;
 use grouser::document::{self, DataSetCase, Kind, LoadedDataSet, Overrides, Source};
+use grouser::soil::Extended;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::{Validation, ValidationStudy};
 use serde::Serialize;
@@ -127,7 +128,10 @@ fn rank(set: &LoadedDataSet, case: &DataSetCase, file: &Path) -> Result<Vec<Entr
     let mut entries = Vec::new();
     for (name, soil) in &case.soils {
         for theory in Theory::ALL {
-            if soil.document.theory().is_some_and(|own| own != theory) {
+            let for_another = soil.document.theory().is_some_and(|own| own != theory);
+            // Without its terms the extended theory is the classical one.
+            let same = theory == Theory::Extended && soil.value.extended == Extended::OFF;
+            if for_another || same {
                 continue;
             }
             let study = ValidationStudy {

@@ -164,6 +164,12 @@ impl MeasurementError {
         &self.problem
     }
 
+    /// Whether the file is fine, but has rows of several wheels.
+    #[must_use]
+    pub fn is_of_several_wheels(&self) -> bool {
+        matches!(self.problem, MeasurementProblem::SeveralWheels { .. })
+    }
+
     /// Whether the disk or its permissions failed, rather than the file.
     #[must_use]
     pub fn is_environment(&self) -> bool {
