@@ -6,6 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::Kind;
+use grouser::document::measurements::{Condition, Mapping};
 
 use crate::list::{self, Numbers};
 use crate::output::Format;
@@ -32,6 +33,10 @@ pub(crate) enum Command {
     WheelTest(WheelTestArgs),
     /// The yaw that keeps a traverse level on a slope, and the steepest slope that has one.
     Attitude(AttitudeArgs),
+    /// Compare a theory with measured wheel tests, or rank all theories.
+    Validate(ValidateArgs),
+    /// Turn another laboratory's CSV into the layout that `validate` reads.
+    Import(ImportArgs),
     /// Check documents: soils, wheels, rovers, scenarios.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
@@ -179,6 +184,85 @@ pub(crate) struct AttitudeArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct ValidateArgs {
+    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        required_unless_present = "all",
+        requires = "wheel",
+        requires = "soil"
+    )]
+    pub(crate) data: Option<PathBuf>,
+    /// The wheel that was tested: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) wheel: Option<String>,
+    /// The soil to judge: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) soil: Option<String>,
+    /// Only rows where a column has one of some values, or none of them:
+    /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
+    #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
+    pub(crate) conditions: Vec<Condition>,
+    /// Rank every theory on every data set in a folder.
+    #[arg(long, conflicts_with = "data")]
+    pub(crate) all: bool,
+    /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
+    #[arg(long, value_name = "DIR", requires = "all")]
+    pub(crate) data_dir: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  grouser import lab.csv --column 'drawbar_pull_n=Fx [kN]:kN' \\\n    \
+                        --column 'slip_ratio=slip:%' --column load_n=W --out ours.csv\n\
+                        Columns that have our names already are taken along."
+)]
+pub(crate) struct ImportArgs {
+    /// The file (CSV).
+    #[arg(value_name = "FILE.csv")]
+    pub(crate) file: PathBuf,
+    /// A column of ours from one of theirs, with its unit; a minus turns the sign. Can be
+    /// repeated.
+    #[arg(long = "column", value_name = "OURS=[-]THEIRS[:UNIT]", value_parser = Mapping::parse)]
+    pub(crate) columns: Vec<Mapping>,
+    /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) slip_definition: SlipWord,
+    /// What stands between two fields: a character, or `tab`.
+    #[arg(long, value_name = "CHAR", default_value = ",")]
+    pub(crate) delimiter: String,
+    /// Decimals are written with a comma.
+    #[arg(long)]
+    pub(crate) decimal_comma: bool,
+    /// Lines before the header.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) skip_lines: usize,
+    /// Write to a file instead of the standard output.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace that file.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// A definition of the slip ratio.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SlipWord {
+    /// (wr - v)/max(wr, v): Grouser's.
+    #[default]
+    Larger,
+    /// 1 - v/wr, in braking too.
+    Rim,
+    /// wr/v - 1, in driving too.
+    Hub,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Documents to check.
     #[arg(required = true, value_name = "FILE")]
@@ -219,6 +303,7 @@ pub(crate) enum KindWord {
     Wheel,
     Rover,
     Scenario,
+    DataSet,
 }
 
 impl From<KindWord> for Kind {
@@ -228,6 +313,7 @@ impl From<KindWord> for Kind {
             KindWord::Wheel => Self::Wheel,
             KindWord::Rover => Self::Rover,
             KindWord::Scenario => Self::Scenario,
+            KindWord::DataSet => Self::DataSet,
         }
     }
 }

@@ -32,6 +32,8 @@ pub(crate) struct Series {
     pub(crate) colour: usize,
     /// How it is drawn.
     pub(crate) style: Style,
+    /// Half the height of each point's error bar; none if empty. Lines have none.
+    pub(crate) error_bars: Vec<f64>,
 }
 
 /// How a series is drawn.
@@ -62,7 +64,19 @@ impl Series {
         colour: usize,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
-        Self { name: name.into(), points: points.into_iter().collect(), colour, style }
+        Self {
+            name: name.into(),
+            points: points.into_iter().collect(),
+            colour,
+            style,
+            error_bars: Vec::new(),
+        }
+    }
+
+    /// The same with error bars, one for each point.
+    pub(crate) fn with_error_bars(mut self, bars: impl IntoIterator<Item = f64>) -> Self {
+        self.error_bars = bars.into_iter().collect();
+        self
     }
 
     fn to_plot(&self) -> Plot {
@@ -79,14 +93,17 @@ impl Series {
             )
         };
         let marks = |shape: MarkerShape| {
-            Plot::Scatter(
-                ScatterPlot::new()
-                    .with_data(data.clone())
-                    .with_color(colour)
-                    .with_size(4.5)
-                    .with_marker(shape)
-                    .with_legend(self.name.as_str()),
-            )
+            let plot = ScatterPlot::new()
+                .with_data(data.clone())
+                .with_color(colour)
+                .with_size(4.5)
+                .with_marker(shape)
+                .with_legend(self.name.as_str());
+            Plot::Scatter(if self.error_bars.is_empty() {
+                plot
+            } else {
+                plot.with_y_err(self.error_bars.iter().copied())
+            })
         };
         match self.style {
             Style::Line => line(LineStyle::Solid),

@@ -3,10 +3,12 @@
 pub(crate) mod attitude;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod import;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
 pub(crate) mod schema;
 pub(crate) mod traverse;
+pub(crate) mod validate;
 pub(crate) mod wheel_test;
 
 use serde::Serialize;

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use grouser::contact::Theory;
+use grouser::document::measurements::MeasurementError;
 use grouser::document::{self, DocumentError, Kind, LoadedScenario, Overrides, Source};
 
 use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, TraverseArgs, WheelTestArgs};
@@ -11,6 +12,16 @@ use crate::list::{self, Numbers};
 
 impl From<DocumentError> for Failure {
     fn from(error: DocumentError) -> Self {
+        if error.is_environment() {
+            Self::Run(error.to_string())
+        } else {
+            Self::Usage(error.to_string())
+        }
+    }
+}
+
+impl From<MeasurementError> for Failure {
+    fn from(error: MeasurementError) -> Self {
         if error.is_environment() {
             Self::Run(error.to_string())
         } else {
@@ -81,34 +92,42 @@ pub(crate) fn attitude(args: &AttitudeArgs) -> Result<LoadedScenario, Failure> {
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
-/// Wheel, soil, gravity and theory of a wheel test.
-pub(crate) struct WheelTestInputs {
+/// Wheel, soil, gravity and theory of a wheel on a test stand.
+pub(crate) struct StandInputs {
     pub(crate) soil: document::LoadedSoil,
     pub(crate) wheel: document::LoadedWheel,
     pub(crate) gravity: f64,
     pub(crate) theory: Theory,
 }
 
-pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<WheelTestInputs, Failure> {
+pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
     use document::study;
-    let overrides = Overrides::parse(&args.setting.settings)?;
-    overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     check_numbers("--load-n", &args.load_n, &study::LOAD_N)?;
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
     check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
     check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
-    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, &args.soil)?, &overrides)?;
-    let wheel =
-        document::read_wheel(&flag_source("--wheel", Kind::Wheel, &args.wheel)?, &overrides)?;
+    stand(&args.soil, &args.wheel, &args.setting)
+}
+
+/// A wheel on a test stand, from the names of its soil and wheel.
+pub(crate) fn stand(
+    soil: &str,
+    wheel: &str,
+    setting: &SettingArgs,
+) -> Result<StandInputs, Failure> {
+    let overrides = Overrides::parse(&setting.settings)?;
+    overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
+    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
+    let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
     // Gravity and theory are keys of scenarios: read them as such, to check them as such.
     let mut scenario = Overrides::none();
-    scenario_settings(&mut scenario, &args.setting, &BalanceArgs { loads: None, moments: None })?;
+    scenario_settings(&mut scenario, setting, &BalanceArgs { loads: None, moments: None })?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
-    let theory = match &args.setting.model {
+    let theory = match &setting.model {
         Some(_) => run.theory,
         None => soil.document.theory().unwrap_or_default(),
     };
-    Ok(WheelTestInputs { soil, wheel, gravity: run.site.gravity, theory })
+    Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory })
 }
 
 fn scenario_settings(

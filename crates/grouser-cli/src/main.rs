@@ -42,6 +42,8 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Traverse(args) => commands::traverse::run(args),
         Command::WheelTest(args) => commands::wheel_test::run(args),
         Command::Attitude(args) => commands::attitude::run(args),
+        Command::Validate(args) => commands::validate::run(args),
+        Command::Import(args) => commands::import::run(args),
         Command::Check(args) => commands::check::run(args),
         Command::Presets(args) => commands::presets::run(args),
         Command::Schema(args) => commands::schema::run(args),

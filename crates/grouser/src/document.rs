@@ -1,6 +1,6 @@
 //! Floor 5, the door: documents with units in their names, and what they mean in SI.
 //!
-//! A soil, a wheel, a rover and a scenario each have a TOML document. Reading one takes these
+//! A soil, a wheel, a rover, a scenario and a data set each have a TOML document. Reading one takes these
 //! steps, and this page is their order:
 //!
 //! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
@@ -26,8 +26,10 @@
 //! ```
 
 mod check;
+mod data_set;
 mod error;
 pub mod experiment;
+pub mod measurements;
 mod overrides;
 mod presets;
 mod rover;
@@ -38,6 +40,7 @@ mod source;
 pub mod study;
 mod text;
 pub mod trajectory;
+pub mod validation;
 mod wheel;
 
 use std::fmt;
@@ -47,6 +50,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 pub use check::nearest;
+pub use data_set::{CaseSection, DataSetCase, DataSetDocument, DataSetSchema};
 pub use error::{DocumentError, Place, Problem, Spot};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
@@ -84,11 +88,14 @@ pub enum Kind {
     Rover,
     /// A run, `scenario/1`.
     Scenario,
+    /// A file of measurements, `data-set/1`.
+    DataSet,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario];
+    pub const ALL: [Self; 5] =
+        [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario, Self::DataSet];
 
     /// Its name in commands and overrides.
     #[must_use]
@@ -98,6 +105,7 @@ impl Kind {
             Self::Wheel => "wheel",
             Self::Rover => "rover",
             Self::Scenario => "scenario",
+            Self::DataSet => "data-set",
         }
     }
 
@@ -109,6 +117,7 @@ impl Kind {
             Self::Wheel => "wheel/1",
             Self::Rover => "rover/1",
             Self::Scenario => "scenario/1",
+            Self::DataSet => "data-set/1",
         }
     }
 
@@ -116,7 +125,7 @@ impl Kind {
     /// not.
     const fn parts(self) -> &'static [Part] {
         match self {
-            Self::Soil | Self::Wheel => &[],
+            Self::Soil | Self::Wheel | Self::DataSet => &[],
             Self::Rover => {
                 &[Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None }]
             }
@@ -198,6 +207,8 @@ pub type LoadedWheel = Loaded<WheelDocument, Wheel>;
 pub type LoadedRover = Loaded<RoverDocument, Rover>;
 /// A scenario that was read.
 pub type LoadedScenario = Loaded<ScenarioDocument, Scenario>;
+/// A data set that was read.
+pub type LoadedDataSet = Loaded<DataSetDocument, Vec<DataSetCase>>;
 
 /// Reads a soil.
 ///
@@ -234,6 +245,18 @@ pub fn read_scenario(
     read(source, overrides)
 }
 
+/// Reads a data set with the wheels and soils that it names; the measurements themselves are read
+/// by [`measurements::read`].
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_data_set(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedDataSet, DocumentError> {
+    read(source, overrides)
+}
+
 /// Reads a document of whatever kind it says it is, only to see whether it can be used.
 ///
 /// # Errors
@@ -247,6 +270,7 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
         Kind::Wheel => read_wheel(source, &overrides).map(drop),
         Kind::Rover => read_rover(source, &overrides).map(drop),
         Kind::Scenario => read_scenario(source, &overrides).map(drop),
+        Kind::DataSet => read_data_set(source, &overrides).map(drop),
     }?;
     Ok(kind)
 }

@@ -1,13 +1,14 @@
 //! Floor 4: questions about a wheel or a rover, answered with the floors below.
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
-//! [`measurement`] what a real stand reads, [`calibration`] which soil its readings speak for,
-//! [`comparison`] the metrics by which the source paper judges a run, and [`reproduction`] runs the
-//! whole of its study again.
+//! [`measurement`] what a real stand reads, [`validation`] judges a theory by it, [`calibration`]
+//! finds the soil that it speaks for, [`comparison`] has the metrics by which the source paper
+//! judges a run, and [`reproduction`] runs the whole of the paper's study again.
 
 pub mod attitude;
 pub mod calibration;
 pub mod comparison;
 pub mod measurement;
 pub mod reproduction;
+pub mod validation;
 pub mod wheel_test;

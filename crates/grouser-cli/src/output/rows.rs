@@ -63,6 +63,38 @@ pub(crate) fn csv<M: Borrow<Map<String, Value>>>(
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
+/// Records with objects inside, as CSV: the columns of an inner object have its key before theirs.
+pub(crate) fn csv_of_nested<T: Serialize>(records: &[T]) -> Result<String, Failure> {
+    let mut maps = Vec::new();
+    for record in records {
+        let mut flat = Map::new();
+        if let Ok(Value::Object(map)) = serde_json::to_value(record) {
+            flatten("", map, &mut flat);
+        }
+        maps.push(flat);
+    }
+    // What is null in one record may be an object in another.
+    let mut columns: Vec<String> = Vec::new();
+    for key in maps.iter().flat_map(Map::keys) {
+        if !columns.contains(key) {
+            columns.push(key.clone());
+        }
+    }
+    csv(&columns, maps.iter())
+}
+
+fn flatten(prefix: &str, map: Map<String, Value>, into: &mut Map<String, Value>) {
+    for (key, value) in map {
+        match value {
+            Value::Object(inner) => flatten(&format!("{prefix}{key}_"), inner, into),
+            Value::Null if prefix.is_empty() => {}
+            value => {
+                into.insert(format!("{prefix}{key}"), value);
+            }
+        }
+    }
+}
+
 /// A value with every digit.
 fn exact(value: &Value) -> String {
     match value {

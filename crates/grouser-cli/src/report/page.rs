@@ -66,9 +66,14 @@ impl Page {
 
     /// A figure with its drawing in the page.
     pub(crate) fn figure(&mut self, figure: &Figure, svg: &str) {
+        self.drawing(svg, &figure.caption);
+    }
+
+    /// A drawing with a caption.
+    pub(crate) fn drawing(&mut self, svg: &str, caption: &str) {
         // Only the element: a declaration has no place inside a page.
         let element = svg.find("<svg").map_or(svg, |start| &svg[start..]);
-        let caption = escaped(&figure.caption);
+        let caption = escaped(caption);
         self.push(&format!("<figure>{element}<figcaption>{caption}</figcaption></figure>\n"));
     }
 

@@ -1,7 +1,7 @@
 //! The documents that come with the program: those of `data/` and `scenarios/`.
 
+use super::{DataSetDocument, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument, read};
 use super::{Document, Kind, Overrides, Source};
-use super::{RoverDocument, ScenarioDocument, SoilDocument, WheelDocument, read};
 
 /// A document that comes with the program.
 #[derive(Debug, PartialEq, Eq)]
@@ -34,6 +34,7 @@ impl Preset {
             Kind::Wheel => self.header(|wheel: &WheelDocument| (&wheel.name, &wheel.source)),
             Kind::Rover => self.header(|rover: &RoverDocument| (&rover.name, &rover.source)),
             Kind::Scenario => self.header(|run: &ScenarioDocument| (&run.name, &run.source)),
+            Kind::DataSet => self.header(|set: &DataSetDocument| (&set.name, &set.source)),
         }
     }
 
@@ -99,4 +100,5 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "eq18-corrected"),
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
+    preset!(DataSet, "data/measurements", "cmu-single-wheel"),
 ];

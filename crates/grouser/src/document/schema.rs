@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value as Json;
 
-use super::{Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
+use super::{DataSetDocument, Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
@@ -39,12 +39,14 @@ pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
 
 /// The same schema as a value, made once.
 pub(super) fn json(kind: Kind) -> &'static Json {
-    static SCHEMAS: [OnceLock<Json>; 4] = [const { OnceLock::new() }; 4];
+    static SCHEMAS: [OnceLock<Json>; Kind::ALL.len()] =
+        [const { OnceLock::new() }; Kind::ALL.len()];
     SCHEMAS[kind as usize].get_or_init(|| match kind {
         Kind::Soil => make::<SoilDocument>(kind),
         Kind::Wheel => make::<WheelDocument>(kind),
         Kind::Rover => make::<RoverDocument>(kind),
         Kind::Scenario => make::<ScenarioDocument>(kind),
+        Kind::DataSet => make::<DataSetDocument>(kind),
     })
 }
 

@@ -37,6 +37,7 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
         Kind::Wheel => read!(read_wheel),
         Kind::Rover => read!(read_rover),
         Kind::Scenario => read!(read_scenario),
+        Kind::DataSet => read!(read_data_set),
     }
 }
 
@@ -72,7 +73,7 @@ fn every_preset_says_its_name_and_its_source() {
 #[test]
 fn every_file_of_the_data_is_a_preset() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folders = ["data/soils", "data/wheels", "data/rovers", "scenarios"];
+    let folders = ["data/soils", "data/wheels", "data/rovers", "scenarios", "data/measurements"];
     for (kind, folder) in Kind::ALL.into_iter().zip(folders) {
         let entries = fs::read_dir(root.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries

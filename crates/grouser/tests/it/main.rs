@@ -5,6 +5,8 @@ mod extended;
 mod floors;
 mod given;
 mod laws;
+mod measured;
+mod measurements;
 mod million;
 mod paper;
 mod reference;

@@ -1,0 +1,94 @@
+//! `grouser import`: another laboratory's CSV as ours.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::path::Path;
+
+use grouser::document::measurements::{self, Choice, Layout, SlipDefinition, import};
+use grouser::studies::measurement::Quantity;
+
+use crate::args::{ImportArgs, SlipWord};
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::output;
+
+pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
+    if let Some(out) = &args.out
+        && out.exists()
+        && !args.force
+    {
+        let out = out.display();
+        return Err(Failure::Usage(format!(
+            "{out} exists already: choose another name, or add --force to replace it"
+        )));
+    }
+    let layout = Layout {
+        delimiter: delimiter(&args.delimiter)?,
+        decimal_comma: args.decimal_comma,
+        skipped_lines: args.skip_lines,
+        slip: match args.slip_definition {
+            SlipWord::Larger => SlipDefinition::Larger,
+            SlipWord::Rim => SlipDefinition::Rim,
+            SlipWord::Hub => SlipDefinition::Hub,
+        },
+    };
+    let label = args.file.display().to_string();
+    let file = File::open(&args.file).map_err(Failure::at("cannot open", &args.file))?;
+    let text = import(&label, file, &args.columns, &layout)?;
+    check(&label, &text)?;
+    match &args.out {
+        Some(out) => write(out, &text),
+        None => output::print(&text),
+    }
+}
+
+/// That the new file can be read, and what is in it.
+fn check(label: &str, text: &str) -> Result<(), Failure> {
+    let label = format!("{label} as imported");
+    // Rows of several wheels are no fault here.
+    let measured = match measurements::read_from(&label, text.as_bytes(), &Choice::default()) {
+        Ok(measured) => measured,
+        Err(error) if error.is_of_several_wheels() => return Ok(()),
+        Err(error) => return Err(error.into()),
+    };
+    for note in &measured.notes {
+        output::tell(&format!("note: {note}"));
+    }
+    let tests = &measured.tests;
+    let counts = Quantity::ALL.map(|quantity| {
+        let read = tests.trials.iter().filter(|trial| trial.readings[quantity].is_some());
+        (document_word(quantity), read.count())
+    });
+    let counts: Vec<String> =
+        counts.iter().map(|(word, count)| format!("{word} {count}")).collect();
+    let (trials, cells) = (tests.trials.len(), tests.cells.len());
+    output::tell(&format!("{trials} trials in {cells} cells; readings: {}", counts.join(", ")));
+    Ok(())
+}
+
+fn document_word(quantity: Quantity) -> &'static str {
+    grouser::document::validation::column_of(quantity)
+}
+
+fn delimiter(text: &str) -> Result<u8, Failure> {
+    match (text, text.as_bytes()) {
+        ("tab", _) => Ok(b'\t'),
+        (_, [byte]) => Ok(*byte),
+        _ => Err(Failure::Usage(format!(
+            "--delimiter {text}: it must be one character, such as ';', or the word tab"
+        ))),
+    }
+}
+
+/// Writes beside and renames, so that the file is whole or not there.
+fn write(out: &Path, text: &str) -> Result<(), Failure> {
+    let _not_now = interrupt::not_now();
+    let folder = match out.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let failed = || Failure::at("cannot write", out);
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed())?;
+    file.write_all(text.as_bytes()).map_err(failed())?;
+    file.persist(out).map(drop).map_err(|error| failed()(error.error))
+}

@@ -1,0 +1,193 @@
+//! `grouser validate`: a theory beside measured wheel tests, or every theory beside all of them.
+
+mod figures;
+mod ranking;
+
+use std::path::Path;
+
+use grouser::document::measurements::{self, Choice, Measurements};
+use grouser::document::validation::{CellRecord, GroupRecord, column_of, trials};
+use grouser::studies::measurement::Quantity;
+use grouser::studies::validation::{Validation, ValidationStudy};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::Answer;
+use crate::args::ValidateArgs;
+use crate::failure::Failure;
+use crate::inputs::{self, StandInputs};
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::{self, Format};
+use crate::report::page::Page;
+
+pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
+    match (&args.data, &args.wheel, &args.soil) {
+        (Some(data), Some(wheel), Some(soil)) => one(args, data, wheel, soil),
+        // The parser of the command line asks for all three, or for --all.
+        _ => ranking::run(args),
+    }
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    overall: &'a GroupRecord,
+    driven: Option<GroupRecord>,
+    skid: Option<GroupRecord>,
+    rows: &'a [GroupRecord],
+    cells: &'a [CellRecord],
+    notes: &'a [String],
+}
+
+/// One theory with one soil on one file.
+fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let stand = inputs::stand(soil, wheel, &args.setting)?;
+    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.to_owned()) };
+    let measured = measurements::read(data, &choice)?;
+    for note in &measured.notes {
+        output::tell(&format!("note: {note}"));
+    }
+    let validation = judge(&measured, &stand);
+    let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();
+    let cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
+    let results = Results {
+        overall: &GroupRecord::from(&validation.overall),
+        driven: validation.driven.as_ref().map(GroupRecord::from),
+        skid: validation.skid.as_ref().map(GroupRecord::from),
+        rows: &groups,
+        cells: &cells,
+        notes: &measured.notes,
+    };
+    let answer = Answer::new("validate", settings(args, data, &stand), results);
+    let text = text_of(&validation);
+    if let Some(mut folder) = folder {
+        folder.add("validation.json", answer.to_text());
+        folder.add("validation.csv", long_rows(&validation).to_csv()?);
+        folder.add("cells.csv", Rows::of(&cells).to_csv()?);
+        folder.add("trials.csv", Rows::of(&trials(&measured, &validation)).to_csv()?);
+        folder.add("validation.html", page(data, &stand, &validation, &text));
+        for (name, chart) in figures::all(&validation) {
+            folder.add(&format!("figures/{name}.svg"), chart.to_svg());
+        }
+        folder.add("soil.toml", stand.soil.to_toml());
+        folder.add("wheel.toml", stand.wheel.to_toml());
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&text),
+        Format::Csv => output::print(&long_rows(&validation).to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+fn judge(measured: &Measurements, stand: &StandInputs) -> Validation {
+    ValidationStudy {
+        tests: &measured.tests,
+        wheel: stand.wheel.value,
+        soil: stand.soil.value,
+        theory: stand.theory,
+        gravity: stand.gravity,
+    }
+    .run()
+}
+
+fn settings(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Value {
+    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
+    json!({
+        "data": data.display().to_string(),
+        "where": conditions,
+        "soil": stand.soil.document,
+        "wheel": stand.wheel.document,
+        "gravity_m_s2": stand.gravity,
+        "model": stand.theory.name(),
+    })
+}
+
+/// Every group with what is above it: driven, skid, all.
+fn groups_and_sums(validation: &Validation) -> Vec<GroupRecord> {
+    let sums = [&validation.driven, &validation.skid].into_iter().flatten();
+    let all = validation.groups.iter().chain(sums).chain([&validation.overall]);
+    all.map(GroupRecord::from).collect()
+}
+
+/// The errors as a row for each group and quantity.
+fn long_rows(validation: &Validation) -> Rows {
+    let mut rows: Vec<Map<String, Value>> = Vec::new();
+    for group in groups_and_sums(validation) {
+        for quantity in Quantity::ALL {
+            let Some(errors) = group.errors(quantity) else { continue };
+            let row = json!({
+                "slip_angle_deg": group.slip_angle_deg,
+                "motion": group.motion,
+                "quantity": column_of(quantity),
+                "cells": errors.cells,
+                "unsettled_trials": group.unsettled_trials,
+                "rmse": errors.rmse,
+                "bias": errors.bias,
+                "r2": errors.r2,
+                "repeatability": errors.repeatability,
+            });
+            rows.extend(row.as_object().cloned());
+        }
+    }
+    Rows::from_maps(rows)
+}
+
+/// For people: a block for each quantity, and what could not be predicted.
+fn text_of(validation: &Validation) -> String {
+    let groups = groups_and_sums(validation);
+    let blocks = Quantity::ALL.into_iter().filter_map(|quantity| block(&groups, quantity));
+    let mut text = blocks.collect::<Vec<String>>().join("\n");
+    if validation.overall.unsettled > 0 {
+        text.push_str(&format!(
+            "\n{} of {} trials have no prediction: the soil cannot carry the wheel. They are in no \
+             error above.\n",
+            validation.overall.unsettled, validation.overall.trials
+        ));
+    }
+    text
+}
+
+fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
+    let row = |group: &GroupRecord| {
+        let errors = group.errors(quantity)?;
+        Some(vec![
+            group.slip_angle_deg.map_or("all".to_owned(), four_digits),
+            group.motion.to_owned(),
+            errors.cells.to_string(),
+            four_digits(errors.rmse),
+            number(errors.repeatability),
+            four_digits(errors.bias),
+            number(errors.r2),
+        ])
+    };
+    let rows: Vec<Vec<String>> = groups.iter().filter_map(row).collect();
+    let header = ["slip_angle_deg", "motion", "cells", "rmse", "repeatability", "bias", "r2"];
+    let table = aligned(&header.map(str::to_owned), &rows);
+    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity)))
+}
+
+/// The page with the figures.
+fn page(data: &Path, stand: &StandInputs, validation: &Validation, text: &str) -> String {
+    let (soil, wheel) = (&stand.soil.document.name, &stand.wheel.document.name);
+    let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
+    let mut page = Page::new("Measured and predicted");
+    page.answer(&format!("{file}: theory {} with {soil}, {wheel}", stand.theory.name()));
+    page.paragraph(
+        "Every trial is predicted at its own load and motion; means over the trials of a cell are \
+         compared, and errors are over cells of equal weight. Error bars are standard deviations \
+         between the trials of a cell.",
+    );
+    page.heading("Errors");
+    page.code(text);
+    page.heading("Figures");
+    for (_, chart) in figures::all(validation) {
+        page.drawing(&chart.to_svg(), &chart.title);
+    }
+    let assumptions = stand.soil.assumptions.iter().chain(&stand.wheel.assumptions);
+    page.heading("Assumptions in force");
+    page.list(assumptions);
+    page.to_html()
+}

@@ -1,0 +1,164 @@
+//! Measured wheel tests from CSV: columns, units, slip definitions and signs end here.
+//!
+//! A file has a header and a row for each trial. [`columns`] lists what the columns may be called
+//! and what they mean; those it does not know are left aside and named in
+//! [`Measurements::notes`]. A row needs a load and its slip; everything else may be missing.
+//!
+//! The slip is taken from the two speeds where both are given, or else from `slip_ratio`, or from
+//! `slip_ratio_total_speed`. Where a file gives speeds and a slip, they must agree.
+//!
+//! Rows repeat each other, and form one cell, if they have the same `cell`; in a file without that
+//! column, if they have the same wheel, slip angle and settings of rim speed and load; and without
+//! settings, if slip, slip angle and load are written alike.
+
+pub mod columns;
+mod condition;
+mod error;
+mod import;
+mod row;
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+pub use columns::{Column, Meaning};
+pub use condition::Condition;
+pub use error::{MeasurementError, MeasurementProblem};
+pub use import::{Layout, Mapping, SlipDefinition, import};
+
+use crate::studies::measurement::{Cell, Trial, WheelTests};
+use row::{Header, Row};
+
+/// The most rows that are read: a test stand makes thousands.
+pub const MOST_ROWS: usize = 4_000_000;
+
+/// Which rows of a file are wanted.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Conditions that a row must meet, all of them.
+    pub conditions: Vec<Condition>,
+    /// Name of the wheel that was tested, for files with rows of several.
+    ///
+    /// The label `smooth` in the column `wheel` belongs to wheels called `smooth`, `cmu-smooth`,
+    /// `cmu_smooth` or `wheels/smooth.toml`.
+    pub wheel: Option<String>,
+}
+
+/// A measurement file that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurements {
+    /// The trials, in SI units and Grouser's signs.
+    pub tests: WheelTests,
+    /// The line of the file in which each trial stands.
+    pub lines: Vec<u64>,
+    /// What was noticed and left: columns not used, values that look like another unit's.
+    pub notes: Vec<String>,
+}
+
+/// Reads a measurement file.
+///
+/// # Errors
+/// [`MeasurementError`] with file and line for whatever is not as [`columns`] says, and if no row
+/// is left.
+pub fn read(path: &Path, choice: &Choice) -> Result<Measurements, MeasurementError> {
+    let label = path.display().to_string();
+    if path.is_dir() {
+        return Err(MeasurementError::whole(&label, MeasurementProblem::Folder));
+    }
+    let file = File::open(path).map_err(|error| MeasurementError::io(&label, &error))?;
+    read_from(&label, file, choice)
+}
+
+/// Reads measurements from anywhere.
+///
+/// * `label`: what messages call the source
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_from(
+    label: &str,
+    source: impl Read,
+    choice: &Choice,
+) -> Result<Measurements, MeasurementError> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source);
+    let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
+    let header = Header::new(label, &header, &choice.conditions)?;
+    let mut rows: Vec<Row> = Vec::new();
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
+        if let Some(row) = header.row(&record)? {
+            rows.push(row);
+        }
+        if rows.len() > MOST_ROWS {
+            let problem = MeasurementProblem::TooManyRows { most: MOST_ROWS };
+            return Err(MeasurementError::whole(label, problem));
+        }
+    }
+    let rows = of_one_wheel(label, rows, choice)?;
+    if rows.is_empty() {
+        return Err(MeasurementError::whole(label, MeasurementProblem::NoRows));
+    }
+    let mut notes = header.notes();
+    notes.extend(row::suspicions(&rows));
+    Ok(Measurements { lines: rows.iter().map(|row| row.line).collect(), notes, tests: tests(rows) })
+}
+
+/// The rows of the wheel that was asked for.
+fn of_one_wheel(
+    label: &str,
+    rows: Vec<Row>,
+    choice: &Choice,
+) -> Result<Vec<Row>, MeasurementError> {
+    let mut labels: Vec<String> = Vec::new();
+    for row in &rows {
+        if let Some(wheel) = &row.wheel
+            && !labels.contains(wheel)
+        {
+            labels.push(wheel.clone());
+        }
+    }
+    if labels.len() < 2 {
+        return Ok(rows);
+    }
+    let belongs =
+        |wheel: &String| choice.wheel.as_ref().is_some_and(|name| is_label_of(wheel, name));
+    match &labels.iter().filter(|wheel| belongs(wheel)).collect::<Vec<_>>()[..] {
+        [wheel] => {
+            let wheel = (*wheel).clone();
+            Ok(rows.into_iter().filter(|row| row.wheel.as_ref() == Some(&wheel)).collect())
+        }
+        _ => Err(MeasurementError::whole(label, MeasurementProblem::SeveralWheels { labels })),
+    }
+}
+
+/// Whether rows labelled so were measured with the wheel of that name or path.
+fn is_label_of(label: &str, wheel: &str) -> bool {
+    let stem = Path::new(wheel).file_stem().map_or(wheel.into(), |stem| stem.to_string_lossy());
+    let (label, stem) = (label.to_lowercase(), stem.to_lowercase());
+    stem == label || stem.ends_with(&format!("-{label}")) || stem.ends_with(&format!("_{label}"))
+}
+
+/// Sorts rows into cells, in the order in which the cells begin.
+fn tests(rows: Vec<Row>) -> WheelTests {
+    let mut tests = WheelTests::default();
+    let mut cells: HashMap<String, usize> = HashMap::new();
+    for (place, row) in rows.into_iter().enumerate() {
+        let cell = *cells.entry(row.cell).or_insert_with(|| {
+            tests.cells.push(Cell {
+                slip_angle: row.slip_angle,
+                rim_speed: row.rim_speed_setting,
+                total_slip: 0.0,
+                trials: Vec::new(),
+            });
+            tests.cells.len() - 1
+        });
+        tests.cells[cell].trials.push(place);
+        tests.trials.push(Trial { slip: row.slip, load: row.load, readings: row.readings });
+    }
+    for cell in &mut tests.cells {
+        let slips = cell.trials.iter().map(|&trial| tests.trials[trial].slip.total());
+        cell.total_slip = slips.sum::<f64>() / cell.trials.len() as f64;
+    }
+    tests
+}

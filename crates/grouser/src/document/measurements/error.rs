@@ -1,0 +1,194 @@
+//! What can be wrong with a measurement file.
+
+use std::fmt;
+use std::io;
+
+use super::super::error::number;
+
+/// A measurement file that cannot be used: where, what, and how it may be mended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasurementError {
+    file: String,
+    line: Option<u64>,
+    problem: MeasurementProblem,
+    hint: Option<String>,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasurementProblem {
+    /// A path that leads nowhere.
+    #[error("there is no such file")]
+    NoSuchFile,
+    /// A folder where a file should be.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// The disk, or permission for it, failed.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// Not a table.
+    #[error("not CSV: {0}")]
+    NotCsv(String),
+    /// Nothing at all.
+    #[error("has no header: the first line names the columns")]
+    NoHeader,
+    /// Nothing but a header, or nothing that meets the conditions.
+    #[error("has no row that meets the conditions")]
+    NoRows,
+    /// More than can be meant.
+    #[error("has more than {most} rows")]
+    TooManyRows {
+        /// The most that are read.
+        most: usize,
+    },
+    /// Two columns of one name.
+    #[error("the column `{0}` is there twice")]
+    RepeatedColumn(String),
+    /// Two columns that tell the same.
+    #[error("the columns `{0}` and `{1}` tell the same")]
+    CompetingColumns(String, String),
+    /// A column that must be there.
+    #[error("{what} is missing: no column {expected}")]
+    MissingColumn {
+        /// What cannot be known without it.
+        what: &'static str,
+        /// The names it may have.
+        expected: String,
+    },
+    /// A condition on a column that is not there.
+    #[error("there is no column `{0}`")]
+    NoSuchColumn(String),
+    /// The header in the middle of the rows.
+    #[error("the header stands here again: two files pasted together?")]
+    RepeatedHeader,
+    /// A value that is no number.
+    #[error("`{column}` is '{value}', it must be a number")]
+    NotANumber {
+        /// Its column.
+        column: String,
+        /// What stands there.
+        value: String,
+    },
+    /// A value that must be there.
+    #[error("`{column}` is empty: {why}")]
+    MissingValue {
+        /// Its column.
+        column: String,
+        /// Why it is needed.
+        why: &'static str,
+    },
+    /// A number outside its range.
+    #[error("`{column}` is {}, it must be from {} to {}", number(*.value), number(*.least), number(*.most))]
+    OutOfRange {
+        /// Its column.
+        column: String,
+        /// The number.
+        value: f64,
+        /// The least it may be.
+        least: f64,
+        /// The most it may be.
+        most: f64,
+    },
+    /// A slip that the speeds contradict.
+    #[error("`{column}` is {}, the speeds make it {:.4}", number(*.value), .of_speeds)]
+    SlipAgainstSpeeds {
+        /// The slip's column.
+        column: String,
+        /// The slip that is written.
+        value: f64,
+        /// The slip of the speeds.
+        of_speeds: f64,
+    },
+    /// Rows of several wheels, and no telling which is meant.
+    #[error("has rows of several wheels: {}", labels.join(", "))]
+    SeveralWheels {
+        /// Their names in the file.
+        labels: Vec<String>,
+    },
+}
+
+impl MeasurementError {
+    pub(super) fn whole(file: &str, problem: MeasurementProblem) -> Self {
+        let hint = match &problem {
+            MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
+                format!("choose with --where wheel={label}, or a --wheel whose name ends so")
+            }),
+            _ => None,
+        };
+        Self { file: file.to_owned(), line: None, problem, hint }
+    }
+
+    pub(super) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
+        Self { line: Some(line), ..Self::whole(file, problem) }
+    }
+
+    pub(super) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
+        self.hint = hint.into();
+        self
+    }
+
+    pub(super) fn io(file: &str, error: &io::Error) -> Self {
+        let problem = match error.kind() {
+            io::ErrorKind::NotFound
+            | io::ErrorKind::NotADirectory
+            | io::ErrorKind::InvalidInput => MeasurementProblem::NoSuchFile,
+            _ => MeasurementProblem::Unreadable(error.to_string()),
+        };
+        Self::whole(file, problem)
+    }
+
+    pub(super) fn csv(file: &str, error: &csv::Error) -> Self {
+        let line = error.position().map(csv::Position::line);
+        let problem = match error.kind() {
+            csv::ErrorKind::Io(error) => return Self::io(file, error),
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => MeasurementProblem::NotCsv(
+                format!("this line has {len} fields, the header has {expected_len}"),
+            ),
+            csv::ErrorKind::Utf8 { .. } => {
+                MeasurementProblem::NotCsv("this line is not UTF-8 text".to_owned())
+            }
+            _ => MeasurementProblem::NotCsv(error.to_string()),
+        };
+        Self { line, ..Self::whole(file, problem) }
+    }
+
+    /// The line where the trouble is, if it is in one.
+    #[must_use]
+    pub fn line(&self) -> Option<u64> {
+        self.line
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn problem(&self) -> &MeasurementProblem {
+        &self.problem
+    }
+
+    /// Whether the file is fine, but has rows of several wheels.
+    #[must_use]
+    pub fn is_of_several_wheels(&self) -> bool {
+        matches!(self.problem, MeasurementProblem::SeveralWheels { .. })
+    }
+
+    /// Whether the disk or its permissions failed, rather than the file.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        matches!(self.problem, MeasurementProblem::Unreadable(_))
+    }
+}
+
+impl fmt::Display for MeasurementError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.file)?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {}", self.problem)?;
+        match &self.hint {
+            Some(hint) => write!(f, "\nhint: {hint}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for MeasurementError {}

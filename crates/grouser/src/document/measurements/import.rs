@@ -1,0 +1,330 @@
+//! From other people's CSV to our columns: names, units, signs and definitions of slip.
+
+use std::io::Read;
+
+use csv::{ReaderBuilder, StringRecord, Writer};
+
+use super::super::check::nearest;
+use super::columns::{self, COLUMNS, Column, Meaning};
+use super::error::{MeasurementError, MeasurementProblem as Problem};
+
+/// How a column of ours is made from one of theirs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mapping {
+    column: &'static Column,
+    theirs: String,
+    /// From their unit to ours, with the sign.
+    factor: f64,
+}
+
+/// How another laboratory defines its slip ratio, with the rim's speed ω r and the hub's v.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SlipDefinition {
+    /// (ω r − v)/max(ω r, v): ours, −1 to 1.
+    #[default]
+    Larger,
+    /// 1 − v/(ω r): below −1 in hard braking.
+    Rim,
+    /// ω r/v − 1: above 1 in hard driving.
+    Hub,
+}
+
+impl SlipDefinition {
+    /// The ratio in our definition [-].
+    ///
+    /// ```text
+    /// Rim, s < 0:  s/(1 − s)        Hub, s > 0:  s/(1 + s)        otherwise they agree
+    /// ```
+    #[must_use]
+    pub fn to_ours(self, ratio: f64) -> f64 {
+        match self {
+            Self::Rim if ratio < 0.0 => ratio / (1.0 - ratio),
+            Self::Hub if ratio > 0.0 => ratio / (1.0 + ratio),
+            _ => ratio,
+        }
+    }
+}
+
+/// How the other file is written.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// What stands between two fields.
+    pub delimiter: u8,
+    /// Whether decimals are written with a comma.
+    pub decimal_comma: bool,
+    /// Lines before the header.
+    pub skipped_lines: usize,
+    /// How its slip is defined.
+    pub slip: SlipDefinition,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self { delimiter: b',', decimal_comma: false, skipped_lines: 0, slip: Default::default() }
+    }
+}
+
+/// Units by name, with what they measure and their size in SI.
+const UNITS: [(&str, Dimension, f64); 26] = [
+    ("m", Dimension::Length, 1.0),
+    ("cm", Dimension::Length, 1e-2),
+    ("mm", Dimension::Length, 1e-3),
+    ("um", Dimension::Length, 1e-6),
+    ("in", Dimension::Length, 0.0254),
+    ("N", Dimension::Force, 1.0),
+    ("kN", Dimension::Force, 1e3),
+    ("mN", Dimension::Force, 1e-3),
+    ("kgf", Dimension::Force, 9.806_65),
+    ("gf", Dimension::Force, 9.806_65e-3),
+    ("lbf", Dimension::Force, 4.448_221_615_260_5),
+    ("Nm", Dimension::Moment, 1.0),
+    ("N.m", Dimension::Moment, 1.0),
+    ("mNm", Dimension::Moment, 1e-3),
+    ("Nmm", Dimension::Moment, 1e-3),
+    ("kNm", Dimension::Moment, 1e3),
+    ("deg", Dimension::Angle, std::f64::consts::PI / 180.0),
+    ("rad", Dimension::Angle, 1.0),
+    ("m/s", Dimension::Speed, 1.0),
+    ("cm/s", Dimension::Speed, 1e-2),
+    ("mm/s", Dimension::Speed, 1e-3),
+    ("km/h", Dimension::Speed, 1.0 / 3.6),
+    ("m/min", Dimension::Speed, 1.0 / 60.0),
+    ("%", Dimension::Share, 1e-2),
+    ("percent", Dimension::Share, 1e-2),
+    ("1", Dimension::Share, 1.0),
+];
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Dimension {
+    Length,
+    Force,
+    Moment,
+    Angle,
+    Speed,
+    Share,
+    /// A label.
+    Text,
+}
+
+fn dimension(column: &Column) -> Dimension {
+    use crate::studies::measurement::Quantity;
+    match column.meaning {
+        Meaning::SlipRatio | Meaning::TotalSlip => Dimension::Share,
+        Meaning::SlipAngle => Dimension::Angle,
+        Meaning::TravelSpeed | Meaning::RimSpeed | Meaning::RimSpeedSetting => Dimension::Speed,
+        Meaning::Reading(Quantity::Sinkage) | Meaning::Scatter(Quantity::Sinkage) => {
+            Dimension::Length
+        }
+        Meaning::Reading(Quantity::Torque) | Meaning::Scatter(Quantity::Torque) => {
+            Dimension::Moment
+        }
+        Meaning::Load
+        | Meaning::LoadSetting
+        | Meaning::OpposingSideForce
+        | Meaning::Reading(_)
+        | Meaning::Scatter(_)
+        | Meaning::Unused => Dimension::Force,
+        Meaning::Wheel | Meaning::Trial | Meaning::Cell => Dimension::Text,
+    }
+}
+
+impl Mapping {
+    /// Reads `ours=theirs`, `ours=theirs:unit` or, with the other sign, `ours=-theirs:unit`.
+    ///
+    /// Without a unit their column is in the unit that our column's name tells.
+    ///
+    /// # Errors
+    /// A sentence: not written so, no such column of ours, a unit of something else.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let (ours, theirs) = text
+            .split_once('=')
+            .ok_or_else(|| format!("'{text}' is not of the form our_column=their column[:unit]"))?;
+        let ours = ours.trim();
+        let column = columns::known(ours).ok_or_else(|| {
+            let names = COLUMNS.iter().map(|column| column.name);
+            match nearest(ours, names.clone()) {
+                Some(name) => format!("`{ours}` is no column of ours, did you mean `{name}`?"),
+                None => {
+                    let all: Vec<&str> = names.collect();
+                    format!("`{ours}` is no column of ours; they are {}", all.join(", "))
+                }
+            }
+        })?;
+        let (sign, theirs) = match theirs.trim().strip_prefix('-') {
+            Some(theirs) => (-1.0, theirs.trim()),
+            None => (1.0, theirs.trim()),
+        };
+        let (theirs, size) = match theirs.rsplit_once(':') {
+            Some((name, unit)) => (name.trim(), size_of(unit.trim(), column)? / column.to_si),
+            None => (theirs, 1.0),
+        };
+        if theirs.is_empty() {
+            return Err(format!("'{text}' names no column of the file"));
+        }
+        Ok(Self { column, theirs: theirs.to_owned(), factor: sign * size })
+    }
+}
+
+/// The size of a unit in SI, if it measures what the column holds.
+fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
+    let dimension = dimension(column);
+    let found = UNITS.iter().find(|(name, of, _)| *name == unit && *of == dimension);
+    found.map(|(_, _, size)| *size).ok_or_else(|| {
+        let fitting = UNITS.iter().filter(|(_, of, _)| *of == dimension);
+        let fitting: Vec<&str> = fitting.map(|(name, _, _)| *name).collect();
+        if fitting.is_empty() {
+            format!("`{}` is a label and has no unit", column.name)
+        } else {
+            format!("'{unit}' is no unit for `{}`; known: {}", column.name, fitting.join(", "))
+        }
+    })
+}
+
+/// Rewrites another file as one of ours, which [`read_from`](super::read_from) then checks.
+///
+/// Columns that are called as ours are taken along; all others need a mapping or are left out.
+///
+/// # Errors
+/// [`MeasurementError`] for a file that is no table, a column that is not there, or a value that
+/// is no number.
+pub fn import(
+    label: &str,
+    mut source: impl Read,
+    mappings: &[Mapping],
+    layout: &Layout,
+) -> Result<String, MeasurementError> {
+    let mut bytes = Vec::new();
+    source.read_to_end(&mut bytes).map_err(|error| MeasurementError::io(label, &error))?;
+    let mut skipped = 0;
+    for _ in 0..layout.skipped_lines {
+        let rest = &bytes[skipped..];
+        skipped += rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |end| end + 1);
+    }
+    let mut reader = ReaderBuilder::new()
+        .delimiter(layout.delimiter)
+        .trim(csv::Trim::All)
+        .from_reader(&bytes[skipped..]);
+    let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
+    let plan = plan(label, &header, mappings)?;
+    let mut writer = Writer::from_writer(Vec::new());
+    // Writing to memory does not fail.
+    let mut write = |fields: Vec<String>| writer.write_record(fields).expect("memory");
+    write(plan.iter().map(|(mapping, _)| mapping.column.name.to_owned()).collect());
+    let mut record = StringRecord::new();
+    while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
+        let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
+        let fields = plan.iter().map(|(mapping, place)| {
+            field(&record[*place], mapping, layout)
+                .map_err(|problem| MeasurementError::at(label, line, problem))
+        });
+        write(fields.collect::<Result<_, _>>()?);
+    }
+    let bytes = writer.into_inner().expect("memory");
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Our columns, each with the place of theirs.
+fn plan(
+    label: &str,
+    header: &StringRecord,
+    mappings: &[Mapping],
+) -> Result<Vec<(Mapping, usize)>, MeasurementError> {
+    let mut plan = Vec::new();
+    for mapping in mappings {
+        let place = header.iter().position(|name| name == mapping.theirs);
+        let place = place.ok_or_else(|| {
+            let names: Vec<&str> = header.iter().collect();
+            let hint = format!("its columns are {}", names.join(", "));
+            MeasurementError::whole(label, Problem::NoSuchColumn(mapping.theirs.clone()))
+                .with_hint(hint)
+        })?;
+        plan.push((mapping.clone(), place));
+    }
+    for (place, name) in header.iter().enumerate() {
+        let taken = plan.iter().any(|(mapping, of)| *of == place || mapping.column.name == name);
+        if let Some(column) = columns::known(name)
+            && !taken
+        {
+            plan.push((Mapping { column, theirs: name.to_owned(), factor: 1.0 }, place));
+        }
+    }
+    Ok(plan)
+}
+
+fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Problem> {
+    if dimension(mapping.column) == Dimension::Text || text.is_empty() {
+        return Ok(text.to_owned());
+    }
+    let number = if layout.decimal_comma { text.replace(',', ".") } else { text.to_owned() };
+    let value: f64 = number.parse().map_err(|_| Problem::NotANumber {
+        column: mapping.theirs.clone(),
+        value: text.to_owned(),
+    })?;
+    if value.is_nan() {
+        return Ok(String::new());
+    }
+    let ours = value * mapping.factor;
+    let is_slip = matches!(mapping.column.meaning, Meaning::SlipRatio | Meaning::TotalSlip);
+    Ok(if is_slip { layout.slip.to_ours(ours) } else { ours }.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn imported(text: &str, mappings: &[&str], layout: &Layout) -> String {
+        let mappings: Vec<Mapping> =
+            mappings.iter().map(|text| Mapping::parse(text).unwrap()).collect();
+        import("theirs.csv", text.as_bytes(), &mappings, layout).unwrap()
+    }
+
+    #[test]
+    fn names_units_and_signs_become_ours() {
+        let text = "\"Fx, kN\",z (m),load_n,lab\n0.005,0.02,24,a\n";
+        let mappings = ["drawbar_pull_n=-Fx, kN:kN", "sinkage_mm=z (m):m"];
+        let ours = imported(text, &mappings, &Layout::default());
+        assert_eq!(ours, "drawbar_pull_n,sinkage_mm,load_n\n-5,20,24\n");
+    }
+
+    #[test]
+    fn semicolons_commas_percent_and_a_preamble() {
+        let layout = Layout {
+            delimiter: b';',
+            decimal_comma: true,
+            skipped_lines: 2,
+            slip: SlipDefinition::Hub,
+        };
+        let text = "Laboratory\n2026\nslip;W;h\n100;24,5;\n-50;24,5;12,5\n";
+        let mappings = ["slip_ratio=slip:%", "load_n=W", "sinkage_mm=h"];
+        let ours = imported(text, &mappings, &layout);
+        assert_eq!(ours, "slip_ratio,load_n,sinkage_mm\n0.5,24.5,\n-0.5,24.5,12.5\n");
+    }
+
+    /// All definitions from one pair of speeds.
+    #[test]
+    fn definitions_of_slip_agree_on_the_motion() {
+        for (rim, hub) in [(1.0, 0.2), (1.0, 1.0), (0.4, 1.0), (0.05, 1.0)] {
+            let ours: f64 = (rim - hub) / f64::max(rim, hub);
+            assert!((SlipDefinition::Rim.to_ours(1.0 - hub / rim) - ours).abs() < 1e-12);
+            assert!((SlipDefinition::Hub.to_ours(rim / hub - 1.0) - ours).abs() < 1e-12);
+            assert_eq!(SlipDefinition::Larger.to_ours(ours), ours);
+        }
+    }
+
+    #[test]
+    fn wrong_mappings_say_what_is_right() {
+        for (text, part) in [
+            ("drawbar=Fx", "drawbar_pull_n"),
+            ("sinkage_mm=z:N", "known: m, cm, mm"),
+            ("sinkage_mm", "form"),
+            ("wheel=w:m", "label"),
+            ("load_n=-", "names no column"),
+        ] {
+            let error = Mapping::parse(text).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
+        let mapping = Mapping::parse("load_n=Fz").unwrap();
+        let error = import("a.csv", &b"Fx,W\n1,2\n"[..], &[mapping], &Layout::default());
+        assert!(error.unwrap_err().to_string().contains("its columns are Fx, W"));
+    }
+}

@@ -1,0 +1,254 @@
+//! A theory against measured wheel tests: every trial predicted at its own load and motion,
+//! averaged over the trials of a cell, judged over cells of equal weight.
+
+use rayon::prelude::*;
+
+use crate::contact::{SettleError, Settled, Theory};
+use crate::soil::Soil;
+use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
+use crate::wheel::Wheel;
+
+/// What is to be judged, and by what.
+#[derive(Clone, Debug)]
+pub struct ValidationStudy<'a> {
+    /// The measured trials.
+    pub tests: &'a WheelTests,
+    /// The wheel that was tested.
+    pub wheel: Wheel,
+    /// The soil it was tested on.
+    pub soil: Soil,
+    /// The theory.
+    pub theory: Theory,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+}
+
+/// Predictions beside measurements.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Validation {
+    /// What the theory makes of each trial, in the order of the tests.
+    pub predictions: Vec<Result<Settled, SettleError>>,
+    /// Each cell, in the order of the tests.
+    pub cells: Vec<CellComparison>,
+    /// The errors of driven and of skidding cells at each slip angle, angles ascending.
+    pub groups: Vec<Group>,
+    /// The errors of all driven cells, where there are any.
+    pub driven: Option<Group>,
+    /// The errors of all skidding cells, where there are any.
+    pub skid: Option<Group>,
+    /// The errors of all cells.
+    pub overall: Group,
+}
+
+/// A cell's means.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellComparison {
+    /// Slip angle that was set, *β* [rad].
+    pub slip_angle: f64,
+    /// Rim speed that was set [m/s].
+    pub rim_speed: Option<f64>,
+    /// Slip by the total speed, *S* [-].
+    pub total_slip: f64,
+    /// Whether the wheel drives.
+    pub driven: bool,
+    /// How many trials it has.
+    pub trials: usize,
+    /// How many of them the soil cannot carry, says the theory.
+    pub unsettled: usize,
+    /// Each quantity's means; `None` where it was not measured, or not in a trial that settles.
+    pub quantities: PerQuantity<Option<Comparison>>,
+}
+
+/// Means of one quantity over the trials of a cell, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// Measured.
+    pub measured: f64,
+    /// Predicted, over the same trials.
+    pub predicted: f64,
+    /// Standard deviation between the measured trials; `None` for a single one.
+    pub repeatability: Option<f64>,
+    /// Standard deviation within a trial, root mean square over those that recorded it.
+    pub scatter: Option<f64>,
+}
+
+/// Cells judged together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// Their slip angle [rad]; `None` for several.
+    pub slip_angle: Option<f64>,
+    /// Whether they are driven; `None` for both kinds.
+    pub driven: Option<bool>,
+    /// How many cells there are.
+    pub cells: usize,
+    /// How many trials they have.
+    pub trials: usize,
+    /// How many of those the soil cannot carry, says the theory: they are in no error.
+    pub unsettled: usize,
+    /// The errors of each quantity; `None` where it was not measured.
+    pub errors: PerQuantity<Option<Errors>>,
+}
+
+/// Errors of one quantity over cells of equal weight, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Root mean square of prediction − measurement.
+    pub rmse: f64,
+    /// Mean of prediction − measurement.
+    pub bias: f64,
+    /// Coefficient of determination, R² [-]: 1 − Σ error²/Σ (measured − mean)². `None` where the
+    /// measured values do not differ.
+    pub r2: Option<f64>,
+    /// Standard deviation between repeated trials, pooled over the cells. A theory whose errors
+    /// are as small agrees as well as the experiment does with itself.
+    pub repeatability: Option<f64>,
+    /// How many cells have the quantity.
+    pub cells: usize,
+}
+
+impl ValidationStudy<'_> {
+    /// Predicts every trial, in parallel, and judges the predictions.
+    #[must_use]
+    pub fn run(&self) -> Validation {
+        let predict = |trial: &crate::studies::measurement::Trial| {
+            trial.predict(self.theory, &self.wheel, &self.soil, self.gravity)
+        };
+        Validation::of(self.tests, self.tests.trials.par_iter().map(predict).collect())
+    }
+}
+
+impl Validation {
+    /// Judges predictions that are at hand.
+    ///
+    /// * `predictions`: one for each trial, in their order
+    #[must_use]
+    pub fn of(tests: &WheelTests, predictions: Vec<Result<Settled, SettleError>>) -> Self {
+        let cells: Vec<CellComparison> =
+            tests.cells.iter().map(|cell| compare(tests, cell, &predictions)).collect();
+        let mut angles: Vec<f64> = cells.iter().map(|cell| cell.slip_angle).collect();
+        angles.sort_by(f64::total_cmp);
+        angles.dedup();
+        let kinds = angles.into_iter().flat_map(|angle| [true, false].map(|kind| (angle, kind)));
+        let groups =
+            kinds.filter_map(|(angle, driven)| {
+                group(&cells, |it| it.slip_angle == angle && it.driven == driven)
+                    .map(|group| Group { slip_angle: Some(angle), driven: Some(driven), ..group })
+            });
+        let of_kind = |driven| {
+            group(&cells, |it| it.driven == driven)
+                .map(|group| Group { driven: Some(driven), ..group })
+        };
+        Self {
+            groups: groups.collect(),
+            driven: of_kind(true),
+            skid: of_kind(false),
+            overall: group(&cells, |_| true).unwrap_or_else(Group::empty),
+            cells,
+            predictions,
+        }
+    }
+}
+
+fn compare(
+    tests: &WheelTests,
+    cell: &Cell,
+    predictions: &[Result<Settled, SettleError>],
+) -> CellComparison {
+    CellComparison {
+        slip_angle: cell.slip_angle,
+        rim_speed: cell.rim_speed,
+        total_slip: cell.total_slip,
+        driven: cell.is_driven(),
+        trials: cell.trials.len(),
+        unsettled: cell.trials.iter().filter(|&&trial| predictions[trial].is_err()).count(),
+        quantities: PerQuantity::from_fn(|quantity| means(tests, cell, predictions, quantity)),
+    }
+}
+
+fn means(
+    tests: &WheelTests,
+    cell: &Cell,
+    predictions: &[Result<Settled, SettleError>],
+    quantity: Quantity,
+) -> Option<Comparison> {
+    let pairs = cell.trials.iter().filter_map(|&trial| {
+        let reading = tests.trials[trial].readings[quantity]?;
+        let settled = predictions[trial].as_ref().ok()?;
+        Some((reading, quantity.of(settled)))
+    });
+    let pairs: Vec<_> = pairs.collect();
+    let mean = |values: &dyn Fn(usize) -> f64| {
+        (0..pairs.len()).map(values).sum::<f64>() / pairs.len() as f64
+    };
+    if pairs.is_empty() {
+        return None;
+    }
+    let measured = mean(&|place| pairs[place].0.value);
+    let squares: f64 = pairs.iter().map(|(reading, _)| (reading.value - measured).powi(2)).sum();
+    let scatters: Vec<f64> = pairs.iter().filter_map(|(reading, _)| reading.scatter).collect();
+    Some(Comparison {
+        measured,
+        predicted: mean(&|place| pairs[place].1),
+        repeatability: (pairs.len() > 1).then(|| (squares / (pairs.len() - 1) as f64).sqrt()),
+        scatter: root_mean_square(&scatters),
+    })
+}
+
+/// The errors of the cells that belong to a group, if there are any.
+fn group(cells: &[CellComparison], belongs: impl Fn(&CellComparison) -> bool) -> Option<Group> {
+    let members: Vec<&CellComparison> = cells.iter().filter(|cell| belongs(cell)).collect();
+    (!members.is_empty()).then(|| Group {
+        slip_angle: None,
+        driven: None,
+        cells: members.len(),
+        trials: members.iter().map(|cell| cell.trials).sum(),
+        unsettled: members.iter().map(|cell| cell.unsettled).sum(),
+        errors: PerQuantity::from_fn(|quantity| {
+            let of_cells = members.iter().filter_map(|cell| {
+                cell.quantities[quantity].map(|comparison| (comparison, cell.trials))
+            });
+            Errors::of(&of_cells.collect::<Vec<_>>())
+        }),
+    })
+}
+
+impl Group {
+    fn empty() -> Self {
+        let errors = PerQuantity::default();
+        Self { slip_angle: None, driven: None, cells: 0, trials: 0, unsettled: 0, errors }
+    }
+}
+
+impl Errors {
+    /// * `comparisons`: each with the number of its trials
+    fn of(comparisons: &[(Comparison, usize)]) -> Option<Self> {
+        let errors: Vec<f64> =
+            comparisons.iter().map(|(it, _)| it.predicted - it.measured).collect();
+        let rmse = root_mean_square(&errors)?;
+        let count = errors.len() as f64;
+        let mean = comparisons.iter().map(|(it, _)| it.measured).sum::<f64>() / count;
+        let spread: f64 = comparisons.iter().map(|(it, _)| (it.measured - mean).powi(2)).sum();
+        Some(Self {
+            rmse,
+            bias: errors.iter().sum::<f64>() / count,
+            r2: (spread > 0.0).then(|| 1.0 - count * rmse * rmse / spread),
+            repeatability: pooled(comparisons),
+            cells: errors.len(),
+        })
+    }
+}
+
+/// The standard deviation between trials, over cells weighted by their degrees of freedom.
+fn pooled(comparisons: &[(Comparison, usize)]) -> Option<f64> {
+    let repeated = comparisons.iter().filter_map(|(it, trials)| {
+        it.repeatability.map(|deviation| (deviation * deviation, (trials - 1) as f64))
+    });
+    let (squares, freedom) = repeated
+        .fold((0.0, 0.0), |(squares, all), (variance, own)| (squares + variance * own, all + own));
+    (freedom > 0.0).then(|| (squares / freedom).sqrt())
+}
+
+fn root_mean_square(values: &[f64]) -> Option<f64> {
+    let squares: f64 = values.iter().map(|value| value * value).sum();
+    (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
+}
