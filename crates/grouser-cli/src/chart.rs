@@ -1,6 +1,7 @@
 //! Line charts with measured points, as SVG: the one place that knows the plotting library.
 
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
@@ -26,8 +27,10 @@ pub(crate) struct Chart {
 pub(crate) struct Series {
     /// Its name in the legend.
     pub(crate) name: String,
-    /// Its points.
+    /// Its points; of a band those of its lower edge.
     pub(crate) points: Vec<(f64, f64)>,
+    /// Heights of a band's upper edge, one for each point.
+    upper: Vec<f64>,
     /// Its colour, by its place in [`COLOURS`].
     pub(crate) colour: usize,
     /// How it is drawn.
@@ -49,6 +52,8 @@ pub(crate) enum Style {
     Squares,
     /// Triangles.
     Triangles,
+    /// A shaded area between two edges.
+    Band,
 }
 
 /// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
@@ -62,7 +67,18 @@ impl Series {
         colour: usize,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
-        Self { name: name.into(), points: points.into_iter().collect(), colour, style }
+        let (name, points) = (name.into(), points.into_iter().collect());
+        Self { name, points, upper: Vec::new(), colour, style }
+    }
+
+    /// A band from its edges, (x, low, high).
+    pub(crate) fn band(
+        name: impl Into<String>,
+        colour: usize,
+        edges: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
+        let (points, upper) = edges.into_iter().map(|(x, low, high)| ((x, low), high)).unzip();
+        Self { name: name.into(), points, upper, colour, style: Style::Band }
     }
 
     fn to_plot(&self) -> Plot {
@@ -95,6 +111,15 @@ impl Series {
             Style::Dots => marks(MarkerShape::Circle),
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
+            Style::Band => {
+                let (across, lower): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+                Plot::Band(
+                    BandPlot::new(across, lower, self.upper.iter().copied())
+                        .with_color(colour)
+                        .with_opacity(0.35)
+                        .with_legend(self.name.as_str()),
+                )
+            }
         }
     }
 }
