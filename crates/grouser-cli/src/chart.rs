@@ -81,6 +81,15 @@ impl Series {
         Self { name: name.into(), points, upper, colour, style: Style::Band }
     }
 
+    /// The area between the edges of a band.
+    fn area(&self) -> Option<Plot> {
+        let (across, lower): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+        let band = BandPlot::new(across, lower, self.upper.iter().copied())
+            .with_color(COLOURS[self.colour % COLOURS.len()])
+            .with_opacity(0.35);
+        (self.style == Style::Band).then_some(Plot::Band(band))
+    }
+
     fn to_plot(&self) -> Plot {
         let colour = COLOURS[self.colour % COLOURS.len()];
         let data = self.points.iter().copied();
@@ -111,15 +120,8 @@ impl Series {
             Style::Dots => marks(MarkerShape::Circle),
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
-            Style::Band => {
-                let (across, lower): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
-                Plot::Band(
-                    BandPlot::new(across, lower, self.upper.iter().copied())
-                        .with_color(colour)
-                        .with_opacity(0.35)
-                        .with_legend(self.name.as_str()),
-                )
-            }
+            // The library gives a band no place in the legend: its lower edge stands for it.
+            Style::Band => line(LineStyle::Solid),
         }
     }
 }
@@ -127,7 +129,8 @@ impl Series {
 impl Chart {
     /// The chart as a stand-alone SVG document.
     pub(crate) fn to_svg(&self) -> String {
-        let plots: Vec<Plot> = self.series.iter().map(Series::to_plot).collect();
+        let parts = |series: &Series| series.area().into_iter().chain([series.to_plot()]);
+        let plots: Vec<Plot> = self.series.iter().flat_map(parts).collect();
         let mut layout = Layout::auto_from_plots(&plots)
             .with_title(self.title.as_str())
             .with_x_label(self.x_label.as_str())

@@ -63,7 +63,7 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
         match &bands {
             None => folder.add("attitude.svg", chart(&curve).to_svg()),
             Some(bands) => {
-                folder.add("attitude.svg", bands.chart(line(&curve)).to_svg());
+                folder.add("attitude.svg", bands.chart(line("soil as written", &curve)).to_svg());
                 folder.add("probability.svg", bands.chance_chart().to_svg());
             }
         }
@@ -148,12 +148,12 @@ fn chart(curve: &AttitudeCurve) -> Chart {
         title: "Yaw that keeps a traverse level".into(),
         x_label: "slope [°]".into(),
         y_label: "yaw, positive uphill [°]".into(),
-        series: vec![line(curve)],
+        series: vec![line("attitude", curve)],
     }
 }
 
-fn line(curve: &AttitudeCurve) -> Series {
+fn line(name: &str, curve: &AttitudeCurve) -> Series {
     let attitudes = curve.attitudes();
     let points = attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
-    Series::new("attitude", Style::Line, 1, points)
+    Series::new(name, Style::Line, 1, points)
 }

@@ -119,7 +119,7 @@ impl Bands {
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
                 Series::band("95 % of the draws", 6, edges),
-                Series::new("median", Style::Dashed, 1, medians),
+                Series::new("median", Style::Dashed, 0, medians),
                 nominal,
             ],
         }

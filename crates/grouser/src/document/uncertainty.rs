@@ -254,8 +254,8 @@ impl Reader<'_> {
             Distribution::of_marginals(marginals, &correlations).map_err(|error| {
                 let origin = self.tree.origin_of("uncertainty.correlation");
                 DocumentError::at(origin, Problem::Contradiction(error)).with_hint(
-                    "sizes near 1 among several keys leave little choice for the others, and ±1 \
-                     none: make them smaller"
+                    "pairs that are not named have none, and ±1 is too much for any: name the \
+                     pairs between, or make the others smaller"
                         .to_owned(),
                 )
             })?;
