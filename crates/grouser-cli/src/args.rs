@@ -176,11 +176,30 @@ pub(crate) struct AttitudeArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
     pub(crate) slope_deg: Numbers,
     #[command(flatten)]
+    pub(crate) uncertainty: UncertaintyArgs,
+    #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// Whether a soil's uncertainty is followed, and by how many draws.
+#[derive(Debug, Args)]
+pub(crate) struct UncertaintyArgs {
+    /// Draw soils as the soil's `[uncertainty]` says, and add 95 % bands and the probability of a
+    /// level traverse.
+    #[arg(long)]
+    pub(crate) uncertainty: bool,
+    /// Number of draws, 2 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 500, requires = "uncertainty")]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub(crate) samples: u32,
+    /// Seed of the draws: the same seed, the same soils.
+    #[arg(long, value_name = "S", default_value_t = 1, requires = "uncertainty")]
+    #[arg(allow_negative_numbers = true)]
+    pub(crate) seed: u64,
 }
 
 #[derive(Debug, Args)]

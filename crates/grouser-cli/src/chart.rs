@@ -1,6 +1,7 @@
 //! Line charts with measured points, as SVG: the one place that knows the plotting library.
 
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
@@ -26,8 +27,10 @@ pub(crate) struct Chart {
 pub(crate) struct Series {
     /// Its name in the legend.
     pub(crate) name: String,
-    /// Its points.
+    /// Its points; of a band those of its lower edge.
     pub(crate) points: Vec<(f64, f64)>,
+    /// Heights of a band's upper edge, one for each point.
+    upper: Vec<f64>,
     /// Its colour, by its place in [`COLOURS`].
     pub(crate) colour: usize,
     /// How it is drawn.
@@ -51,6 +54,8 @@ pub(crate) enum Style {
     Squares,
     /// Triangles.
     Triangles,
+    /// A shaded area between two edges.
+    Band,
 }
 
 /// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
@@ -64,19 +69,34 @@ impl Series {
         colour: usize,
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
-        Self {
-            name: name.into(),
-            points: points.into_iter().collect(),
-            colour,
-            style,
-            error_bars: Vec::new(),
-        }
+        let (name, points) = (name.into(), points.into_iter().collect());
+        Self { name, points, upper: Vec::new(), error_bars: Vec::new(), colour, style }
     }
 
     /// The same with error bars, one for each point.
     pub(crate) fn with_error_bars(mut self, bars: impl IntoIterator<Item = f64>) -> Self {
         self.error_bars = bars.into_iter().collect();
         self
+    }
+
+    /// A band from its edges, (x, low, high).
+    pub(crate) fn band(
+        name: impl Into<String>,
+        colour: usize,
+        edges: impl IntoIterator<Item = (f64, f64, f64)>,
+    ) -> Self {
+        let (points, upper): (Vec<(f64, f64)>, Vec<f64>) =
+            edges.into_iter().map(|(x, low, high)| ((x, low), high)).unzip();
+        Self { upper, style: Style::Band, ..Self::new(name, Style::Band, colour, points) }
+    }
+
+    /// The area between the edges of a band.
+    fn area(&self) -> Option<Plot> {
+        let (across, lower): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
+        let band = BandPlot::new(across, lower, self.upper.iter().copied())
+            .with_color(COLOURS[self.colour % COLOURS.len()])
+            .with_opacity(0.35);
+        (self.style == Style::Band).then_some(Plot::Band(band))
     }
 
     fn to_plot(&self) -> Plot {
@@ -112,6 +132,8 @@ impl Series {
             Style::Dots => marks(MarkerShape::Circle),
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
+            // The library gives a band no place in the legend: its lower edge stands for it.
+            Style::Band => line(LineStyle::Solid),
         }
     }
 }
@@ -119,7 +141,8 @@ impl Series {
 impl Chart {
     /// The chart as a stand-alone SVG document.
     pub(crate) fn to_svg(&self) -> String {
-        let plots: Vec<Plot> = self.series.iter().map(Series::to_plot).collect();
+        let parts = |series: &Series| series.area().into_iter().chain([series.to_plot()]);
+        let plots: Vec<Plot> = self.series.iter().flat_map(parts).collect();
         let mut layout = Layout::auto_from_plots(&plots)
             .with_title(self.title.as_str())
             .with_x_label(self.x_label.as_str())

@@ -1,6 +1,7 @@
 //! What each command does.
 
 pub(crate) mod attitude;
+mod attitude_band;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod import;

@@ -4,7 +4,9 @@ use std::ops::RangeInclusive;
 
 use grouser::contact::Theory;
 use grouser::document::measurements::MeasurementError;
-use grouser::document::{self, DocumentError, Kind, LoadedScenario, Overrides, Source};
+use grouser::document::{
+    self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
+};
 
 use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, TraverseArgs, WheelTestArgs};
 use crate::failure::Failure;
@@ -90,6 +92,29 @@ pub(crate) fn attitude(args: &AttitudeArgs) -> Result<LoadedScenario, Failure> {
     let slopes = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--slope-deg", &args.slope_deg, &slopes)?;
     Ok(document::read_scenario(&source, &overrides)?)
+}
+
+/// The soils that an attitude study's soil may be.
+pub(crate) fn uncertain_soil<'s>(
+    args: &AttitudeArgs,
+    scenario: &'s LoadedScenario,
+) -> Result<&'s UncertainSoil, Failure> {
+    check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
+    let soil = scenario.document.soil.inline();
+    let Some(uncertain) = soil.and_then(|soil| soil.uncertain()) else {
+        let name = soil.map_or("unnamed", |soil| soil.name.as_str());
+        return Err(Failure::Usage(format!(
+            "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
+             hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
+             docs/guide/uncertainty.md tells how"
+        )));
+    };
+    if soil.is_some_and(SoilDocument::is_sampled) {
+        let keys: Vec<&str> = uncertain.keys().collect();
+        let hint = "the samples give this key a value in every draw";
+        Overrides::parse(&args.setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
+    }
+    Ok(uncertain)
 }
 
 /// Wheel, soil, gravity and theory of a wheel on a test stand.
@@ -182,7 +207,10 @@ fn flag_source(flag: &str, kind: Kind, name: &str) -> Result<Source, Failure> {
 
 /// That lists together do not ask for more than anyone can have meant.
 fn check_count(lists: &[&Numbers]) -> Result<(), Failure> {
-    let count: f64 = lists.iter().map(|list| list.0.len() as f64).product();
+    check_rows(lists.iter().map(|list| list.0.len() as f64).product())
+}
+
+fn check_rows(count: f64) -> Result<(), Failure> {
     if count <= list::MOST as f64 {
         return Ok(());
     }

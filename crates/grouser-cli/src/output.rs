@@ -6,7 +6,9 @@ pub(crate) mod rows;
 
 use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
 use std::path::Path;
+use std::time::Duration;
 
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -49,6 +51,15 @@ pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {
         let _ = writeln!(stderr(), "error: {failure}");
     }
+}
+
+/// A bar on the standard error, drawn only where that is a terminal.
+pub(crate) fn progress_bar(length: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(length).with_style(style);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
 }
 
 fn failed_to_print(error: std::io::Error) -> Failure {

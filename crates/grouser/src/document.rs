@@ -10,6 +10,7 @@
 //! 4. The tree is checked against the [`schema`] of its kind: keys, types, words, ranges.
 //! 5. It becomes the document's type, and that becomes the domain's, in SI units and radians;
 //!    what only several values together can show is checked there.
+//! 6. What is uncertain about a soil is read, with the samples that it names.
 //!
 //! What comes out is [`Loaded`]: the value, and the resolved document, which written back as TOML
 //! repeats the run on its own. What is wrong comes out as a [`DocumentError`].
@@ -33,6 +34,7 @@ pub mod measurements;
 mod overrides;
 mod presets;
 mod rover;
+mod samples;
 mod scenario;
 mod schema;
 mod soil;
@@ -40,6 +42,7 @@ mod source;
 pub mod study;
 mod text;
 pub mod trajectory;
+mod uncertainty;
 pub mod validation;
 mod wheel;
 
@@ -68,6 +71,9 @@ pub use soil::{
     SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
 pub use source::{LARGEST_FILE, Source};
+pub use uncertainty::{
+    CorrelationSection, DistributionWord, UncertainParameter, UncertainSoil, UncertaintySection,
+};
 pub use wheel::{GrousersSection, WheelDocument, WheelSchema};
 
 use crate::simulation::Scenario;
@@ -186,10 +192,22 @@ pub struct Loaded<D, V> {
     pub value: V,
     /// What was assumed, each with the name of the document that says so.
     pub assumptions: Vec<String>,
+    /// Files that the resolved document names, to be written beside it.
+    pub companions: Vec<Companion>,
+}
+
+/// A file that a resolved document names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Companion {
+    /// Its name, from the folder of the document.
+    pub name: String,
+    /// What is in it.
+    pub content: String,
 }
 
 impl<D: Serialize, V> Loaded<D, V> {
-    /// The resolved document as TOML: read again, it gives the same value.
+    /// The resolved document as TOML: read again, with its [`companions`](Self::companions) beside
+    /// it, it gives the same value.
     ///
     /// # Panics
     /// Never: a document that was read has text keys and finite numbers only.
@@ -293,6 +311,16 @@ trait Document: DeserializeOwned + Serialize {
     /// The domain's value, in SI units and radians.
     fn to_domain(&self, tree: &Node) -> Result<Self::Value, DocumentError>;
 
+    /// Reads what the document names besides other documents, and finds out what it means.
+    fn prepare(&mut self, _tree: &Node) -> Result<(), DocumentError> {
+        Ok(())
+    }
+
+    /// Files that it names, under the names that it now gives them.
+    fn companions(&self) -> Vec<Companion> {
+        Vec::new()
+    }
+
     /// Adds what was assumed without its author saying so.
     fn note(&mut self, tree: &Node, overrides: &Overrides);
 
@@ -309,9 +337,11 @@ fn read<D: Document>(
         DocumentError::at(&tree.origin, Problem::Syntax(error.message().to_owned()))
     })?;
     let value = document.to_domain(&tree)?;
+    document.prepare(&tree)?;
     document.note(&tree, overrides);
     let assumptions = document.assumptions();
-    Ok(Loaded { document, value, assumptions })
+    let companions = document.companions();
+    Ok(Loaded { document, value, assumptions, companions })
 }
 
 /// The checked tree of a document with all its parts.

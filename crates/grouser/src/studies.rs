@@ -1,14 +1,17 @@
 //! Floor 4: questions about a wheel or a rover, answered with the floors below.
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
+//! [`attitude_band`] the same where the soil is uncertain, with what [`uncertainty`] knows of draws,
 //! [`measurement`] what a real stand reads, [`validation`] judges a theory by it, [`calibration`]
 //! finds the soil that it speaks for, [`comparison`] has the metrics by which the source paper
 //! judges a run, and [`reproduction`] runs the whole of the paper's study again.
 
 pub mod attitude;
+pub mod attitude_band;
 pub mod calibration;
 pub mod comparison;
 pub mod measurement;
 pub mod reproduction;
+pub mod uncertainty;
 pub mod validation;
 pub mod wheel_test;

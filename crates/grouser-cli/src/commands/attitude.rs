@@ -1,11 +1,16 @@
 //! `grouser attitude`
 
-use grouser::document::study::{AttitudeLimit, AttitudeRecord};
+use grouser::document::LoadedScenario;
+use grouser::document::study::{
+    AttitudeBandLimit, AttitudeBandRecord, AttitudeLimit, AttitudeRecord,
+};
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
+use grouser::vehicle::Rover;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::Answer;
+use super::attitude_band::{self, Bands};
 use crate::args::AttitudeArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -25,21 +30,76 @@ const COLUMNS: [&str; 7] = [
     "status",
 ];
 
+/// The same, with the draws of an uncertain soil.
+const COLUMNS_WITH_BANDS: [&str; 9] = [
+    "slope_deg",
+    "yaw_deg",
+    "yaw_deg_p2_5",
+    "yaw_deg_p97_5",
+    "slip_ratio",
+    "slip_ratio_p97_5",
+    "probability_level",
+    "draws_level",
+    "status",
+];
+
 pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::attitude(args)?;
     let curve = AttitudeStudy::of(&scenario.value).curve()?;
-    let rover = &scenario.value.rover;
-    let records: Vec<AttitudeRecord> = args
-        .slope_deg
-        .0
-        .iter()
-        .map(|slope| AttitudeRecord::of(&curve, rover, slope.to_radians()))
-        .collect();
+    let bands = if args.uncertainty.uncertainty {
+        Some(attitude_band::draw(args, &scenario, &curve, folder.is_some())?)
+    } else {
+        None
+    };
+    let records = rows(args, &curve, &scenario.value.rover, bands.as_ref());
     let limit = AttitudeLimit::from(&curve);
     let rows = Rows::of(&records);
+    let results = Results { limit: &limit, band: bands.as_ref().map(|b| &b.limit), rows: &records };
+    let answer = Answer::new("attitude", settings(args, &scenario), results);
+    if let Some(mut folder) = folder {
+        folder.add("attitude.json", answer.to_text());
+        folder.add("attitude.csv", rows.to_csv()?);
+        match &bands {
+            None => folder.add("attitude.svg", chart(&curve).to_svg()),
+            Some(bands) => {
+                folder.add("attitude.svg", bands.chart(line("soil as written", &curve)).to_svg());
+                folder.add("probability.svg", bands.chance_chart().to_svg());
+            }
+        }
+        folder.add_document("scenario.toml", &scenario);
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => {
+            let columns: &[&str] = if bands.is_some() { &COLUMNS_WITH_BANDS } else { &COLUMNS };
+            let band_line = bands.as_ref().map_or(String::new(), Bands::limit_line);
+            output::print(&(rows.to_table(columns) + &limit_line(&limit) + &band_line))
+        }
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+/// A row for each slope.
+fn rows(
+    args: &AttitudeArgs,
+    curve: &AttitudeCurve,
+    rover: &Rover,
+    bands: Option<&Bands>,
+) -> Vec<Row> {
+    let slopes = args.slope_deg.0.iter().enumerate();
+    let row = |(place, slope): (usize, &f64)| Row {
+        attitude: AttitudeRecord::of(curve, rover, slope.to_radians()),
+        band: bands.map(|bands| bands.records[place].clone()),
+    };
+    slopes.map(row).collect()
+}
+
+/// What the answer was made from.
+fn settings(args: &AttitudeArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
-    let inputs = json!({
+    let mut settings = json!({
         "rover": document.rover,
         "soil": document.soil,
         "gravity_m_s2": document.gravity_m_s2,
@@ -48,26 +108,28 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
         "moments": document.moments,
         "slope_deg": args.slope_deg.0,
     });
-    let answer = Answer::new("attitude", inputs, Results { limit: &limit, rows: &records });
-    if let Some(mut folder) = folder {
-        folder.add("attitude.json", answer.to_text());
-        folder.add("attitude.csv", rows.to_csv()?);
-        folder.add("attitude.svg", chart(&curve).to_svg());
-        folder.add("scenario.toml", scenario.to_toml());
-        folder.finish()?;
+    if args.uncertainty.uncertainty {
+        settings["samples"] = args.uncertainty.samples.into();
+        settings["seed"] = args.uncertainty.seed.into();
     }
-    match args.output.format {
-        Format::Table => output::print(&(rows.to_table(&COLUMNS) + &limit_line(&limit))),
-        Format::Csv => output::print(&rows.to_csv()?),
-        Format::Json => output::print_json(&answer),
-    }
+    settings
 }
 
 #[derive(Serialize)]
 struct Results<'a> {
     #[serde(flatten)]
     limit: &'a AttitudeLimit,
-    rows: &'a [AttitudeRecord],
+    #[serde(flatten)]
+    band: Option<&'a AttitudeBandLimit>,
+    rows: &'a [Row],
+}
+
+#[derive(Serialize)]
+struct Row {
+    #[serde(flatten)]
+    attitude: AttitudeRecord,
+    #[serde(flatten)]
+    band: Option<AttitudeBandRecord>,
 }
 
 fn limit_line(limit: &AttitudeLimit) -> String {
@@ -82,12 +144,16 @@ fn limit_line(limit: &AttitudeLimit) -> String {
 
 /// Yaw over slope.
 fn chart(curve: &AttitudeCurve) -> Chart {
-    let attitudes = curve.attitudes();
-    let points = attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
     Chart {
         title: "Yaw that keeps a traverse level".into(),
         x_label: "slope [°]".into(),
         y_label: "yaw, positive uphill [°]".into(),
-        series: vec![Series::new("attitude", Style::Line, 1, points)],
+        series: vec![line("attitude", curve)],
     }
+}
+
+fn line(name: &str, curve: &AttitudeCurve) -> Series {
+    let attitudes = curve.attitudes();
+    let points = attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
+    Series::new(name, Style::Line, 1, points)
 }

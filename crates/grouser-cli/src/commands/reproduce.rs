@@ -1,11 +1,9 @@
 //! `grouser reproduce`: the paper's study, to a report one can open.
 
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use grouser::document::{self, LoadedScenario, Overrides, Source, experiment};
 use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::traverse::sample_csv;
 use crate::args::ReproduceArgs;
@@ -89,11 +87,7 @@ fn is_ours(report: &Path) -> bool {
 }
 
 fn run_with_bar(plan: &Plan) -> Result<Reproduction, Failure> {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    // Drawn on the standard error, and only where that is a terminal.
-    let bar = ProgressBar::new(plan.step_count() as u64).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(100));
+    let bar = output::progress_bar(plan.step_count() as u64);
     let mut begun = 0;
     let study = plan.run(&mut |step| {
         bar.set_position(begun);
@@ -163,7 +157,7 @@ fn write_report(
         add("from-measured-yaw-torque", &runs.from_measured_yaw_with_torque)?;
         runs.compensated.as_ref().map_or(Ok(()), |run| add("at-attitude", run))?;
     }
-    folder.add("scenario.toml", scenario.to_toml());
+    folder.add_document("scenario.toml", scenario);
     folder.add(REPORT, page.to_html());
     Ok(())
 }

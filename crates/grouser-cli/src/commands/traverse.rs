@@ -30,7 +30,7 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
         folder.add("traverse.json", answer.to_text());
         folder.add("traverse.csv", sample_csv(&record.samples)?);
         folder.add("traverse.svg", chart(&record).to_svg());
-        folder.add("scenario.toml", scenario.to_toml());
+        folder.add_document("scenario.toml", &scenario);
         folder.finish()?;
     }
     match args.output.format {

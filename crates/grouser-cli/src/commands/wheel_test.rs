@@ -55,8 +55,8 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
         folder.add("wheel-test.json", answer.to_text());
         folder.add("wheel-test.csv", rows.to_csv()?);
         folder.add("wheel-test.svg", chart(&records).to_svg());
-        folder.add("soil.toml", inputs.soil.to_toml());
-        folder.add("wheel.toml", inputs.wheel.to_toml());
+        folder.add_document("soil.toml", &inputs.soil);
+        folder.add_document("wheel.toml", &inputs.wheel);
         folder.finish()?;
     }
     match args.output.format {

@@ -4,6 +4,8 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 
+use grouser::document::Loaded;
+use serde::Serialize;
 use tempfile::TempDir;
 
 use crate::args::OutputArgs;
@@ -65,6 +67,14 @@ impl OutputFolder {
     /// Adds a file; folders in its name are made.
     pub(crate) fn add(&mut self, name: &str, content: String) {
         self.files.push((name.to_owned(), content));
+    }
+
+    /// Adds a resolved document with the files that it names.
+    pub(crate) fn add_document<D: Serialize, V>(&mut self, name: &str, document: &Loaded<D, V>) {
+        self.add(name, document.to_toml());
+        for companion in &document.companions {
+            self.add(&companion.name, companion.content.clone());
+        }
     }
 
     /// Writes all files and moves them to their place.

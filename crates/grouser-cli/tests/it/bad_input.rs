@@ -241,6 +241,58 @@ fn wrong_soils() {
 }
 
 #[test]
+fn wrong_uncertainties() {
+    let place = Place::new();
+    let soil = |file: &str, section: &str| {
+        let text = changed_preset("soil", "toyoura", "schema", "schema");
+        place.write(&format!("{file}.toml"), format!("{text}\n{section}\n"));
+    };
+    let angle = "[[uncertainty.parameter]]\nkey = \"friction_angle_deg\"\nstandard_deviation = ";
+    let modulus = "[[uncertainty.parameter]]\nkey = \"exit.ratio\"\nstandard_deviation = 0.1\n";
+    soil("unknown", &format!("{}1", angle.replace("_deg", "")));
+    soil("negative", &format!("{angle}-1"));
+    soil("far", &format!("{angle}1e9"));
+    soil("twice", &format!("{angle}1\n{angle}2"));
+    soil(
+        "whole",
+        &format!(
+            "{angle}1\n{modulus}[[uncertainty.correlation]]\n\
+             between = [\"friction_angle_deg\", \"exit.ratio\"]\nvalue = -1"
+        ),
+    );
+    soil("no-samples", "[uncertainty]\nsamples = \"none.csv\"");
+    soil("bad-samples", "[uncertainty]\nsamples = \"samples.csv\"");
+    place.write("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n38,high\n");
+    soil("good-samples", "[uncertainty]\nsamples = \"good.csv\"");
+    place.write("good.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n");
+    check_lines_refused(
+        "uncertainties",
+        &place,
+        &[
+            "check unknown.toml",
+            "attitude --soil negative.toml",
+            "attitude --soil far.toml --uncertainty",
+            "check twice.toml",
+            "check whole.toml",
+            "check no-samples.toml",
+            "check bad-samples.toml",
+            "attitude --uncertainty",
+            "attitude --seed 2",
+            "attitude --uncertainty --samples 1",
+            "attitude --uncertainty --samples 1000000",
+            "attitude --uncertainty --samples many",
+            "attitude --uncertainty --seed -1",
+            "attitude --soil toyoura-uncertain --uncertainty --samples 100000 --slope-deg 0:20:1",
+            "attitude --soil good-samples.toml --uncertainty --set soil.exit.ratio=0.5",
+            "attitude --soil toyoura-uncertain --set soil.uncertainty.parameter.9.key=x",
+            "attitude --soil toyoura-uncertain --set soil.uncertainty.parameter.friction=2",
+            "attitude --soil toyoura-uncertain --set soil.uncertainty=2",
+            "attitude --soil toyoura-uncertain --set soil.shear.law=isotropic",
+        ],
+    );
+}
+
+#[test]
 fn wrong_rovers() {
     let place = Place::new();
     let rover = |file: &str, from: &str, to: &str| {
@@ -507,15 +559,19 @@ mod signals {
 
     #[test]
     fn an_interrupted_run_ends_with_130_and_leaves_nothing() {
-        let place = Place::new();
-        let line = "traverse --duration-s 86400 --out run";
-        let child = start(&place, line);
-        std::thread::sleep(Duration::from_secs(1));
-        send("-INT", &child);
-        let answer = Answer::new(line, &child.wait_with_output().expect("it ends"));
-        assert_eq!(answer.code(), 130);
-        assert_eq!((answer.stdout.as_str(), answer.stderr.as_str()), ("", "interrupted\n"));
-        assert!(place.names().is_empty(), "{:?}", place.names());
+        for line in [
+            "traverse --duration-s 86400 --out run",
+            "attitude --soil toyoura-uncertain --uncertainty --samples 100000 --out run",
+        ] {
+            let place = Place::new();
+            let child = start(&place, line);
+            std::thread::sleep(Duration::from_secs(1));
+            send("-INT", &child);
+            let answer = Answer::new(line, &child.wait_with_output().expect("it ends"));
+            assert_eq!(answer.code(), 130);
+            assert_eq!((answer.stdout.as_str(), answer.stderr.as_str()), ("", "interrupted\n"));
+            assert!(place.names().is_empty(), "{:?}", place.names());
+        }
     }
 
     #[test]

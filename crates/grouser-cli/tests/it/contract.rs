@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::program::{Place, changed_preset, keys, number};
 
@@ -83,6 +83,65 @@ fn attitude_rows_have_the_words_of_the_design_and_the_limit_stands_beside_them()
         }
         assert_eq!(row["status"], "ok");
     }
+}
+
+const UNCERTAIN: &str =
+    "attitude --soil toyoura-uncertain --slope-deg 5,20 --uncertainty --samples 24";
+
+#[test]
+fn an_uncertain_soil_adds_its_words_to_the_rows_and_changes_none() {
+    let place = Place::new();
+    let json = place.json(UNCERTAIN);
+    assert_eq!(json["schema"], "grouser.attitude.v1");
+    assert_eq!((&json["inputs"]["samples"], &json["inputs"]["seed"]), (&json!(24), &json!(1)));
+    let plain = place.json("attitude --soil toyoura-uncertain --slope-deg 5,20");
+    let rows = json["rows"].as_array().expect("rows");
+    for (row, plain) in rows.iter().zip(plain["rows"].as_array().expect("rows")) {
+        for (key, value) in plain.as_object().expect("an object") {
+            assert_eq!(&row[key], value, "{key}");
+        }
+        for word in ["yaw_deg", "slip_ratio", "sinkage_mm", "energy_j_per_m"] {
+            let end = |end: &str| number(&row[format!("{word}_{end}")]);
+            assert!(end("p2_5") < end("p50") && end("p50") < end("p97_5"), "{word}: {row}");
+        }
+        let share = |end: &str| number(&row[format!("probability_level{end}")]);
+        assert!(share("_low") <= share("") && share("") <= share("_high"), "{row}");
+        assert_eq!(number(&row["draws"]), 24.0);
+        assert_eq!(share(""), number(&row["draws_level"]) / 24.0);
+    }
+    for word in ["limit_slope_deg", "limit_reason"] {
+        assert_eq!(json[word], plain[word]);
+    }
+    let limit = |end: &str| number(&json[format!("limit_slope_deg_{end}")]);
+    assert!(limit("p2_5") < limit("p50") && limit("p50") < limit("p97_5"));
+    assert!(plain.get("limit_slope_deg_p50").is_none() && plain.get("draws").is_none());
+    assert!(plain["inputs"].get("seed").is_none());
+}
+
+#[test]
+fn the_seed_and_nothing_else_decides_the_draws() {
+    let place = Place::new();
+    let line = format!("{UNCERTAIN} --format csv");
+    let words: Vec<&str> = line.split(' ').collect();
+    let on = |threads: &str| {
+        let output = place.command(&words).env("RAYON_NUM_THREADS", threads).output();
+        output.expect("the program starts").stdout
+    };
+    assert_eq!(on("1"), on("3"));
+    assert_eq!(on("2"), place.results(&format!("{line} --seed 1")).into_bytes());
+    assert_ne!(on("2"), place.results(&format!("{line} --seed 2")).into_bytes());
+}
+
+/// Where no draw has an attitude the band is null, and the probability still says something.
+#[test]
+fn a_slope_without_any_level_attitude_has_no_band() {
+    let json = Place::new()
+        .json("attitude --soil toyoura-uncertain --slope-deg 40 --uncertainty --samples 10");
+    let row = &json["rows"][0];
+    assert!(row["yaw_deg_p50"].is_null() && row["slip_ratio_p2_5"].is_null(), "{row}");
+    assert_eq!((number(&row["probability_level"]), number(&row["draws_level"])), (0.0, 0.0));
+    assert!(number(&row["probability_level_high"]) > 0.2, "{row}");
+    assert!(row["status"].as_str().expect("a text").starts_with("no level attitude"));
 }
 
 #[test]
@@ -369,11 +428,49 @@ fn a_run_is_repeated_from_its_folder() {
         "attitude.json",
     );
     check_repeats(
+        "attitude --soil toyoura-uncertain --slope-deg 8 --uncertainty --samples 8 --seed 5 \
+         --set soil.uncertainty.parameter.0.standard_deviation=2",
+        "attitude first/scenario.toml --slope-deg 8 --uncertainty --samples 8 --seed 5",
+        "attitude.json",
+    );
+    check_repeats(
         "wheel-test --soil lunar-nominal --wheel jfr-2007 --load-n 9 --set soil.cohesion_kpa=0.3 \
          --set soil.bulldozing.law=none --slip-angle-deg 5",
         "wheel-test --soil first/soil.toml --wheel first/wheel.toml --load-n 9 --slip-angle-deg 5",
         "wheel-test.json",
     );
+}
+
+/// Samples are a file of their own: they go along into the folder.
+#[test]
+fn samples_of_a_soil_are_repeated_too() {
+    let place = Place::new();
+    let soil = place.results("presets toyoura");
+    fs::create_dir(place.file("soils")).expect("it can be made");
+    place.write("soils/samples.csv", "friction_angle_deg,exit.ratio\n36,0.8\n38,1\n39.5,1.1\n");
+    let uncertain = format!("{soil}\n[uncertainty]\nsamples = \"samples.csv\"\n");
+    place.write("soils/sand.toml", uncertain);
+    let flags = "--slope-deg 5,10 --uncertainty --samples 9";
+    let first = place
+        .results(&format!("attitude --soil soils/sand.toml {flags} --format json --out first"));
+    place.results("wheel-test --soil soils/sand.toml --out wheel");
+    place.results("traverse --soil soils/sand.toml --duration-s 0.1 --out run");
+    fs::remove_dir_all(place.file("soils")).expect("it is ours");
+    let again = place.results(&format!("attitude first/scenario.toml {flags} --format json"));
+    assert_eq!(first, again);
+    place.results("check wheel/soil.toml run/scenario.toml");
+}
+
+#[test]
+fn charts_of_an_uncertain_soil_are_drawn() {
+    let place = Place::new();
+    let printed = place.results(&format!("{UNCERTAIN} --format csv --out band"));
+    assert_eq!(printed, place.read("band/attitude.csv"));
+    for (file, words) in [("attitude", "95 % of the draws"), ("probability", "95 % interval")] {
+        let svg = place.read(&format!("band/{file}.svg"));
+        assert!(svg.contains(words) && svg.trim_end().ends_with("</svg>"), "{file}");
+        assert!(!svg.contains("NaN"), "{file}");
+    }
 }
 
 #[test]

@@ -4,6 +4,8 @@
 //! ranges and lengths. What only all values together can show is checked where the domain's values
 //! are made.
 
+use std::ops::RangeInclusive;
+
 use serde_json::Value as Json;
 
 use super::Kind;
@@ -21,6 +23,26 @@ pub(super) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), Documen
 
 /// The keys that a table of a document may have, given what it says already.
 pub(super) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'static str>> {
+    let table = table_at(kind, tree, path.iter().map(String::as_str))?;
+    Some(keys(table).map(|(key, _)| key).collect())
+}
+
+/// The range that a number of a document may have, given the laws that it names; both ends
+/// included.
+pub(super) fn range_at(kind: Kind, tree: &Node, path: &str) -> Option<RangeInclusive<f64>> {
+    let (tables, key) = path.rsplit_once('.').map_or((None, path), |(a, b)| (Some(a), b));
+    let table = table_at(kind, tree, tables.into_iter().flat_map(|tables| tables.split('.')))?;
+    let schema = table.get("properties")?.get(key)?;
+    let end = |name: &str| schema.get(name).and_then(Json::as_f64);
+    Some(end("minimum")?..=end("maximum")?)
+}
+
+/// The schema of a table of a document, given the laws that it names.
+fn table_at<'s>(
+    kind: Kind,
+    tree: &Node,
+    path: impl Iterator<Item = &'s str>,
+) -> Option<&'static Json> {
     let root = json(kind);
     let checker = Checker { root, prefix: "" };
     let (mut schema, mut node) = (root, tree);
@@ -29,8 +51,7 @@ pub(super) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'
         schema = table.get("properties")?.get(step)?;
         node = &node.entry(step)?.node;
     }
-    let table = checker.choose(schema, node, "", &node.origin).ok()?;
-    Some(keys(table).map(|(key, _)| key).collect())
+    checker.choose(schema, node, "", &node.origin).ok()
 }
 
 /// The word that was probably meant.

@@ -8,6 +8,7 @@ use std::ops::Range;
 use super::Kind;
 use super::text::{Origin, Text};
 use crate::error::ParameterError;
+use crate::studies::uncertainty::{Contradiction, NothingAccepted};
 
 /// A document, or a value set on the command line, that cannot be used.
 ///
@@ -183,6 +184,36 @@ pub enum Problem {
     /// Values that are fine one by one, but not together.
     #[error("{0}")]
     Unfit(#[from] ParameterError),
+    /// Something that cannot be uncertain.
+    #[error("`{key}` is no number of this soil, only numbers can be uncertain")]
+    NotANumber {
+        /// The key.
+        key: String,
+    },
+    /// A correlation of a key that is not uncertain.
+    #[error("`{key}` has a correlation, but no standard deviation")]
+    NotUncertain {
+        /// The key.
+        key: String,
+    },
+    /// Parts of a document that do not go together.
+    #[error("{0}")]
+    Conflict(&'static str),
+    /// Correlations that no soil can have.
+    #[error("{0}")]
+    Contradiction(#[from] Contradiction),
+    /// A distribution outside the ranges of its keys.
+    #[error("the uncertainty reaches too far: {0}")]
+    NoDraws(#[from] NothingAccepted),
+    /// A file of samples that is not there.
+    #[error("there is no file of samples {name}")]
+    NoSamples {
+        /// Its path.
+        name: String,
+    },
+    /// A text that is no table of samples.
+    #[error("not a table of samples: {0}")]
+    NoTable(String),
     /// An argument that is not `document.key=value`.
     #[error("{0}")]
     Malformed(&'static str),

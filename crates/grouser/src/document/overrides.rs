@@ -125,12 +125,18 @@ impl Overrides {
         }
     }
 
-    /// That no value is set under some keys of a document, for which a command has no use.
+    /// That no value is set at some keys of a document, or under them, for which a command has no
+    /// use.
+    ///
+    /// * `keys`: with the tables they stand in, joined by dots
     ///
     /// # Errors
     /// [`DocumentError`] for the first that is, with a hint what to do instead.
     pub fn refuse(&self, kind: Kind, keys: &[&str], hint: &str) -> Result<(), DocumentError> {
-        let is_refused = |one: &&Override| one.kind == kind && keys.contains(&one.path[0].as_str());
+        let is_refused = |one: &&Override| {
+            let is_at = |key: &&str| one.path.iter().zip(key.split('.')).all(|(a, b)| a == b);
+            one.kind == kind && keys.iter().any(is_at)
+        };
         match self.all.iter().find(is_refused) {
             None => Ok(()),
             Some(one) => {

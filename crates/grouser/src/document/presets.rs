@@ -58,6 +58,7 @@ macro_rules! preset {
 
 static PRESETS: &[Preset] = &[
     preset!(Soil, "data/soils", "toyoura"),
+    preset!(Soil, "data/soils", "toyoura-uncertain"),
     preset!(Soil, "data/soils", "toyoura-as-printed"),
     preset!(Soil, "data/soils", "toyoura-lab-2007"),
     preset!(Soil, "data/soils", "toyoura-lab-2012"),

@@ -8,7 +8,9 @@ use super::error::{DocumentError, Problem};
 use super::rover::RoverDocument;
 use super::soil::{SoilDocument, TheoryWord};
 use super::text::Node;
-use super::{DEFAULT_ROVER, DEFAULT_SOIL, Document, Kind, Overrides, Reference, told_by, unnamed};
+use super::{
+    Companion, DEFAULT_ROVER, DEFAULT_SOIL, Document, Kind, Overrides, Reference, told_by, unnamed,
+};
 use crate::error::ParameterError;
 use crate::simulation::scenario::LONGEST_DURATION;
 use crate::simulation::{Motion, Numerics, Scenario, Start};
@@ -317,6 +319,17 @@ impl Document for ScenarioDocument {
         })?;
         scenario.check().map_err(at("schema"))?;
         Ok(scenario)
+    }
+
+    fn prepare(&mut self, tree: &Node) -> Result<(), DocumentError> {
+        match (tree.entry("soil"), &mut self.soil) {
+            (Some(entry), Reference::Inline(soil)) => soil.prepare(&entry.node),
+            _ => Ok(()),
+        }
+    }
+
+    fn companions(&self) -> Vec<Companion> {
+        self.soil.inline().map_or(Vec::new(), Document::companions)
     }
 
     fn note(&mut self, tree: &Node, overrides: &Overrides) {

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{DocumentError, Problem};
 use super::text::Node;
-use super::{Document, Kind, Overrides, not_stated, note_birthplace, told_by, unnamed};
+use super::uncertainty::{UncertainSoil, UncertaintySection};
+use super::{Companion, Document, Kind, Overrides, not_stated, note_birthplace, told_by, unnamed};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
@@ -71,6 +72,10 @@ pub struct SoilDocument {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "ExtendedSection")]
     pub extended: Option<ExtendedSection>,
+    /// How well the numbers above are known; exactly, as far as anyone says, without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "UncertaintySection")]
+    pub uncertainty: Option<UncertaintySection>,
 }
 
 /// The `schema` of a soil.
@@ -435,29 +440,20 @@ impl Document for SoilDocument {
     type Value = Soil;
 
     fn to_domain(&self, tree: &Node) -> Result<Soil, DocumentError> {
-        let soil = Soil {
-            cohesion: self.cohesion_kpa * 1e3,
-            friction_angle: self.friction_angle_deg.to_radians(),
-            density: self.density_kg_m3,
-            pressure_sinkage: self.pressure_sinkage.to_domain(),
-            stress_peak: StressPeak { a0: self.stress_peak.a0, a1: self.stress_peak.a1 },
-            shear: self.shear.to_domain(),
-            exit: self.exit.to_domain(),
-            bulldozing: self.bulldozing.law.to_domain(),
-            extended: self.extended.as_ref().map_or(Extended::OFF, ExtendedSection::to_domain),
-        };
-        let at = |path: &'static str| {
-            move |error: ParameterError| {
-                DocumentError::at(tree.origin_of(path), Problem::Unfit(error))
-            }
-        };
-        soil.pressure_sinkage.check(soil.cohesion).map_err(at("pressure_sinkage"))?;
-        check_exponent(soil.pressure_sinkage).map_err(at("pressure_sinkage"))?;
-        soil.shear.check().map_err(at("shear"))?;
-        soil.extended.check().map_err(at("extended"))?;
-        check_exit(soil.exit).map_err(at("exit"))?;
-        soil.check().map_err(at("schema"))?;
-        Ok(soil)
+        self.meaning().map_err(|Misfit { path, error }| {
+            DocumentError::at(tree.origin_of(path), Problem::Unfit(error))
+        })
+    }
+
+    fn prepare(&mut self, tree: &Node) -> Result<(), DocumentError> {
+        let Some(mut uncertainty) = self.uncertainty.take() else { return Ok(()) };
+        uncertainty.prepare(self, tree)?;
+        self.uncertainty = Some(uncertainty);
+        Ok(())
+    }
+
+    fn companions(&self) -> Vec<Companion> {
+        self.uncertainty.iter().filter_map(UncertaintySection::companion).collect()
     }
 
     fn note(&mut self, tree: &Node, overrides: &Overrides) {
@@ -475,7 +471,50 @@ impl Document for SoilDocument {
     }
 }
 
+/// Values that are fine one by one, but not together.
+pub(super) struct Misfit {
+    /// The table they stand in.
+    pub path: &'static str,
+    /// What is wrong with them.
+    pub error: ParameterError,
+}
+
 impl SoilDocument {
+    /// The soil, in SI units and radians.
+    pub(super) fn meaning(&self) -> Result<Soil, Misfit> {
+        let soil = Soil {
+            cohesion: self.cohesion_kpa * 1e3,
+            friction_angle: self.friction_angle_deg.to_radians(),
+            density: self.density_kg_m3,
+            pressure_sinkage: self.pressure_sinkage.to_domain(),
+            stress_peak: StressPeak { a0: self.stress_peak.a0, a1: self.stress_peak.a1 },
+            shear: self.shear.to_domain(),
+            exit: self.exit.to_domain(),
+            bulldozing: self.bulldozing.law.to_domain(),
+            extended: self.extended.as_ref().map_or(Extended::OFF, ExtendedSection::to_domain),
+        };
+        let at = |path: &'static str| move |error: ParameterError| Misfit { path, error };
+        soil.pressure_sinkage.check(soil.cohesion).map_err(at("pressure_sinkage"))?;
+        check_exponent(soil.pressure_sinkage).map_err(at("pressure_sinkage"))?;
+        soil.shear.check().map_err(at("shear"))?;
+        soil.extended.check().map_err(at("extended"))?;
+        check_exit(soil.exit).map_err(at("exit"))?;
+        soil.check().map_err(at("schema"))?;
+        Ok(soil)
+    }
+
+    /// The soils that it may be, if it says how well it is known.
+    #[must_use]
+    pub fn uncertain(&self) -> Option<&UncertainSoil> {
+        self.uncertainty.as_ref()?.soils()
+    }
+
+    /// Whether its uncertainty is a file of samples.
+    #[must_use]
+    pub fn is_sampled(&self) -> bool {
+        self.uncertainty.as_ref().is_some_and(|uncertainty| uncertainty.samples.is_some())
+    }
+
     /// The theory that the soil was made for, if it says one.
     #[must_use]
     pub fn theory(&self) -> Option<Theory> {

@@ -86,8 +86,8 @@ impl Source {
             Self::Text { label, content } => (label.clone(), content.clone(), PathBuf::new()),
             Self::File(path) => {
                 let label = path.display().to_string();
-                let content =
-                    read_file(path).map_err(|problem| DocumentError::whole(&label, problem))?;
+                let content = read_file(path, LARGEST_FILE)
+                    .map_err(|problem| DocumentError::whole(&label, problem))?;
                 (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
             }
         };
@@ -95,7 +95,8 @@ impl Source {
     }
 }
 
-fn read_file(path: &Path) -> Result<String, Problem> {
+/// The text of a file of at most `limit` bytes.
+pub(super) fn read_file(path: &Path, limit: u64) -> Result<String, Problem> {
     let failed = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound | io::ErrorKind::NotADirectory | io::ErrorKind::InvalidInput => {
             Problem::NoSuchFile
@@ -110,9 +111,9 @@ fn read_file(path: &Path) -> Result<String, Problem> {
     // One byte more than allowed tells a file that is too large from one that just fits, without
     // trusting a length that pipes and devices do not have.
     let file = File::open(path).map_err(failed)?;
-    file.take(LARGEST_FILE + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(Problem::TooLarge { limit: LARGEST_FILE });
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit {
+        return Err(Problem::TooLarge { limit });
     }
     String::from_utf8(bytes)
         .map_err(|error| Problem::NotText { valid_up_to: error.utf8_error().valid_up_to() })

@@ -5,6 +5,8 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use crate::studies::attitude::{AttitudeCurve, NoAttitude};
+use crate::studies::attitude_band::{AttitudeBand, SlopeBand};
+use crate::studies::uncertainty::Band;
 use crate::studies::wheel_test::WheelTestRow;
 use crate::vehicle::Rover;
 
@@ -190,4 +192,107 @@ impl From<&AttitudeCurve> for AttitudeLimit {
             }
         }
     }
+}
+
+/// What the draws of an uncertain soil say of the level attitude on one slope. Quantiles are over
+/// the draws that have one there, and null where none has.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttitudeBandRecord {
+    /// 2.5 % quantile of the yaw [°].
+    pub yaw_deg_p2_5: Option<f64>,
+    /// Median of the yaw [°].
+    pub yaw_deg_p50: Option<f64>,
+    /// 97.5 % quantile of the yaw [°].
+    pub yaw_deg_p97_5: Option<f64>,
+    /// 2.5 % quantile of the slip ratio [-].
+    pub slip_ratio_p2_5: Option<f64>,
+    /// Median of the slip ratio [-].
+    pub slip_ratio_p50: Option<f64>,
+    /// 97.5 % quantile of the slip ratio [-].
+    pub slip_ratio_p97_5: Option<f64>,
+    /// 2.5 % quantile of the mean sinkage of the wheels [mm].
+    pub sinkage_mm_p2_5: Option<f64>,
+    /// Median of the mean sinkage [mm].
+    pub sinkage_mm_p50: Option<f64>,
+    /// 97.5 % quantile of the mean sinkage [mm].
+    pub sinkage_mm_p97_5: Option<f64>,
+    /// 2.5 % quantile of the work per metre along the contour [J/m].
+    pub energy_j_per_m_p2_5: Option<f64>,
+    /// Median of that work [J/m].
+    pub energy_j_per_m_p50: Option<f64>,
+    /// 97.5 % quantile of that work [J/m].
+    pub energy_j_per_m_p97_5: Option<f64>,
+    /// Probability that a level attitude exists [-]: the share of the draws that have one.
+    pub probability_level: f64,
+    /// Lower end of its 95 % confidence interval, for the number of draws [-].
+    pub probability_level_low: f64,
+    /// Upper end of that interval [-].
+    pub probability_level_high: f64,
+    /// Draws with a level attitude: those that the quantiles are over.
+    pub draws_level: usize,
+    /// All draws.
+    pub draws: usize,
+}
+
+impl From<&SlopeBand> for AttitudeBandRecord {
+    fn from(band: &SlopeBand) -> Self {
+        let degrees = band.yaw.map(|yaw| scaled(yaw, f64::to_degrees));
+        let millimetres = band.sinkage.map(|sinkage| scaled(sinkage, |metres| metres * 1e3));
+        let low = |band: Option<Band>| band.map(|band| band.low);
+        let median = |band: Option<Band>| band.map(|band| band.median);
+        let high = |band: Option<Band>| band.map(|band| band.high);
+        let (probability_level_low, probability_level_high) = band.level.interval();
+        Self {
+            yaw_deg_p2_5: low(degrees),
+            yaw_deg_p50: median(degrees),
+            yaw_deg_p97_5: high(degrees),
+            slip_ratio_p2_5: low(band.slip_ratio),
+            slip_ratio_p50: median(band.slip_ratio),
+            slip_ratio_p97_5: high(band.slip_ratio),
+            sinkage_mm_p2_5: low(millimetres),
+            sinkage_mm_p50: median(millimetres),
+            sinkage_mm_p97_5: high(millimetres),
+            energy_j_per_m_p2_5: low(band.energy_per_metre),
+            energy_j_per_m_p50: median(band.energy_per_metre),
+            energy_j_per_m_p97_5: high(band.energy_per_metre),
+            probability_level: band.level.estimate(),
+            probability_level_low,
+            probability_level_high,
+            draws_level: band.level.successes,
+            draws: band.level.trials,
+        }
+    }
+}
+
+/// What the draws say of the steepest slope that can be crossed level.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttitudeBandLimit {
+    /// 2.5 % quantile of that slope [°], over the draws on which the rover can move at all.
+    pub limit_slope_deg_p2_5: Option<f64>,
+    /// Its median [°].
+    pub limit_slope_deg_p50: Option<f64>,
+    /// Its 97.5 % quantile [°].
+    pub limit_slope_deg_p97_5: Option<f64>,
+    /// Draws on which the rover can move on level ground.
+    pub draws_mobile: usize,
+    /// All draws.
+    pub draws: usize,
+}
+
+impl From<&AttitudeBand> for AttitudeBandLimit {
+    fn from(band: &AttitudeBand) -> Self {
+        let degrees = band.limit.map(|limit| scaled(limit, f64::to_degrees));
+        Self {
+            limit_slope_deg_p2_5: degrees.map(|band| band.low),
+            limit_slope_deg_p50: degrees.map(|band| band.median),
+            limit_slope_deg_p97_5: degrees.map(|band| band.high),
+            draws_mobile: band.mobile.successes,
+            draws: band.mobile.trials,
+        }
+    }
+}
+
+/// A band in another unit.
+fn scaled(band: Band, convert: fn(f64) -> f64) -> Band {
+    Band { low: convert(band.low), median: convert(band.median), high: convert(band.high) }
 }

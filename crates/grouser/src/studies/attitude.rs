@@ -265,17 +265,18 @@ impl AttitudeStudy {
 
     /// Unit vector along the curve, in the sense of `towards`.
     fn tangent(&self, point: &Point, towards: &Point) -> Option<Point> {
-        let [along, across] = self.gradients(point)?;
+        let [along, across] = self.gradients(point, self.imbalance(point).ok()?)?;
         let tangent = along.cross(&across);
         let tangent = tangent.try_normalize(f64::MIN_POSITIVE)?;
         Some(if tangent.dot(towards) < 0.0 { -tangent } else { tangent })
     }
 
     /// Derivatives of the two imbalances by (s, γ, α), by forward differences.
-    fn gradients(&self, point: &Point) -> Option<[Point; 2]> {
+    ///
+    /// * `here`: the imbalances at the point itself
+    fn gradients(&self, point: &Point, here: [f64; 2]) -> Option<[Point; 2]> {
         /// Forces are exact to 1e-12.
         const STEP: f64 = 1e-7;
-        let here = self.imbalance(point).ok()?;
         let mut gradients = [Point::zeros(); 2];
         for axis in 0..3 {
             let mut beside = *point;
@@ -298,7 +299,7 @@ impl AttitudeStudy {
             if along.abs().max(across.abs()).max(beside.abs()) < BALANCED {
                 return (point.y >= 0.0).then_some(point);
             }
-            let [d_along, d_across] = self.gradients(&point)?;
+            let [d_along, d_across] = self.gradients(&point, [along, across])?;
             let jacobian = Matrix3::from_rows(&[
                 d_along.transpose(),
                 d_across.transpose(),

@@ -351,7 +351,7 @@ fn wrong_overrides_say_so() {
 // ---- Bad documents ----
 
 /// A preset's text with one piece replaced.
-fn changed(kind: Kind, name: &str, from: &str, to: &str) -> String {
+pub(crate) fn changed(kind: Kind, name: &str, from: &str, to: &str) -> String {
     let text = document::preset(kind, name).expect("a preset").text;
     assert!(text.contains(from), "{name} has no `{from}`");
     text.replacen(from, to, 1)
@@ -564,16 +564,16 @@ fn visit_numbers(item: &toml_edit::Item, path: &str, visit: &mut dyn FnMut(&str)
 // ---- Files ----
 
 /// A folder of its own for a test, removed afterwards.
-struct Folder(PathBuf);
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("grouser-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).expect("a folder can be made");
         Self(path)
     }
 
-    fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+    pub(crate) fn file(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
         let path = self.0.join(name);
         fs::create_dir_all(path.parent().expect("it has one")).expect("a folder can be made");
         fs::write(&path, content).expect("a file can be written");

@@ -12,3 +12,5 @@ mod paper;
 mod reference;
 mod rover;
 mod runs;
+mod uncertain_documents;
+mod uncertainty;
