@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use grouser::document::Kind;
 use grouser::document::measurements::{Condition, Mapping};
+use grouser::document::{FitKey, Kind};
 
 use crate::list::{self, Numbers};
 use crate::output::Format;
@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Attitude(AttitudeArgs),
     /// Compare a theory with measured wheel tests, or rank all theories.
     Validate(ValidateArgs),
+    /// Find the soil that measured wheel tests, or plate tests, speak for, and how surely.
+    Calibrate(CalibrateArgs),
     /// Turn another laboratory's CSV into the layout that `validate` reads.
     Import(ImportArgs),
     /// Check documents: soils, wheels, rovers, scenarios.
@@ -233,6 +235,88 @@ pub(crate) struct ValidateArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  grouser calibrate --data tests.csv --wheel hakuto --soil toyoura \\\n    \
+                        --fit soil.pressure_sinkage.k_phi,soil.shear.longitudinal_m=0.001:0.1 --out fit\n  \
+                        grouser calibrate --plates plates.csv --plate-law bekker --soil dry-sand --out fit\n\
+                        The same command goes on with a run that was interrupted."
+)]
+pub(crate) struct CalibrateArgs {
+    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        required_unless_present = "plates",
+        requires = "wheel",
+        requires = "fit"
+    )]
+    pub(crate) data: Option<PathBuf>,
+    /// The wheel that was tested: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) wheel: Option<String>,
+    /// The soil to start from, for all values that are not fitted: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: String,
+    /// Keys to fit, separated by commas, each with bounds if you like: `soil.stress_peak.a0=0.2:0.8`.
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = FitKey::parse, requires = "data")]
+    pub(crate) fit: Vec<FitKey>,
+    /// Only rows where a column has one of some values, or none of them; can be repeated.
+    #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
+    pub(crate) conditions: Vec<Condition>,
+    /// A file of plate-sinkage curves instead: `plate_width_mm`, `sinkage_mm`, `pressure_kpa`.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "data")]
+    pub(crate) plates: Option<PathBuf>,
+    /// The law of the plates; without it the soil's own.
+    #[arg(long, value_enum, requires = "plates")]
+    pub(crate) plate_law: Option<PlateLawWord>,
+    /// Seed of all random numbers.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Steps of each walker of the posterior.
+    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(100..1_000_000))]
+    pub(crate) steps: u64,
+    /// Only least squares, no posterior.
+    #[arg(long)]
+    pub(crate) point_fit: bool,
+    /// Also fit without each slip angle in turn, and judge there.
+    #[arg(long, requires = "data")]
+    pub(crate) cross_validate: bool,
+    /// The prediction that the next runs should make sure of, such as
+    /// `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
+    #[arg(
+        long,
+        value_name = "QUANTITY[:SETTINGS]",
+        default_value = "drawbar_pull_n:slip_ratio=0.2"
+    )]
+    pub(crate) target: String,
+    /// How many runs to propose.
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub(crate) propose: usize,
+    /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, requires = "data")]
+    pub(crate) candidate_load_n: Option<Numbers>,
+    /// Slip ratios that the stand can run.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-0.6:0.9:0.3", allow_hyphen_values = true)]
+    pub(crate) candidate_slip_ratio: Numbers,
+    /// Slip angles that the stand can run [°].
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0,15,30,45", allow_hyphen_values = true)]
+    pub(crate) candidate_slip_angle_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// A pressure-sinkage law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlateLawWord {
+    /// p = (k_c/b + k_phi) z^n.
+    Bekker,
+    /// p = (c k_c + density g b k_phi) (z/b)^n.
+    Reece,
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@ use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
+use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
@@ -99,6 +100,17 @@ impl Series {
         (self.style == Style::Band).then_some(Plot::Band(band))
     }
 
+    /// For a chart among many: thin, and without a name.
+    fn to_small_plot(&self) -> Plot {
+        let colour = COLOURS[self.colour % COLOURS.len()];
+        let data = self.points.iter().copied();
+        if self.style == Style::Line {
+            return Plot::Line(LinePlot::new().with_data(data).with_color(colour));
+        }
+        let plot = ScatterPlot::new().with_data(data).with_color(colour).with_size(1.2);
+        Plot::Scatter(plot.with_marker_opacity(0.5))
+    }
+
     fn to_plot(&self) -> Plot {
         let colour = COLOURS[self.colour % COLOURS.len()];
         let data = self.points.iter().copied();
@@ -135,6 +147,46 @@ impl Series {
             // The library gives a band no place in the legend: its lower edge stands for it.
             Style::Band => line(LineStyle::Solid),
         }
+    }
+}
+
+/// Small charts in rows and columns, some places empty, without legends.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    /// Row by row.
+    pub(crate) cells: Vec<Vec<Option<Chart>>>,
+}
+
+impl Grid {
+    /// The charts as one stand-alone SVG document.
+    pub(crate) fn to_svg(&self) -> String {
+        /// Size of a chart [px].
+        const SIZE: f64 = 190.0;
+        let columns = self.cells.iter().map(Vec::len).max().unwrap_or(0);
+        let (mut structure, mut plots, mut layouts) = (Vec::new(), Vec::new(), Vec::new());
+        for (row, cells) in self.cells.iter().enumerate() {
+            for (column, chart) in cells.iter().enumerate() {
+                let Some(chart) = chart else { continue };
+                let own: Vec<Plot> = chart.series.iter().map(Series::to_small_plot).collect();
+                layouts.push(
+                    Layout::auto_from_plots(&own)
+                        .with_x_label(chart.x_label.as_str())
+                        .with_y_label(chart.y_label.as_str())
+                        .with_label_size(10)
+                        .with_tick_size(8)
+                        .with_font_family("Helvetica, Arial, sans-serif"),
+                );
+                plots.push(own);
+                structure.push(vec![row * columns + column]);
+            }
+        }
+        let figure = Figure::new(self.cells.len(), columns)
+            .with_structure(structure)
+            .with_plots(plots)
+            .with_layouts(layouts)
+            .with_cell_size(SIZE, SIZE)
+            .with_spacing(6.0);
+        SvgBackend.render_scene(&figure.render())
     }
 }
 

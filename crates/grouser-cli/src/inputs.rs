@@ -134,6 +134,20 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
     stand(&args.soil, &args.wheel, &args.setting)
 }
 
+/// A soil and gravity [m/s²].
+pub(crate) fn soil(
+    name: &str,
+    setting: &SettingArgs,
+) -> Result<(document::LoadedSoil, f64), Failure> {
+    let overrides = Overrides::parse(&setting.settings)?;
+    overrides.check_kinds(&[Kind::Soil])?;
+    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
+    let mut scenario = Overrides::none();
+    scenario_settings(&mut scenario, setting, &BalanceArgs { loads: None, moments: None })?;
+    let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
+    Ok((soil, run.site.gravity))
+}
+
 /// A wheel on a test stand, from the names of its soil and wheel.
 pub(crate) fn stand(
     soil: &str,

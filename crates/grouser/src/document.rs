@@ -26,18 +26,22 @@
 //! # Ok::<(), document::DocumentError>(())
 //! ```
 
+pub mod calibration;
 mod check;
+pub mod checkpoint;
 mod data_set;
 mod error;
 pub mod experiment;
 pub mod measurements;
 mod overrides;
+pub mod plates;
 mod presets;
 mod rover;
 mod samples;
 mod scenario;
 mod schema;
 mod soil;
+mod soil_family;
 mod source;
 pub mod study;
 mod text;
@@ -70,9 +74,11 @@ pub use soil::{
     FlankSection, HeapSection, PressureSinkageSection, RimSection, ShearSection,
     SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
+pub use soil_family::{FitKey, SoilFamily, key_of};
 pub use source::{LARGEST_FILE, Source};
 pub use uncertainty::{
-    CorrelationSection, DistributionWord, UncertainParameter, UncertainSoil, UncertaintySection,
+    CorrelationSection, DistributionWord, SAMPLES_FILE, UncertainParameter, UncertainSoil,
+    UncertaintySection,
 };
 pub use wheel::{GrousersSection, WheelDocument, WheelSchema};
 
@@ -215,6 +221,15 @@ impl<D: Serialize, V> Loaded<D, V> {
     pub fn to_toml(&self) -> String {
         toml::to_string_pretty(&self.document).expect("text keys and finite numbers")
     }
+}
+
+/// A document as TOML.
+///
+/// # Panics
+/// Never: documents have text keys and finite numbers only.
+#[must_use]
+pub fn to_toml<D: Serialize>(document: &D) -> String {
+    toml::to_string_pretty(document).expect("text keys and finite numbers")
 }
 
 /// A soil that was read.

@@ -1,6 +1,6 @@
 //! `grouser validate`: a theory beside measured wheel tests, or every theory beside all of them.
 
-mod figures;
+pub(crate) mod figures;
 mod ranking;
 
 use std::path::Path;

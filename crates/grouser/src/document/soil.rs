@@ -100,6 +100,11 @@ pub enum TheoryWord {
 }
 
 impl TheoryWord {
+    /// The word of a theory's name.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        toml::Value::String(name.to_owned()).try_into().ok()
+    }
+
     /// The theory of that name.
     #[must_use]
     pub fn theory(self) -> Theory {
@@ -480,6 +485,31 @@ pub(super) struct Misfit {
 }
 
 impl SoilDocument {
+    /// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 that
+    /// wait to be found.
+    #[must_use]
+    pub fn with_law(&self, law: &str) -> Self {
+        let (n, n_per_slip, n_per_skid) = match self.pressure_sinkage {
+            PressureSinkageSection::Reece { n, n_per_slip, n_per_skid, .. }
+            | PressureSinkageSection::Bekker { n, n_per_slip, n_per_skid, .. } => {
+                (n, n_per_slip, n_per_skid)
+            }
+        };
+        let (k_c, k_phi) = (1.0, 1.0);
+        let pressure_sinkage = if law == "reece" {
+            PressureSinkageSection::Reece { k_c, k_phi, n, n_per_slip, n_per_skid }
+        } else {
+            PressureSinkageSection::Bekker { k_c, k_phi, n, n_per_slip, n_per_skid }
+        };
+        Self { pressure_sinkage, ..self.clone() }
+    }
+
+    /// Whether its pressure-sinkage law is Reece's.
+    #[must_use]
+    pub fn follows_reece(&self) -> bool {
+        matches!(self.pressure_sinkage, PressureSinkageSection::Reece { .. })
+    }
+
     /// The soil, in SI units and radians.
     pub(super) fn meaning(&self) -> Result<Soil, Misfit> {
         let soil = Soil {

@@ -103,7 +103,7 @@ struct UncertainKey {
 }
 
 /// The name of the samples' file beside a resolved document.
-const SAMPLES_FILE: &str = "soil-samples.csv";
+pub const SAMPLES_FILE: &str = "soil-samples.csv";
 
 impl UncertainSoil {
     /// Soil number `index`, which depends on the seed and that number alone. Draws outside the
@@ -136,6 +136,11 @@ impl UncertainSoil {
 }
 
 impl UncertaintySection {
+    /// The uncertainty of a document with a file of samples beside it.
+    pub(super) fn of_samples(file: &str) -> Self {
+        Self { samples: Some(file.to_owned()), ..Self::default() }
+    }
+
     /// The soils that are meant; there are some once the document is read.
     pub(super) fn soils(&self) -> Option<&UncertainSoil> {
         self.meaning.as_ref().map(|meaning| &meaning.soils)
@@ -361,7 +366,7 @@ impl NoNumber {
 }
 
 /// What a misspelt key was meant to be, or all that it could have been.
-fn meant(name: &str, known: &[&str]) -> String {
+pub(super) fn meant(name: &str, known: &[&str]) -> String {
     let same_end = known.iter().copied().find(|key| key.rsplit('.').next() == Some(name));
     match same_end.or_else(|| nearest(name, known.iter().copied())) {
         Some(key) => format!("did you mean `{key}`?"),
@@ -370,7 +375,7 @@ fn meant(name: &str, known: &[&str]) -> String {
 }
 
 /// The numbers of a soil's document, without what it says in words.
-fn template(soil: &SoilDocument) -> toml::Value {
+pub(super) fn template(soil: &SoilDocument) -> toml::Value {
     let words = ["name", "source", "notes", "assumed", "uncertainty", "model"];
     let mut tree = toml::Value::try_from(soil).unwrap_or(toml::Value::Table(toml::Table::new()));
     if let Some(table) = tree.as_table_mut() {
@@ -379,16 +384,16 @@ fn template(soil: &SoilDocument) -> toml::Value {
     tree
 }
 
-fn lookup<'t>(tree: &'t toml::Value, path: &str) -> Option<&'t toml::Value> {
+pub(super) fn lookup<'t>(tree: &'t toml::Value, path: &str) -> Option<&'t toml::Value> {
     path.split('.').try_fold(tree, |node, step| node.as_table()?.get(step))
 }
 
-fn number_mut<'t>(tree: &'t mut toml::Value, path: &str) -> Option<&'t mut toml::Value> {
+pub(super) fn number_mut<'t>(tree: &'t mut toml::Value, path: &str) -> Option<&'t mut toml::Value> {
     path.split('.').try_fold(tree, |node, step| node.as_table_mut()?.get_mut(step))
 }
 
 /// The dotted keys of all numbers of a tree.
-fn numbers(tree: &toml::Value) -> Vec<String> {
+pub(super) fn numbers(tree: &toml::Value) -> Vec<String> {
     let mut found = Vec::new();
     for (key, node) in tree.as_table().into_iter().flatten() {
         match node {

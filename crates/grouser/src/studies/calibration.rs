@@ -43,7 +43,7 @@ pub use experiment::{Channel, Experiment, Observation, Regime};
 pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
 pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
-pub use posterior::{PosteriorState, SamplerSettings};
+pub use posterior::{Advanced, PosteriorState, SamplerSettings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
 
 use crate::error::ParameterError;

@@ -28,7 +28,7 @@ fn words(quantity: Quantity) -> (&'static str, &'static str, &'static str, Colum
 }
 
 /// For each quantity that was measured: curves through points, and residuals. With file names.
-pub(super) fn all(validation: &Validation) -> Vec<(String, Chart)> {
+pub(crate) fn all(validation: &Validation) -> Vec<(String, Chart)> {
     let mut cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
     cells.sort_by(|one, other| {
         let key = |cell: &CellRecord| (cell.slip_angle_deg, cell.slip_ratio_total_speed);

@@ -108,7 +108,7 @@ pub enum MeasurementProblem {
 }
 
 impl MeasurementError {
-    pub(super) fn whole(file: &str, problem: MeasurementProblem) -> Self {
+    pub(in crate::document) fn whole(file: &str, problem: MeasurementProblem) -> Self {
         let hint = match &problem {
             MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
                 format!("choose with --where wheel={label}, or a --wheel whose name ends so")
@@ -118,16 +118,16 @@ impl MeasurementError {
         Self { file: file.to_owned(), line: None, problem, hint }
     }
 
-    pub(super) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
+    pub(in crate::document) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
         Self { line: Some(line), ..Self::whole(file, problem) }
     }
 
-    pub(super) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
+    pub(in crate::document) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
         self.hint = hint.into();
         self
     }
 
-    pub(super) fn io(file: &str, error: &io::Error) -> Self {
+    pub(in crate::document) fn io(file: &str, error: &io::Error) -> Self {
         let problem = match error.kind() {
             io::ErrorKind::NotFound
             | io::ErrorKind::NotADirectory
@@ -137,7 +137,7 @@ impl MeasurementError {
         Self::whole(file, problem)
     }
 
-    pub(super) fn csv(file: &str, error: &csv::Error) -> Self {
+    pub(in crate::document) fn csv(file: &str, error: &csv::Error) -> Self {
         let line = error.position().map(csv::Position::line);
         let problem = match error.kind() {
             csv::ErrorKind::Io(error) => return Self::io(file, error),

@@ -1,0 +1,84 @@
+//! The sampler's state on disk, so that an interrupted calibration goes on where it stopped.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use grouser::document::checkpoint::{CheckpointError, from_bytes, to_bytes};
+use grouser::studies::calibration::PosteriorState;
+
+use crate::args::OutputArgs;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::output;
+use crate::output::folder::{OldFiles, OutputFolder};
+
+/// The file by which an unfinished calibration is known.
+const FILE: &str = "unfinished-calibration";
+
+/// A place for the sampler's state, beside the results to come.
+pub(super) struct Checkpoint {
+    file: PathBuf,
+    identity: String,
+}
+
+/// The output folder of a calibration: new, or holding an unfinished one.
+pub(super) fn open_folder(args: &OutputArgs) -> Result<Option<OutputFolder>, Failure> {
+    let Some(target) = &args.out else { return Ok(None) };
+    let old_files =
+        if args.force || target.join(FILE).is_file() { OldFiles::Replace } else { OldFiles::Keep };
+    OutputFolder::open(target, old_files).map(Some)
+}
+
+impl Checkpoint {
+    /// * `identity`: whatever tells this calibration from others
+    pub(super) fn in_folder(folder: &Path, identity: String) -> Self {
+        Self { file: folder.join(FILE), identity }
+    }
+
+    /// The state to go on from, if an earlier run was interrupted.
+    pub(super) fn read(&self, force: bool) -> Result<Option<PosteriorState>, Failure> {
+        let bytes = match fs::read(&self.file) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Failure::at("cannot read", &self.file)(error)),
+        };
+        match from_bytes(&bytes, &self.identity) {
+            Ok(state) => {
+                let blocks = state.blocks;
+                output::tell(&format!("going on after block {blocks} of an interrupted run"));
+                Ok(Some(state))
+            }
+            Err(_) if force => Ok(None),
+            Err(error @ (CheckpointError::Damaged | CheckpointError::Foreign)) => {
+                Err(Failure::Usage(format!(
+                    "{} cannot be gone on from: {error}\nhint: choose another folder, or add \
+                     --force to start anew",
+                    self.file.display()
+                )))
+            }
+        }
+    }
+
+    /// Keeps a state: the earlier one stays until this one is whole.
+    pub(super) fn write(&self, state: &PosteriorState) -> Result<(), Failure> {
+        let _not_now = interrupt::not_now();
+        let failed = || Failure::at("cannot write", &self.file);
+        let folder = self.file.parent().unwrap_or(Path::new("."));
+        fs::create_dir_all(folder).map_err(failed())?;
+        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed())?;
+        file.write_all(&to_bytes(state, &self.identity)).map_err(failed())?;
+        file.as_file().sync_all().map_err(failed())?;
+        file.persist(&self.file).map(drop).map_err(|error| failed()(error.error))
+    }
+
+    /// Removes the state, once the results are in their place.
+    pub(super) fn remove(&self) -> Result<(), Failure> {
+        match fs::remove_file(&self.file) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(Failure::at("cannot remove", &self.file)(error))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Calibration on plate tests: the moduli of a pressure-sinkage law.
+
+use std::path::Path;
+
+use grouser::document::checkpoint::fingerprint;
+use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, key_of, plates};
+use grouser::studies::calibration::{Calibration, ParameterSpace, PlateCurve, PlateLaw, PlateTest};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::super::Answer;
+use super::checkpoint::{Checkpoint, open_folder};
+use super::report;
+use super::solve::{self, Solved};
+use crate::args::{CalibrateArgs, PlateLawWord};
+use crate::chart::{Chart, Series, Style};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::rows::{Rows, csv};
+use crate::output::{self, Format};
+use crate::report::page::Page;
+
+/// Samples that the soil's file keeps.
+const KEPT_SAMPLES: usize = 1000;
+
+#[derive(Serialize)]
+struct Results<'a> {
+    rows: &'a [grouser::document::calibration::ParameterRecord],
+    discrepancies: &'a [solve::DiscrepancyRecord],
+    cannot_tell_apart: &'a [String],
+    sampler: &'a Option<solve::SamplerRecord>,
+}
+
+pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
+    let folder = open_folder(&args.output)?;
+    let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
+    let curves = plates::read(file)?;
+    let (document, law) = with_law(args, &soil.document, gravity)?;
+    let keys: Vec<FitKey> = PlateLaw::PARAMETERS
+        .iter()
+        .map(|name| FitKey { path: format!("pressure_sinkage.{name}"), bounds: None })
+        .collect();
+    let family =
+        SoilFamily::around(&document, &keys, &first_guess(law, &curves)).map_err(Failure::Usage)?;
+    let test = PlateTest::new(law, curves.clone())?;
+    if test.widths() < 2 {
+        output::tell("note: one width of plate cannot tell the two moduli apart");
+    }
+    let calibration = Calibration::new(&test, ParameterSpace::new(family.parameters().to_vec())?)?;
+    let settings = settings(args, file, &document, gravity)?;
+    let checkpoint =
+        args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, settings.to_string()));
+    let solved = solve::solve(args, &calibration, checkpoint.as_ref())?;
+    let results = Results {
+        rows: &solved.records,
+        discrepancies: &solved.discrepancies,
+        cannot_tell_apart: &solved.questions,
+        sampler: &solved.sampler,
+    };
+    let answer = Answer::new("calibrate", settings, results);
+    let text = report::parameters(&solved.records) + &report::said(&solved);
+    if let Some(mut folder) = folder {
+        let name = file.file_name().map_or_else(String::new, |it| it.to_string_lossy().into());
+        let points: usize = curves.iter().map(|curve| curve.points.len()).sum();
+        let source = format!(
+            "pressure_sinkage fitted by Grouser {} to {name} ({points} points of {} plates)",
+            env!("CARGO_PKG_VERSION"),
+            curves.len()
+        );
+        let samples = solved.samples.as_ref().map(|_| SAMPLES_FILE);
+        let theory = document.theory().unwrap_or_default();
+        let fitted = family.fitted(&solved.fit.values, &source, theory, samples);
+        folder.add("calibration.json", answer.to_text());
+        folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
+        folder.add("soil.toml", report::toml_of(&fitted));
+        if let Some(samples) = samples_csv(&family, &solved)? {
+            folder.add(SAMPLES_FILE, samples);
+        }
+        let mut page = Page::new("Calibration on plate tests");
+        page.heading("What was found");
+        page.code(&text);
+        let chart = chart(&curves, &solved).to_svg();
+        page.drawing(&chart, "Pressure over sinkage, measured and with the fit.");
+        folder.add("figures/plates.svg", chart);
+        report::add_posterior(&mut folder, &mut page, &solved);
+        folder.add("report.html", page.to_html());
+        folder.finish()?;
+    }
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&text),
+        Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+/// The soil with the law that is asked for, and that law.
+fn with_law(
+    args: &CalibrateArgs,
+    soil: &SoilDocument,
+    gravity: f64,
+) -> Result<(SoilDocument, PlateLaw), Failure> {
+    let document = match args.plate_law {
+        None => soil.clone(),
+        Some(PlateLawWord::Bekker) => soil.with_law("bekker"),
+        Some(PlateLawWord::Reece) => soil.with_law("reece"),
+    };
+    let law = if document.follows_reece() {
+        PlateLaw::Reece {
+            cohesion: document.cohesion_kpa * 1e3,
+            unit_weight: document.density_kg_m3 * gravity,
+        }
+    } else {
+        PlateLaw::Bekker
+    };
+    Ok((document, law))
+}
+
+/// k_c, k_phi and n near the curves: the slope of log pressure over log sinkage of the widest
+/// plate, with no cohesive part.
+fn first_guess(law: PlateLaw, curves: &[PlateCurve]) -> [f64; 3] {
+    let widest = curves.iter().max_by(|one, other| one.width.total_cmp(&other.width));
+    let points = widest.map_or(&[][..], |curve| curve.points.as_slice());
+    let positive = points.iter().filter(|point| point.sinkage > 0.0 && point.pressure > 0.0);
+    let logs: Vec<(f64, f64)> =
+        positive.map(|point| (point.sinkage.ln(), point.pressure.ln())).collect();
+    let count = logs.len().max(1) as f64;
+    let (x, y) = logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
+    let (x, y) = (x / count, y / count);
+    let (above, below) = logs.iter().fold((0.0, 0.0), |sum, log| {
+        (sum.0 + (log.0 - x) * (log.1 - y), sum.1 + (log.0 - x).powi(2))
+    });
+    let slope = if below > 0.0 { above / below } else { 1.0 };
+    let n = slope.clamp(0.4, 2.5);
+    let width = widest.map_or(1.0, |curve| curve.width);
+    let stiffness = (y - n * x).exp();
+    match law {
+        PlateLaw::Bekker => [0.1 * stiffness * width, stiffness, n],
+        PlateLaw::Reece { unit_weight, .. } => {
+            [1.0, stiffness * width.powf(n) / (unit_weight * width), n]
+        }
+    }
+}
+
+fn settings(
+    args: &CalibrateArgs,
+    file: &Path,
+    soil: &SoilDocument,
+    gravity: f64,
+) -> Result<Value, Failure> {
+    let bytes = std::fs::read(file).map_err(Failure::at("cannot read", file))?;
+    Ok(json!({
+        "plates": file.display().to_string(),
+        "data_fingerprint": fingerprint(&bytes),
+        "soil": soil,
+        "gravity_m_s2": gravity,
+        "seed": args.seed,
+        "steps": args.steps,
+    }))
+}
+
+fn chart(curves: &[PlateCurve], solved: &Solved) -> Chart {
+    let mut series = Vec::new();
+    let mut predicted = solved.fit.predictions.iter();
+    for (place, curve) in curves.iter().enumerate() {
+        let width = (curve.width * 1e6).round() / 1e3;
+        let measured = curve.points.iter().map(|it| (it.sinkage * 1e3, it.pressure * 1e-3));
+        let bars = curve.points.iter().map(|it| it.scatter * 1e-3);
+        let dots = Series::new(format!("{width} mm"), Style::Dots, place, measured);
+        series.push(dots.with_error_bars(bars));
+        let mut fit: Vec<(f64, f64)> = curve
+            .points
+            .iter()
+            .zip(predicted.by_ref())
+            .map(|(point, pressure)| (point.sinkage * 1e3, pressure * 1e-3))
+            .collect();
+        fit.sort_by(|one, other| one.0.total_cmp(&other.0));
+        series.push(Series::new(format!("{width} mm, fit"), Style::Line, place, fit));
+    }
+    Chart {
+        title: "Plate tests".into(),
+        x_label: "sinkage [mm]".into(),
+        y_label: "pressure [kPa]".into(),
+        series,
+    }
+}
+
+fn samples_csv(family: &SoilFamily, solved: &Solved) -> Result<Option<String>, Failure> {
+    let Some(samples) = &solved.samples else { return Ok(None) };
+    let columns: Vec<String> =
+        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
+    let rows = samples
+        .thinned(KEPT_SAMPLES)
+        .into_iter()
+        .map(|row| columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect());
+    csv(&columns, rows.collect::<Vec<Map<String, Value>>>().iter()).map(Some)
+}

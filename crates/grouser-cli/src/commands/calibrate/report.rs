@@ -1,0 +1,255 @@
+//! What a calibration says: text, page, figures.
+
+use grouser::document::SoilDocument;
+use grouser::document::calibration::ParameterRecord;
+use grouser::document::validation::GroupRecord;
+use grouser::studies::calibration::diagnostics::Samples;
+use grouser::studies::measurement::Quantity;
+
+use super::solve::Solved;
+use super::wheel::{Found, Problem};
+use crate::chart::{Chart, Grid, Series, Style};
+use crate::commands::validate;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{aligned, four_digits};
+use crate::report::page::Page;
+
+/// Points of each scatter in the corner plot.
+const POINTS: usize = 250;
+/// Bars of each histogram.
+const BARS: usize = 24;
+
+/// A soil's document, as a file.
+pub(super) fn toml_of(soil: &SoilDocument) -> String {
+    grouser::document::to_toml(soil)
+}
+
+/// For people.
+pub(super) fn text(found: &Found) -> String {
+    let solved = &found.solved;
+    let mut text = parameters(&solved.records);
+    text.push_str(&said(solved));
+    text.push_str(&format!(
+        "\n{}",
+        errors("with the fit", &[GroupRecord::from(&found.validation.overall)])
+    ));
+    if !found.left_out.is_empty() {
+        text.push_str(&format!(
+            "\n{}",
+            errors("with the angle left out of the fit", &found.left_out)
+        ));
+    }
+    if !found.proposals.is_empty() {
+        text.push_str(&format!("\nnext runs, to make sure of {}\n", found.target));
+        let header = ["load_n", "slip_ratio", "slip_angle_deg", "std_before", "std_after"]
+            .map(str::to_owned);
+        let rows = found.proposals.iter().map(|it| {
+            [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
+                .map(four_digits)
+                .to_vec()
+        });
+        text.push_str(&aligned(&header, &rows.collect::<Vec<_>>()));
+    }
+    text
+}
+
+/// The parameters as a table.
+pub(super) fn parameters(records: &[ParameterRecord]) -> String {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
+    let row = |it: &ParameterRecord| {
+        vec![
+            it.key.clone(),
+            four_digits(it.start),
+            four_digits(it.fit),
+            four_digits(it.fit_std),
+            number(it.p50),
+            number(it.p2_5),
+            number(it.p97_5),
+            number(it.r_hat),
+            it.effective_samples.map_or("-".to_owned(), |count| format!("{count:.0}")),
+        ]
+    };
+    let header =
+        ["key", "start", "fit", "fit_std", "p50", "p2_5", "p97_5", "r_hat", "effective_samples"];
+    aligned(&header.map(str::to_owned), &records.iter().map(row).collect::<Vec<_>>())
+}
+
+/// What the data leave open, and how far theory and data differ.
+pub(super) fn said(solved: &Solved) -> String {
+    let mut text = String::new();
+    if !solved.questions.is_empty() {
+        text.push_str("\nwhat these data cannot tell\n");
+        for question in &solved.questions {
+            text.push_str(&format!("- {question}\n"));
+        }
+    }
+    text.push_str("\nmodel discrepancy, beyond the scatter of the trials\n");
+    let rows = solved
+        .discrepancies
+        .iter()
+        .map(|it| vec![it.channel.clone(), four_digits(it.mean.unwrap_or(it.fit))]);
+    let header = ["channel", "std"].map(str::to_owned);
+    text.push_str(&aligned(&header, &rows.collect::<Vec<_>>()));
+    text
+}
+
+/// Root mean square errors of groups of cells.
+fn errors(what: &str, groups: &[GroupRecord]) -> String {
+    let header = [
+        "slip_angle_deg",
+        "motion",
+        "cells",
+        "drawbar_pull_n",
+        "side_force_n",
+        "sinkage_mm",
+        "torque_nm",
+    ];
+    let row = |group: &GroupRecord| {
+        let rmse = |quantity| {
+            group.errors(quantity).map_or("-".to_owned(), |errors| four_digits(errors.rmse))
+        };
+        let angle = group.slip_angle_deg.map_or("all".to_owned(), four_digits);
+        let mut row = vec![angle, group.motion.to_owned(), group.cells.to_string()];
+        row.extend(Quantity::ALL.map(rmse));
+        row
+    };
+    let rows: Vec<Vec<String>> = groups.iter().map(row).collect();
+    format!("root mean square errors {what}\n{}", aligned(&header.map(str::to_owned), &rows))
+}
+
+/// The page, and the figures as files.
+pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found, text: &str) {
+    let mut page = Page::new("Calibration");
+    let soil = &problem.stand.soil.document.name;
+    let wheel = &problem.stand.wheel.document.name;
+    let theory = problem.stand.theory.name();
+    page.answer(&format!("{}: theory {theory}, from {soil}, {wheel}", problem.file));
+    page.heading("What was found");
+    page.code(text);
+    page.heading("Measured and predicted with the fit");
+    for (name, chart) in validate::figures::all(&found.validation) {
+        let svg = chart.to_svg();
+        page.drawing(&svg, &chart.title);
+        folder.add(&format!("figures/{name}.svg"), svg);
+    }
+    add_posterior(folder, &mut page, &found.solved);
+    page.heading("Correlations");
+    page.code(&correlations(&found.solved));
+    page.heading("How it was made");
+    page.paragraph(
+        "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
+         priors uniform within the bounds (by the logarithm where a number spans decades). An \
+         observation is the mean over the trials of a cell; its deviation from the theory is taken \
+         as normal, with the variance of the mean between trials and that of a model discrepancy, \
+         one for each quantity of driven and of skidding wheels, which is sampled along.",
+    );
+    page.code(&serde_json::to_string_pretty(&problem.settings).unwrap_or_default());
+    page.heading("Assumptions in force");
+    page.list(problem.stand.soil.assumptions.iter().chain(&problem.stand.wheel.assumptions));
+    folder.add("report.html", page.to_html());
+}
+
+/// Corner plot and traces, if there is a posterior.
+pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: &Solved) {
+    let Some(samples) = &solved.samples else { return };
+    let corner = corner(&solved.records, samples).to_svg();
+    page.heading("Posterior");
+    page.drawing(
+        &corner,
+        "Each fitted key alone (how often) and each pair (samples). A slanted cloud is a pair that \
+         makes up for each other; a cloud that fills its bounds is a key the data say nothing of.",
+    );
+    folder.add("figures/corner.svg", corner);
+    let traces = traces(&solved.records, samples).to_svg();
+    page.drawing(
+        &traces,
+        "Means of each ensemble of walkers over the kept steps, in standard deviations from the \
+         mean of all: they should cross each other all along.",
+    );
+    folder.add("figures/traces.svg", traces);
+}
+
+/// Short names for axes: the last part of the key.
+fn short(record: &ParameterRecord) -> &str {
+    record.key.rsplit('.').next().unwrap_or(&record.key)
+}
+
+fn corner(records: &[ParameterRecord], samples: &Samples) -> Grid {
+    let rows = samples.thinned(POINTS);
+    let count = records.len();
+    let cell = |row: usize, column: usize| -> Option<Chart> {
+        let points: Vec<(f64, f64)> = match row.cmp(&column) {
+            std::cmp::Ordering::Less => return None,
+            std::cmp::Ordering::Equal => histogram(samples, row),
+            std::cmp::Ordering::Greater => rows.iter().map(|it| (it[column], it[row])).collect(),
+        };
+        let style = if row == column { Style::Line } else { Style::Dots };
+        let label = |place: usize| short(&records[place]).to_owned();
+        Some(Chart {
+            title: String::new(),
+            x_label: if row + 1 == count { label(column) } else { String::new() },
+            y_label: if column == 0 && row > 0 { label(row) } else { String::new() },
+            series: vec![Series::new("", style, 1, points)],
+        })
+    };
+    let cells = (0..count).map(|row| (0..count).map(|column| cell(row, column)).collect());
+    Grid { cells: cells.collect() }
+}
+
+/// How often a value falls into each of some bins, as a stepped outline.
+fn histogram(samples: &Samples, column: usize) -> Vec<(f64, f64)> {
+    let values: Vec<f64> = samples.rows().map(|row| row[column]).collect();
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let width = ((high - low) / BARS as f64).max(f64::MIN_POSITIVE);
+    let mut counts = [0.0; BARS];
+    for value in &values {
+        counts[(((value - low) / width) as usize).min(BARS - 1)] += 1.0 / values.len() as f64;
+    }
+    let mut outline = vec![(low, 0.0)];
+    for (bar, share) in counts.iter().enumerate() {
+        outline.push((low + width * bar as f64, *share));
+        outline.push((low + width * (bar + 1) as f64, *share));
+    }
+    outline.push((high, 0.0));
+    outline
+}
+
+/// For the key that mixes worst: the mean of each ensemble over the steps.
+fn traces(records: &[ParameterRecord], samples: &Samples) -> Chart {
+    let worst = |it: &&(usize, &ParameterRecord)| it.1.r_hat.unwrap_or(1.0);
+    let numbered: Vec<(usize, &ParameterRecord)> = records.iter().enumerate().collect();
+    let place = numbered.iter().max_by(|a, b| worst(a).total_cmp(&worst(b))).map_or(0, |it| it.0);
+    let (mean, deviation) = (records[place].mean.unwrap_or(0.0), records[place].std.unwrap_or(1.0));
+    let series = samples.chains.iter().enumerate().map(|(number, chain)| {
+        let steps = chain.chunks(samples.walkers).enumerate();
+        let points = steps.map(|(step, walkers)| {
+            let sum: f64 = walkers.iter().map(|row| row[place]).sum();
+            (step as f64, (sum / walkers.len() as f64 - mean) / deviation.max(f64::MIN_POSITIVE))
+        });
+        Series::new(format!("ensemble {}", number + 1), Style::Line, number, points)
+    });
+    Chart {
+        title: format!("Mean of the walkers: {}, the key that mixes worst", records[place].key),
+        x_label: "kept step".into(),
+        y_label: "deviations from the mean".into(),
+        series: series.collect(),
+    }
+}
+
+/// Correlations of the fitted keys, two digits, under numbers for names.
+fn correlations(solved: &Solved) -> String {
+    let count = solved.records.len();
+    let matrix = match &solved.samples {
+        Some(samples) => samples.correlations(),
+        None => grouser::studies::calibration::diagnostics::correlations_of(&solved.fit.covariance),
+    };
+    let mut header = vec!["key".to_owned()];
+    header.extend((1..=count).map(|number| number.to_string()));
+    let row = |(place, record): (usize, &ParameterRecord)| {
+        let mut row = vec![format!("{} {}", place + 1, record.key)];
+        row.extend((0..count).map(|other| format!("{:.2}", matrix[(place, other)])));
+        row
+    };
+    aligned(&header, &solved.records.iter().enumerate().map(row).collect::<Vec<_>>())
+}

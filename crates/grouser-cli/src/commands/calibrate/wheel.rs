@@ -1,0 +1,337 @@
+//! Calibration on wheel tests.
+
+use std::path::Path;
+
+use grouser::document::calibration::ProposalRecord;
+use grouser::document::checkpoint::fingerprint;
+use grouser::document::measurements::{self, Choice, Measurements};
+use grouser::document::validation::{GroupRecord, column_of};
+use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of};
+use grouser::error::ParameterError;
+use grouser::soil::Soil;
+use grouser::studies::calibration::cross_validation::leave_one_angle_out;
+use grouser::studies::calibration::design::{Outlook, Setting, Target};
+use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
+use grouser::studies::calibration::{
+    Calibration, FitSettings, ParameterSpace, Resolution, WheelTestExperiment,
+};
+use grouser::studies::measurement::{PerQuantity, Quantity};
+use grouser::studies::validation::{Validation, ValidationStudy};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::super::Answer;
+use super::checkpoint::{Checkpoint, open_folder};
+use super::report;
+use super::solve::{self, Solved};
+use crate::args::CalibrateArgs;
+use crate::failure::Failure;
+use crate::inputs::{self, StandInputs};
+use crate::output::rows::{Rows, csv};
+use crate::output::{self, Format};
+
+/// Samples that the soil's file keeps, and that the design of the next runs looks at.
+const KEPT_SAMPLES: usize = 1000;
+const DESIGN_SAMPLES: usize = 200;
+
+/// Everything that a calibration on wheel tests is made from.
+pub(super) struct Problem {
+    pub(super) file: String,
+    pub(super) stand: StandInputs,
+    pub(super) measured: Measurements,
+    pub(super) family: SoilFamily,
+    pub(super) settings: Value,
+}
+
+/// What it found.
+pub(super) struct Found {
+    pub(super) solved: Solved,
+    pub(super) validation: Validation,
+    pub(super) left_out: Vec<GroupRecord>,
+    pub(super) target: String,
+    pub(super) proposals: Vec<ProposalRecord>,
+    pub(super) soil: SoilDocument,
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    rows: &'a [grouser::document::calibration::ParameterRecord],
+    discrepancies: &'a [solve::DiscrepancyRecord],
+    cannot_tell_apart: &'a [String],
+    target: &'a str,
+    proposals: &'a [ProposalRecord],
+    overall: GroupRecord,
+    driven: Option<GroupRecord>,
+    cross_validation: &'a [GroupRecord],
+    searches_that_agree: usize,
+    searches: usize,
+    sampler: &'a Option<solve::SamplerRecord>,
+}
+
+pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
+    let folder = open_folder(&args.output)?;
+    let problem = problem(args)?;
+    let identity = problem.settings.to_string();
+    let checkpoint =
+        args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, identity.clone()));
+    let found = find(args, &problem, checkpoint.as_ref())?;
+    let solved = &found.solved;
+    let results = Results {
+        rows: &solved.records,
+        discrepancies: &solved.discrepancies,
+        cannot_tell_apart: &solved.questions,
+        target: &found.target,
+        proposals: &found.proposals,
+        overall: GroupRecord::from(&found.validation.overall),
+        driven: found.validation.driven.as_ref().map(GroupRecord::from),
+        cross_validation: &found.left_out,
+        searches_that_agree: solved.fit.searches.iter().filter(|search| search.agrees).count(),
+        searches: solved.fit.searches.len(),
+        sampler: &solved.sampler,
+    };
+    let answer = Answer::new("calibrate", problem.settings.clone(), results);
+    let text = report::text(&found);
+    if let Some(mut folder) = folder {
+        folder.add("calibration.json", answer.to_text());
+        folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
+        folder.add("soil.toml", report::toml_of(&found.soil));
+        if let Some(samples) = samples_csv(&problem.family, solved)? {
+            folder.add(SAMPLES_FILE, samples);
+        }
+        folder.add("start-soil.toml", problem.stand.soil.to_toml());
+        folder.add("wheel.toml", problem.stand.wheel.to_toml());
+        report::add(&mut folder, &problem, &found, &text);
+        folder.finish()?;
+    }
+    if let Some(checkpoint) = checkpoint {
+        checkpoint.remove()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&text),
+        Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
+    let (Some(data), Some(wheel)) = (&args.data, &args.wheel) else {
+        return Err(Failure::Usage("--data and --wheel go together".into()));
+    };
+    let stand = inputs::stand(&args.soil, wheel, &args.setting)?;
+    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.clone()) };
+    let measured = measurements::read(data, &choice)?;
+    for note in &measured.notes {
+        output::tell(&format!("note: {note}"));
+    }
+    let family = SoilFamily::new(&stand.soil.document, &args.fit)
+        .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;
+    let settings = settings(args, data, &stand, &family)?;
+    let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
+    Ok(Problem { file, stand, measured, family, settings })
+}
+
+fn settings(
+    args: &CalibrateArgs,
+    data: &Path,
+    stand: &StandInputs,
+    family: &SoilFamily,
+) -> Result<Value, Failure> {
+    let bytes = std::fs::read(data).map_err(Failure::at("cannot read", data))?;
+    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
+    let keys = family.parameters().iter();
+    let fit: Vec<Value> =
+        keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper})).collect();
+    Ok(json!({
+        "data": data.display().to_string(),
+        "data_fingerprint": fingerprint(&bytes),
+        "where": conditions,
+        "fit": fit,
+        "soil": stand.soil.document,
+        "wheel": stand.wheel.document,
+        "gravity_m_s2": stand.gravity,
+        "model": stand.theory.name(),
+        "seed": args.seed,
+        "steps": args.steps,
+    }))
+}
+
+fn find(
+    args: &CalibrateArgs,
+    problem: &Problem,
+    checkpoint: Option<&Checkpoint>,
+) -> Result<Found, Failure> {
+    let Problem { stand, measured, family, .. } = problem;
+    let soil_of = |values: &[f64]| -> Result<Soil, ParameterError> { family.soil(values) };
+    let setup = Setup {
+        wheel: stand.wheel.value,
+        theory: stand.theory,
+        gravity: stand.gravity,
+        soil_of: &soil_of,
+        resolution: Resolution::Cells,
+        discrepancies: Discrepancies::PerRegime,
+    };
+    let space = ParameterSpace::new(family.parameters().to_vec())?;
+    let experiment = WheelTestExperiment::new(&measured.tests, setup)?;
+    let calibration = Calibration::new(&experiment, space.clone())?;
+    let target = target(args, &measured.tests.trials)?;
+    let solved = solve::solve(args, &calibration, checkpoint)?;
+    let soil = family.soil(&solved.fit.values)?;
+    let left_out = if args.cross_validate { left_out(problem, setup, &space)? } else { Vec::new() };
+    let samples = solved.samples.as_ref().map(|_| SAMPLES_FILE);
+    let source = format!(
+        "{} fitted by Grouser {} to {} ({} trials in {} cells)",
+        key_names(family),
+        env!("CARGO_PKG_VERSION"),
+        problem.file,
+        measured.tests.trials.len(),
+        measured.tests.cells.len(),
+    );
+    Ok(Found {
+        proposals: proposals(args, &experiment, &solved, &target, measured)?,
+        validation: judge(problem, soil),
+        soil: family.fitted(&solved.fit.values, &source, stand.theory, samples),
+        left_out,
+        target: args.target.clone(),
+        solved,
+    })
+}
+
+fn key_names(family: &SoilFamily) -> String {
+    family.parameters().iter().map(key_of).collect::<Vec<_>>().join(", ")
+}
+
+fn judge(problem: &Problem, soil: Soil) -> Validation {
+    let Problem { stand, measured, .. } = problem;
+    ValidationStudy {
+        tests: &measured.tests,
+        wheel: stand.wheel.value,
+        soil,
+        theory: stand.theory,
+        gravity: stand.gravity,
+    }
+    .run()
+}
+
+/// The errors at each slip angle of the fit without it: driven, skid, both.
+fn left_out(
+    problem: &Problem,
+    setup: Setup,
+    space: &ParameterSpace,
+) -> Result<Vec<GroupRecord>, Failure> {
+    let tests = &problem.measured.tests;
+    let bar = output::progress_bar(0);
+    bar.set_message("fits without one slip angle");
+    let observer = || {
+        bar.inc(1);
+        std::ops::ControlFlow::Continue(())
+    };
+    let fits = leave_one_angle_out(tests, setup, space, &FitSettings::default(), &observer)?;
+    bar.finish_and_clear();
+    let mut records = Vec::new();
+    for left in fits {
+        let mut validation = judge(problem, (setup.soil_of)(&left.fit.values)?);
+        validation.groups.retain(|group| group.slip_angle == Some(left.slip_angle));
+        records.extend(validation.groups.iter().map(GroupRecord::from));
+    }
+    Ok(records)
+}
+
+/// What the next runs should make sure of.
+fn target(
+    args: &CalibrateArgs,
+    trials: &[grouser::studies::measurement::Trial],
+) -> Result<Target, Failure> {
+    let wrong = |what: String| {
+        Failure::Usage(format!(
+            "--target {}: {what}\nhint: such as drawbar_pull_n:load_n=17,slip_ratio=0.2",
+            args.target
+        ))
+    };
+    let (name, settings) = args.target.split_once(':').unwrap_or((&args.target, ""));
+    let quantity = Quantity::ALL.into_iter().find(|one| column_of(*one) == name);
+    let quantity = quantity.ok_or_else(|| {
+        let names = Quantity::ALL.map(column_of).join(", ");
+        wrong(format!("'{name}' is none of {names}"))
+    })?;
+    let mut setting = Setting { load: median_load(trials), slip_ratio: 0.2, slip_angle: 0.0 };
+    for part in settings.split(',').filter(|part| !part.is_empty()) {
+        let (key, value) = part.split_once('=').ok_or_else(|| wrong(format!("'{part}'")))?;
+        let value: f64 = value
+            .trim()
+            .parse()
+            .ok()
+            .filter(|value: &f64| value.is_finite())
+            .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
+        match key.trim() {
+            "load_n" if value > 0.0 => setting.load = value,
+            "slip_ratio" if value.abs() <= 2.0 => setting.slip_ratio = value,
+            "slip_angle_deg" if value.abs() <= 90.0 => setting.slip_angle = value.to_radians(),
+            _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
+        }
+    }
+    Ok(Target { quantity, setting })
+}
+
+fn median_load(trials: &[grouser::studies::measurement::Trial]) -> f64 {
+    let mut loads: Vec<f64> = trials.iter().map(|trial| trial.load).collect();
+    loads.sort_by(f64::total_cmp);
+    loads[loads.len() / 2]
+}
+
+fn proposals(
+    args: &CalibrateArgs,
+    experiment: &WheelTestExperiment,
+    solved: &Solved,
+    target: &Target,
+    measured: &Measurements,
+) -> Result<Vec<ProposalRecord>, Failure> {
+    let Some(samples) = &solved.samples else { return Ok(Vec::new()) };
+    let median = median_load(&measured.tests.trials);
+    let loads = match &args.candidate_load_n {
+        Some(loads) => loads.0.clone(),
+        None => vec![0.5 * median, median, 2.0 * median],
+    };
+    if let Some(load) = loads.iter().find(|load| !(load.is_finite() && **load >= 0.0)) {
+        return Err(Failure::Usage(format!("--candidate-load-n {load}: it must be from 0 up")));
+    }
+    let mut candidates = Vec::new();
+    for &load in &loads {
+        for &slip_ratio in &args.candidate_slip_ratio.0 {
+            for &angle in &args.candidate_slip_angle_deg.0 {
+                candidates.push(Setting { load, slip_ratio, slip_angle: angle.to_radians() });
+            }
+        }
+    }
+    let noise = noise(experiment, solved);
+    let rows = samples.thinned(DESIGN_SAMPLES);
+    let outlook = Outlook::of_wheel_test(experiment, &rows, target, &candidates, &noise);
+    let unit = if target.quantity == Quantity::Sinkage { 1e3 } else { 1.0 };
+    let proposals = outlook.propose(args.propose);
+    Ok(proposals.iter().map(|it| ProposalRecord::new(it, &candidates, unit)).collect())
+}
+
+/// How far a reading of a new run may be from the theory: mean scatter and model discrepancy.
+fn noise(experiment: &WheelTestExperiment, solved: &Solved) -> PerQuantity<Option<f64>> {
+    use grouser::studies::calibration::Experiment as _;
+    PerQuantity::from_fn(|quantity| {
+        let own = experiment.sources().iter().zip(experiment.observations());
+        let own = own.filter(|((source, _), _)| *source == quantity);
+        let variances: Vec<f64> = own
+            .map(|(_, it)| it.scatter.powi(2) + solved.fit.discrepancies[it.channel].powi(2))
+            .collect();
+        let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
+        (!variances.is_empty()).then(|| mean.sqrt())
+    })
+}
+
+/// Samples of the fitted keys, in the keys' own units.
+fn samples_csv(family: &SoilFamily, solved: &Solved) -> Result<Option<String>, Failure> {
+    let Some(samples) = &solved.samples else { return Ok(None) };
+    let columns: Vec<String> =
+        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
+    let rows = samples
+        .thinned(KEPT_SAMPLES)
+        .into_iter()
+        .map(|row| columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect());
+    csv(&columns, rows.collect::<Vec<serde_json::Map<String, Value>>>().iter()).map(Some)
+}

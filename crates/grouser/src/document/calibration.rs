@@ -1,0 +1,166 @@
+//! What a calibration found, in the words of tables, JSON and CSV.
+
+use serde::Serialize;
+
+use super::validation::column_of;
+use crate::studies::calibration::design::{Proposal, Setting};
+use crate::studies::calibration::diagnostics::Summary;
+use crate::studies::calibration::identifiability::{Combination, Identifiability, Pair};
+use crate::studies::calibration::{Channel, Fit, Parameter, Regime};
+use crate::studies::measurement::Quantity;
+
+/// A parameter that was found. Posterior values are null where none was sampled.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ParameterRecord {
+    /// Its key, in whose unit all values are.
+    pub key: String,
+    /// The document's value.
+    pub start: f64,
+    /// Lower bound of the search.
+    pub lower: f64,
+    /// Upper bound of the search.
+    pub upper: f64,
+    /// Least squares.
+    pub fit: f64,
+    /// Its standard deviation, to first order.
+    pub fit_std: f64,
+    /// Mean of the posterior.
+    pub mean: Option<f64>,
+    /// Its standard deviation.
+    pub std: Option<f64>,
+    /// 2.5 % of the samples lie below.
+    pub p2_5: Option<f64>,
+    /// Median.
+    pub p50: Option<f64>,
+    /// 2.5 % of the samples lie above.
+    pub p97_5: Option<f64>,
+    /// Agreement of the chains [-]: 1 is perfect.
+    pub r_hat: Option<f64>,
+    /// Independent samples that would tell as much [-].
+    pub effective_samples: Option<f64>,
+    /// Standard deviation over the one before any data [-]: near 1 the data say nothing.
+    pub narrowing: Option<f64>,
+}
+
+impl ParameterRecord {
+    /// * `place`: of the parameter
+    #[must_use]
+    pub fn new(
+        parameter: &Parameter,
+        place: usize,
+        fit: &Fit,
+        fit_std: f64,
+        summary: Option<&Summary>,
+        found: &Identifiability,
+    ) -> Self {
+        let of = |value: fn(&Summary) -> f64| summary.map(value);
+        Self {
+            key: parameter.name.clone(),
+            start: parameter.start,
+            lower: parameter.lower,
+            upper: parameter.upper,
+            fit: fit.values[place],
+            fit_std,
+            mean: of(|it| it.mean),
+            std: of(|it| it.deviation),
+            p2_5: of(|it| it.lower),
+            p50: of(|it| it.median),
+            p97_5: of(|it| it.upper),
+            r_hat: of(|it| it.r_hat),
+            effective_samples: of(|it| it.effective_samples),
+            narrowing: found.narrowing.get(place).copied(),
+        }
+    }
+}
+
+/// What a channel of observations is called: `drawbar_pull_n, driven`.
+#[must_use]
+pub fn channel_name(channel: &Channel) -> String {
+    match channel {
+        Channel::Wheel { quantity, regime } => {
+            let regime = match regime {
+                Regime::Any => "",
+                Regime::Driven => ", driven",
+                Regime::Skid => ", skid",
+            };
+            format!("{}{regime}", column_of(*quantity))
+        }
+        Channel::PlatePressure => "pressure_kpa".to_owned(),
+        Channel::Other => "other".to_owned(),
+    }
+}
+
+/// Factor from a channel's SI unit to the unit in its name.
+#[must_use]
+pub fn channel_unit(channel: &Channel) -> f64 {
+    match channel {
+        Channel::Wheel { quantity: Quantity::Sinkage, .. } => 1e3,
+        Channel::PlatePressure => 1e-3,
+        Channel::Wheel { .. } | Channel::Other => 1.0,
+    }
+}
+
+/// What the data cannot tell apart, a sentence for each finding.
+#[must_use]
+pub fn open_questions(parameters: &[Parameter], found: &Identifiability) -> Vec<String> {
+    let loose = found.loose.iter().map(|combination| loose_sentence(parameters, combination));
+    let pairs = found.pairs.iter().map(|pair| pair_sentence(parameters, pair));
+    loose.chain(pairs).collect()
+}
+
+fn loose_sentence(parameters: &[Parameter], combination: &Combination) -> String {
+    let left = 100.0 * combination.narrowing.min(1.0);
+    if let [(only, _)] = combination.shares[..] {
+        let name = &parameters[only].name;
+        return format!("{name} stays almost open: {left:.0} % of its range before the data");
+    }
+    let term = |(place, share): &(usize, f64)| {
+        let sign = if *share < 0.0 { "−" } else { "+" };
+        format!("{sign}{:.2} {}", share.abs(), parameters[*place].name)
+    };
+    let terms: Vec<String> = combination.shares.iter().map(term).collect();
+    let terms = terms.join(" ");
+    format!("the combination {terms} stays almost open: {left:.0} % of its range before the data")
+}
+
+fn pair_sentence(parameters: &[Parameter], pair: &Pair) -> String {
+    let [one, other] = pair.parameters.map(|place| &parameters[place].name);
+    let correlation = pair.correlation;
+    let how = if correlation < 0.0 {
+        "a larger value of one makes up for a smaller one of the other"
+    } else {
+        "they can only grow together"
+    };
+    format!("{one} and {other} are hard to tell apart (correlation {correlation:.2}): {how}")
+}
+
+/// A run that would help.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProposalRecord {
+    /// Load [N].
+    pub load_n: f64,
+    /// Slip ratio [-].
+    pub slip_ratio: f64,
+    /// Slip angle [°].
+    pub slip_angle_deg: f64,
+    /// Standard deviation of the prediction before the run, in the target's unit.
+    pub std_before: f64,
+    /// The same after it, as expected.
+    pub std_after: f64,
+}
+
+impl ProposalRecord {
+    /// * `candidates`: those among which the proposal chose
+    /// * `unit`: factor from SI to the target's unit
+    #[must_use]
+    pub fn new(proposal: &Proposal, candidates: &[Setting], unit: f64) -> Self {
+        let Setting { load, slip_ratio, slip_angle } = candidates[proposal.candidate];
+        Self {
+            load_n: load,
+            slip_ratio,
+            slip_angle_deg: (slip_angle.to_degrees() * 1e9).round() / 1e9,
+            std_before: proposal.before * unit,
+            std_after: proposal.after * unit,
+        }
+    }
+}

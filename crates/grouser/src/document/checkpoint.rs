@@ -1,0 +1,154 @@
+//! A sampler's state as a file, from which it goes on as if it had never stopped.
+//!
+//! Numbers are written as they are, bit for bit, little-endian; an identity at the start tells
+//! whose state it is, and a check sum at the end that it is whole.
+
+use std::hash::{DefaultHasher, Hasher as _};
+
+use crate::studies::calibration::PosteriorState;
+use crate::studies::calibration::posterior::Ensemble;
+
+const MAGIC: &[u8] = b"grouser posterior 1\n";
+
+/// Why a state cannot be taken up again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CheckpointError {
+    /// Not a state, or not all of one.
+    #[error("it is damaged")]
+    Damaged,
+    /// The state of another calibration.
+    #[error("it belongs to a calibration with other inputs")]
+    Foreign,
+}
+
+/// The state as bytes.
+///
+/// * `identity`: whatever tells this calibration from others
+#[must_use]
+pub fn to_bytes(state: &PosteriorState, identity: &str) -> Vec<u8> {
+    let mut bytes = MAGIC.to_vec();
+    let count = |bytes: &mut Vec<u8>, value: u64| bytes.extend(value.to_le_bytes());
+    count(&mut bytes, identity.len() as u64);
+    bytes.extend(identity.as_bytes());
+    count(&mut bytes, state.blocks);
+    count(&mut bytes, state.ensembles.len() as u64);
+    for Ensemble { walkers, chain, accepted, proposed } in &state.ensembles {
+        let width = walkers.first().map_or(0, Vec::len);
+        for value in [*accepted, *proposed, walkers.len() as u64, chain.len() as u64, width as u64]
+        {
+            count(&mut bytes, value);
+        }
+        for coordinate in walkers.iter().chain(chain).flatten() {
+            bytes.extend(coordinate.to_le_bytes());
+        }
+    }
+    let sum = check_sum(&bytes);
+    bytes.extend(sum.to_le_bytes());
+    bytes
+}
+
+/// The state that bytes hold.
+///
+/// # Errors
+/// [`CheckpointError`] if they are not all there, or another calibration's.
+pub fn from_bytes(bytes: &[u8], identity: &str) -> Result<PosteriorState, CheckpointError> {
+    let damaged = CheckpointError::Damaged;
+    let body = bytes.len().checked_sub(8).ok_or(damaged)?;
+    let (body, sum) = bytes.split_at(body);
+    if sum != check_sum(body).to_le_bytes() {
+        return Err(damaged);
+    }
+    let mut reader = Reader { rest: body.strip_prefix(MAGIC).ok_or(damaged)? };
+    let length = reader.count()?;
+    if reader.take(length)? != identity.as_bytes() {
+        return Err(CheckpointError::Foreign);
+    }
+    let blocks = reader.word()?;
+    let ensembles = (0..reader.count()?).map(|_| reader.ensemble()).collect::<Result<_, _>>()?;
+    Ok(PosteriorState { blocks, ensembles })
+}
+
+struct Reader<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, length: usize) -> Result<&'a [u8], CheckpointError> {
+        let (taken, rest) = self.rest.split_at_checked(length).ok_or(CheckpointError::Damaged)?;
+        self.rest = rest;
+        Ok(taken)
+    }
+
+    fn word(&mut self) -> Result<u64, CheckpointError> {
+        let bytes = self.take(8)?.try_into().map_err(|_| CheckpointError::Damaged)?;
+        Ok(u64::from_le_bytes(bytes))
+    }
+
+    fn count(&mut self) -> Result<usize, CheckpointError> {
+        usize::try_from(self.word()?).map_err(|_| CheckpointError::Damaged)
+    }
+
+    fn ensemble(&mut self) -> Result<Ensemble, CheckpointError> {
+        let (accepted, proposed) = (self.word()?, self.word()?);
+        let (walkers, kept, width) = (self.count()?, self.count()?, self.count()?);
+        let mut place = || -> Result<Vec<f64>, CheckpointError> {
+            (0..width).map(|_| self.word().map(f64::from_bits)).collect()
+        };
+        Ok(Ensemble {
+            walkers: (0..walkers).map(|_| place()).collect::<Result<_, _>>()?,
+            chain: (0..kept).map(|_| place()).collect::<Result<_, _>>()?,
+            accepted,
+            proposed,
+        })
+    }
+}
+
+fn check_sum(bytes: &[u8]) -> u64 {
+    // The same for the same bytes in every process: it has no random key.
+    let mut hasher = DefaultHasher::new();
+    hasher.write(bytes);
+    hasher.finish()
+}
+
+/// A fingerprint of a file's bytes, to tell whether it is still the same.
+#[must_use]
+pub fn fingerprint(bytes: &[u8]) -> String {
+    format!("{:016x}", check_sum(bytes))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn state() -> PosteriorState {
+        let ensemble = |shift: f64| Ensemble {
+            walkers: vec![vec![shift, -0.0], vec![f64::MIN_POSITIVE, 1.0 / 3.0]],
+            chain: vec![vec![shift, 2.0]; 4],
+            accepted: 7,
+            proposed: 9,
+        };
+        PosteriorState { blocks: 3, ensembles: vec![ensemble(0.1), ensemble(1e300)] }
+    }
+
+    #[test]
+    fn a_state_returns_bit_for_bit() {
+        let bytes = to_bytes(&state(), "this one");
+        let back = from_bytes(&bytes, "this one").unwrap();
+        assert_eq!(back, state());
+        assert_eq!(to_bytes(&back, "this one"), bytes);
+    }
+
+    #[test]
+    fn damage_and_strangers_are_found() {
+        let bytes = to_bytes(&state(), "this one");
+        assert_eq!(from_bytes(&bytes, "that one"), Err(CheckpointError::Foreign));
+        for end in 0..bytes.len() {
+            assert_eq!(from_bytes(&bytes[..end], "this one"), Err(CheckpointError::Damaged));
+        }
+        for place in 0..bytes.len() {
+            let mut changed = bytes.clone();
+            changed[place] ^= 0x10;
+            assert_eq!(from_bytes(&changed, "this one"), Err(CheckpointError::Damaged));
+        }
+    }
+}

@@ -1,0 +1,290 @@
+//! Soils that differ in a few numbers of one document: what a calibration chooses among.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::Kind;
+use super::check::range_at;
+use super::schema::range;
+use super::soil::{SoilDocument, TheoryWord};
+use super::text::{Text, parse};
+use super::uncertainty::{UncertaintySection, lookup, meant, number_mut, numbers, template};
+use crate::contact::Theory;
+use crate::error::ParameterError;
+use crate::soil::Soil;
+use crate::studies::calibration::{Parameter, Scale};
+
+/// A soil's document, and the keys whose values are to be found.
+#[derive(Clone, Debug)]
+pub struct SoilFamily {
+    base: SoilDocument,
+    template: toml::Value,
+    parameters: Vec<Parameter>,
+}
+
+/// A key to be found, as it was asked for: `soil.pressure_sinkage.k_phi`, or with bounds of its
+/// own, `soil.pressure_sinkage.k_phi=1e6:5e7`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitKey {
+    /// The key in the soil's document, with its tables.
+    pub path: String,
+    /// Bounds, in the key's unit.
+    pub bounds: Option<(f64, f64)>,
+}
+
+/// A positive number whose range spans more than this factor is searched by its logarithm, within
+/// [`SEARCHED_FACTOR`] of the document's value.
+const MANY_SCALES: f64 = 100.0;
+
+/// How far from the document's value such a number is searched [-]. Source: ours; stiffnesses and
+/// moduli of published soils of one kind differ less.
+const SEARCHED_FACTOR: f64 = 30.0;
+
+impl FitKey {
+    /// Reads `soil.key` or `soil.key=from:to`.
+    ///
+    /// # Errors
+    /// A sentence, if it is not written so.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let (key, bounds) = match text.split_once('=') {
+            Some((key, bounds)) => (key, Some(bounds)),
+            None => (text, None),
+        };
+        let path = key.trim().strip_prefix("soil.").ok_or_else(|| {
+            format!("'{key}' is no key of a soil: write soil.friction_angle_deg, for instance")
+        })?;
+        let bounds = bounds.map(|bounds| {
+            let ends = bounds.split_once(':').and_then(|(from, to)| {
+                Some((from.trim().parse::<f64>().ok()?, to.trim().parse::<f64>().ok()?))
+            });
+            ends.ok_or_else(|| format!("'{bounds}' are no bounds: write {key}=from:to"))
+        });
+        Ok(Self { path: path.to_owned(), bounds: bounds.transpose()? })
+    }
+}
+
+impl SoilFamily {
+    /// The family of a document and some of its keys.
+    ///
+    /// A key without bounds of its own is searched over the range of its schema, evenly; if it is
+    /// positive and that range spans decades, by its logarithm, within a factor of 30 of the
+    /// document's value.
+    ///
+    /// # Errors
+    /// A sentence for a key that is no number of the document, is named twice, or has bounds
+    /// outside its range or without the document's value.
+    pub fn new(base: &SoilDocument, keys: &[FitKey]) -> Result<Self, String> {
+        let base = SoilDocument { uncertainty: None, ..base.clone() };
+        let template = template(&base);
+        let mut parameters: Vec<Parameter> = Vec::new();
+        for key in keys {
+            let name = format!("soil.{}", key.path);
+            if parameters.iter().any(|parameter| parameter.name == name) {
+                return Err(format!("{name} is named twice"));
+            }
+            let start = lookup(&template, &key.path).and_then(toml::Value::as_float);
+            let start = start.ok_or_else(|| {
+                let known = numbers(&template);
+                let known: Vec<&str> = known.iter().map(String::as_str).collect();
+                format!("{name} is no number of this soil: {}", meant(&key.path, &known))
+            })?;
+            let allowed = allowed_range(&base, &key.path);
+            parameters.push(parameter(name, start, &allowed, key.bounds)?);
+        }
+        Ok(Self { base, template, parameters })
+    }
+
+    /// The family of a document whose keys are searched from other values than its own, within
+    /// what their ranges allow.
+    ///
+    /// * `starts`: one for each key
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub fn around(base: &SoilDocument, keys: &[FitKey], starts: &[f64]) -> Result<Self, String> {
+        let mut family = Self::new(base, keys)?;
+        for ((parameter, key), start) in family.parameters.iter_mut().zip(keys).zip(starts) {
+            let allowed = allowed_range(&family.base, &key.path);
+            let start = start.clamp(*allowed.start(), *allowed.end());
+            let name = std::mem::take(&mut parameter.name);
+            *parameter = self::parameter(name, start, &allowed, key.bounds)?;
+        }
+        Ok(family)
+    }
+
+    /// The keys as parameters: names with `soil.` before them, bounds in the keys' units.
+    #[must_use]
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// The soil with these values of the keys.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if they are no soil together.
+    pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
+        let document = self.filled(values);
+        let document: SoilDocument = document.try_into().map_err(|_| {
+            ParameterError::new("a key of the soil", values[0], "a number of its document")
+        })?;
+        document.meaning().map_err(|misfit| misfit.error)
+    }
+
+    /// The document with these values of the keys, and otherwise as it was.
+    ///
+    /// # Panics
+    /// Never: the template is a document already.
+    #[must_use]
+    pub fn document(&self, values: &[f64]) -> SoilDocument {
+        let filled: SoilDocument =
+            self.filled(values).try_into().expect("the template is a document");
+        SoilDocument {
+            name: self.base.name.clone(),
+            source: self.base.source.clone(),
+            notes: self.base.notes.clone(),
+            assumed: self.base.assumed.clone(),
+            model: self.base.model,
+            ..filled
+        }
+    }
+
+    /// The same as a calibration's result: with its source, and its samples as uncertainty.
+    ///
+    /// * `source`: where the fitted values come from, before the source of the others
+    /// * `theory`: that the values belong to
+    /// * `samples`: name of the file of samples beside the document, if there is one
+    #[must_use]
+    pub fn fitted(
+        &self,
+        values: &[f64],
+        source: &str,
+        theory: Theory,
+        samples: Option<&str>,
+    ) -> SoilDocument {
+        let document = self.document(values);
+        let is_fitted = |assumed: &String| {
+            let key = assumed.split(':').next().unwrap_or_default();
+            self.parameters.iter().any(|parameter| key_of(parameter) == key)
+        };
+        let named = document.model.is_some() || theory != Theory::default();
+        SoilDocument {
+            name: format!("{}, calibrated", document.name),
+            source: format!("{source}; other values: {}", document.source),
+            assumed: document.assumed.into_iter().filter(|one| !is_fitted(one)).collect(),
+            model: if named { TheoryWord::named(theory.name()) } else { None },
+            uncertainty: samples.map(UncertaintySection::of_samples),
+            ..document
+        }
+    }
+
+    fn filled(&self, values: &[f64]) -> toml::Value {
+        let mut tree = self.template.clone();
+        for (parameter, value) in self.parameters.iter().zip(values) {
+            if let Some(number) = number_mut(&mut tree, key_of(parameter)) {
+                *number = toml::Value::Float(*value);
+            }
+        }
+        tree
+    }
+}
+
+/// The key in the document that a parameter stands for.
+#[must_use]
+pub fn key_of(parameter: &Parameter) -> &str {
+    parameter.name.strip_prefix("soil.").unwrap_or(&parameter.name)
+}
+
+/// The range of a key under the laws that the document has chosen.
+fn allowed_range(base: &SoilDocument, path: &str) -> RangeInclusive<f64> {
+    let content = toml::to_string(base).unwrap_or_default();
+    let label = base.name.clone();
+    let text = Text { label, content, folder: PathBuf::new(), is_argument: false };
+    let tree = parse(&Arc::new(text)).ok();
+    let chosen = tree.and_then(|tree| range_at(Kind::Soil, &tree, path));
+    chosen.or_else(|| range(Kind::Soil, path)).unwrap_or(f64::MIN..=f64::MAX)
+}
+
+fn parameter(
+    name: String,
+    start: f64,
+    allowed: &RangeInclusive<f64>,
+    bounds: Option<(f64, f64)>,
+) -> Result<Parameter, String> {
+    let (least, most) = (*allowed.start(), *allowed.end());
+    let many_scales = start > 0.0 && least >= 0.0 && most > MANY_SCALES * least.max(start / 10.0);
+    let (lower, upper) = bounds.unwrap_or(if many_scales {
+        (least.max(start / SEARCHED_FACTOR), most.min(start * SEARCHED_FACTOR))
+    } else {
+        (least, most)
+    });
+    if !(allowed.contains(&lower) && allowed.contains(&upper) && lower < upper) {
+        return Err(format!(
+            "{name}={lower}:{upper}: bounds must rise, and lie within {least} to {most}"
+        ));
+    }
+    if !(lower..=upper).contains(&start) {
+        return Err(format!(
+            "{name}={lower}:{upper}: the soil's own value, {start}, must lie between the bounds; \
+             --set {name}=VALUE gives it another"
+        ));
+    }
+    let wide = lower > 0.0 && upper > MANY_SCALES / 10.0 * lower;
+    let scale = if wide { Scale::Logarithmic } else { Scale::Linear };
+    Ok(Parameter { name, lower, upper, scale, start })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Overrides, Source, read_soil};
+    use super::*;
+
+    fn toyoura() -> SoilDocument {
+        let source = Source::find(Kind::Soil, "toyoura").unwrap();
+        read_soil(&source, &Overrides::none()).unwrap().document
+    }
+
+    fn family(keys: &[&str]) -> Result<SoilFamily, String> {
+        let keys: Vec<FitKey> = keys.iter().map(|key| FitKey::parse(key).unwrap()).collect();
+        SoilFamily::new(&toyoura(), &keys)
+    }
+
+    #[test]
+    fn values_go_to_their_keys_and_units() {
+        let family = family(&["soil.friction_angle_deg", "soil.shear.longitudinal_m"]).unwrap();
+        let soil = family.soil(&[30.0, 0.05]).unwrap();
+        assert_eq!(soil.friction_angle, 30.0_f64.to_radians());
+        let document = family.document(&[30.0, 0.05]);
+        assert_eq!(document.friction_angle_deg, 30.0);
+        assert_eq!((document.name, document.source), (toyoura().name, toyoura().source));
+        assert_eq!(document.meaning().ok(), Some(soil));
+    }
+
+    #[test]
+    fn stiffnesses_are_searched_by_decades_and_angles_evenly() {
+        let family = family(&["soil.pressure_sinkage.k_phi", "soil.friction_angle_deg"]).unwrap();
+        let [stiffness, angle] = family.parameters() else { panic!("two") };
+        assert_eq!(stiffness.scale, Scale::Logarithmic);
+        assert!((stiffness.upper / stiffness.start - SEARCHED_FACTOR).abs() < 1e-9);
+        assert_eq!((angle.scale, angle.lower, angle.upper), (Scale::Linear, 5.0, 60.0));
+    }
+
+    #[test]
+    fn keys_that_cannot_be_fitted_say_why() {
+        for (key, part) in [
+            ("soil.cohesion", "cohesion_kpa"),
+            ("soil.bulldozing.law", "no number"),
+            ("soil.friction_angle_deg=40:50", "must lie between"),
+            ("soil.friction_angle_deg=30:90", "within 5 to 60"),
+            ("soil.friction_angle_deg=45:30", "must rise"),
+        ] {
+            let error = family(&[key]).unwrap_err();
+            assert!(error.contains(part), "{error}");
+        }
+        let twice = family(&["soil.cohesion_kpa", "soil.cohesion_kpa"]).unwrap_err();
+        assert!(twice.contains("twice"), "{twice}");
+        for text in ["cohesion_kpa", "soil.cohesion_kpa=1", "soil.cohesion_kpa=a:b"] {
+            assert!(FitKey::parse(text).is_err(), "{text}");
+        }
+    }
+}
