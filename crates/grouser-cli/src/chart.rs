@@ -138,14 +138,13 @@ impl Series {
             })
         };
         match self.style {
-            Style::Line => line(LineStyle::Solid),
+            // The library gives a band no place in the legend: its lower edge stands for it.
+            Style::Line | Style::Band => line(LineStyle::Solid),
             Style::Dashed => line(LineStyle::Dashed),
             Style::Dotted => line(LineStyle::Dotted),
             Style::Dots => marks(MarkerShape::Circle),
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
-            // The library gives a band no place in the legend: its lower edge stands for it.
-            Style::Band => line(LineStyle::Solid),
         }
     }
 }

@@ -344,7 +344,8 @@ impl Reader<'_> {
         let last = path.rsplit('.').next().unwrap_or(path);
         let is_known = paths_of(json(Kind::Soil), last).iter().any(|known| known == path);
         let hint = if is_known {
-            "the document gives this key no value; give it one first".to_owned()
+            "the document gives this key no value: give it one first, if its law has the key"
+                .to_owned()
         } else {
             let known = numbers(&self.template);
             meant(path, &known.iter().map(String::as_str).collect::<Vec<_>>())

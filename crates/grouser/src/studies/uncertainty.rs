@@ -143,8 +143,7 @@ impl Distribution {
     fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
         match &self.0 {
             Law::Samples(rows) => {
-                let place = (uniform(random) * rows.len() as f64) as usize;
-                rows[place.min(rows.len() - 1)].clone()
+                rows[place_below(uniform(random) * rows.len() as f64, rows.len())].clone()
             }
             Law::Scores { marginals, factor } => {
                 let independent: Vec<f64> = marginals.iter().map(|_| score(random)).collect();
@@ -157,10 +156,18 @@ impl Distribution {
     }
 }
 
-/// A number above 0 and below 1, in the middle of one of 2⁵³ equal parts.
+/// The whole part of a place in a list that is not negative; the last one for what is beyond.
+fn place_below(place: f64, length: usize) -> usize {
+    // Saturating: what is beyond the largest number of all is beyond the list, too.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let whole = place as usize;
+    whole.min(length - 1)
+}
+
+/// A number above 0 and below 1, in the middle of one of 2⁵² equal parts.
 fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    const PARTS: f64 = (1_u64 << 53) as f64;
-    ((random.next_u64() >> 11) as f64 + 0.5) / PARTS
+    const PARTS: f64 = (1_u64 << 52) as f64;
+    ((random.next_u64() >> 12) as f64 + 0.5) / PARTS
 }
 
 /// A standard normal number, through the inverse of its distribution.
@@ -198,8 +205,8 @@ impl Band {
 fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;
-    let below = sorted[place.floor() as usize];
-    let above = sorted[place.ceil() as usize];
+    let below = sorted[place_below(place, sorted.len())];
+    let above = sorted[place_below(place.ceil(), sorted.len())];
     Some(below + (above - below) * place.fract())
 }
 
