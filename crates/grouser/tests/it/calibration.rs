@@ -469,29 +469,30 @@ fn wheel_tests(seed: u64, noise: f64) -> WheelTests {
 }
 
 /// Trials at 20, 21 and 22 N differ by their loads as well; about a soil that knows the loads they
-/// do not. Thirty degrees of freedom know a deviation to 13 %.
+/// do not. Eight series of thirty degrees of freedom know a deviation to 4.6 %.
 #[test]
 fn scatter_about_a_soil_leaves_out_what_the_loads_do() {
-    let tests = wheel_tests(1, 1.0);
-    let experiment = WheelTestExperiment::new(&tests, setup()).expect("a test series");
-    let sinkage_scatter = |experiment: &WheelTestExperiment| {
+    const SERIES: u64 = 8;
+    let mean_square = |experiment: &WheelTestExperiment| {
         let observed = experiment.observations().iter().zip(experiment.sources());
-        let squares: Vec<f64> = observed
-            .filter(|(_, source)| source.0 == Quantity::Sinkage)
-            .map(|(observation, _)| observation.scatter.powi(2))
-            .collect();
-        (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
+        let sinkages = observed.filter(|(_, source)| source.0 == Quantity::Sinkage);
+        sinkages.map(|(observation, _)| observation.scatter.powi(2)).sum::<f64>() / 15.0
     };
-    let true_scatter = NOISE.sinkage / 3_f64.sqrt();
-    let as_read = sinkage_scatter(&experiment);
-    let values: Vec<f64> = experiment.observations().iter().map(|one| one.value).collect();
-    let experiment = experiment.with_scatter_about(&TRUTH).expect("a sand");
-    let about_the_soil = sinkage_scatter(&experiment);
-    assert!((about_the_soil / true_scatter - 1.0).abs() < 0.3, "{about_the_soil}");
-    assert!(about_the_soil < 0.9 * as_read, "{about_the_soil} of {as_read}");
-    for (observation, value) in experiment.observations().iter().zip(values) {
-        assert!((observation.value / value - 1.0).abs() < 1e-9);
+    let (mut as_read, mut about_the_soil) = (0.0, 0.0);
+    for seed in 0..SERIES {
+        let tests = wheel_tests(seed, 1.0);
+        let experiment = WheelTestExperiment::new(&tests, setup()).expect("a test series");
+        as_read += mean_square(&experiment) / SERIES as f64;
+        let values: Vec<f64> = experiment.observations().iter().map(|one| one.value).collect();
+        let experiment = experiment.with_scatter_about(&TRUTH).expect("a sand");
+        about_the_soil += mean_square(&experiment) / SERIES as f64;
+        for (observation, value) in experiment.observations().iter().zip(values) {
+            assert!((observation.value / value - 1.0).abs() < 1e-9);
+        }
     }
+    let true_scatter = NOISE.sinkage / 3_f64.sqrt();
+    assert!((about_the_soil.sqrt() / true_scatter - 1.0).abs() < 0.14, "{about_the_soil:e}");
+    assert!(as_read > 1.1 * about_the_soil, "{about_the_soil:e} of {as_read:e}");
 }
 
 #[test]
