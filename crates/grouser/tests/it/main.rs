@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
+mod calibration;
 mod documents;
 mod extended;
 mod floors;

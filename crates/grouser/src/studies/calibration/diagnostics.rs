@@ -221,14 +221,21 @@ fn moments(numbers: &[f64]) -> (f64, f64) {
     (mean, squares / (count - 1.0).max(1.0))
 }
 
+/// A share of a count, its whole part.
+///
+/// * `share`: 0 to 1
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Clamped; the whole part is asked for.
+pub(super) fn share_of(count: usize, share: f64) -> usize {
+    (count as f64 * share.clamp(0.0, 1.0)) as usize
+}
+
 /// Quantile of sorted numbers, between its neighbours by their distance.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1);
-    let place = share * last as f64;
-    let below = (place as usize).min(last);
+    let below = share_of(last, share);
     let above = (below + 1).min(last);
     match (sorted.get(below), sorted.get(above)) {
-        (Some(one), Some(other)) => one + (place - below as f64) * (other - one),
+        (Some(one), Some(other)) => one + (share * last as f64 - below as f64) * (other - one),
         _ => f64::NAN,
     }
 }

@@ -24,7 +24,7 @@ pub(super) struct Walked {
 
 /// Shares of the moves: differential evolution mixes well in many dimensions, stretches get walkers
 /// out of corners.
-const SHARES: [u32; 2] = [3, 2];
+const SHARES: [u32; 2] = [1, 4];
 
 /// Of the differences of two walkers, this share, over √(2 d), is the best step for a normal
 /// density (ter Braak 2006).

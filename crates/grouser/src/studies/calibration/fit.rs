@@ -76,7 +76,8 @@ const ROUNDS: usize = 4;
 const POLISHING_PATIENCE: usize = 6;
 
 impl Fit {
-    /// Standard deviations of the values, to first order.
+    /// Standard deviations of the values, to first order. At a bound there is no such thing, and it
+    /// comes out near 0: samples know better.
     #[must_use]
     pub fn deviations(&self, space: &ParameterSpace) -> Vec<f64> {
         let slopes = space.slopes(&self.coordinates);
@@ -340,6 +341,8 @@ fn prior_residual(coordinate: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::diagnostics::share_of;
+    use super::super::parameter::position_of;
     use super::*;
 
     /// Low discrepancy: the first points of the plane's sequence leave no empty quarter of a
@@ -349,7 +352,7 @@ mod tests {
         let mut counts = [[0; 4]; 4];
         for number in 1..=64 {
             let point = spread_point(number, 2);
-            let cell = |u: f64| (4.0 * super::super::parameter::position_of(u)) as usize;
+            let cell = |u: f64| share_of(4, position_of(u));
             counts[cell(point[0])][cell(point[1])] += 1;
         }
         // Four each, if they were perfectly even.

@@ -64,13 +64,17 @@ impl Identifiability {
         Self::of_covariance(&covariance_of(&rows))
     }
 
-    /// As the curvature at a fit tells, to first order; the samples know better.
+    /// As the curvature near a fit tells, to first order; the samples know better.
+    ///
+    /// Taken where the prior counts as well: least squares alone may slide along what the data do
+    /// not tell apart until a bound ends it, and there nothing varies.
     #[must_use]
-    pub fn of_fit(fit: &Fit) -> Self {
-        // dp/du = p (1 − p). The prior limits the deviation of a coordinate, and so a position's.
+    pub fn of_fit(calibration: &Calibration, fit: &Fit) -> Self {
+        let (mode, covariance) = calibration.mode_near(fit);
+        // dp/du = p (1 − p).
         let slope = |u: f64| position_of(u) * position_of(-u) / PRIOR_DEVIATION;
-        let slopes: Vec<f64> = fit.coordinates.iter().map(|&u| slope(u)).collect();
-        let scaled = |i, j| fit.covariance[(i, j)] * slopes[i] * slopes[j];
+        let slopes: Vec<f64> = mode.iter().map(|&u| slope(u)).collect();
+        let scaled = |i, j| covariance[(i, j)] * slopes[i] * slopes[j];
         let size = slopes.len();
         Self::of_covariance(&DMatrix::from_fn(size, size, scaled))
     }

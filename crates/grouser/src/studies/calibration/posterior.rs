@@ -8,9 +8,10 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::DVector;
+use nalgebra::{Cholesky, DVector};
 use rayon::prelude::*;
 
+use super::diagnostics::share_of;
 use super::fit::Fit;
 use super::{Calibration, CalibrationError, ensemble};
 
@@ -94,7 +95,7 @@ impl Calibration<'_> {
     pub fn start_posterior(&self, fit: &Fit, settings: &SamplerSettings) -> PosteriorState {
         let (mode, covariance) = self.mode_near(fit);
         let parameters = mode.len();
-        let spread = covariance.cholesky().map(|factor| factor.unpack());
+        let spread = covariance.cholesky().map(Cholesky::unpack);
         let centres = self.discrepancies.parameters().iter().zip(&fit.discrepancies);
         let discrepancies: Vec<f64> = centres
             .map(|(parameter, &value)| {
@@ -189,14 +190,14 @@ impl Calibration<'_> {
             let (found, asked) = (state.ensembles.len(), settings.ensembles);
             return foreign(format!("it has {found} ensembles, not {asked}"));
         }
-        let kept = state.blocks as usize * settings.kept_per_block() * walkers;
+        let per_block = (settings.kept_per_block() * walkers) as u64;
         for ensemble in &state.ensembles {
             if ensemble.walkers.len() != walkers {
                 let found = ensemble.walkers.len();
                 return foreign(format!("an ensemble has {found} walkers, not {walkers}"));
             }
-            if ensemble.chain.len() != kept {
-                let found = ensemble.chain.len();
+            let (found, kept) = (ensemble.chain.len(), state.blocks.saturating_mul(per_block));
+            if found as u64 != kept {
                 return foreign(format!("an ensemble kept {found} places, not {kept}"));
             }
             let places = || ensemble.walkers.iter().chain(&ensemble.chain);
@@ -249,7 +250,7 @@ impl PosteriorState {
         for ensemble in &self.ensembles {
             let walkers = ensemble.walkers.len().max(1);
             let steps = ensemble.chain.len() / walkers;
-            let first = (steps as f64 * discarded.clamp(0.0, 1.0)) as usize * walkers;
+            let first = share_of(steps, discarded) * walkers;
             chains.push(Chain { places: &ensemble.chain[first..], walkers });
         }
         chains
