@@ -72,7 +72,7 @@ pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// The theory: `ishigami`, `bekker` or `extended`; without it the soil's own, or else `ishigami`.
+    /// The theory: `ishigami`, `bekker`, `extended` or `rft`; without it the soil's own, or else `ishigami`.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.

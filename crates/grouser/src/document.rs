@@ -60,8 +60,8 @@ pub use scenario::{
 pub use schema::{range, schema};
 pub use soil::{
     BulldozingSection, BulldozingWord, ExitSection, ExitShiftSection, ExtendedSection,
-    FlankSection, HeapSection, PressureSinkageSection, RftSection, RimSection,
-    ShearSection, SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
+    FlankSection, HeapSection, PressureSinkageSection, RftSection, RimSection, ShearSection,
+    SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
 pub use source::{LARGEST_FILE, Source};
 pub use wheel::{GrousersSection, WheelDocument, WheelSchema};

@@ -23,7 +23,7 @@ mod facet;
 mod surface;
 
 use super::forces::WheelForces;
-use super::gauss::{GAUSS_8, GAUSS_16, GAUSS_64, Rule};
+use super::gauss::{GAUSS_4, GAUSS_16, GAUSS_64, Rule};
 use super::model::{Contact, WheelSoilModel};
 use super::patch::ContactPatch;
 use surface::FrontHalf;
@@ -44,10 +44,10 @@ impl Default for Rft {
 }
 
 impl Rft {
-    /// Sixteen nodes over half the arc, eight across.
-    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_8 };
+    /// Sixteen nodes over half the arc, four across.
+    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_4 };
 
-    /// The same theory with four and eight times as many nodes, to measure the error of the
+    /// The same theory with four and sixteen times as many nodes, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
@@ -60,9 +60,8 @@ impl WheelSoilModel for Rft {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        let half = |contact: &Contact| {
-            FrontHalf::new(contact, sinkage).reaction(self.arc, self.height)
-        };
+        let half =
+            |contact: &Contact| FrontHalf::new(contact, sinkage).reaction(self.arc, self.height);
         let front = half(contact);
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
         let back = half(&mirrored);

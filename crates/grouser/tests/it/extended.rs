@@ -245,17 +245,17 @@ fn sinkage_and_resistance_grow_with_load() {
 // ---- Measurements ----
 
 /// Drawbar pull [N], side force [N] and sinkage [mm].
-type Triple = [f64; 3];
+pub(crate) type Triple = [f64; 3];
 
 /// Trials of one wheel, slip angle and rim-speed setting.
-struct Cell {
-    driven: bool,
+pub(crate) struct Cell {
+    pub driven: bool,
     predicted: Triple,
     measured: Triple,
 }
 
 /// Root mean square over cells.
-fn rms<'a>(cells: impl Iterator<Item = &'a Cell>) -> Triple {
+pub(crate) fn rms<'a>(cells: impl Iterator<Item = &'a Cell>) -> Triple {
     let (mut sums, mut count) = ([0.0; 3], 0.0);
     for cell in cells {
         for (sum, (one, two)) in sums.iter_mut().zip(cell.predicted.iter().zip(cell.measured)) {
@@ -267,12 +267,16 @@ fn rms<'a>(cells: impl Iterator<Item = &'a Cell>) -> Triple {
 }
 
 /// The wheel-test folder, from the environment. The measured rows are not ours to publish.
-fn data_folder() -> Option<PathBuf> {
+pub(crate) fn data_folder() -> Option<PathBuf> {
     std::env::var_os("GROUSER_DATA_DIR").map(PathBuf::from)
 }
 
-/// Cells of a wheel at the slip angles of the fit, each trial predicted at its own load.
-fn cells(text: &str, kind: &str) -> Vec<Cell> {
+/// Cells of a wheel at the slip angles of the fit, each trial predicted at its own slip and load.
+pub(crate) fn cells(
+    text: &str,
+    kind: &str,
+    predict: impl Fn(Slip, f64) -> Result<Settled, SettleError>,
+) -> Vec<Cell> {
     const ANGLES: [&str; 4] = ["0", "15", "45", "75"];
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
     let header = lines.next().expect("a header");
@@ -288,8 +292,8 @@ fn cells(text: &str, kind: &str) -> Vec<Cell> {
         let number = |column: usize| row[column].parse::<f64>().expect("a number");
         let (beta, speed) = (deg(number(angle)), number(travel) * 1e-3);
         let hub = Vec2::new(speed * beta.cos(), speed * beta.sin());
-        let contact = cmu(kind, Slip::of_motion(number(rim) * 1e-3, hub));
-        let settled = settled(&contact, number(load)).expect("the sand carries the wheel");
+        let slip = Slip::of_motion(number(rim) * 1e-3, hub);
+        let settled = predict(slip, number(load)).expect("the sand carries the wheel");
         let predicted =
             [settled.forces.drawbar_pull, -settled.forces.side_force, settled.sinkage * 1e3];
         let name = (row[angle].to_owned(), row[setting].to_owned());
@@ -333,7 +337,7 @@ fn the_fitted_soils_agree_with_their_trials() {
         ("smooth", [0.65, 0.75, 0.80], [1.20, 0.85, 1.15]),
         ("grouser", [0.75, 1.20, 1.40], [0.80, 1.15, 1.45]),
     ] {
-        let cells = cells(&text, kind);
+        let cells = cells(&text, kind, |slip, load| settled(&cmu(kind, slip), load));
         assert_eq!(cells.len(), 4 * 9);
         let found = (rms(cells.iter().filter(|cell| cell.driven)), rms(cells.iter()));
         println!("{kind}: driven {:.3?}, all {:.3?}", found.0, found.1);

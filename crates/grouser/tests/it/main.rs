@@ -8,5 +8,6 @@ mod laws;
 mod million;
 mod paper;
 mod reference;
+mod rft;
 mod rover;
 mod runs;

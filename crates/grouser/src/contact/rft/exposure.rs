@@ -11,10 +11,16 @@
 //! f = max(0, 1 − d/p)                               share of the rim that lies open
 //! ```
 //!
-//! with the pitch p = 2π r/N. Few grousers leave a bare rim with plates on it (f → 1, e → h_g), many
-//! make a cylinder of their tips' radius (f → 0, e → 0). Geometry of Skonieczny, Moreland and
-//! Wettergreen's spacing rule (2012), for any motion; the average over the wheel's phase is exact
-//! but for the curvature of one pitch.
+//! with the pitch p = 2π r/N. The rim counts with its share f, and the soil shut in with 1 − f, as a
+//! cylinder of the tips' radius with the soil's own friction. A low step of a grouser does not stay
+//! open, soil lodges in its corner: its open face counts with w = e/h_g. And a cell that is deeper
+//! than wide carries its soil along whatever its motion: f and w are times p/h_g where that is below
+//! 1. So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder of
+//! their tips' radius (f → 0, w → 0).
+//!
+//! The geometry is that of the spacing rule of Skonieczny, Moreland and Wettergreen (2012), for any
+//! motion. w is ours: any weight with those two limits would do, and between them the soil that slides
+//! over the shut-in soil's surface onto an open face is met twice, the price of the simplest one.
 
 use crate::wheel::{Grousers, Wheel};
 
@@ -36,7 +42,9 @@ pub(super) struct Comb {
 pub(super) struct Exposure {
     /// Height of a grouser, from its tip down [m].
     pub grouser: f64,
-    /// Share of the rim [-].
+    /// Share with which its open face counts, *w* [-].
+    pub share: f64,
+    /// Share of the rim, *f* [-].
     pub rim: f64,
 }
 
@@ -54,15 +62,16 @@ impl Comb {
     /// What lies open where the tips move with v_n [-] out of the rim and v_t along it.
     pub(super) fn exposure(&self, outward: f64, along: f64) -> Exposure {
         let (h, p, r) = (self.height, self.pitch, self.radius);
+        let wide = (p / h).min(1.0);
         // As products with |v_t|, which may be zero.
         let (v_n, v_t) = (outward.max(0.0), along.abs());
         let scale = v_n.hypot(v_t);
         if scale == 0.0 {
-            return Exposure { grouser: h, rim: 1.0 };
+            return Exposure { grouser: h, share: wide, rim: wide };
         }
         let open = p * p / (2.0 * r);
         let grouser = if v_n * p >= (h - open) * v_t { h } else { p * v_n / v_t + open };
         let shadow = 2.0 * h * v_t / (v_n + (v_n * v_n + 2.0 * h / r * v_t * v_t).sqrt());
-        Exposure { grouser, rim: (1.0 - shadow / p).max(0.0) }
+        Exposure { grouser, share: wide * grouser / h, rim: wide * (1.0 - shadow / p).max(0.0) }
     }
 }

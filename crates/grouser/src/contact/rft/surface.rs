@@ -69,11 +69,43 @@ enum Part {
     Flank,
 }
 
+/// Reactions of the rim with its grousers and of both flanks.
+#[derive(Default)]
+struct Sums {
+    middle: WheelForces,
+    left: WheelForces,
+    right: WheelForces,
+}
+
+/// A place of the wheel in the soil.
+#[derive(Clone, Copy)]
+struct Spot {
+    /// From the hub [m].
+    place: Vec3,
+    /// Below the surface [m].
+    depth: f64,
+    /// Of its motion [-].
+    direction: Vec3,
+}
+
+/// A narrow piece of both flanks, along a radius.
+struct Ray {
+    /// From straight down [rad].
+    angle: f64,
+    /// [rad]
+    width: f64,
+    /// From this radius [m]
+    inner: f64,
+    /// to this [m].
+    outer: f64,
+    /// Share of it that is covered [-].
+    share: f64,
+    friction: f64,
+}
+
 /// A piece of surface.
 struct Facet {
     part: Part,
-    /// From the hub [m].
-    place: Vec3,
     normal: Vec3,
     /// [m²]
     area: f64,
@@ -102,16 +134,20 @@ impl FrontHalf {
 
     /// The soil's reaction on this half; its patch holds the angle of the largest normal stress.
     pub(super) fn reaction(&self, arc: &Rule, height: &Rule) -> WheelForces {
-        let mut sum = WheelForces::default();
+        let mut sums = Sums::default();
         self.for_each_angle(self.wheel.radius, arc, |angle, width| {
-            self.add_rim(&mut sum, angle, width);
-            self.add_disc(&mut sum, angle, width, height);
+            self.add_rim(&mut sums, angle, width);
+            self.add_disc(&mut sums, angle, width, height);
         });
         if let Some(comb) = &self.comb {
             self.for_each_angle(self.wheel.shearing_radius(), arc, |angle, width| {
-                self.add_comb(&mut sum, comb, angle, width, height);
+                self.add_comb(&mut sums, comb, angle, width, height);
             });
         }
+        // The sides together first, so that a mirror between left and right keeps every bit.
+        let mut sum = sums.middle + (sums.left + sums.right);
+        // Largest values and their places do not add up.
+        sum.max_normal_stress = sums.middle.max_normal_stress;
         sum.drawbar_pull = sum.thrust + sum.motion_resistance;
         sum
     }
@@ -140,13 +176,18 @@ impl FrontHalf {
     }
 
     /// A strip across the rim, as far as it lies open.
-    fn add_rim(&self, sum: &mut WheelForces, angle: f64, width: f64) {
+    fn add_rim(&self, sums: &mut Sums, angle: f64, width: f64) {
         let (r, b) = (self.wheel.radius, self.wheel.width);
         let outward = outward(angle);
         let open = self.comb.as_ref().map_or(1.0, |comb| self.exposure(comb, angle).rim);
         let area = open * r * width * b;
         let friction = self.friction.wheel;
-        self.add(sum, &Facet { part: Part::Rim, place: outward * r, normal: outward, area, friction });
+        let Some(spot) = self.spot(outward * r) else { return };
+        self.add(
+            &mut sums.middle,
+            &spot,
+            &Facet { part: Part::Rim, normal: outward, area, friction },
+        );
     }
 
     fn exposure(&self, comb: &Comb, angle: f64) -> super::exposure::Exposure {
@@ -156,22 +197,15 @@ impl FrontHalf {
     }
 
     /// A ray of both side faces, from the soil's surface to the rim.
-    fn add_disc(&self, sum: &mut WheelForces, angle: f64, width: f64, rule: &Rule) {
-        let ray = (self.surface / angle.cos(), self.wheel.radius);
-        self.add_ray(sum, angle, width, ray, 1.0, self.friction.wheel, rule);
+    fn add_disc(&self, sums: &mut Sums, angle: f64, width: f64, rule: &Rule) {
+        let (inner, outer) = (self.surface / angle.cos(), self.wheel.radius);
+        let friction = self.friction.wheel;
+        self.add_ray(sums, &Ray { angle, width, inner, outer, share: 1.0, friction }, rule);
     }
 
-    /// Facets of both flanks between two radii [m], covered to a share.
-    fn add_ray(
-        &self,
-        sum: &mut WheelForces,
-        angle: f64,
-        width: f64,
-        (inner, outer): (f64, f64),
-        share: f64,
-        friction: f64,
-        rule: &Rule,
-    ) {
+    /// Facets of both flanks.
+    fn add_ray(&self, sums: &mut Sums, ray: &Ray, rule: &Rule) {
+        let Ray { angle, width, inner, outer, share, friction } = *ray;
         if share <= 0.0 || outer <= inner {
             return;
         }
@@ -179,19 +213,18 @@ impl FrontHalf {
         for (node, weight) in rule {
             let radius = inner + node * (outer - inner);
             let area = share * weight * (outer - inner) * radius * width;
-            let [mut left, mut right] = [WheelForces::default(); 2];
-            for (side, part) in [(1.0, &mut left), (-1.0, &mut right)] {
+            let Some(spot) = self.spot(outward * radius) else { continue };
+            for (side, sum) in [(1.0, &mut sums.left), (-1.0, &mut sums.right)] {
                 let normal = Vec3::y() * side;
-                let place = outward * radius + normal * (0.5 * self.wheel.width);
-                self.add(part, &Facet { part: Part::Flank, place, normal, area, friction });
+                let place = spot.place + normal * (0.5 * self.wheel.width);
+                let spot = Spot { place, ..spot };
+                self.add(sum, &spot, &Facet { part: Part::Flank, normal, area, friction });
             }
-            // Together first, so that a mirror between left and right keeps every bit.
-            *sum = *sum + (left + right);
         }
     }
 
     /// Grousers, and the soil that they shut in.
-    fn add_comb(&self, sum: &mut WheelForces, comb: &Comb, angle: f64, width: f64, rule: &Rule) {
+    fn add_comb(&self, sums: &mut Sums, comb: &Comb, angle: f64, width: f64, rule: &Rule) {
         let (tip, b) = (self.wheel.shearing_radius(), self.wheel.width);
         let (outward, along) = (outward(angle), forward_along(angle));
         let exposure = self.exposure(comb, angle);
@@ -200,30 +233,41 @@ impl FrontHalf {
         let inner = (tip - exposure.grouser).max(submerged);
         for (node, weight) in rule {
             let radius = inner + node * (tip - inner);
-            let area = comb.density * width * b * weight * (tip - inner);
+            let area = exposure.share * comb.density * width * b * weight * (tip - inner);
+            let Some(spot) = self.spot(outward * radius) else { continue };
             for normal in [along, -along] {
-                let place = outward * radius;
                 let friction = self.friction.wheel;
-                self.add(sum, &Facet { part: Part::Grouser, place, normal, area, friction });
+                self.add(
+                    &mut sums.middle,
+                    &spot,
+                    &Facet { part: Part::Grouser, normal, area, friction },
+                );
             }
         }
 
         let shut = 1.0 - exposure.rim;
-        let (place, area) = (outward * tip, shut * tip * width * b);
-        let friction = self.friction.soil;
-        self.add(sum, &Facet { part: Part::Rim, place, normal: outward, area, friction });
-        let ring = (self.wheel.radius.max(submerged), tip);
-        self.add_ray(sum, angle, width, ring, shut, friction, rule);
+        let (area, friction) = (shut * tip * width * b, self.friction.soil);
+        if let Some(spot) = self.spot(outward * tip) {
+            self.add(
+                &mut sums.middle,
+                &spot,
+                &Facet { part: Part::Rim, normal: outward, area, friction },
+            );
+        }
+        let (inner, outer) = (self.wheel.radius.max(submerged), tip);
+        self.add_ray(sums, &Ray { angle, width, inner, outer, share: shut, friction }, rule);
     }
 
-    /// Adds what a facet meets.
-    fn add(&self, sum: &mut WheelForces, facet: &Facet) {
-        let Facet { part, place, normal, area, friction } = *facet;
+    /// A place in the soil, or none above it.
+    fn spot(&self, place: Vec3) -> Option<Spot> {
         let depth = -place.z - self.surface;
-        let direction = self.motion.direction_at(place);
-        if depth <= 0.0 || area <= 0.0 {
-            return;
-        }
+        (depth > 0.0).then(|| Spot { place, depth, direction: self.motion.direction_at(place) })
+    }
+
+    /// Adds what a facet at a place meets.
+    fn add(&self, sum: &mut WheelForces, spot: &Spot, facet: &Facet) {
+        let Spot { place, depth, direction } = *spot;
+        let Facet { part, normal, area, friction } = *facet;
         let Some(stress) = facet::stress(normal, direction, friction) else { return };
         let per_stress = self.stiffness * depth * area;
         let (push, shear) = (normal * (-stress.pressure * per_stress), stress.shear * per_stress);
