@@ -79,7 +79,7 @@ pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// The theory: `ishigami`, `bekker` or `extended`; without it the soil's own, or else `ishigami`.
+    /// The theory: `ishigami`, `bekker`, `extended` or `rft`; without it the soil's own, or else `ishigami`.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
@@ -276,7 +276,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Steps of each walker of the posterior.
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u64).range(100..1_000_000))]
+    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(100..1_000_000))]
     pub(crate) steps: u64,
     /// Only least squares, no posterior.
     #[arg(long)]

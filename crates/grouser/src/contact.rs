@@ -5,8 +5,8 @@
 //! shear stress along it; [`bulldozing`] the soil pushed by the flank; [`forces`] is what comes
 //! out. A theory puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is the
 //! source paper's, [`extended`] adds what small wheels need, [`bekker`] is a closed form to check
-//! them against. [`equilibrium`] finds the sinkage
-//! at which a wheel carries its load.
+//! them against, and [`rft`] shares nothing with any of them. [`equilibrium`] finds the sinkage at
+//! which a wheel carries its load.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
@@ -20,6 +20,7 @@ mod gauss;
 pub mod ishigami;
 pub mod model;
 pub mod patch;
+pub mod rft;
 pub mod slip;
 pub mod stress;
 mod theory;
@@ -31,5 +32,6 @@ pub use forces::WheelForces;
 pub use ishigami::Ishigami;
 pub use model::{Contact, WheelSoilModel};
 pub use patch::ContactPatch;
+pub use rft::Rft;
 pub use slip::Slip;
 pub use theory::Theory;

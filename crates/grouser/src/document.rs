@@ -71,7 +71,7 @@ pub use scenario::{
 pub use schema::{range, schema};
 pub use soil::{
     BulldozingSection, BulldozingWord, ExitSection, ExitShiftSection, ExtendedSection,
-    FlankSection, HeapSection, PressureSinkageSection, RimSection, ShearSection,
+    FlankSection, HeapSection, PressureSinkageSection, RftSection, RimSection, ShearSection,
     SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
 };
 pub use soil_family::{FitKey, SoilFamily, key_of};

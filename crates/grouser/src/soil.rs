@@ -5,11 +5,13 @@
 
 pub mod extended;
 pub mod pressure_sinkage;
+pub mod rft;
 
 use std::f64::consts::FRAC_PI_4;
 
 pub use extended::Extended;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
+pub use rft::Rft;
 
 use crate::error::{ParameterError, finite, not_negative, positive};
 
@@ -34,6 +36,8 @@ pub struct Soil {
     pub bulldozing: Bulldozing,
     /// What the extended theory adds; the others leave it aside.
     pub extended: Extended,
+    /// What resistive force theory asks for; the others leave it aside.
+    pub rft: Rft,
 }
 
 /// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
@@ -223,6 +227,7 @@ impl Soil {
         self.pressure_sinkage.check(self.cohesion)?;
         self.shear.check()?;
         self.extended.check()?;
+        self.rft.check()?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

@@ -4,6 +4,7 @@ use super::bekker::Bekker;
 use super::extended::Extended;
 use super::ishigami::Ishigami;
 use super::model::WheelSoilModel;
+use super::rft::Rft;
 
 /// A theory that a document or a command can name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -15,11 +16,13 @@ pub enum Theory {
     Bekker,
     /// The source paper's with the terms that small wheels need.
     Extended,
+    /// Resistive force theory on the wheel's facets, independent of the others.
+    Rft,
 }
 
 impl Theory {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Ishigami, Self::Bekker, Self::Extended];
+    pub const ALL: [Self; 4] = [Self::Ishigami, Self::Bekker, Self::Extended, Self::Rft];
 
     /// Its name in documents and commands.
     #[must_use]
@@ -28,6 +31,7 @@ impl Theory {
             Self::Ishigami => "ishigami",
             Self::Bekker => "bekker",
             Self::Extended => "extended",
+            Self::Rft => "rft",
         }
     }
 
@@ -37,10 +41,12 @@ impl Theory {
         static ISHIGAMI: Ishigami = Ishigami::DEFAULT;
         static BEKKER: Bekker = Bekker;
         static EXTENDED: Extended = Extended::DEFAULT;
+        static RFT: Rft = Rft::DEFAULT;
         match self {
             Self::Ishigami => &ISHIGAMI,
             Self::Bekker => &BEKKER,
             Self::Extended => &EXTENDED,
+            Self::Rft => &RFT,
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
 use crate::soil::{
-    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
     StressPeak,
 };
 
@@ -72,6 +72,10 @@ pub struct SoilDocument {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "ExtendedSection")]
     pub extended: Option<ExtendedSection>,
+    /// Constants of the theory `rft`, resistive force theory; as published without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "RftSection")]
+    pub rft: Option<RftSection>,
     /// How well the numbers above are known; exactly, as far as anyone says, without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "UncertaintySection")]
@@ -97,6 +101,8 @@ pub enum TheoryWord {
     Bekker,
     /// Stresses along the arc, with the terms that small wheels need.
     Extended,
+    /// Resistive force theory on the wheel's facets.
+    Rft,
 }
 
 impl TheoryWord {
@@ -112,6 +118,7 @@ impl TheoryWord {
             Self::Ishigami => Theory::Ishigami,
             Self::Bekker => Theory::Bekker,
             Self::Extended => Theory::Extended,
+            Self::Rft => Theory::Rft,
         }
     }
 }
@@ -407,6 +414,25 @@ pub struct HeapSection {
     pub behind: f64,
 }
 
+/// What resistive force theory asks of a soil beside its density and friction angle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RftSection {
+    /// Factor on the stiffness that follows from density and friction angle [-].
+    #[schemars(range(min = 0.01, max = 100.0))]
+    pub scale: f64,
+    /// Friction angle between the wheel and the soil, δ [°]; without it the soil's own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(min = 1.0, max = 60.0))]
+    pub surface_friction_angle_deg: Option<f64>,
+}
+
+impl Default for RftSection {
+    fn default() -> Self {
+        Self { scale: Rft::PUBLISHED.scale, surface_friction_angle_deg: None }
+    }
+}
+
 impl Default for SinkageGrowthSection {
     fn default() -> Self {
         let SinkageGrowth { with_slip_angle, with_slip, bend, locked, sharpness } =
@@ -522,12 +548,14 @@ impl SoilDocument {
             exit: self.exit.to_domain(),
             bulldozing: self.bulldozing.law.to_domain(),
             extended: self.extended.as_ref().map_or(Extended::OFF, ExtendedSection::to_domain),
+            rft: self.rft.as_ref().map_or(Rft::PUBLISHED, RftSection::to_domain),
         };
         let at = |path: &'static str| move |error: ParameterError| Misfit { path, error };
         soil.pressure_sinkage.check(soil.cohesion).map_err(at("pressure_sinkage"))?;
         check_exponent(soil.pressure_sinkage).map_err(at("pressure_sinkage"))?;
         soil.shear.check().map_err(at("shear"))?;
         soil.extended.check().map_err(at("extended"))?;
+        soil.rft.check().map_err(at("rft"))?;
         check_exit(soil.exit).map_err(at("exit"))?;
         soil.check().map_err(at("schema"))?;
         Ok(soil)
@@ -677,6 +705,13 @@ impl ExtendedSection {
             },
             heap: Heap { front: heap.front, behind: heap.behind },
         }
+    }
+}
+
+impl RftSection {
+    fn to_domain(&self) -> Rft {
+        let surface_friction_angle = self.surface_friction_angle_deg.map(f64::to_radians);
+        Rft { scale: self.scale, surface_friction_angle }
     }
 }
 

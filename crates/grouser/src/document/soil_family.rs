@@ -256,8 +256,8 @@ mod tests {
         assert_eq!(soil.friction_angle, 30.0_f64.to_radians());
         let document = family.document(&[30.0, 0.05]);
         assert_eq!(document.friction_angle_deg, 30.0);
-        assert_eq!((document.name, document.source), (toyoura().name, toyoura().source));
         assert_eq!(document.meaning().ok(), Some(soil));
+        assert_eq!((document.name, document.source), (toyoura().name, toyoura().source));
     }
 
     #[test]

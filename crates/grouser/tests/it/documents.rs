@@ -135,6 +135,7 @@ fn reference_soil(case: &str) -> Soil {
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         extended: grouser::soil::Extended::OFF,
+        rft: grouser::soil::Rft::PUBLISHED,
     }
 }
 

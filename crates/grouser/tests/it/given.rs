@@ -6,7 +6,7 @@ use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Scenario, Simulation, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
     StressPeak,
 };
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
@@ -62,6 +62,7 @@ pub(crate) fn toyoura() -> Soil {
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
         extended: Extended::OFF,
+        rft: Rft::PUBLISHED,
     }
 }
 
@@ -240,6 +241,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 exit,
                 bulldozing,
                 extended: Extended::OFF,
+                rft: Rft::PUBLISHED,
             }
         },
     )

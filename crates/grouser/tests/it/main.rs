@@ -11,6 +11,7 @@ mod measurements;
 mod million;
 mod paper;
 mod reference;
+mod rft;
 mod rover;
 mod runs;
 mod uncertain_documents;

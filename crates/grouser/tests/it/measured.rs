@@ -28,10 +28,21 @@ fn trials(file: &std::path::Path, kind: &str) -> Measurements {
 }
 
 fn validation(measured: &Measurements, kind: &str, soil: &str) -> Validation {
+    validation_with(measured, kind, soil, &[])
+}
+
+/// The same with a few keys of the soil set.
+fn validation_with(
+    measured: &Measurements,
+    kind: &str,
+    soil: &str,
+    settings: &[String],
+) -> Validation {
+    let settings = Overrides::parse(settings).expect("keys of a soil");
     let wheel = Source::find(Kind::Wheel, &format!("cmu-{kind}")).expect("a preset");
     let wheel = document::read_wheel(&wheel, &Overrides::none()).expect("it is read");
     let soil = Source::find(Kind::Soil, soil).expect("a preset");
-    let soil = document::read_soil(&soil, &Overrides::none()).expect("it is read");
+    let soil = document::read_soil(&soil, &settings).expect("it is read");
     ValidationStudy {
         tests: &measured.tests,
         wheel: wheel.value,
@@ -65,6 +76,30 @@ fn the_fitted_soils_agree_with_their_trials() {
         assert_eq!(group.cells, 4 * 5, "rim settings of 10 mm/s and more");
         for (group, limits) in [(group, driven), (&validation.overall, all)] {
             for (found, limit) in rmse(group).into_iter().zip(limits) {
+                assert!(found < limit, "{kind}: {found} is not below {limit}");
+            }
+        }
+    }
+}
+
+/// Resistive force theory with its published constants on the test stand's wheels: nothing is
+/// fitted. What is printed here is in `docs/models/rft.md`.
+#[test]
+fn without_a_fitted_constant_rft_comes_this_near_to_the_trials() {
+    let Some(file) = data_file() else { return };
+    for (kind, scale, driven, all) in [
+        ("smooth", "1", [2.9, 2.8, 9.0], [7.6, 7.2, 9.8]),
+        ("smooth", "0.739", [2.8, 2.4, 14.4], [7.1, 6.5, 11.9]),
+        ("grouser", "1", [4.9, 4.6, 5.6], [7.2, 8.0, 7.9]),
+    ] {
+        let measured = trials(&file, kind);
+        let settings = ["soil.model=rft".to_owned(), format!("soil.rft.scale={scale}")];
+        let validation = validation_with(&measured, kind, "cmu-direct90-smooth", &settings);
+        let driven_cells = validation.driven.as_ref().expect("some cells are driven");
+        let found = (rmse(driven_cells), rmse(&validation.overall));
+        println!("{kind}, scale {scale}: driven {:.2?}, all {:.2?}", found.0, found.1);
+        for (found, limit) in [(found.0, driven), (found.1, all)] {
+            for (found, limit) in found.into_iter().zip(limit) {
                 assert!(found < limit, "{kind}: {found} is not below {limit}");
             }
         }

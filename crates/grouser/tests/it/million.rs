@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
 use grouser::soil::{
-    Exit, Extended, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
 };
 use grouser::units::deg;
 use grouser::wheel::{Grousers, Wheel};
@@ -125,6 +125,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
         exit,
         bulldozing: draw.one_of(&BULLDOZING),
         extended: Extended::OFF,
+        rft: Rft::PUBLISHED,
     }
 }
 
@@ -283,4 +284,15 @@ fn a_hundred_thousand_wheels_settle_by_bekkers_theory() {
     // A power law in the sinkage, in which the search goes straight. Measured: 4.3 each, at most 11.
     assert!(tally.mean_evaluations() < 5.0, "{} each", tally.mean_evaluations());
     assert!(tally.most_evaluations <= 20, "{tally:?}");
+}
+
+/// Resistive force theory knows nothing of most of a soil, and every wheel that it carries, it
+/// carries at one depth.
+#[test]
+fn twenty_thousand_wheels_settle_by_resistive_force_theory() {
+    let tally = check_cases(Theory::Rft, 20_000);
+    println!("{tally:?}, {:.2} each", tally.mean_evaluations());
+    assert!(tally.settled > 18_000, "{tally:?}");
+    assert!(tally.mean_evaluations() < 8.0, "{} each", tally.mean_evaluations());
+    assert!(tally.most_evaluations <= 450, "{tally:?}");
 }

@@ -56,6 +56,7 @@ fn soil_of(soil: &Value) -> Soil {
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         extended: grouser::soil::Extended::OFF,
+        rft: grouser::soil::Rft::PUBLISHED,
     }
 }
 

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, key_of, plates};
-use grouser::studies::calibration::{Calibration, ParameterSpace, PlateCurve, PlateLaw, PlateTest};
+use grouser::studies::calibration::{
+    Calibration, FitSettings, ParameterSpace, PlateCurve, PlateLaw, PlateTest,
+};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -50,7 +52,8 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let settings = settings(args, file, &document, gravity)?;
     let checkpoint =
         args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, settings.to_string()));
-    let solved = solve::solve(args, &calibration, checkpoint.as_ref())?;
+    let fit = solve::fit(&calibration, &FitSettings::default())?;
+    let solved = solve::solve(args, &calibration, fit, checkpoint.as_ref())?;
     let results = Results {
         rows: &solved.records,
         discrepancies: &solved.discrepancies,

@@ -70,16 +70,11 @@ pub(super) fn sampler(args: &CalibrateArgs) -> SamplerSettings {
     SamplerSettings { blocks: args.steps.div_ceil(usual.steps_per_block as u64), ..usual }
 }
 
-/// Fits, samples unless told not to, and summarises.
-pub(super) fn solve(
-    args: &CalibrateArgs,
-    calibration: &Calibration,
-    checkpoint: Option<&Checkpoint>,
-) -> Result<Solved, Failure> {
-    let settings = FitSettings::default();
+/// Least squares, with a bar.
+pub(super) fn fit(calibration: &Calibration, settings: &FitSettings) -> Result<Fit, Failure> {
     let bar = output::progress_bar(settings.starts as u64);
     bar.set_message("least squares from several starts");
-    let fit = calibration.fit(&settings, &|| {
+    let fit = calibration.fit(settings, &|| {
         bar.inc(1);
         ControlFlow::Continue(())
     })?;
@@ -87,6 +82,16 @@ pub(super) fn solve(
     if !fit.converged {
         output::tell("note: the best search had not settled when its evaluations were used up");
     }
+    Ok(fit)
+}
+
+/// Samples unless told not to, and summarises.
+pub(super) fn solve(
+    args: &CalibrateArgs,
+    calibration: &Calibration,
+    fit: Fit,
+    checkpoint: Option<&Checkpoint>,
+) -> Result<Solved, Failure> {
     let (samples, sampler) = if args.point_fit {
         (None, None)
     } else {

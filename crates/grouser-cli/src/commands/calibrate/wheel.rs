@@ -13,7 +13,7 @@ use grouser::studies::calibration::cross_validation::leave_one_angle_out;
 use grouser::studies::calibration::design::{Outlook, Setting, Target};
 use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
 use grouser::studies::calibration::{
-    Calibration, FitSettings, ParameterSpace, Resolution, WheelTestExperiment,
+    Calibration, Fit, FitSettings, Parameter, ParameterSpace, Resolution, WheelTestExperiment,
 };
 use grouser::studies::measurement::{PerQuantity, Quantity};
 use grouser::studies::validation::{Validation, ValidationStudy};
@@ -172,9 +172,15 @@ fn find(
     };
     let space = ParameterSpace::new(family.parameters().to_vec())?;
     let experiment = WheelTestExperiment::new(&measured.tests, setup)?;
-    let calibration = Calibration::new(&experiment, space.clone())?;
+    let rough =
+        solve::fit(&Calibration::new(&experiment, space.clone())?, &FitSettings::default())?;
+    // Now that a soil is known, what differing loads did to repeated trials is no scatter.
+    let experiment = experiment.with_scatter_about(&rough.values)?;
+    let calibration = Calibration::new(&experiment, starting_at(&space, &rough.values)?)?;
+    let last = FitSettings { starts: 1, tried: 1, ..FitSettings::default() };
+    let fit = Fit { searches: rough.searches, ..solve::fit(&calibration, &last)? };
     let target = target(args, &measured.tests.trials)?;
-    let solved = solve::solve(args, &calibration, checkpoint)?;
+    let solved = solve::solve(args, &calibration, fit, checkpoint)?;
     let soil = family.soil(&solved.fit.values)?;
     let left_out = if args.cross_validate { left_out(problem, setup, &space)? } else { Vec::new() };
     let samples = solved.samples.as_ref().map(|_| SAMPLES_FILE);
@@ -194,6 +200,13 @@ fn find(
         target: args.target.clone(),
         solved,
     })
+}
+
+/// The same parameters, searched from other values.
+fn starting_at(space: &ParameterSpace, values: &[f64]) -> Result<ParameterSpace, ParameterError> {
+    let each = space.parameters().iter().zip(values);
+    let moved = each.map(|(parameter, &start)| Parameter { start, ..parameter.clone() });
+    ParameterSpace::new(moved.collect())
 }
 
 fn key_names(family: &SoilFamily) -> String {

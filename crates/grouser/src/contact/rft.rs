@@ -1,0 +1,88 @@
+//! An independent second theory: three-dimensional resistive force theory on a wheel's facets
+//! (Agarwal, Goldman and Kamrin, PNAS 2023).
+//!
+//! Nothing of the classical theories is used, neither pressure-sinkage law nor shear modulus: each
+//! piece of the wheel's surface is a plate in granular soil, and what it meets depends on its depth,
+//! its inclination and the direction of its motion alone. Two constants tell the soil, its unit
+//! weight and its friction, and no force is adjusted to wheels.
+//!
+//! ```text
+//! F = ∫ ξ d α(n̂, v̂) dA     v = v_hub + ω × r     over rim, grousers and both side faces
+//! ```
+//!
+//! [`facet`] has the law α and the stiffness ξ, [`surface`] the wheel's facets, [`exposure`] which of
+//! them grousers hide. The law knows no front, so the wheel is the sum of its two halves, each seen
+//! with its own mirror; nothing is blended.
+//!
+//! A wheel below [`CREEP_SPEED`](super::slip::CREEP_SPEED) counts as one that sinks: directions
+//! come from the velocity less that speed downward. So a wheel at rest carries its load as a wheel
+//! does that is pressed in.
+
+mod exposure;
+mod facet;
+mod surface;
+
+use super::forces::WheelForces;
+use super::gauss::{GAUSS_4, GAUSS_16, GAUSS_64, Rule};
+use super::model::{Contact, WheelSoilModel};
+use super::patch::ContactPatch;
+use surface::FrontHalf;
+
+/// Three-dimensional resistive force theory.
+#[derive(Clone, Copy, Debug)]
+pub struct Rft {
+    /// Nodes over the arc.
+    arc: &'static Rule,
+    /// Nodes over the height of a grouser and over the side face's radius.
+    height: &'static Rule,
+}
+
+impl Default for Rft {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+impl Rft {
+    /// Sixteen nodes over half the arc, four across.
+    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_4 };
+
+    /// The same theory with four and sixteen times as many nodes, to measure the error of the
+    /// quadrature.
+    #[must_use]
+    pub fn reference() -> Self {
+        Self { arc: &GAUSS_64, height: &GAUSS_64 }
+    }
+}
+
+impl WheelSoilModel for Rft {
+    fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        if sinkage <= 0.0 {
+            return WheelForces::default();
+        }
+        let half =
+            |contact: &Contact| FrontHalf::new(contact, sinkage).reaction(self.arc, self.height);
+        let front = half(contact);
+        let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
+        let back = half(&mirrored);
+        let peak = entering(contact.slip.entering_side, &front, &back);
+        let arc = ContactPatch::of_depth(sinkage / contact.wheel.shearing_radius(), 0.0, 1.0);
+        WheelForces {
+            max_normal_stress: front.max_normal_stress.max(back.max_normal_stress),
+            patch: ContactPatch { max_stress: peak, ..arc },
+            ..front + back.front_to_back()
+        }
+    }
+}
+
+/// Where the normal stress peaks on the half that enters the soil [rad].
+fn entering(side: f64, front: &WheelForces, back: &WheelForces) -> f64 {
+    let (front, back) = (front.patch.max_stress, back.patch.max_stress);
+    if side > 0.0 {
+        front
+    } else if side < 0.0 {
+        back
+    } else {
+        front.max(back)
+    }
+}

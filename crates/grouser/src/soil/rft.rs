@@ -1,0 +1,37 @@
+//! The constants of resistive force theory ([`contact::rft`](crate::contact::rft)) beside the soil's
+//! own density and friction.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::error::{ParameterError, positive};
+
+/// What a soil says to resistive force theory; the other theories leave it aside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rft {
+    /// Factor on the stiffness ξ that the theory computes from density and friction [-].
+    pub scale: f64,
+    /// Friction angle between the wheel and the soil [rad]; without it the soil's own, a rough wheel.
+    pub surface_friction_angle: Option<f64>,
+}
+
+impl Rft {
+    /// The published theory on a rough wheel.
+    pub const PUBLISHED: Self = Self { scale: 1.0, surface_friction_angle: None };
+
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+        positive("scale of resistive force theory", self.scale)?;
+        let Some(angle) = self.surface_friction_angle else { return Ok(()) };
+        positive("surface friction angle [rad]", angle)?;
+        if angle < FRAC_PI_2 {
+            Ok(())
+        } else {
+            Err(ParameterError::new("surface friction angle [rad]", angle, "below π/2"))
+        }
+    }
+}
+
+impl Default for Rft {
+    fn default() -> Self {
+        Self::PUBLISHED
+    }
+}
