@@ -35,6 +35,7 @@ mod presets;
 mod rover;
 mod scenario;
 mod schema;
+pub mod simulated_test;
 mod soil;
 mod source;
 pub mod study;

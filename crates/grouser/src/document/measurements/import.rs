@@ -102,7 +102,7 @@ enum Dimension {
     Angle,
     Speed,
     Share,
-    /// A label.
+    /// A label, or a column that is taken as it is.
     Text,
 }
 
@@ -122,9 +122,10 @@ fn dimension(column: &Column) -> Dimension {
         | Meaning::LoadSetting
         | Meaning::OpposingSideForce
         | Meaning::Reading(_)
-        | Meaning::Scatter(_)
-        | Meaning::Unused => Dimension::Force,
-        Meaning::Wheel | Meaning::Trial | Meaning::Cell => Dimension::Text,
+        | Meaning::Scatter(_) => Dimension::Force,
+        Meaning::Wheel | Meaning::Trial | Meaning::Cell | Meaning::Status | Meaning::Unused => {
+            Dimension::Text
+        }
     }
 }
 
@@ -173,7 +174,7 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
         let fitting = UNITS.iter().filter(|(_, of, _)| *of == dimension);
         let fitting: Vec<&str> = fitting.map(|(name, _, _)| *name).collect();
         if fitting.is_empty() {
-            format!("`{}` is a label and has no unit", column.name)
+            format!("`{}` is taken as it is and has no unit", column.name)
         } else {
             format!("'{unit}' is no unit for `{}`; known: {}", column.name, fitting.join(", "))
         }
@@ -317,7 +318,7 @@ mod tests {
             ("drawbar=Fx", "drawbar_pull_n"),
             ("sinkage_mm=z:N", "known: m, cm, mm"),
             ("sinkage_mm", "form"),
-            ("wheel=w:m", "label"),
+            ("wheel=w:m", "has no unit"),
             ("load_n=-", "names no column"),
         ] {
             let error = Mapping::parse(text).unwrap_err();
