@@ -6,7 +6,7 @@ use grouser::contact::Theory;
 use grouser::document::measurements::MeasurementError;
 use grouser::document::{self, DocumentError, Kind, LoadedScenario, Overrides, Source};
 
-use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, TraverseArgs, WheelTestArgs};
+use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, StandArgs, TraverseArgs, WheelTestArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 
@@ -106,7 +106,20 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
     check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
     check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
+    if let Some(trials) = args.stand.trials {
+        check_stand(&args.stand, trials)?;
+    }
     stand(&args.soil, &args.wheel, &args.setting)
+}
+
+/// That a simulated stand does what a stand can do.
+fn check_stand(args: &StandArgs, trials: usize) -> Result<(), Failure> {
+    use document::simulated_test::{NOISE, TRIALS};
+    let one = |number: f64| Numbers(vec![number]);
+    check_numbers("--trials", &one(trials as f64), &TRIALS)?;
+    check_numbers("--noise-n", &one(args.noise_n), &NOISE)?;
+    check_numbers("--noise-mm", &one(args.noise_mm), &NOISE)?;
+    check_numbers("--noise-nm", &one(args.noise_nm), &NOISE)
 }
 
 /// A wheel on a test stand, from the names of its soil and wheel.

@@ -45,7 +45,8 @@ impl SimulatedTest {
     #[must_use]
     pub fn run(&self) -> Vec<SimulatedTrial> {
         let settings = self.plan.run();
-        let trials = settings.iter().flat_map(|row| (1..=self.trials).map(move |trial| (row, trial)));
+        let trials =
+            settings.iter().flat_map(|row| (1..=self.trials).map(move |trial| (row, trial)));
         let read = |(place, (row, trial)): (usize, (&super::wheel_test::WheelTestRow, usize))| {
             let readings = row.result.map(|settled| {
                 let noise = self.noise_of(place as u64);
