@@ -169,13 +169,31 @@ pub(crate) struct StandArgs {
     #[arg(long, value_name = "N")]
     pub(crate) trials: Option<usize>,
     /// Standard deviation of the simulated forces [N].
-    #[arg(long, value_name = "N", default_value_t = 0.3, requires = "trials")]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0.3,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
     pub(crate) noise_n: f64,
     /// Standard deviation of the simulated sinkage [mm].
-    #[arg(long, value_name = "MM", default_value_t = 0.5, requires = "trials")]
+    #[arg(
+        long,
+        value_name = "MM",
+        default_value_t = 0.5,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
     pub(crate) noise_mm: f64,
     /// Standard deviation of the simulated torque [N·m].
-    #[arg(long, value_name = "NM", default_value_t = 0.02, requires = "trials")]
+    #[arg(
+        long,
+        value_name = "NM",
+        default_value_t = 0.02,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
     pub(crate) noise_nm: f64,
     /// What the noise is drawn from: the same seed makes the same test.
     #[arg(long, default_value_t = 1, requires = "trials")]
@@ -234,7 +252,7 @@ pub(crate) struct ValidateArgs {
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
     /// Rank every theory, with its own soils, on every data set in a folder.
-    #[arg(long, conflicts_with_all = ["data", "settings", "model", "gravity"])]
+    #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
     /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
     #[arg(long, value_name = "DIR", requires = "all")]

@@ -1,6 +1,5 @@
 //! `grouser import`: another laboratory's CSV as ours.
 
-use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
 
@@ -33,7 +32,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
         },
     };
     let label = args.file.display().to_string();
-    let file = File::open(&args.file).map_err(Failure::at("cannot open", &args.file))?;
+    let file = measurements::open(&args.file)?;
     let text = import(&label, file, &args.columns, &layout)?;
     check(&label, &text)?;
     match &args.out {

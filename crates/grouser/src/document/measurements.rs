@@ -66,12 +66,19 @@ pub struct Measurements {
 /// [`MeasurementError`] with file and line for whatever is not as [`columns`] says, and if no row
 /// is left.
 pub fn read(path: &Path, choice: &Choice) -> Result<Measurements, MeasurementError> {
+    read_from(&path.display().to_string(), open(path)?, choice)
+}
+
+/// Opens a measurement file.
+///
+/// # Errors
+/// [`MeasurementError`] if there is none, or if it may not be read.
+pub fn open(path: &Path) -> Result<File, MeasurementError> {
     let label = path.display().to_string();
     if path.is_dir() {
         return Err(MeasurementError::whole(&label, MeasurementProblem::Folder));
     }
-    let file = File::open(path).map_err(|error| MeasurementError::io(&label, &error))?;
-    read_from(&label, file, choice)
+    File::open(path).map_err(|error| MeasurementError::io(&label, &error))
 }
 
 /// Reads measurements from anywhere.

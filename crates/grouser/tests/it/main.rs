@@ -12,3 +12,4 @@ mod paper;
 mod reference;
 mod rover;
 mod runs;
+mod simulated;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grouser::document::validation::{GroupRecord, column_of};
+use grouser::document::validation::GroupRecord;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::Validation;
 
@@ -41,7 +41,9 @@ pub(super) fn html(
     for quantity in Quantity::ALL {
         let rows = error_rows(&groups, quantity);
         if !rows.is_empty() {
-            page.grid(column_of(quantity), &ERRORS.map(str::to_owned), &rows);
+            let (name, unit) = figures::name_and_unit(quantity);
+            let caption = format!("Errors of the {name} [{unit}]");
+            page.grid(&caption, &ERRORS.map(str::to_owned), &rows);
         }
     }
     page.heading("Figures");

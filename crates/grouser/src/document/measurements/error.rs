@@ -82,7 +82,7 @@ pub enum MeasurementProblem {
         value: String,
     },
     /// A value that must be there.
-    #[error("`{column}` is empty: {why}")]
+    #[error("`{column}` has no value: {why}")]
     MissingValue {
         /// Its column.
         column: String,

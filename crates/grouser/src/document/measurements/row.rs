@@ -108,7 +108,7 @@ impl<'a> Header<'a> {
                 nearest(name, candidates.map(|column| column.name)).map(|known| (name, known))
             });
             let hint = near.map(|(name, known)| format!("is `{name}` meant as `{known}`?")).next();
-            let hint = hint.unwrap_or_else(|| {
+            let hint = self.other_delimiter().or(hint).unwrap_or_else(|| {
                 "`grouser import` turns files with other columns into this layout".to_owned()
             });
             MeasurementError::at(self.label, 1, problem).with_hint(hint)
@@ -128,6 +128,16 @@ impl<'a> Header<'a> {
             return Err(missing("every reading", &meanings));
         }
         Ok(())
+    }
+
+    /// A word on fields that are not parted by commas.
+    fn other_delimiter(&self) -> Option<String> {
+        let [only] = &self.names[..] else { return None };
+        let (_, flag) =
+            [(';', "';'"), ('\t', "tab")].into_iter().find(|(c, _)| only.contains(*c))?;
+        Some(format!(
+            "fields are parted by commas here; `grouser import --delimiter {flag}` makes it so"
+        ))
     }
 
     /// What is worth knowing about the header.
