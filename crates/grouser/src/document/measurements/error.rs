@@ -67,6 +67,9 @@ pub enum MeasurementProblem {
         /// The names it may have.
         expected: String,
     },
+    /// A file for import of which nothing is known.
+    #[error("none of its columns is called as ours, and no mapping names one")]
+    NothingToImport,
     /// A condition on a column that is not there.
     #[error("there is no column `{0}`")]
     NoSuchColumn(String),

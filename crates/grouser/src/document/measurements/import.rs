@@ -215,8 +215,13 @@ pub fn import(
     while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
         let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
         let fields = plan.iter().map(|(mapping, place)| {
-            field(&record[*place], mapping, layout)
-                .map_err(|problem| MeasurementError::at(label, line, problem))
+            let text = &record[*place];
+            field(text, mapping, layout).map_err(|problem| {
+                let comma = !layout.decimal_comma && text.contains(',');
+                let hint =
+                    comma.then(|| "are decimals written with a comma? --decimal-comma".to_owned());
+                MeasurementError::at(label, line, problem).with_hint(hint)
+            })
         });
         write(fields.collect::<Result<_, _>>()?);
     }
@@ -249,7 +254,24 @@ fn plan(
             plan.push((Mapping { column, theirs: name.to_owned(), factor: 1.0 }, place));
         }
     }
-    Ok(plan)
+    if !plan.is_empty() {
+        return Ok(plan);
+    }
+    if header.iter().all(str::is_empty) {
+        return Err(MeasurementError::whole(label, Problem::NoHeader));
+    }
+    let names: Vec<&str> = header.iter().collect();
+    let hint = match names[..] {
+        [only] if only.contains(';') => {
+            "are fields parted by semicolons? --delimiter ';'".to_owned()
+        }
+        [only] if only.contains('\t') => "are fields parted by tabs? --delimiter tab".to_owned(),
+        _ => format!(
+            "its columns are {}; say which is which: --column load_n=THEIRS",
+            names.join(", ")
+        ),
+    };
+    Err(MeasurementError::whole(label, Problem::NothingToImport).with_hint(hint))
 }
 
 fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Problem> {
