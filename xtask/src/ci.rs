@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, rustdoc, schema, texts, workspace};
+use crate::{figures, measurements, rustdoc, schema, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +32,7 @@ struct Step {
 pub(crate) fn run(extent: Extent) -> bool {
     let steps = [
         step("tools", || Ok(Count::one(tools()))),
+        step("measurements", || Ok(Count::one(measurements::check()))),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
         step("lints", || {

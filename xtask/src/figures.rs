@@ -9,12 +9,19 @@ use anyhow::{Context, Result};
 
 use crate::diff;
 use crate::markers::{self, Block, Kind, Piece};
-use crate::workspace;
+use crate::{measurements, workspace};
 
-/// Writes every block and picture anew.
+/// Writes every block and picture anew, but for those that need measurements that are not here.
 pub(crate) fn write() -> Result<bool> {
     let mut written = 0;
-    for file in made_files()? {
+    let files = made_files()?;
+    for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
+        println!(
+            "{path} cannot be refreshed without measurements: set {} (docs/guide/data.md)",
+            measurements::VARIABLE
+        );
+    }
+    for file in files {
         if !file.differences.is_empty() {
             let path = workspace::root().join(&file.path);
             if let Some(folder) = path.parent() {
@@ -35,12 +42,20 @@ pub(crate) fn write() -> Result<bool> {
 pub(crate) fn check() -> Result<bool> {
     let files = made_files()?;
     let stale: Vec<&MadeFile> = files.iter().filter(|file| !file.differences.is_empty()).collect();
+    let mut complete = stale.is_empty();
+    for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
+        println!(
+            "{path} cannot be checked without measurements: set {} (docs/guide/data.md)",
+            measurements::VARIABLE
+        );
+        complete = false;
+    }
     for file in &stale {
         println!("{} is stale; `cargo xtask figures` refreshes it", file.path);
         println!("{}", file.differences.join("\n"));
     }
     println!("{} files with made parts, {} stale", files.len(), stale.len());
-    Ok(stale.is_empty())
+    Ok(complete)
 }
 
 /// A file that the program makes, or makes parts of.
@@ -50,6 +65,8 @@ struct MadeFile {
     should: String,
     /// Where it is something else, for people.
     differences: Vec<String>,
+    /// Whether a part of it needs measurements that are not here, and was left as it is.
+    needs_measurements: bool,
 }
 
 fn made_files() -> Result<Vec<MadeFile>> {
@@ -68,9 +85,16 @@ fn made_files() -> Result<Vec<MadeFile>> {
     for (path, pieces) in sources {
         let mut should = String::new();
         let mut differences = Vec::new();
+        let mut needs_measurements = false;
         for piece in pieces {
             match piece {
                 Piece::Text(text) => should.push_str(&text),
+                Piece::Made(block)
+                    if block.needs_measurements() && measurements::folder().is_none() =>
+                {
+                    needs_measurements = true;
+                    should.push_str(&block.content);
+                }
                 Piece::Made(block) => {
                     let place = || format!("{path}, line {}", block.line);
                     let made = match block.kind {
@@ -89,7 +113,7 @@ fn made_files() -> Result<Vec<MadeFile>> {
                 }
             }
         }
-        files.push(MadeFile { path, should, differences });
+        files.push(MadeFile { path, should, differences, needs_measurements });
     }
     Ok(files)
 }
@@ -134,7 +158,8 @@ impl Maker {
         let should = fs::read_to_string(&made)?;
         let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
         let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };
-        Ok(MadeFile { path: path.display().to_string(), should, differences })
+        let path = path.display().to_string();
+        Ok(MadeFile { path, should, differences, needs_measurements: false })
     }
 
     /// Runs a command with `--out` a fresh folder, once, and returns that folder.

@@ -9,6 +9,7 @@ mod libtest;
 mod links;
 mod markdown;
 mod markers;
+mod measurements;
 mod rustdoc;
 mod schema;
 mod texts;

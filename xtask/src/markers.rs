@@ -28,6 +28,14 @@ pub(crate) struct Block {
     pub(crate) content: String,
 }
 
+impl Block {
+    /// Whether its command reads measurements, which are not in the repository.
+    pub(crate) fn needs_measurements(&self) -> bool {
+        let has = |word: &str| self.arguments.iter().any(|argument| argument == word);
+        has("validate") && has("--all") && !has("--data-dir")
+    }
+}
+
 /// A piece of a Markdown file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Piece {
@@ -207,6 +215,17 @@ between
     fn a_block_without_end_and_another_command_are_refused() {
         assert!(pieces("<!-- made by: cargo run --release -- presets -->\n").is_err());
         assert!(pieces("<!-- made by: rm -rf . -->\n<!-- end -->\n").is_err());
+    }
+
+    #[test]
+    fn a_ranking_needs_measurements_and_other_blocks_do_not() {
+        let of = |arguments: &str| {
+            let markdown = format!("<!-- made by: {COMMAND}{arguments} -->\n{END}\n");
+            blocks(&markdown)[0].needs_measurements()
+        };
+        assert!(of("validate --all") && of("validate --all --format csv"));
+        assert!(!of("validate --data data/a.csv --wheel hakuto --soil toyoura"));
+        assert!(!of("validate --all --data-dir examples") && !of("attitude"));
     }
 
     #[test]

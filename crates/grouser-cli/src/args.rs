@@ -157,9 +157,49 @@ pub(crate) struct WheelTestArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0", allow_hyphen_values = true)]
     pub(crate) slip_angle_deg: Numbers,
     #[command(flatten)]
+    pub(crate) stand: StandArgs,
+    #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// A test stand that does not read exactly.
+#[derive(Debug, Args)]
+pub(crate) struct StandArgs {
+    /// Simulate a test stand: run each setting N times, with noise on what the stand reads.
+    #[arg(long, value_name = "N")]
+    pub(crate) trials: Option<usize>,
+    /// Standard deviation of the simulated forces [N].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0.3,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_n: f64,
+    /// Standard deviation of the simulated sinkage [mm].
+    #[arg(
+        long,
+        value_name = "MM",
+        default_value_t = 0.5,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_mm: f64,
+    /// Standard deviation of the simulated torque [N·m].
+    #[arg(
+        long,
+        value_name = "NM",
+        default_value_t = 0.02,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_nm: f64,
+    /// What the noise is drawn from: the same seed makes the same test.
+    #[arg(long, default_value_t = 1, requires = "trials")]
+    pub(crate) seed: u64,
 }
 
 #[derive(Debug, Args)]
@@ -205,6 +245,13 @@ pub(crate) struct UncertaintyArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(
+    override_usage = "grouser validate --data FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+                      grouser validate --all [--data-dir DIR] [OPTIONS]",
+    after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
+                  other; every cell weighs the same. docs/guide/data.md tells the columns of FILE.csv, \
+                  docs/validation.md what the numbers mean."
+)]
 pub(crate) struct ValidateArgs {
     /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
     #[arg(
@@ -225,8 +272,8 @@ pub(crate) struct ValidateArgs {
     /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// Rank every theory on every data set in a folder.
-    #[arg(long, conflicts_with = "data")]
+    /// Rank every theory, with its own soils, on every data set in a folder.
+    #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
     /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
     #[arg(long, value_name = "DIR", requires = "all")]

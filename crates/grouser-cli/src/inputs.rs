@@ -8,7 +8,7 @@ use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
 };
 
-use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, TraverseArgs, WheelTestArgs};
+use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, StandArgs, TraverseArgs, WheelTestArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 
@@ -131,6 +131,9 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
     check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
     check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
+    if let Some(trials) = args.stand.trials {
+        check_stand(&args.stand, trials)?;
+    }
     stand(&args.soil, &args.wheel, &args.setting)
 }
 
@@ -146,6 +149,16 @@ pub(crate) fn soil(
     scenario_settings(&mut scenario, setting, &BalanceArgs { loads: None, moments: None })?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
     Ok((soil, run.site.gravity))
+}
+
+/// That a simulated stand does what a stand can do.
+fn check_stand(args: &StandArgs, trials: usize) -> Result<(), Failure> {
+    use document::simulated_test::{NOISE, TRIALS};
+    let one = |number: f64| Numbers(vec![number]);
+    check_numbers("--trials", &one(trials as f64), &TRIALS)?;
+    check_numbers("--noise-n", &one(args.noise_n), &NOISE)?;
+    check_numbers("--noise-mm", &one(args.noise_mm), &NOISE)?;
+    check_numbers("--noise-nm", &one(args.noise_nm), &NOISE)
 }
 
 /// A wheel on a test stand, from the names of its soil and wheel.

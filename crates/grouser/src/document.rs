@@ -40,6 +40,7 @@ mod rover;
 mod samples;
 mod scenario;
 mod schema;
+pub mod simulated_test;
 mod soil;
 mod soil_family;
 mod source;

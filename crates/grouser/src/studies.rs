@@ -2,9 +2,10 @@
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
 //! [`attitude_band`] the same where the soil is uncertain, with what [`uncertainty`] knows of draws,
-//! [`measurement`] what a real stand reads, [`validation`] judges a theory by it, [`calibration`]
-//! finds the soil that it speaks for, [`comparison`] has the metrics by which the source paper
-//! judges a run, and [`reproduction`] runs the whole of the paper's study again.
+//! [`measurement`] what a real stand reads, [`simulated_test`] makes such readings with a known
+//! truth, [`validation`] judges a theory by them, [`calibration`] finds the soil that they speak
+//! for, [`comparison`] has the metrics by which the source paper judges a run, and
+//! [`reproduction`] runs the whole of the paper's study again.
 
 pub mod attitude;
 pub mod attitude_band;
@@ -12,6 +13,7 @@ pub mod calibration;
 pub mod comparison;
 pub mod measurement;
 pub mod reproduction;
+pub mod simulated_test;
 pub mod uncertainty;
 pub mod validation;
 pub mod wheel_test;

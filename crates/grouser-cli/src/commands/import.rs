@@ -1,10 +1,11 @@
 //! `grouser import`: another laboratory's CSV as ours.
 
-use std::fs::File;
 use std::io::Write as _;
 use std::path::Path;
 
-use grouser::document::measurements::{self, Choice, Layout, SlipDefinition, import};
+use grouser::document::measurements::{
+    self, Choice, Layout, MeasurementError, MeasurementProblem, SlipDefinition, import,
+};
 use grouser::studies::measurement::Quantity;
 
 use crate::args::{ImportArgs, SlipWord};
@@ -33,7 +34,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
         },
     };
     let label = args.file.display().to_string();
-    let file = File::open(&args.file).map_err(Failure::at("cannot open", &args.file))?;
+    let file = measurements::open(&args.file)?;
     let text = import(&label, file, &args.columns, &layout)?;
     check(&label, &text)?;
     match &args.out {
@@ -49,7 +50,7 @@ fn check(label: &str, text: &str) -> Result<(), Failure> {
     let measured = match measurements::read_from(&label, text.as_bytes(), &Choice::default()) {
         Ok(measured) => measured,
         Err(error) if error.is_of_several_wheels() => return Ok(()),
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(of_import(&label, error)),
     };
     for note in &measured.notes {
         output::tell(&format!("note: {note}"));
@@ -64,6 +65,16 @@ fn check(label: &str, text: &str) -> Result<(), Failure> {
     let (trials, cells) = (tests.trials.len(), tests.cells.len());
     output::tell(&format!("{trials} trials in {cells} cells; readings: {}", counts.join(", ")));
     Ok(())
+}
+
+/// What is missing was not mapped: the hint to import the file would lead in a circle.
+fn of_import(label: &str, error: MeasurementError) -> Failure {
+    match error.problem() {
+        problem @ MeasurementProblem::MissingColumn { .. } => Failure::Usage(format!(
+            "{label}: {problem}\nhint: say which column of theirs it is: --column OURS=THEIRS"
+        )),
+        _ => error.into(),
+    }
 }
 
 fn document_word(quantity: Quantity) -> &'static str {

@@ -1,6 +1,7 @@
 //! `grouser validate`: a theory beside measured wheel tests, or every theory beside all of them.
 
 pub(crate) mod figures;
+mod page;
 mod ranking;
 
 use std::path::Path;
@@ -19,7 +20,6 @@ use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};
 use crate::output::{self, Format};
-use crate::report::page::Page;
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     match (&args.data, &args.wheel, &args.soil) {
@@ -66,12 +66,12 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
         folder.add("validation.csv", long_rows(&validation).to_csv()?);
         folder.add("cells.csv", Rows::of(&cells).to_csv()?);
         folder.add("trials.csv", Rows::of(&trials(&measured, &validation)).to_csv()?);
-        folder.add("validation.html", page(data, &stand, &validation, &text));
-        for (name, chart) in figures::all(&validation) {
-            folder.add(&format!("figures/{name}.svg"), chart.to_svg());
+        folder.add("validation.html", page::html(args, data, &stand, &validation));
+        for figure in figures::all(&validation) {
+            folder.add(&format!("figures/{}.svg", figure.file), figure.chart.to_svg());
         }
-        folder.add("soil.toml", stand.soil.to_toml());
-        folder.add("wheel.toml", stand.wheel.to_toml());
+        folder.add_document("soil.toml", &stand.soil);
+        folder.add_document("wheel.toml", &stand.wheel);
         folder.finish()?;
     }
     match args.output.format {
@@ -150,6 +150,17 @@ fn text_of(validation: &Validation) -> String {
 }
 
 fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {
+    let rows = error_rows(groups, quantity);
+    let table = aligned(&ERRORS.map(str::to_owned), &rows);
+    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity)))
+}
+
+/// Columns of a quantity's errors.
+const ERRORS: [&str; 7] =
+    ["slip_angle_deg", "motion", "cells", "rmse", "repeatability", "bias", "r2"];
+
+/// A quantity's errors for people, a row for each group.
+fn error_rows(groups: &[GroupRecord], quantity: Quantity) -> Vec<Vec<String>> {
     let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
     let row = |group: &GroupRecord| {
         let errors = group.errors(quantity)?;
@@ -163,31 +174,5 @@ fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {
             number(errors.r2),
         ])
     };
-    let rows: Vec<Vec<String>> = groups.iter().filter_map(row).collect();
-    let header = ["slip_angle_deg", "motion", "cells", "rmse", "repeatability", "bias", "r2"];
-    let table = aligned(&header.map(str::to_owned), &rows);
-    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity)))
-}
-
-/// The page with the figures.
-fn page(data: &Path, stand: &StandInputs, validation: &Validation, text: &str) -> String {
-    let (soil, wheel) = (&stand.soil.document.name, &stand.wheel.document.name);
-    let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
-    let mut page = Page::new("Measured and predicted");
-    page.answer(&format!("{file}: theory {} with {soil}, {wheel}", stand.theory.name()));
-    page.paragraph(
-        "Every trial is predicted at its own load and motion; means over the trials of a cell are \
-         compared, and errors are over cells of equal weight. Error bars are standard deviations \
-         between the trials of a cell.",
-    );
-    page.heading("Errors");
-    page.code(text);
-    page.heading("Figures");
-    for (_, chart) in figures::all(validation) {
-        page.drawing(&chart.to_svg(), &chart.title);
-    }
-    let assumptions = stand.soil.assumptions.iter().chain(&stand.wheel.assumptions);
-    page.heading("Assumptions in force");
-    page.list(assumptions);
-    page.to_html()
+    groups.iter().filter_map(row).collect()
 }

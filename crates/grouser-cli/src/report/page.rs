@@ -50,14 +50,19 @@ impl Page {
 
     /// A table.
     pub(crate) fn table(&mut self, table: &Table) {
+        self.grid(table.caption, &table.header(), &table.cells());
+    }
+
+    /// A table from its cells.
+    pub(crate) fn grid(&mut self, caption: &str, header: &[String], cells: &[Vec<String>]) {
         let row = |tag: &str, cells: &[String]| {
             let cells: Vec<String> =
                 cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
             format!("<tr>{}</tr>\n", cells.concat())
         };
-        let head = row("th", &table.header());
-        let body: String = table.cells().iter().map(|cells| row("td", cells)).collect();
-        let caption = escaped(table.caption);
+        let head = row("th", header);
+        let body: String = cells.iter().map(|cells| row("td", cells)).collect();
+        let caption = escaped(caption);
         self.push(&format!(
             "<div class=\"table\"><table><caption>{caption}</caption>\n<thead>{head}</thead>\n\
              <tbody>{body}</tbody></table></div>\n"

@@ -6,7 +6,7 @@ use insta::assert_snapshot;
 use crate::program::{Answer, Place, changed_preset};
 
 /// Asks for things that cannot be had; the conversations are one snapshot.
-fn check_refused(name: &str, place: &Place, lines: &[&[&str]]) {
+pub(crate) fn check_refused(name: &str, place: &Place, lines: &[&[&str]]) {
     let before = place.names();
     let refused = |line: &&[&str]| check_is_refusal(&place.run(line), 2);
     let conversations: Vec<String> = lines.iter().map(refused).collect();
@@ -15,7 +15,7 @@ fn check_refused(name: &str, place: &Place, lines: &[&[&str]]) {
 }
 
 /// That nothing was printed but one message; the conversation.
-fn check_is_refusal(answer: &Answer, code: i32) -> String {
+pub(crate) fn check_is_refusal(answer: &Answer, code: i32) -> String {
     let conversation = answer.conversation();
     assert_eq!(answer.code(), code, "{conversation}");
     assert_eq!(answer.stdout, "", "{conversation}");
@@ -24,7 +24,7 @@ fn check_is_refusal(answer: &Answer, code: i32) -> String {
 }
 
 /// Lines whose words have no blanks in them.
-fn check_lines_refused(name: &str, place: &Place, lines: &[&str]) {
+pub(crate) fn check_lines_refused(name: &str, place: &Place, lines: &[&str]) {
     let words: Vec<Vec<&str>> = lines.iter().map(|line| line.split(' ').collect()).collect();
     let lines: Vec<&[&str]> = words.iter().map(Vec::as_slice).collect();
     check_refused(name, place, &lines);
@@ -62,6 +62,10 @@ fn numbers_out_of_range() {
             "wheel-test --slip-ratio 3",
             "wheel-test --slip-angle-deg 91",
             "wheel-test --gravity-m-s2 0",
+            "wheel-test --trials 0",
+            "wheel-test --trials 2 --noise-n -1",
+            "wheel-test --trials 2 --noise-mm nan",
+            "wheel-test --trials 2 --noise-nm 1e6",
             "attitude --slope-deg 61",
             "attitude --slope-deg -5",
             "attitude --gravity-m-s2 -9.8",
@@ -157,6 +161,7 @@ fn contradictory_flags() {
             "traverse --speed-m-s 0.06,0.06",
             "traverse --reference-slip-ratio 0.2",
             "traverse --force",
+            "wheel-test --seed 3",
             "reproduce --force",
             "presets toyoura --format json",
             "attitude --set scenario.slope_deg=4",

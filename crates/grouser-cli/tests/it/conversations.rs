@@ -77,6 +77,8 @@ fn help_of_each_command() {
         "traverse",
         "wheel-test",
         "attitude",
+        "validate",
+        "import",
         "check",
         "presets",
         "schema",

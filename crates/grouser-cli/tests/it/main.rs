@@ -3,5 +3,8 @@
 mod bad_input;
 mod contract;
 mod conversations;
+mod import;
 mod program;
 mod scrambled;
+mod simulated;
+mod validate;

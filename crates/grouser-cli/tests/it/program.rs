@@ -67,7 +67,8 @@ impl Place {
 
     fn prepare(&self, command: &mut Command) {
         command.current_dir(self.path()).stdin(Stdio::null());
-        for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE", "COLUMNS", "RUST_BACKTRACE"] {
+        let colours = ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"];
+        for name in colours.into_iter().chain(["COLUMNS", "GROUSER_DATA_DIR", "RUST_BACKTRACE"]) {
             command.env_remove(name);
         }
     }

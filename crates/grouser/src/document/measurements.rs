@@ -10,11 +10,14 @@
 //! Rows repeat each other, and form one cell, if they have the same `cell`; in a file without that
 //! column, if they have the same wheel, slip angle and settings of rim speed and load; and without
 //! settings, if slip, slip angle and load are written alike.
+//!
+//! What `grouser wheel-test` writes is such a file. Rows whose `status` is not `ok` are left out.
 
 pub mod columns;
 mod condition;
 mod error;
 mod import;
+mod notes;
 mod row;
 
 use std::collections::HashMap;
@@ -28,7 +31,8 @@ pub use error::{MeasurementError, MeasurementProblem};
 pub use import::{Layout, Mapping, SlipDefinition, import};
 
 use crate::studies::measurement::{Cell, Trial, WheelTests};
-use row::{Header, Row};
+use notes::LeftOut;
+use row::{Header, Row, Taken};
 
 /// The most rows that are read: a test stand makes thousands.
 pub const MOST_ROWS: usize = 4_000_000;
@@ -62,12 +66,19 @@ pub struct Measurements {
 /// [`MeasurementError`] with file and line for whatever is not as [`columns`] says, and if no row
 /// is left.
 pub fn read(path: &Path, choice: &Choice) -> Result<Measurements, MeasurementError> {
+    read_from(&path.display().to_string(), open(path)?, choice)
+}
+
+/// Opens a measurement file.
+///
+/// # Errors
+/// [`MeasurementError`] if there is none, or if it may not be read.
+pub fn open(path: &Path) -> Result<File, MeasurementError> {
     let label = path.display().to_string();
     if path.is_dir() {
         return Err(MeasurementError::whole(&label, MeasurementProblem::Folder));
     }
-    let file = File::open(path).map_err(|error| MeasurementError::io(&label, &error))?;
-    read_from(&label, file, choice)
+    File::open(path).map_err(|error| MeasurementError::io(&label, &error))
 }
 
 /// Reads measurements from anywhere.
@@ -85,10 +96,13 @@ pub fn read_from(
     let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
     let header = Header::new(label, &header, &choice.conditions)?;
     let mut rows: Vec<Row> = Vec::new();
+    let mut left_out: Option<LeftOut> = None;
     let mut record = csv::StringRecord::new();
     while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
-        if let Some(row) = header.row(&record)? {
-            rows.push(row);
+        match header.row(&record)? {
+            Taken::Row(row) => rows.push(row),
+            Taken::Unwanted => {}
+            Taken::NotOk(row) => left_out = Some(left_out.map_or(row, LeftOut::and_another)),
         }
         if rows.len() > MOST_ROWS {
             let problem = MeasurementProblem::TooManyRows { most: MOST_ROWS };
@@ -97,11 +111,21 @@ pub fn read_from(
     }
     let rows = of_one_wheel(label, rows, choice)?;
     if rows.is_empty() {
-        return Err(MeasurementError::whole(label, MeasurementProblem::NoRows));
+        return Err(MeasurementError::whole(label, why_there_are_none(choice, left_out)));
     }
     let mut notes = header.notes();
-    notes.extend(row::suspicions(&rows));
+    notes.extend(left_out.iter().map(LeftOut::note));
+    notes.extend(notes::suspicions(&rows));
     Ok(Measurements { lines: rows.iter().map(|row| row.line).collect(), notes, tests: tests(rows) })
+}
+
+fn why_there_are_none(choice: &Choice, left_out: Option<LeftOut>) -> MeasurementProblem {
+    let conditions: Vec<String> = choice.conditions.iter().map(ToString::to_string).collect();
+    match left_out {
+        Some(rows) => MeasurementProblem::NoRowOk { first: rows.status },
+        None if conditions.is_empty() => MeasurementProblem::NoRows,
+        None => MeasurementProblem::NoRowMeets { conditions: conditions.join(", ") },
+    }
 }
 
 /// The rows of the wheel that was asked for.

@@ -111,7 +111,7 @@ impl From<&WheelTestRow> for WheelTestRecord {
 }
 
 /// An angle that came in as degrees, as it was written: 15, not 14.999999999999998.
-fn printed_degrees(angle: f64) -> f64 {
+pub(super) fn printed_degrees(angle: f64) -> f64 {
     let degrees = angle.to_degrees();
     let rounded = (degrees * 1e9).round() / 1e9;
     if rounded.to_radians() == angle || (rounded - degrees).abs() < 1e-12 {

@@ -130,6 +130,8 @@ pub struct CellRecord {
     pub motion: &'static str,
     /// Slip by the total speed [-].
     pub slip_ratio_total_speed: f64,
+    /// Load, the mean over the trials [N].
+    pub load_n: f64,
     /// Rim speed that was set [m/s].
     pub rim_speed_setting_m_s: Option<f64>,
     /// How many trials it has.
@@ -175,6 +177,7 @@ impl From<&CellComparison> for CellRecord {
             slip_angle_deg: whole_degrees(cell.slip_angle),
             motion: motion(Some(cell.driven)),
             slip_ratio_total_speed: cell.total_slip,
+            load_n: cell.load,
             rim_speed_setting_m_s: cell.rim_speed,
             trials: cell.trials,
             unsettled_trials: cell.unsettled,

@@ -49,6 +49,8 @@ pub struct CellComparison {
     pub rim_speed: Option<f64>,
     /// Slip by the total speed, *S* [-].
     pub total_slip: f64,
+    /// Load, the mean over the trials [N].
+    pub load: f64,
     /// Whether the wheel drives.
     pub driven: bool,
     /// How many trials it has.
@@ -154,7 +156,9 @@ fn compare(
     cell: &Cell,
     predictions: &[Result<Settled, SettleError>],
 ) -> CellComparison {
+    let loads = cell.trials.iter().map(|&trial| tests.trials[trial].load);
     CellComparison {
+        load: loads.sum::<f64>() / cell.trials.len() as f64,
         slip_angle: cell.slip_angle,
         rim_speed: cell.rim_speed,
         total_slip: cell.total_slip,

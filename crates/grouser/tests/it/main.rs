@@ -14,5 +14,6 @@ mod reference;
 mod rft;
 mod rover;
 mod runs;
+mod simulated;
 mod uncertain_documents;
 mod uncertainty;

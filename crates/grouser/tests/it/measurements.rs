@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use grouser::contact::{Slip, Theory};
 use grouser::document::measurements::{
-    Choice, Condition, MeasurementError, Measurements, read_from,
+    Choice, Condition, MeasurementError, Measurements, columns, read_from,
 };
 use grouser::studies::measurement::{Quantity, Reading, WheelTests};
 use grouser::studies::validation::{Validation, ValidationStudy};
@@ -135,6 +135,44 @@ fn rows_are_chosen_by_conditions_and_by_the_wheels_name() {
     assert!(choose(&["slip_angle_deg=7"], None).unwrap_err().contains("no row"));
 }
 
+/// Of two loads that agree either will do; of two that do not, nobody knows which was carried.
+#[test]
+fn a_normal_force_beside_the_load_must_agree_with_it() {
+    let header = "slip_ratio,load_n,normal_force_n,sinkage_mm\n";
+    assert_eq!(tests(&format!("{header}0.1,20,19.99,5\n")).trials[0].load, 20.0);
+    assert_eq!(tests(&format!("{header}0.1,,19.99,5\n")).trials[0].load, 19.99);
+    let error = read(&format!("{header}0.1,20,24,5\n")).unwrap_err().to_string();
+    assert!(error.contains("load_setting_n"), "{error}");
+}
+
+#[test]
+fn rows_that_are_not_ok_are_left_out_and_counted() {
+    let header = "slip_ratio,load_n,sinkage_mm,status\n";
+    let text = format!("{header}0.1,20,5,ok\n0.2,20,,stuck\n0.3,20,5,\n0.4,20,,tipped\n");
+    let measured = read(&text).expect("two rows are fine");
+    assert_eq!(measured.lines, [2, 4]);
+    let note = "2 rows are left out, for `status` is not `ok`; the first, line 3: stuck";
+    assert_eq!(measured.notes, [note]);
+    let error = read(&format!("{header}0.2,20,,stuck\n")).unwrap_err().to_string();
+    assert!(error.contains("stuck"), "{error}");
+}
+
+/// `docs/guide/data.md` tells people of every column.
+#[test]
+fn the_guide_tells_every_column() {
+    let guide = include_str!("../../../../docs/guide/data.md");
+    let first_cells = guide.lines().filter(|line| line.starts_with("| `"));
+    let told: Vec<&str> = first_cells
+        .flat_map(|line| line.split('|').nth(1).unwrap_or_default().split('`').skip(1).step_by(2))
+        .collect();
+    for column in &columns::COLUMNS {
+        assert!(told.contains(&column.name), "`{}` is in no row of the tables", column.name);
+    }
+    for name in told {
+        assert!(columns::known(name).is_some(), "`{name}` is no column");
+    }
+}
+
 // ---- What is wrong with files ----
 
 #[test]
@@ -142,11 +180,11 @@ fn broken_files_say_what_is_wrong_and_where() {
     let header = "slip_ratio,slip_angle_deg,load_n,sinkage_mm\n";
     for (text, parts) in [
         (String::new(), vec!["no header"]),
-        (header.to_owned(), vec!["no row"]),
+        (header.to_owned(), vec!["no rows below its header"]),
         (format!("{header}0,0,20\n"), vec!["a.csv:2", "3 fields"]),
         (format!("{header}0,0,20,5\n0,0,x,5\n"), vec!["a.csv:3", "`load_n` is 'x'"]),
-        (format!("{header}0,0,,5\n"), vec!["a.csv:2", "`load_n` is empty"]),
-        (format!("{header}nan,0,20,5\n"), vec!["a.csv:2", "`slip_ratio` is empty"]),
+        (format!("{header}0,0,,5\n"), vec!["a.csv:2", "`load_n` has no value"]),
+        (format!("{header}nan,0,20,5\n"), vec!["a.csv:2", "`slip_ratio` has no value"]),
         (format!("{header}inf,0,20,5\n"), vec!["a.csv:2", "must be from -2 to 2"]),
         (format!("{header}30,0,20,5\n"), vec!["a.csv:2", "percent"]),
         (format!("{header}0,120,20,5\n"), vec!["`slip_angle_deg` is 120"]),
@@ -157,6 +195,7 @@ fn broken_files_say_what_is_wrong_and_where() {
         ("slip_ratio,load_n,sinkage_mm,sinkage_m\n".into(), vec!["tell the same"]),
         ("slip_ratio,load,sinkage_mm\n0,20,5\n".into(), vec!["the load is missing", "`load_n`?"]),
         ("slip,load_n,sinkage_mm\n0,20,5\n".into(), vec!["the slip", "slip_ratio"]),
+        ("slip_ratio;load_n;sinkage_mm\n0;20;5\n".into(), vec!["--delimiter ';'"]),
         ("slip_ratio,load_n\n0,20\n".into(), vec!["every reading is missing"]),
         (
             "slip_ratio,travel_speed_mm_s,rim_speed_mm_s,load_n,sinkage_mm\n0.5,10,12,20,5\n"

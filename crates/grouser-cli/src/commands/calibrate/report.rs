@@ -127,10 +127,10 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found, t
     page.heading("What was found");
     page.code(text);
     page.heading("Measured and predicted with the fit");
-    for (name, chart) in validate::figures::all(&found.validation) {
-        let svg = chart.to_svg();
-        page.drawing(&svg, &chart.title);
-        folder.add(&format!("figures/{name}.svg"), svg);
+    for figure in validate::figures::all(&found.validation) {
+        let svg = figure.chart.to_svg();
+        page.drawing(&svg, figure.caption);
+        folder.add(&format!("figures/{}.svg", figure.file), svg);
     }
     add_posterior(folder, &mut page, &found.solved);
     page.heading("Correlations");

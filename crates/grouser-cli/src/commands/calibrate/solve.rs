@@ -101,7 +101,7 @@ pub(super) fn solve(
     let summaries = samples.as_ref().map(Samples::summaries);
     let found = match &samples {
         Some(samples) => Identifiability::of_samples(calibration, samples),
-        None => Identifiability::of_fit(&fit),
+        None => Identifiability::of_fit(calibration, &fit),
     };
     let parameters = calibration.space().parameters();
     let deviations = fit.deviations(calibration.space());

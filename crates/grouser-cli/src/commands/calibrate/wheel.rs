@@ -98,8 +98,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         if let Some(samples) = samples_csv(&problem.family, solved)? {
             folder.add(SAMPLES_FILE, samples);
         }
-        folder.add("start-soil.toml", problem.stand.soil.to_toml());
-        folder.add("wheel.toml", problem.stand.wheel.to_toml());
+        folder.add_document("wheel.toml", &problem.stand.wheel);
         report::add(&mut folder, &problem, &found, &text);
         folder.finish()?;
     }

@@ -14,6 +14,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::super::Answer;
+use super::figures;
 use crate::args::ValidateArgs;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
@@ -37,6 +38,8 @@ struct Entry {
     unsettled_trials: usize,
     driven: Option<GroupRecord>,
     overall: GroupRecord,
+    #[serde(skip)]
+    validation: Validation,
 }
 
 #[derive(Serialize)]
@@ -60,6 +63,12 @@ pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
         folder.add("ranking.json", answer.to_text());
         folder.add("ranking.csv", csv_of_nested(&entries)?);
         folder.add("ranking.txt", text.clone());
+        for best in entries.iter().filter(|entry| entry.rank == 1) {
+            let part = slug(&format!("{} {}", best.data_set, best.case));
+            for figure in figures::all(&best.validation) {
+                folder.add(&format!("figures/{part}-{}.svg", figure.file), figure.chart.to_svg());
+            }
+        }
         folder.finish()?;
     }
     match args.output.format {
@@ -67,6 +76,12 @@ pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
         Format::Csv => output::print(&csv_of_nested(&entries)?),
         Format::Json => output::print_json(&answer),
     }
+}
+
+/// A name as part of a file's name.
+fn slug(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }
 
 fn data_folder(args: &ValidateArgs) -> Result<PathBuf, Failure> {
@@ -152,6 +167,7 @@ fn rank(set: &LoadedDataSet, case: &DataSetCase, file: &Path) -> Result<Vec<Entr
                 unsettled_trials: validation.overall.unsettled,
                 driven: validation.driven.as_ref().map(GroupRecord::from),
                 overall: GroupRecord::from(&validation.overall),
+                validation,
             });
         }
     }
@@ -178,18 +194,19 @@ fn score(validation: &Validation) -> Option<f64> {
 /// For people: a block for each part of each data set.
 fn text_of(entries: &[Entry]) -> String {
     let mut text = String::from(
-        "Root mean square errors over cells: drawbar pull [N] / side force [N] / sinkage [mm]\n",
+        "Root mean square errors over cells: drawbar pull [N] / side force [N] / sinkage [mm]\n\
+         score: 0 is perfect, 1 no better than the mean of what was measured\n",
     );
     for part in
         entries.chunk_by(|one, other| (&one.data_set, &one.case) == (&other.data_set, &other.case))
     {
-        let header = ["rank", "model", "soil", "driven", "all", "score", "unsettled"];
+        let header = ["rank", "model", "soil", "driven", "all", "score", "no prediction"];
         let rows: Vec<Vec<String>> = part.iter().map(row).collect();
         let table = aligned(&header.map(str::to_owned), &rows);
         let [first, ..] = part else { continue };
         text.push_str(&format!("\n{}, {}\n{table}", first.data_set, first.case));
         if let Some(repeatability) = errors(&first.overall, |it| it.repeatability) {
-            text.push_str(&format!("repeatability of the experiment, all: {repeatability}\n"));
+            text.push_str(&format!("between repeated trials, all cells: {repeatability}\n"));
         }
     }
     text

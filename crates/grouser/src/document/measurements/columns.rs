@@ -35,6 +35,8 @@ pub enum Meaning {
     Trial,
     /// Which rows repeat each other.
     Cell,
+    /// Whether the row counts: `ok` or nothing; anything else says why it does not.
+    Status,
     /// Known, and of no use here.
     Unused,
 }
@@ -79,10 +81,10 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Every column that is known. Names of the same meaning differ in unit, or in whose files they
 /// are: `longitudinal_force_n`, `normal_force_n` and `peripheral_speed_…` are those of the open
 /// single-wheel data of Carnegie Mellon University.
-pub static COLUMNS: [Column; 30] = {
+pub static COLUMNS: [Column; 41] = {
     use Meaning::{
         Cell, Load, LoadSetting, Reading, RimSpeed, RimSpeedSetting, Scatter, SlipAngle, SlipRatio,
-        TotalSlip, TravelSpeed, Trial, Unused, Wheel,
+        Status, TotalSlip, TravelSpeed, Trial, Unused, Wheel,
     };
     use Quantity::{DrawbarPull, SideForce, Sinkage, Torque};
     [
@@ -115,7 +117,19 @@ pub static COLUMNS: [Column; 30] = {
         column("side_force_std_n", Scatter(SideForce), 1.0, LOAD),
         column("torque_std_nm", Scatter(Torque), 1.0, LOAD),
         column("sinkage_std_mm", Scatter(Sinkage), 1e-3, LOAD),
+        column("status", Status, 1.0, ANY),
         column("normal_force_std_n", Unused, 1.0, ANY),
+        // What `grouser wheel-test` tells beyond what a stand reads.
+        column("entry_angle_deg", Unused, DEGREE, ANY),
+        column("exit_angle_deg", Unused, DEGREE, ANY),
+        column("max_stress_angle_deg", Unused, DEGREE, ANY),
+        column("side_force_from_shear_n", Unused, 1.0, ANY),
+        column("bulldozing_load_n", Unused, 1.0, ANY),
+        column("overturning_moment_nm", Unused, 1.0, ANY),
+        column("aligning_moment_nm", Unused, 1.0, ANY),
+        column("thrust_n", Unused, 1.0, ANY),
+        column("motion_resistance_n", Unused, 1.0, ANY),
+        column("max_normal_stress_kpa", Unused, 1e3, ANY),
     ]
 };
 

@@ -32,9 +32,21 @@ pub enum MeasurementProblem {
     /// Nothing at all.
     #[error("has no header: the first line names the columns")]
     NoHeader,
-    /// Nothing but a header, or nothing that meets the conditions.
-    #[error("has no row that meets the conditions")]
+    /// Nothing but a header.
+    #[error("has no rows below its header")]
     NoRows,
+    /// Nothing that is wanted.
+    #[error("has no row that meets the conditions: {conditions}")]
+    NoRowMeets {
+        /// The conditions, as they were written.
+        conditions: String,
+    },
+    /// Nothing that was run well.
+    #[error("has no row whose `status` is `ok`; the first says: {first}")]
+    NoRowOk {
+        /// The first row's status.
+        first: String,
+    },
     /// More than can be meant.
     #[error("has more than {most} rows")]
     TooManyRows {
@@ -55,6 +67,9 @@ pub enum MeasurementProblem {
         /// The names it may have.
         expected: String,
     },
+    /// A file for import of which nothing is known.
+    #[error("none of its columns is called as ours, and no mapping names one")]
+    NothingToImport,
     /// A condition on a column that is not there.
     #[error("there is no column `{0}`")]
     NoSuchColumn(String),
@@ -70,7 +85,7 @@ pub enum MeasurementProblem {
         value: String,
     },
     /// A value that must be there.
-    #[error("`{column}` is empty: {why}")]
+    #[error("`{column}` has no value: {why}")]
     MissingValue {
         /// Its column.
         column: String,
@@ -98,6 +113,18 @@ pub enum MeasurementProblem {
         value: f64,
         /// The slip of the speeds.
         of_speeds: f64,
+    },
+    /// Two loads in one row.
+    #[error("`{column}` is {}, `{other}` is {}", number(*.value), number(*.other_value))]
+    LoadsDiffer {
+        /// The first column.
+        column: String,
+        /// Its value.
+        value: f64,
+        /// The second column.
+        other: String,
+        /// Its value.
+        other_value: f64,
     },
     /// Rows of several wheels, and no telling which is meant.
     #[error("has rows of several wheels: {}", labels.join(", "))]

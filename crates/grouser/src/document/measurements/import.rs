@@ -102,7 +102,7 @@ enum Dimension {
     Angle,
     Speed,
     Share,
-    /// A label.
+    /// A label, or a column that is taken as it is.
     Text,
 }
 
@@ -122,9 +122,10 @@ fn dimension(column: &Column) -> Dimension {
         | Meaning::LoadSetting
         | Meaning::OpposingSideForce
         | Meaning::Reading(_)
-        | Meaning::Scatter(_)
-        | Meaning::Unused => Dimension::Force,
-        Meaning::Wheel | Meaning::Trial | Meaning::Cell => Dimension::Text,
+        | Meaning::Scatter(_) => Dimension::Force,
+        Meaning::Wheel | Meaning::Trial | Meaning::Cell | Meaning::Status | Meaning::Unused => {
+            Dimension::Text
+        }
     }
 }
 
@@ -173,7 +174,7 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
         let fitting = UNITS.iter().filter(|(_, of, _)| *of == dimension);
         let fitting: Vec<&str> = fitting.map(|(name, _, _)| *name).collect();
         if fitting.is_empty() {
-            format!("`{}` is a label and has no unit", column.name)
+            format!("`{}` is taken as it is and has no unit", column.name)
         } else {
             format!("'{unit}' is no unit for `{}`; known: {}", column.name, fitting.join(", "))
         }
@@ -214,8 +215,13 @@ pub fn import(
     while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
         let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
         let fields = plan.iter().map(|(mapping, place)| {
-            field(&record[*place], mapping, layout)
-                .map_err(|problem| MeasurementError::at(label, line, problem))
+            let text = &record[*place];
+            field(text, mapping, layout).map_err(|problem| {
+                let comma = !layout.decimal_comma && text.contains(',');
+                let hint =
+                    comma.then(|| "are decimals written with a comma? --decimal-comma".to_owned());
+                MeasurementError::at(label, line, problem).with_hint(hint)
+            })
         });
         write(fields.collect::<Result<_, _>>()?);
     }
@@ -248,7 +254,24 @@ fn plan(
             plan.push((Mapping { column, theirs: name.to_owned(), factor: 1.0 }, place));
         }
     }
-    Ok(plan)
+    if !plan.is_empty() {
+        return Ok(plan);
+    }
+    if header.iter().all(str::is_empty) {
+        return Err(MeasurementError::whole(label, Problem::NoHeader));
+    }
+    let names: Vec<&str> = header.iter().collect();
+    let hint = match names[..] {
+        [only] if only.contains(';') => {
+            "are fields parted by semicolons? --delimiter ';'".to_owned()
+        }
+        [only] if only.contains('\t') => "are fields parted by tabs? --delimiter tab".to_owned(),
+        _ => format!(
+            "its columns are {}; say which is which: --column load_n=THEIRS",
+            names.join(", ")
+        ),
+    };
+    Err(MeasurementError::whole(label, Problem::NothingToImport).with_hint(hint))
 }
 
 fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Problem> {
@@ -317,7 +340,7 @@ mod tests {
             ("drawbar=Fx", "drawbar_pull_n"),
             ("sinkage_mm=z:N", "known: m, cm, mm"),
             ("sinkage_mm", "form"),
-            ("wheel=w:m", "label"),
+            ("wheel=w:m", "has no unit"),
             ("load_n=-", "names no column"),
         ] {
             let error = Mapping::parse(text).unwrap_err();

@@ -3,9 +3,11 @@
 use csv::StringRecord;
 
 use super::super::check::nearest;
+use super::super::study::OK;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::notes::LeftOut;
 use crate::contact::Slip;
 use crate::studies::measurement::{PerQuantity, Quantity, Reading};
 use crate::units::Vec2;
@@ -13,6 +15,10 @@ use crate::units::Vec2;
 /// A slip in a column may differ from that of the speeds by this much [-]. Source: ours; rounding
 /// and the drift of a speed within a trial make a few thousandths, another definition makes more.
 const SLIP_TOLERANCE: f64 = 0.05;
+
+/// Two columns may tell the load if they differ by no more than this share [-]. Source: ours; a
+/// settled wheel's normal force is its load to a millionth, a stand's differs by several percent.
+const LOAD_TOLERANCE: f64 = 0.01;
 
 /// The header, understood.
 pub(super) struct Header<'a> {
@@ -22,6 +28,16 @@ pub(super) struct Header<'a> {
     columns: Vec<Option<&'static Column>>,
     conditions: Vec<(usize, &'a Condition)>,
     side_force_opposes: bool,
+}
+
+/// What becomes of a row.
+pub(super) enum Taken {
+    /// It is read.
+    Row(Row),
+    /// It does not meet the conditions.
+    Unwanted,
+    /// Its status is not `ok`.
+    NotOk(LeftOut),
 }
 
 /// A row, in SI.
@@ -92,7 +108,7 @@ impl<'a> Header<'a> {
                 nearest(name, candidates.map(|column| column.name)).map(|known| (name, known))
             });
             let hint = near.map(|(name, known)| format!("is `{name}` meant as `{known}`?")).next();
-            let hint = hint.unwrap_or_else(|| {
+            let hint = self.other_delimiter().or(hint).unwrap_or_else(|| {
                 "`grouser import` turns files with other columns into this layout".to_owned()
             });
             MeasurementError::at(self.label, 1, problem).with_hint(hint)
@@ -114,6 +130,16 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
+    /// A word on fields that are not parted by commas.
+    fn other_delimiter(&self) -> Option<String> {
+        let [only] = &self.names[..] else { return None };
+        let (_, flag) =
+            [(';', "';'"), ('\t', "tab")].into_iter().find(|(c, _)| only.contains(*c))?;
+        Some(format!(
+            "fields are parted by commas here; `grouser import --delimiter {flag}` makes it so"
+        ))
+    }
+
     /// What is worth knowing about the header.
     pub(super) fn notes(&self) -> Vec<String> {
         let unknown = self.names.iter().zip(&self.columns).filter(|(_, column)| column.is_none());
@@ -132,16 +158,22 @@ impl<'a> Header<'a> {
         notes
     }
 
-    /// A row, or `None` if it is not wanted.
-    pub(super) fn row(&self, record: &StringRecord) -> Result<Option<Row>, MeasurementError> {
+    /// What becomes of a row.
+    pub(super) fn row(&self, record: &StringRecord) -> Result<Taken, MeasurementError> {
         let line = record.position().map_or(0, csv::Position::line);
         if record.iter().eq(self.names.iter().map(String::as_str)) {
             return Err(MeasurementError::at(self.label, line, Problem::RepeatedHeader));
         }
         if !self.conditions.iter().all(|(place, condition)| condition.is_met_by(&record[*place])) {
-            return Ok(None);
+            return Ok(Taken::Unwanted);
         }
-        Cells { header: self, record, line }.row().map(Some)
+        let cells = Cells { header: self, record, line };
+        match cells.text(Meaning::Status) {
+            Some((_, status)) if !status.eq_ignore_ascii_case(OK) => {
+                Ok(Taken::NotOk(LeftOut::first(line, status)))
+            }
+            _ => cells.row().map(Taken::Row),
+        }
     }
 }
 
@@ -149,7 +181,8 @@ fn tell_the_same(one: &Column, other: &Column) -> bool {
     let side = |meaning| {
         matches!(meaning, Meaning::OpposingSideForce | Meaning::Reading(Quantity::SideForce))
     };
-    one.meaning != Meaning::Unused
+    // Two loads may agree, row by row.
+    !matches!(one.meaning, Meaning::Unused | Meaning::Load)
         && (one.meaning == other.meaning || (side(one.meaning) && side(other.meaning)))
 }
 
@@ -163,6 +196,7 @@ struct Cells<'a> {
 impl Cells<'_> {
     fn row(&self) -> Result<Row, MeasurementError> {
         let (_, load) = self.needed(Meaning::Load, "a trial needs the load it was run at")?;
+        self.check_loads()?;
         let slip_angle = self.number(Meaning::SlipAngle)?.map_or(0.0, |(_, angle)| angle);
         let slip = self.slip(slip_angle)?;
         let side_sign = match slip_angle {
@@ -194,6 +228,28 @@ impl Cells<'_> {
             load,
             readings,
         })
+    }
+
+    /// That all columns of the load tell the same.
+    fn check_loads(&self) -> Result<(), MeasurementError> {
+        let mut loads = Vec::new();
+        for (column, text) in self.texts(Meaning::Load) {
+            loads.extend(self.number_in(column, text)?.map(|load| (column, load)));
+        }
+        match &loads[..] {
+            [(one, load), (other, another)]
+                if (load - another).abs() > LOAD_TOLERANCE * load.max(*another) =>
+            {
+                let (column, other) = (one.name.to_owned(), other.name.to_owned());
+                let problem =
+                    Problem::LoadsDiffer { column, value: *load, other, other_value: *another };
+                let hint = "keep the one that the wheel carried; call the one that was set \
+                            `load_setting_n`";
+                let error = MeasurementError::at(self.header.label, self.line, problem);
+                Err(error.with_hint(hint.to_owned()))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The motion, from the best that the row has.
@@ -275,6 +331,10 @@ impl Cells<'_> {
     /// A number in SI, where the row has one. An empty cell and `nan` are a missing value.
     fn number(&self, meaning: Meaning) -> Result<Option<(&'static Column, f64)>, MeasurementError> {
         let Some((column, text)) = self.text(meaning) else { return Ok(None) };
+        Ok(self.number_in(column, text)?.map(|value| (column, value)))
+    }
+
+    fn number_in(&self, column: &Column, text: &str) -> Result<Option<f64>, MeasurementError> {
         let failed = |problem| MeasurementError::at(self.header.label, self.line, problem);
         let name = column.name.to_owned();
         let value: f64 = text.parse().map_err(|_| {
@@ -290,15 +350,19 @@ impl Cells<'_> {
             let problem = Problem::OutOfRange { column: name, value, least, most };
             return Err(failed(problem).with_hint(hint_of_unit(column)));
         }
-        Ok(Some((column, value * column.to_si)))
+        Ok(Some(value * column.to_si))
     }
 
     /// A cell that is not empty.
     fn text(&self, meaning: Meaning) -> Option<(&'static Column, &str)> {
+        self.texts(meaning).next()
+    }
+
+    /// All cells of a meaning that are not empty.
+    fn texts(&self, meaning: Meaning) -> impl Iterator<Item = (&'static Column, &str)> {
         let columns = self.header.columns.iter().zip(self.record.iter());
-        let mut of_meaning =
-            columns.filter_map(|(column, text)| column.map(|column| (column, text)));
-        of_meaning.find(|(column, text)| column.meaning == meaning && !text.is_empty())
+        let known = columns.filter_map(|(column, text)| column.map(|column| (column, text)));
+        known.filter(move |(column, text)| column.meaning == meaning && !text.is_empty())
     }
 }
 
@@ -312,40 +376,4 @@ fn hint_of_unit(column: &Column) -> Option<String> {
         }
         _ => None,
     }
-}
-
-/// Values that are possible, but look like those of another unit.
-pub(super) fn suspicions(rows: &[Row]) -> Vec<String> {
-    /// Forces on a wheel beyond this many loads are rare. Source: ours; a locked wheel resists
-    /// with twice its load.
-    const MANY_LOADS: f64 = 5.0;
-    /// Sinkages that are all below this were hardly read in millimetres [m]. Source: ours.
-    const TINY: f64 = 2e-4;
-    let mut notes = Vec::new();
-    for (quantity, name) in
-        [(Quantity::DrawbarPull, "drawbar pull"), (Quantity::SideForce, "side force")]
-    {
-        let large = rows.iter().find(|row| {
-            let reading = row.readings[quantity];
-            reading.is_some_and(|reading| reading.value.abs() > MANY_LOADS * row.load)
-        });
-        if let Some(row) = large {
-            let line = row.line;
-            notes.push(format!(
-                "line {line}: the {name} is more than {MANY_LOADS} times the load: are both in N?"
-            ));
-        }
-    }
-    let sinkages: Vec<f64> =
-        rows.iter().filter_map(|row| row.readings.sinkage).map(|it| it.value.abs()).collect();
-    if !sinkages.is_empty() && sinkages.iter().all(|sinkage| *sinkage < TINY) {
-        notes.push("all sinkages are below 0.2 mm: are they in metres?".to_owned());
-    }
-    /// Angles below this are hardly set in degrees, unless they are all zero [rad of degrees].
-    const SMALL_ANGLE: f64 = std::f64::consts::FRAC_PI_2 * std::f64::consts::PI / 180.0;
-    let largest = rows.iter().map(|row| row.slip_angle.abs()).fold(0.0, f64::max);
-    if largest > 0.0 && largest <= SMALL_ANGLE {
-        notes.push("all slip angles are below 1.6 degrees: are they in radians?".to_owned());
-    }
-    notes
 }

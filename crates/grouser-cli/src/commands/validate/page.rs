@@ -1,0 +1,94 @@
+//! The page of a validation: the answer, the errors, the figures.
+
+use std::path::Path;
+
+use grouser::document::validation::GroupRecord;
+use grouser::studies::measurement::Quantity;
+use grouser::studies::validation::Validation;
+
+use super::{ERRORS, error_rows, figures, groups_and_sums};
+use crate::args::ValidateArgs;
+use crate::inputs::StandInputs;
+use crate::output::rows::four_digits;
+use crate::report::page::Page;
+
+pub(super) fn html(
+    args: &ValidateArgs,
+    data: &Path,
+    stand: &StandInputs,
+    validation: &Validation,
+) -> String {
+    let mut page = Page::new("Measured and predicted");
+    page.answer(&answer(stand, validation));
+    page.list(what_was_compared(args, data, stand));
+    if validation.overall.unsettled > 0 {
+        page.paragraph(&format!(
+            "{} of {} trials have no prediction, for the soil cannot carry the wheel, says the \
+             theory. They are in no error and in no figure.",
+            validation.overall.unsettled, validation.overall.trials
+        ));
+    }
+    page.heading("Errors");
+    page.paragraph(
+        "Every trial is predicted at its own load and motion. Trials that repeat each other form a \
+         cell; measurement and prediction are averaged over it, and every cell weighs the same. \
+         rmse: root mean square of prediction minus measurement. bias: its mean, positive where \
+         the theory says too much. repeatability: standard deviation between the trials of a cell; \
+         a theory whose rmse is as small agrees as well as the experiment does with itself. r2: 1 is \
+         perfect, 0 no better than the mean of the measured values.",
+    );
+    let groups = groups_and_sums(validation);
+    for quantity in Quantity::ALL {
+        let rows = error_rows(&groups, quantity);
+        if !rows.is_empty() {
+            let (name, unit) = figures::name_and_unit(quantity);
+            let caption = format!("Errors of the {name} [{unit}]");
+            page.grid(&caption, &ERRORS.map(str::to_owned), &rows);
+        }
+    }
+    page.heading("Figures");
+    for figure in figures::all(validation) {
+        page.drawing(&figure.chart.to_svg(), figure.caption);
+    }
+    page.heading("Assumptions in force");
+    page.list(stand.soil.assumptions.iter().chain(&stand.wheel.assumptions));
+    page.to_html()
+}
+
+/// What the theory is worth on these cells, in a sentence for each quantity.
+fn answer(stand: &StandInputs, validation: &Validation) -> String {
+    let overall = GroupRecord::from(&validation.overall);
+    let words = Quantity::ALL.into_iter().filter_map(|quantity| {
+        let errors = overall.errors(quantity)?;
+        let (name, unit) = figures::name_and_unit(quantity);
+        let itself = errors.repeatability.map_or(String::new(), |deviation| {
+            format!(" (the experiment repeats itself to {} {unit})", four_digits(deviation))
+        });
+        Some(format!("the {name} by {} {unit}{itself}", four_digits(errors.rmse)))
+    });
+    let words: Vec<String> = words.collect();
+    match words.is_empty() {
+        true => format!("The theory {} predicts no trial.", stand.theory.name()),
+        false => format!(
+            "The theory {} misses, root mean square over {} cells, {}.",
+            stand.theory.name(),
+            overall.cells,
+            words.join(", ")
+        ),
+    }
+}
+
+fn what_was_compared(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Vec<String> {
+    let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
+    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
+    let rows = match conditions.is_empty() {
+        true => String::new(),
+        false => format!(", rows with {}", conditions.join(" and ")),
+    };
+    vec![
+        format!("measurements: {file}{rows}"),
+        format!("wheel: {}", stand.wheel.document.name),
+        format!("soil: {}", stand.soil.document.name),
+        format!("gravity: {} m/s²", stand.gravity),
+    ]
+}

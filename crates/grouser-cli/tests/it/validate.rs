@@ -1,0 +1,429 @@
+//! `validate`: theories beside measurements, in the words of scripts and of people.
+
+use insta::assert_snapshot;
+use serde_json::Value;
+
+use crate::bad_input::{check_is_refusal, check_lines_refused, check_refused};
+use crate::program::{Place, keys, number};
+
+/// A test stand that reads the HAKUTO wheel on Toyoura sand, 12 settings three times each.
+pub(crate) fn simulate() -> &'static str {
+    "wheel-test --load-n 20 --slip-ratio -0.6:0.6:0.24 --slip-angle-deg 0,15 --trials 3"
+}
+
+/// The same wheel and sand against a file to be named.
+pub(crate) const JUDGE: &str = "validate --wheel hakuto --soil toyoura";
+
+/// A folder with `test.csv`, as the simulated stand writes it.
+fn with_test() -> Place {
+    let place = Place::new();
+    place.write("test.csv", place.results(&format!("{} --format csv", simulate())));
+    place
+}
+
+// ---- One file ----
+
+#[test]
+fn errors_have_the_words_of_the_design() {
+    let place = with_test();
+    let json = place.json(&format!("{JUDGE} --data test.csv"));
+    assert_eq!(json["schema"], "grouser.validate.v1");
+    let inputs = &json["inputs"];
+    assert_eq!((&inputs["data"], &inputs["model"]), (&"test.csv".into(), &"ishigami".into()));
+    let rows = json["rows"].as_array().expect("rows");
+    let groups: Vec<_> =
+        rows.iter().map(|row| (number(&row["slip_angle_deg"]), &row["motion"])).collect();
+    let motion = |word: &str| Value::from(word);
+    assert_eq!(
+        groups,
+        [
+            (0.0, &motion("driven")),
+            (0.0, &motion("skid")),
+            (15.0, &motion("driven")),
+            (15.0, &motion("skid"))
+        ]
+    );
+    for row in rows.iter().chain([&json["overall"], &json["driven"], &json["skid"]]) {
+        for quantity in ["drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm"] {
+            let errors = &row[quantity];
+            assert_eq!(keys(errors), ["rmse", "bias", "r2", "repeatability", "cells"]);
+            assert!(errors["rmse"].is_number() && errors["r2"].is_number(), "{quantity}: {row}");
+        }
+    }
+    let overall = &json["overall"];
+    assert!(overall["slip_angle_deg"].is_null() && overall["motion"] == "all");
+    assert_eq!((&overall["cells"], &overall["trials"]), (&12.into(), &36.into()));
+    assert_eq!(json["cells"].as_array().map(Vec::len), Some(12));
+}
+
+/// The mean of three readings is off by a third of their variance: rmse ≈ repeatability/√3. Over
+/// 12 cells both scatter by some 20 and 15 percent; twice that and more is allowed.
+#[test]
+fn the_truth_agrees_as_well_as_the_stand_with_itself() {
+    let place = with_test();
+    let json = place.json(&format!("{JUDGE} --data test.csv"));
+    for (quantity, noise) in
+        [("drawbar_pull_n", 0.3), ("side_force_n", 0.3), ("sinkage_mm", 0.5), ("torque_nm", 0.02)]
+    {
+        let errors = &json["overall"][quantity];
+        let (rmse, itself) = (number(&errors["rmse"]), number(&errors["repeatability"]));
+        assert!((0.6..1.4).contains(&(itself / noise)), "{quantity}: {errors}");
+        assert!((0.5..1.6).contains(&(rmse / noise * 3.0_f64.sqrt())), "{quantity}: {errors}");
+    }
+    let wrong = place.json("validate --wheel hakuto --soil lunar-nominal --data test.csv");
+    let rmse = |json: &Value| number(&json["overall"]["sinkage_mm"]["rmse"]);
+    assert!(rmse(&wrong) > 5.0 * rmse(&json));
+}
+
+#[test]
+fn a_file_of_wheel_test_is_read_without_a_word() {
+    let place = Place::new();
+    let line = "wheel-test --load-n 10,20 --slip-ratio -0.4,0.2 --slip-angle-deg -15,15";
+    place.write("test.csv", place.results(&format!("{line} --format csv")));
+    let json = place.json(&format!("{JUDGE} --data test.csv"));
+    for quantity in ["drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm"] {
+        // The file has every digit; the creep of the speeds takes another way.
+        assert!(number(&json["overall"][quantity]["rmse"]) < 1e-6, "{quantity}");
+    }
+}
+
+#[test]
+fn rows_that_did_not_settle_are_left_out_and_told() {
+    let place = Place::new();
+    let line = "wheel-test --load-n 20,1e5 --slip-ratio 0.2,0.4 --format csv";
+    place.write("test.csv", place.results(line));
+    let answer = place.line(&format!("{JUDGE} --data test.csv --format json"));
+    assert_eq!(answer.code(), 0);
+    assert!(answer.stderr.starts_with("note: 2 rows are left out"), "{}", answer.stderr);
+    let json: Value = serde_json::from_str(&answer.stdout).expect("JSON");
+    assert_eq!(json["overall"]["cells"], 2);
+}
+
+#[test]
+fn validations_as_tables_and_csv() {
+    let place = with_test();
+    let answer = place.line(&format!("{JUDGE} --data test.csv"));
+    assert_snapshot!("validate", answer.conversation());
+    let csv = place.results(&format!("{JUDGE} --data test.csv --format csv"));
+    let mut lines = csv.lines();
+    assert_eq!(
+        lines.next(),
+        Some("slip_angle_deg,motion,quantity,cells,unsettled_trials,rmse,bias,r2,repeatability")
+    );
+    // 4 groups, driven, skid and all of 4 quantities.
+    assert_eq!(lines.count(), 7 * 4);
+}
+
+#[test]
+fn rows_are_chosen_by_their_columns() {
+    let place = with_test();
+    let cells = |conditions: &str| {
+        let json = place.json(&format!("{JUDGE} --data test.csv {conditions}"));
+        number(&json["overall"]["cells"])
+    };
+    assert_eq!(cells("--where slip_angle_deg=15"), 6.0);
+    assert_eq!(cells("--where slip_angle_deg!=15 --where slip_ratio=0.6,-0.6"), 2.0);
+    assert_eq!(cells("--where trial=2"), 12.0);
+}
+
+#[test]
+fn a_validation_is_repeated_from_its_folder() {
+    let place = with_test();
+    let printed = place.results(&format!(
+        "{JUDGE} --data test.csv --set soil.cohesion_kpa=0.3 --gravity-m-s2 9.8 --format json --out run"
+    ));
+    assert_eq!(printed, place.read("run/validation.json"));
+    let again = place.json(
+        "validate --data test.csv --wheel run/wheel.toml --soil run/soil.toml --gravity-m-s2 9.8",
+    );
+    let first: Value = serde_json::from_str(&printed).expect("JSON");
+    assert_eq!(first["rows"], again["rows"]);
+    let trials = place.read("run/trials.csv");
+    assert_eq!(trials.lines().count(), 1 + 36);
+    assert_eq!(place.read("run/cells.csv").lines().count(), 1 + 12);
+    assert_eq!(place.read("run/validation.csv").lines().count(), 1 + 7 * 4);
+    for name in ["drawbar-pull", "side-force", "sinkage", "torque"] {
+        for file in [format!("{name}.svg"), format!("{name}-residuals.svg")] {
+            let svg = place.read(&format!("run/figures/{file}"));
+            assert!(svg.contains("<svg") && svg.trim_end().ends_with("</svg>"), "{file}");
+        }
+    }
+    let html = place.read("run/validation.html");
+    assert!(html.contains("misses") && html.matches("<svg").count() == 8, "{html}");
+    assert!(!html.contains("<script") && !html.contains(" src="));
+    let files = std::fs::read_dir(place.file("run")).expect("a folder").count();
+    assert_eq!(files, 8);
+}
+
+/// A theory that has no answer for a trial says so, and is not excused.
+#[test]
+fn trials_without_a_prediction_are_counted() {
+    let place = Place::new();
+    place.write("test.csv", "slip_ratio,load_n,drawbar_pull_n\n0.2,20,2\n0.4,90000,2\n");
+    let json = place.json(&format!("{JUDGE} --data test.csv"));
+    assert_eq!(json["overall"]["unsettled_trials"], 1);
+    let answer = place.line(&format!("{JUDGE} --data test.csv"));
+    assert_snapshot!("validate-without-prediction", answer.conversation());
+}
+
+// ---- What is wrong with files and flags ----
+
+#[test]
+fn wrong_validations() {
+    let place = with_test();
+    place.write("two.csv", "wheel,slip_ratio,load_n,torque_nm\nbars,0,20,1\nsmooth,0,20,1\n");
+    check_lines_refused(
+        "validations",
+        &place,
+        &[
+            "validate",
+            "validate --data test.csv",
+            "validate --data test.csv --wheel hakuto",
+            "validate --wheel hakuto --soil toyoura",
+            "validate --data none.csv --wheel hakuto --soil toyoura",
+            "validate --data . --wheel hakuto --soil toyoura",
+            "validate --data test.csv --wheel hakutto --soil toyoura",
+            "validate --data test.csv --wheel hakuto --soil toyora",
+            "validate --data test.csv --wheel hakuto --soil toyoura --model bekkr",
+            "validate --data test.csv --wheel hakuto --soil toyoura --set rover.body.mass_kg=1",
+            "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg",
+            "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle=0",
+            "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=7",
+            "validate --data two.csv --wheel hakuto --soil toyoura",
+            "validate --data test.csv --all",
+            "validate --all",
+            "validate --all --data-dir none",
+            "validate --all --data-dir .",
+            "validate --all --data-dir . --model bekker",
+            "validate --all --data-dir . --where trial=1",
+            "validate --data-dir .",
+        ],
+    );
+}
+
+#[test]
+fn broken_measurement_files() {
+    let place = Place::new();
+    let header = "slip_ratio,slip_angle_deg,load_n,sinkage_mm\n";
+    for (file, content) in [
+        ("a-missing-load", "slip_ratio,sinkage_mm\n0.1,5\n".to_owned()),
+        ("a-missing-slip", "load_n,sinkage_mm\n20,5\n".to_owned()),
+        ("a-missing-reading", "slip_ratio,load_n\n0.1,20\n".to_owned()),
+        ("a-misspelt-load", "slip_ratio,load_N,sinkage_mm\n0.1,20,5\n".to_owned()),
+        ("a-slip-in-percent", format!("{header}20,0,20,5\n")),
+        ("a-sinkage-in-micrometres", format!("{header}0.2,0,20,5000\n")),
+        ("an-angle-too-large", format!("{header}0.2,150,20,5\n")),
+        ("a-negative-load", format!("{header}0.2,15,-20,5\n")),
+        ("two-loads", "slip_ratio,load_n,normal_force_n,sinkage_mm\n0.1,20,24,5\n".to_owned()),
+        ("a-word", format!("{header}0.2,15,20,5\n0.2,15,heavy,5\n")),
+        ("a-decimal-comma", format!("{header}\"0,2\",15,20,5\n")),
+        ("nan", format!("{header}0.2,15,nan,5\n")),
+        ("infinite", format!("{header}0.2,15,inf,5\n")),
+        ("a-short-row", format!("{header}0.2,15,20\n")),
+        ("semicolons", "slip_ratio;load_n;sinkage_mm\n0.1;20;5\n".to_owned()),
+        ("header-twice", format!("{header}0.2,15,20,5\n{header}0.2,15,20,5\n")),
+        ("column-twice", "slip_ratio,load_n,load_n,sinkage_mm\n0.1,20,20,5\n".to_owned()),
+        ("header-alone", header.to_owned()),
+        ("empty", String::new()),
+        ("no-row-ok", "slip_ratio,load_n,sinkage_mm,status\n0.1,20,5,stuck\n".to_owned()),
+        (
+            "slip-against-speeds",
+            "slip_ratio,travel_speed_mm_s,rim_speed_mm_s,load_n,sinkage_mm\n0.5,10,12,20,5\n"
+                .to_owned(),
+        ),
+    ] {
+        place.write(&format!("{file}.csv"), content);
+    }
+    place.write("binary.csv", [0x7f, b'E', b'L', b'F', 0, 0xff, 0xfe]);
+    place.write("latin-1.csv", b"slip_ratio,load_n,sinkage_mm,by\n0.1,20,5,J\xfcrgen\n");
+    let names = place.names();
+    let lines: Vec<Vec<&str>> = names
+        .iter()
+        .map(|name| JUDGE.split(' ').chain(["--data", name.as_str()]).collect())
+        .collect();
+    let lines: Vec<&[&str]> = lines.iter().map(Vec::as_slice).collect();
+    check_refused("measurement-files", &place, &lines);
+}
+
+/// What is odd but readable is told beside the result.
+#[test]
+fn odd_measurement_files_are_read_with_notes() {
+    let place = Place::new();
+    let header = "slip_ratio,slip_angle_deg,load_n,drawbar_pull_n,sinkage_mm";
+    place.write("one-row.csv", format!("{header}\n0.2,0,20,2,12\n"));
+    place.write("radians.csv", format!("{header}\n0.2,0.26,20,2,12\n0.2,0.52,20,2,12\n"));
+    place.write("grams.csv", format!("{header}\n0.2,15,20,200,12\n"));
+    place.write("metres.csv", format!("{header}\n0.2,15,20,2,0.012\n"));
+    place.write("misspelt.csv", format!("{header},torque_Nm,operator\n0.2,15,20,2,12,0.4,me\n"));
+    place.write("byte-order-mark.csv", format!("\u{feff}{header}\r\n0.2,15,20,2,12\r\n"));
+    let answers = place.names().into_iter().map(|name| {
+        let answer = place.line(&format!("{JUDGE} --data {name}"));
+        assert_eq!(answer.code(), 0, "{name}: {}", answer.stderr);
+        format!("{name}\n{}", answer.stderr)
+    });
+    assert_snapshot!("odd-measurement-files", answers.collect::<Vec<_>>().join("\n"));
+}
+
+// ---- Every theory on every data set ----
+
+const DATA_SET: &str = "schema = \"data-set/1\"\nname = \"Our stand\"\nsource = \"simulated\"\n\
+                        file = \"test.csv\"\n\n[[case]]\nname = \"level\"\nwheel = \"hakuto\"\n\
+                        where = [\"slip_angle_deg=0\"]\nsoils = [\"lunar-nominal\", \"toyoura\"]\n\n\
+                        [[case]]\nname = \"askew\"\nwheel = \"hakuto\"\n\
+                        where = [\"slip_angle_deg=15\"]\nsoils = [\"sand.toml\"]\n";
+
+/// A folder `lab` with a data set of our own.
+fn with_data_set() -> Place {
+    let place = Place::new();
+    std::fs::create_dir(place.file("lab")).expect("it can be made");
+    place.write("lab/test.csv", place.results(&format!("{} --format csv", simulate())));
+    place.write("lab/set.toml", DATA_SET);
+    let soil = place.results("presets toyoura");
+    place.write("lab/sand.toml", format!("model = \"ishigami\"\n{soil}"));
+    place
+}
+
+#[test]
+fn every_theory_is_ranked_on_a_data_set_of_ones_own() {
+    let place = with_data_set();
+    let json = place.json("validate --all --data-dir lab");
+    assert_eq!(json["schema"], "grouser.validate.v1");
+    assert_eq!(json["inputs"]["data_sets"], serde_json::json!(["Our stand"]));
+    let rows = json["rows"].as_array().expect("rows");
+    for row in rows {
+        for word in ["data_set", "case", "rank", "model", "soil", "score", "overall", "driven"] {
+            assert!(!row[word].is_null(), "{word} in {row}");
+        }
+    }
+    let of_case =
+        |case: &str| -> Vec<&Value> { rows.iter().filter(|row| row["case"] == case).collect() };
+    let level = of_case("level");
+    assert!(level.len() >= 4, "two soils, two theories or more: {}", level.len());
+    assert_eq!((&level[0]["model"], &level[0]["soil"]), (&"ishigami".into(), &"toyoura".into()));
+    let scores: Vec<f64> = level.iter().map(|row| number(&row["score"])).collect();
+    // At 0° the side force is noise alone: its share of the score says nothing.
+    assert!(scores.is_sorted() && scores[0] < 0.7 * scores[1], "{scores:?}");
+    // A soil that names its theory is judged with that one alone.
+    let askew = of_case("askew");
+    assert_eq!((askew.len(), &askew[0]["model"]), (1, &"ishigami".into()));
+}
+
+#[test]
+fn a_ranking_as_a_table_as_csv_and_in_a_folder() {
+    let place = with_data_set();
+    let table = place.line("validate --all --data-dir lab --out ranking");
+    assert_eq!(table.code(), 0, "{}", table.stderr);
+    assert_eq!(table.stdout, place.read("ranking/ranking.txt"));
+    let csv = place.results("validate --all --data-dir lab --format csv");
+    assert_eq!(csv, place.read("ranking/ranking.csv"));
+    let header: Vec<&str> = csv.lines().next().expect("a header").split(',').collect();
+    for column in ["data_set", "rank", "overall_sinkage_mm_rmse", "driven_torque_nm_r2"] {
+        assert!(header.contains(&column), "{column}");
+    }
+    assert!(place.read("ranking/ranking.json").contains("grouser.validate.v1"));
+    let svg = place.read("ranking/figures/our-stand-level-sinkage-residuals.svg");
+    assert!(svg.contains("<svg"));
+}
+
+#[test]
+fn the_environment_names_the_folder_unless_a_flag_does() {
+    let place = with_data_set();
+    let by_flag = place.results("validate --all --data-dir lab");
+    let run = |variable: &str, arguments: &[&str]| {
+        let mut command = place.command(arguments);
+        let output = command.env("GROUSER_DATA_DIR", variable).output();
+        let output = output.expect("the program starts");
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    assert_eq!(run("lab", &["validate", "--all"]), (Some(0), by_flag.clone()));
+    assert_eq!(run("none", &["validate", "--all", "--data-dir", "lab"]), (Some(0), by_flag));
+}
+
+#[test]
+fn wrong_data_sets() {
+    let place = Place::new();
+    let test = place.results(&format!("{} --format csv", simulate()));
+    let sets = [
+        ("no-file", "test.csv", "tset.csv"),
+        ("no-soil", "\"toyoura\"", "\"toyora\""),
+        ("no-wheel", "wheel = \"hakuto\"", "wheel = \"mine.toml\""),
+        ("no-condition", "slip_angle_deg=0", "slip_angle_deg"),
+        ("no-column", "slip_angle_deg=0", "slip_angel_deg=0"),
+        ("no-row", "slip_angle_deg=0", "slip_angle_deg=7"),
+        ("misspelt", "soils =", "soil ="),
+        ("gravity", "file =", "gravity_m_s2 = 0\nfile ="),
+        ("no-schema", "schema =", "# schema ="),
+    ];
+    for (folder, from, to) in sets {
+        std::fs::create_dir(place.file(folder)).expect("it can be made");
+        let set = DATA_SET.replacen(from, to, 1);
+        assert_ne!(set, DATA_SET, "{folder}");
+        place.write(&format!("{folder}/test.csv"), &test);
+        place.write(&format!("{folder}/sand.toml"), place.results("presets toyoura"));
+        place.write(&format!("{folder}/set.toml"), set);
+    }
+    let lines = sets.map(|(folder, ..)| format!("validate --all --data-dir {folder}"));
+    check_lines_refused("data-sets", &place, &lines.each_ref().map(String::as_str));
+}
+
+#[test]
+fn a_data_set_is_a_document_like_any_other() {
+    let place = with_data_set();
+    let answer = place.line("check lab/set.toml");
+    assert_eq!((answer.code(), answer.stderr.as_str()), (0, ""), "{}", answer.stdout);
+    assert!(place.results("presets cmu-single-wheel").contains("data-set/1"));
+    let schema: Value = serde_json::from_str(&place.results("schema data-set")).expect("JSON");
+    assert!(schema["properties"]["case"].is_object());
+}
+
+// ---- Disks and signals ----
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_no_validation() {
+    let place = with_test();
+    let answer = place.shell(&format!("ulimit -f 1; grouser {JUDGE} --data test.csv --out a/b"));
+    assert_eq!(answer.code(), 1, "{}", answer.stderr);
+    assert!(answer.stderr.starts_with("error: cannot write "), "{}", answer.stderr);
+    assert_eq!(place.names(), ["test.csv"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_cannot_be_made_is_the_disks_fault() {
+    let place = with_test();
+    let answer = place.line(&format!("{JUDGE} --data test.csv --out test.csv/below"));
+    check_is_refusal(&answer, 1);
+    assert_eq!(place.names(), ["test.csv"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_validation_is_whole_or_not_there() {
+    use std::process::{Command, Stdio};
+    let place = Place::new();
+    let rows: String = (0..60_000).map(|row| format!("0.{row:05},20,5\n")).collect();
+    place.write("test.csv", format!("slip_ratio,load_n,sinkage_mm\n{rows}"));
+    for moment in [0, 100, 400] {
+        let line = format!("{JUDGE} --data test.csv --out run");
+        let mut command = place.command(&line.split(' ').collect::<Vec<_>>());
+        let mut child =
+            command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+        std::thread::sleep(std::time::Duration::from_millis(moment));
+        if child.try_wait().expect("it can be asked").is_none() {
+            let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+            assert!(sent.expect("there is a kill").success());
+        }
+        let code = child.wait().expect("it ends").code();
+        let names = place.names();
+        match code {
+            Some(0) => assert_eq!(names, ["run", "test.csv"]),
+            // `None`: before its first line, when it had no handler yet.
+            Some(130) | None => assert_eq!(names, ["test.csv"]),
+            code => panic!("{code:?}"),
+        }
+        if code == Some(0) {
+            break;
+        }
+    }
+}
