@@ -119,6 +119,12 @@ impl SoilFamily {
         &self.parameters
     }
 
+    /// The document that the search starts from, without its own uncertainty.
+    #[must_use]
+    pub fn base(&self) -> &SoilDocument {
+        &self.base
+    }
+
     /// The soil with these values of the keys.
     ///
     /// # Errors

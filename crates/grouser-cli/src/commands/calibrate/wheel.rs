@@ -98,6 +98,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         if let Some(samples) = samples_csv(&problem.family, solved)? {
             folder.add(SAMPLES_FILE, samples);
         }
+        folder.add("start-soil.toml", report::toml_of(problem.family.base()));
         folder.add_document("wheel.toml", &problem.stand.wheel);
         report::add(&mut folder, &problem, &found, &text);
         folder.finish()?;
