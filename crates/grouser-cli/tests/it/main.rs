@@ -1,6 +1,7 @@
 //! The program as its users meet it: what they type, what it answers, what it leaves behind.
 
 mod bad_input;
+mod calibrate;
 mod contract;
 mod conversations;
 mod import;
