@@ -118,11 +118,11 @@ pub enum MeasurementProblem {
     #[error("`{column}` is {}, `{other}` is {}", number(*.value), number(*.other_value))]
     LoadsDiffer {
         /// The first column.
-        column: String,
+        column: &'static str,
         /// Its value.
         value: f64,
         /// The second column.
-        other: String,
+        other: &'static str,
         /// Its value.
         other_value: f64,
     },

@@ -60,7 +60,12 @@ pub struct Layout {
 
 impl Default for Layout {
     fn default() -> Self {
-        Self { delimiter: b',', decimal_comma: false, skipped_lines: 0, slip: Default::default() }
+        Self {
+            delimiter: b',',
+            decimal_comma: false,
+            skipped_lines: 0,
+            slip: SlipDefinition::default(),
+        }
     }
 }
 
@@ -143,13 +148,11 @@ impl Mapping {
         let ours = ours.trim();
         let column = columns::known(ours).ok_or_else(|| {
             let names = COLUMNS.iter().map(|column| column.name);
-            match nearest(ours, names.clone()) {
-                Some(name) => format!("`{ours}` is no column of ours, did you mean `{name}`?"),
-                None => {
-                    let all: Vec<&str> = names.collect();
-                    format!("`{ours}` is no column of ours; they are {}", all.join(", "))
-                }
-            }
+            let all: Vec<&str> = names.clone().collect();
+            nearest(ours, names).map_or_else(
+                || format!("`{ours}` is no column of ours; they are {}", all.join(", ")),
+                |name| format!("`{ours}` is no column of ours, did you mean `{name}`?"),
+            )
         })?;
         let (sign, theirs) = match theirs.trim().strip_prefix('-') {
             Some(theirs) => (-1.0, theirs.trim()),
@@ -208,9 +211,10 @@ pub fn import(
     let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
     let plan = plan(label, &header, mappings)?;
     let mut writer = Writer::from_writer(Vec::new());
-    // Writing to memory does not fail.
-    let mut write = |fields: Vec<String>| writer.write_record(fields).expect("memory");
-    write(plan.iter().map(|(mapping, _)| mapping.column.name.to_owned()).collect());
+    let mut write = |fields: Vec<String>| {
+        writer.write_record(fields).map_err(|error| MeasurementError::csv(label, &error))
+    };
+    write(plan.iter().map(|(mapping, _)| mapping.column.name.to_owned()).collect())?;
     let mut record = StringRecord::new();
     while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
         let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
@@ -223,9 +227,9 @@ pub fn import(
                 MeasurementError::at(label, line, problem).with_hint(hint)
             })
         });
-        write(fields.collect::<Result<_, _>>()?);
+        write(fields.collect::<Result<_, _>>()?)?;
     }
-    let bytes = writer.into_inner().expect("memory");
+    let bytes = writer.into_inner().map_err(|error| MeasurementError::io(label, error.error()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

@@ -91,7 +91,7 @@ impl<'a> Header<'a> {
         };
         let conditions = conditions.iter().map(place_of).collect::<Result<_, _>>()?;
         let side_force_opposes = names.iter().any(|name| name == OF_OPPOSING_SIDE_FORCES);
-        let header = Self { label, columns, conditions, side_force_opposes, names };
+        let header = Self { label, names, columns, conditions, side_force_opposes };
         header.check_complete()?;
         Ok(header)
     }
@@ -240,7 +240,7 @@ impl Cells<'_> {
             [(one, load), (other, another)]
                 if (load - another).abs() > LOAD_TOLERANCE * load.max(*another) =>
             {
-                let (column, other) = (one.name.to_owned(), other.name.to_owned());
+                let (column, other) = (one.name, other.name);
                 let problem =
                     Problem::LoadsDiffer { column, value: *load, other, other_value: *another };
                 let hint = "keep the one that the wheel carried; call the one that was set \
