@@ -138,15 +138,14 @@ fn long_rows(validation: &Validation) -> Rows {
 fn text_of(validation: &Validation) -> String {
     let groups = groups_and_sums(validation);
     let blocks = Quantity::ALL.into_iter().filter_map(|quantity| block(&groups, quantity));
-    let mut text = blocks.collect::<Vec<String>>().join("\n");
-    if validation.overall.unsettled > 0 {
-        text.push_str(&format!(
-            "\n{} of {} trials have no prediction: the soil cannot carry the wheel. They are in no \
-             error above.\n",
-            validation.overall.unsettled, validation.overall.trials
-        ));
-    }
-    text
+    let (unsettled, trials) = (validation.overall.unsettled, validation.overall.trials);
+    let missing = (unsettled > 0).then(|| {
+        format!(
+            "{unsettled} of {trials} trials have no prediction: the soil cannot carry the wheel. \
+             They are in no error above.\n"
+        )
+    });
+    blocks.chain(missing).collect::<Vec<String>>().join("\n")
 }
 
 fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {

@@ -86,7 +86,8 @@ impl OutputFolder {
             let place = self.target.join(name);
             write(&staged.join(name), content).map_err(Failure::at("cannot write", &place))?;
         }
-        let Some(first) = self.missing.iter().next() else {
+        // A long run may have made its folder meanwhile, to keep there how far it is.
+        let Some(first) = self.missing.iter().next().filter(|_| !self.target.is_dir()) else {
             self.check_room()?;
             return move_entries(&staged, &self.target);
         };

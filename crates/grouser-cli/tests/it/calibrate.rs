@@ -1,6 +1,9 @@
 //! `calibrate`: a known truth is found, said and kept; a run that was killed goes on.
 
 use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use serde_json::Value;
 
@@ -82,66 +85,72 @@ fn the_folder_holds_a_soil_that_other_commands_take() {
     let soil = place.read("fit/soil.toml");
     assert!(soil.contains("fitted by Grouser") && soil.contains("test.csv"), "{soil}");
     assert!(soil.contains("soil-samples.csv"), "{soil}");
-    assert!(!place.read("fit/report.html").contains("http"), "nothing is loaded from outside");
+    let page = place.read("fit/report.html").replace("http://www.w3.org/", "");
+    assert!(!page.contains("://") && !page.contains("<script"), "nothing is loaded from outside");
     assert_eq!(place.run(&["check", "fit/soil.toml", "fit/start-soil.toml"]).code(), 0);
-    let judged = json(
-        &place,
-        "validate --data test.csv --wheel hakuto --soil fit/soil.toml",
-    );
+    let judged = json(&place, "validate --data test.csv --wheel hakuto --soil fit/soil.toml");
     let rmse = |overall: &Value| number(&overall["drawbar_pull_n"]["rmse"]);
     assert!((rmse(&judged["overall"]) - rmse(&found["overall"])).abs() < 1e-9);
     // Left out of the fit, an angle is predicted no better than with it, or little.
     assert_eq!(found["cross_validation"].as_array().map(Vec::len), Some(2));
-    let band = json(&place, "attitude --soil fit/soil.toml --slope-deg 10 --uncertainty --samples 20");
-    assert_eq!(band["rows"][0]["draws"].as_u64().or(band["rows"][0]["draws_level"].as_u64()), Some(20));
+    let band =
+        json(&place, "attitude --soil fit/soil.toml --slope-deg 10 --uncertainty --samples 20");
+    assert_eq!(
+        band["rows"][0]["draws"].as_u64().or(band["rows"][0]["draws_level"].as_u64()),
+        Some(20)
+    );
 }
 
 /// The same bits for any number of threads, and after a kill half-way.
 #[cfg(unix)]
 #[test]
 fn a_killed_run_goes_on_to_the_same_bits() {
-    use std::process::{Command, Stdio};
     let place = with_test();
     let line = format!("{FIT} --steps 200");
-    let whole = place.command(&words(&format!("{line} --out whole"))).env("RAYON_NUM_THREADS", "1")
-        .output().expect("it starts");
+    let whole = place
+        .command(&words(&format!("{line} --out whole")))
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .expect("it starts");
     assert!(whole.status.success());
     let state = place.file("killed/unfinished-calibration");
     let asked = format!("{line} --out killed");
     let mut kills = 0;
-    loop {
-        let mut child = place.command(&words(&asked)).stdout(Stdio::null()).stderr(Stdio::null())
-            .spawn().expect("it starts");
-        let before = fs::metadata(&state).and_then(|it| it.modified()).ok();
-        // Until it has kept one block more, or has ended.
-        let ended = loop {
-            if let Some(status) = child.try_wait().expect("it can be asked") {
-                break Some(status);
-            }
-            let now = fs::metadata(&state).and_then(|it| it.modified()).ok();
-            if now.is_some() && now != before {
-                break None;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(2));
-        };
-        match ended {
-            Some(status) => {
-                assert!(status.success());
-                break;
-            }
-            None => {
-                let sent = Command::new("kill").args(["-KILL", &child.id().to_string()]).status();
-                assert!(sent.expect("there is a kill").success());
-                child.wait().expect("it ends");
-                kills += 1;
-            }
-        }
+    while !ends_before_it_keeps_more(&place, &asked, &state) {
+        kills += 1;
         assert!(kills < 20, "it does not get on");
     }
     assert!(kills > 0, "it was never killed");
     assert!(!state.exists());
     for file in ["parameters.csv", "soil.toml", "soil-samples.csv", "report.html"] {
-        assert_eq!(place.read(&format!("whole/{file}")), place.read(&format!("killed/{file}")), "{file}");
+        assert_eq!(
+            place.read(&format!("whole/{file}")),
+            place.read(&format!("killed/{file}")),
+            "{file}"
+        );
+    }
+}
+
+/// Runs until the state has changed, then kills; or until the end, if that comes first.
+#[cfg(unix)]
+fn ends_before_it_keeps_more(place: &Place, line: &str, state: &Path) -> bool {
+    let changed = || fs::metadata(state).and_then(|it| it.modified()).ok();
+    let before = changed();
+    let mut command = place.command(&words(line));
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    loop {
+        if let Some(status) = child.try_wait().expect("it can be asked") {
+            assert!(status.success());
+            return true;
+        }
+        let now = changed();
+        if now.is_some() && now != before {
+            let sent = Command::new("kill").args(["-KILL", &child.id().to_string()]).status();
+            assert!(sent.expect("there is a kill").success());
+            child.wait().expect("it ends");
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(2));
     }
 }
 
@@ -153,8 +162,10 @@ fn an_unfinished_run_with_other_inputs_is_not_gone_on_with() {
     let refused = place.run(&words(&format!("{FIT} --steps 100 --out fit")));
     let said = check_is_refusal(&refused, 2);
     assert!(said.contains("damaged") && said.contains("--force"), "{said}");
-    assert_eq!(json(&place, &format!("{FIT} --steps 100 --out fit --force"))["rows"][0]["key"],
-        "soil.pressure_sinkage.k_phi");
+    assert_eq!(
+        json(&place, &format!("{FIT} --steps 100 --out fit --force"))["rows"][0]["key"],
+        "soil.pressure_sinkage.k_phi"
+    );
     assert!(!place.file("fit/unfinished-calibration").exists());
 }
 

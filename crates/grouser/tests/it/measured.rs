@@ -120,7 +120,7 @@ fn the_repeatability_is_that_of_the_source() {
             let driven = validation.driven.expect("some cells are driven");
             driven.errors[quantity].and_then(|errors| errors.repeatability).expect("three trials")
         };
-        let ratio = (of("smooth") + of("grouser")) / 2.0 / source;
+        let ratio = f64::midpoint(of("smooth"), of("grouser")) / source;
         assert!((0.9..1.7).contains(&ratio), "{quantity:?}: {ratio}");
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use grouser::contact::{Contact, Rft, SettleError, Slip, WheelForces, WheelSoilModel, settle};
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::soil::{self, Soil};
-use grouser::units::{EARTH_GRAVITY, Vec2, Vec3, deg};
+use grouser::units::{Vec2, Vec3, deg};
 use grouser::wheel::{Grousers, Wheel};
 use proptest::prelude::*;
 

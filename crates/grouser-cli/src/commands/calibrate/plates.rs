@@ -24,6 +24,9 @@ use crate::report::page::Page;
 
 /// Samples that the soil's file keeps.
 const KEPT_SAMPLES: usize = 1000;
+/// The sum of the law's two terms is all that one width shows, and no sampler need find that out.
+const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_phi are not told \
+                         apart by plates of one width: test a second one";
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -37,7 +40,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let folder = open_folder(&args.output)?;
     let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
     let curves = plates::read(file)?;
-    let (document, law) = with_law(args, &soil.document, gravity)?;
+    let (document, law) = with_law(args, &soil.document, gravity);
     let keys: Vec<FitKey> = PlateLaw::PARAMETERS
         .iter()
         .map(|name| FitKey { path: format!("pressure_sinkage.{name}"), bounds: None })
@@ -45,15 +48,16 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let family =
         SoilFamily::around(&document, &keys, &first_guess(law, &curves)).map_err(Failure::Usage)?;
     let test = PlateTest::new(law, curves.clone())?;
-    if test.widths() < 2 {
-        output::tell("note: one width of plate cannot tell the two moduli apart");
-    }
     let calibration = Calibration::new(&test, ParameterSpace::new(family.parameters().to_vec())?)?;
     let settings = settings(args, file, &document, gravity)?;
     let checkpoint =
         args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, settings.to_string()));
     let fit = solve::fit(&calibration, &FitSettings::default())?;
-    let solved = solve::solve(args, &calibration, fit, checkpoint.as_ref())?;
+    let mut solved =
+        solve::solve(args, &calibration, fit, family.parameters(), checkpoint.as_ref())?;
+    if test.widths() < 2 {
+        solved.questions.insert(0, ONE_WIDTH.to_owned());
+    }
     let results = Results {
         rows: &solved.records,
         discrepancies: &solved.discrepancies,
@@ -61,7 +65,8 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
         sampler: &solved.sampler,
     };
     let answer = Answer::new("calibrate", settings, results);
-    let text = report::parameters(&solved.records) + &report::said(&solved);
+    let blocks = [vec![report::parameters(&solved.records)], report::said(&solved)].concat();
+    let text = blocks.join("\n");
     if let Some(mut folder) = folder {
         let name = file.file_name().map_or_else(String::new, |it| it.to_string_lossy().into());
         let points: usize = curves.iter().map(|curve| curve.points.len()).sum();
@@ -100,11 +105,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
 }
 
 /// The soil with the law that is asked for, and that law.
-fn with_law(
-    args: &CalibrateArgs,
-    soil: &SoilDocument,
-    gravity: f64,
-) -> Result<(SoilDocument, PlateLaw), Failure> {
+fn with_law(args: &CalibrateArgs, soil: &SoilDocument, gravity: f64) -> (SoilDocument, PlateLaw) {
     let document = match args.plate_law {
         None => soil.clone(),
         Some(PlateLawWord::Bekker) => soil.with_law("bekker"),
@@ -118,7 +119,7 @@ fn with_law(
     } else {
         PlateLaw::Bekker
     };
-    Ok((document, law))
+    (document, law)
 }
 
 /// k_c, k_phi and n near the curves: the slope of log pressure over log sinkage of the widest

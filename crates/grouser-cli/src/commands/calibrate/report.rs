@@ -24,33 +24,30 @@ pub(super) fn toml_of(soil: &SoilDocument) -> String {
     grouser::document::to_toml(soil)
 }
 
-/// For people.
+/// For people: blocks with an empty line between them.
 pub(super) fn text(found: &Found) -> String {
     let solved = &found.solved;
-    let mut text = parameters(&solved.records);
-    text.push_str(&said(solved));
-    text.push_str(&format!(
-        "\n{}",
-        errors("with the fit", &[GroupRecord::from(&found.validation.overall)])
-    ));
+    let overall = GroupRecord::from(&found.validation.overall);
+    let mut blocks = vec![parameters(&solved.records)];
+    blocks.extend(said(solved));
+    blocks.push(errors("with the fit", &[overall]));
     if !found.left_out.is_empty() {
-        text.push_str(&format!(
-            "\n{}",
-            errors("with the angle left out of the fit", &found.left_out)
-        ));
+        blocks.push(errors("with the angle left out of the fit", &found.left_out));
     }
     if !found.proposals.is_empty() {
-        text.push_str(&format!("\nnext runs, to make sure of {}\n", found.target));
-        let header = ["load_n", "slip_ratio", "slip_angle_deg", "std_before", "std_after"]
-            .map(str::to_owned);
-        let rows = found.proposals.iter().map(|it| {
-            [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
-                .map(four_digits)
-                .to_vec()
-        });
-        text.push_str(&aligned(&header, &rows.collect::<Vec<_>>()));
+        blocks.push(format!("next runs, to make sure of {}\n{}", found.target, next_runs(found)));
     }
-    text
+    blocks.join("\n")
+}
+
+fn next_runs(found: &Found) -> String {
+    let header = ["load_n", "slip_ratio", "slip_angle_deg", "std_before", "std_after"];
+    let rows = found.proposals.iter().map(|it| {
+        [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
+            .map(four_digits)
+            .to_vec()
+    });
+    aligned(&header.map(str::to_owned), &rows.collect::<Vec<_>>())
 }
 
 /// The parameters as a table.
@@ -74,23 +71,21 @@ pub(super) fn parameters(records: &[ParameterRecord]) -> String {
     aligned(&header.map(str::to_owned), &records.iter().map(row).collect::<Vec<_>>())
 }
 
-/// What the data leave open, and how far theory and data differ.
-pub(super) fn said(solved: &Solved) -> String {
-    let mut text = String::new();
+/// What the data leave open, if anything, and how far theory and data differ.
+pub(super) fn said(solved: &Solved) -> Vec<String> {
+    let mut blocks = Vec::new();
     if !solved.questions.is_empty() {
-        text.push_str("\nwhat these data cannot tell\n");
-        for question in &solved.questions {
-            text.push_str(&format!("- {question}\n"));
-        }
+        let lines: String = solved.questions.iter().map(|it| format!("- {it}\n")).collect();
+        blocks.push(format!("what these data cannot tell\n{lines}"));
     }
-    text.push_str("\nmodel discrepancy, beyond the scatter of the trials\n");
     let rows = solved
         .discrepancies
         .iter()
         .map(|it| vec![it.channel.clone(), four_digits(it.mean.unwrap_or(it.fit))]);
     let header = ["channel", "std"].map(str::to_owned);
-    text.push_str(&aligned(&header, &rows.collect::<Vec<_>>()));
-    text
+    let table = aligned(&header, &rows.collect::<Vec<_>>());
+    blocks.push(format!("model discrepancy, beyond the scatter of the trials\n{table}"));
+    blocks
 }
 
 /// Root mean square errors of groups of cells.
@@ -202,14 +197,13 @@ fn histogram(samples: &Samples, column: usize) -> Vec<(f64, f64)> {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let width = ((high - low) / BARS as f64).max(f64::MIN_POSITIVE);
-    let mut counts = [0.0; BARS];
-    for value in &values {
-        counts[(((value - low) / width) as usize).min(BARS - 1)] += 1.0 / values.len() as f64;
-    }
     let mut outline = vec![(low, 0.0)];
-    for (bar, share) in counts.iter().enumerate() {
-        outline.push((low + width * bar as f64, *share));
-        outline.push((low + width * (bar + 1) as f64, *share));
+    for bar in 0..BARS {
+        let [left, right] = [bar, bar + 1].map(|edge| low + width * edge as f64);
+        let last = bar + 1 == BARS;
+        let within = |value: &&f64| **value >= left && (**value < right || last);
+        let share = values.iter().filter(within).count() as f64 / values.len() as f64;
+        outline.extend([(left, share), (right, share)]);
     }
     outline.push((high, 0.0));
     outline

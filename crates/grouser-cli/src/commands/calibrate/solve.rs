@@ -6,7 +6,7 @@ use grouser::document::calibration::{ParameterRecord, channel_name, channel_unit
 use grouser::studies::calibration::diagnostics::{Samples, Summary};
 use grouser::studies::calibration::identifiability::Identifiability;
 use grouser::studies::calibration::{
-    Advanced, Calibration, CalibrationError, Fit, FitSettings, SamplerSettings,
+    Advanced, Calibration, CalibrationError, Fit, FitSettings, Parameter, SamplerSettings,
 };
 use serde::Serialize;
 
@@ -86,10 +86,13 @@ pub(super) fn fit(calibration: &Calibration, settings: &FitSettings) -> Result<F
 }
 
 /// Samples unless told not to, and summarises.
+///
+/// * `parameters`: with the values from which the search set out
 pub(super) fn solve(
     args: &CalibrateArgs,
     calibration: &Calibration,
     fit: Fit,
+    parameters: &[Parameter],
     checkpoint: Option<&Checkpoint>,
 ) -> Result<Solved, Failure> {
     let (samples, sampler) = if args.point_fit {
@@ -103,7 +106,6 @@ pub(super) fn solve(
         Some(samples) => Identifiability::of_samples(calibration, samples),
         None => Identifiability::of_fit(calibration, &fit),
     };
-    let parameters = calibration.space().parameters();
     let deviations = fit.deviations(calibration.space());
     let summary = |place: usize| summaries.as_ref().and_then(|all: &Vec<Summary>| all.get(place));
     let record = |(place, parameter)| {

@@ -180,7 +180,7 @@ fn find(
     let last = FitSettings { starts: 1, tried: 1, ..FitSettings::default() };
     let fit = Fit { searches: rough.searches, ..solve::fit(&calibration, &last)? };
     let target = target(args, &measured.tests.trials)?;
-    let solved = solve::solve(args, &calibration, fit, checkpoint)?;
+    let solved = solve::solve(args, &calibration, fit, family.parameters(), checkpoint)?;
     let soil = family.soil(&solved.fit.values)?;
     let left_out = if args.cross_validate { left_out(problem, setup, &space)? } else { Vec::new() };
     let samples = solved.samples.as_ref().map(|_| SAMPLES_FILE);

@@ -107,10 +107,8 @@ fn style_of_predictions(cells: &[&CellRecord]) -> Style {
     /// Cells closer than this on the slip axis stand above each other [-]. Source: ours.
     const SAME_SLIP: f64 = 0.01;
     let slip = |cell: &CellRecord| cell.slip_ratio_total_speed;
-    match cells.windows(2).any(|pair| slip(pair[1]) - slip(pair[0]) < SAME_SLIP) {
-        true => Style::Squares,
-        false => Style::Line,
-    }
+    let above = cells.windows(2).any(|pair| slip(pair[1]) - slip(pair[0]) < SAME_SLIP);
+    if above { Style::Squares } else { Style::Line }
 }
 
 fn residuals(cells: &[CellRecord], name: &str, unit: &str, columns: Columns) -> Chart {

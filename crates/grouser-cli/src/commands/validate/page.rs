@@ -67,23 +67,20 @@ fn answer(stand: &StandInputs, validation: &Validation) -> String {
         Some(format!("the {name} by {} {unit}{itself}", four_digits(errors.rmse)))
     });
     let words: Vec<String> = words.collect();
-    match words.is_empty() {
-        true => format!("The theory {} predicts no trial.", stand.theory.name()),
-        false => format!(
-            "The theory {} misses, root mean square over {} cells, {}.",
-            stand.theory.name(),
-            overall.cells,
-            words.join(", ")
-        ),
+    let theory = stand.theory.name();
+    if words.is_empty() {
+        return format!("The theory {theory} predicts no trial.");
     }
+    let (cells, words) = (overall.cells, words.join(", "));
+    format!("The theory {theory} misses, root mean square over {cells} cells, {words}.")
 }
 
 fn what_was_compared(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Vec<String> {
     let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
-    let rows = match conditions.is_empty() {
-        true => String::new(),
-        false => format!(", rows with {}", conditions.join(" and ")),
+    let rows = match &conditions[..] {
+        [] => String::new(),
+        conditions => format!(", rows with {}", conditions.join(" and ")),
     };
     vec![
         format!("measurements: {file}{rows}"),

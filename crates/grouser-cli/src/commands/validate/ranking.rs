@@ -193,10 +193,11 @@ fn score(validation: &Validation) -> Option<f64> {
 
 /// For people: a block for each part of each data set.
 fn text_of(entries: &[Entry]) -> String {
-    let mut text = String::from(
+    let mut blocks = vec![
         "Root mean square errors over cells: drawbar pull [N] / side force [N] / sinkage [mm]\n\
-         score: 0 is perfect, 1 no better than the mean of what was measured\n",
-    );
+         score: 0 is perfect, 1 no better than the mean of what was measured\n"
+            .to_owned(),
+    ];
     for part in
         entries.chunk_by(|one, other| (&one.data_set, &one.case) == (&other.data_set, &other.case))
     {
@@ -204,12 +205,11 @@ fn text_of(entries: &[Entry]) -> String {
         let rows: Vec<Vec<String>> = part.iter().map(row).collect();
         let table = aligned(&header.map(str::to_owned), &rows);
         let [first, ..] = part else { continue };
-        text.push_str(&format!("\n{}, {}\n{table}", first.data_set, first.case));
-        if let Some(repeatability) = errors(&first.overall, |it| it.repeatability) {
-            text.push_str(&format!("between repeated trials, all cells: {repeatability}\n"));
-        }
+        let repeatability = errors(&first.overall, |it| it.repeatability)
+            .map_or(String::new(), |it| format!("between repeated trials, all cells: {it}\n"));
+        blocks.push(format!("{}, {}\n{table}{repeatability}", first.data_set, first.case));
     }
-    text
+    blocks.join("\n")
 }
 
 fn row(entry: &Entry) -> Vec<String> {

@@ -16,7 +16,7 @@
 //! open, soil lodges in its corner: its open face counts with w = e/h_g. And a cell that is deeper
 //! than wide carries its soil along whatever its motion: f and w are times p/h_g where that is below
 //! 1. So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder of
-//! their tips' radius (f → 0, w → 0).
+//!    their tips' radius (f → 0, w → 0).
 //!
 //! The geometry is that of the spacing rule of Skonieczny, Moreland and Wettergreen (2012), for any
 //! motion. w is ours: any weight with those two limits would do, and between them the soil that slides
