@@ -33,11 +33,14 @@ pub struct FitKey {
     pub bounds: Option<(f64, f64)>,
 }
 
-/// A positive number whose range spans more than this factor is searched by its logarithm, within
-/// [`SEARCHED_FACTOR`] of the document's value.
-const MANY_SCALES: f64 = 100.0;
+/// A number that may be this many times larger than it is has no natural range: it is searched
+/// within [`SEARCHED_FACTOR`] of the document's value.
+const OPEN_ENDED: f64 = 10.0;
 
-/// How far from the document's value such a number is searched [-]. Source: ours; stiffnesses and
+/// Positive bounds farther apart than this factor are searched by the logarithm.
+const DECADES: f64 = 30.0;
+
+/// How far from the document's value an open-ended number is searched [-]. Source: ours; stiffnesses and
 /// moduli of published soils of one kind differ less.
 const SEARCHED_FACTOR: f64 = 30.0;
 
@@ -218,8 +221,8 @@ fn parameter(
     bounds: Option<(f64, f64)>,
 ) -> Result<Parameter, String> {
     let (least, most) = (*allowed.start(), *allowed.end());
-    let many_scales = start > 0.0 && least >= 0.0 && most > MANY_SCALES * least.max(start / 10.0);
-    let (lower, upper) = bounds.unwrap_or(if many_scales {
+    let open_ended = start > 0.0 && least >= 0.0 && most > OPEN_ENDED * start;
+    let (lower, upper) = bounds.unwrap_or(if open_ended {
         (least.max(start / SEARCHED_FACTOR), most.min(start * SEARCHED_FACTOR))
     } else {
         (least, most)
@@ -235,8 +238,8 @@ fn parameter(
              --set {name}=VALUE gives it another"
         ));
     }
-    let wide = lower > 0.0 && upper > MANY_SCALES / 10.0 * lower;
-    let scale = if wide { Scale::Logarithmic } else { Scale::Linear };
+    let scale =
+        if lower > 0.0 && upper > DECADES * lower { Scale::Logarithmic } else { Scale::Linear };
     Ok(Parameter { name, lower, upper, scale, start })
 }
 
