@@ -1,14 +1,18 @@
 //! Line charts with measured points, as SVG: the one place that knows the plotting library.
 
+use std::sync::Arc;
+
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::figure::Figure;
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
+
+use crate::output::rows::four_digits;
 
 /// A chart: axes and what is drawn on them.
 #[derive(Clone, Debug)]
@@ -173,6 +177,8 @@ impl Grid {
                         .with_y_label(chart.y_label.as_str())
                         .with_label_size(10)
                         .with_tick_size(8)
+                        .with_ticks(4)
+                        .with_tick_format(TickFormat::Custom(Arc::new(four_digits)))
                         .with_font_family("Helvetica, Arial, sans-serif"),
                 );
                 plots.push(own);
@@ -185,7 +191,7 @@ impl Grid {
             .with_layouts(layouts)
             .with_cell_size(SIZE, SIZE)
             .with_spacing(6.0);
-        SvgBackend.render_scene(&figure.render())
+        scalable(&SvgBackend.render_scene(&figure.render()))
     }
 }
 
@@ -210,6 +216,18 @@ impl Chart {
             layout =
                 layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color("#888888"));
         }
-        SvgBackend.render_scene(&render_multiple(plots, layout))
+        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
+}
+
+/// A drawing that a page may make larger or smaller: the library names its size, but no view box.
+fn scalable(svg: &str) -> String {
+    let size = |name: &str| {
+        let rest = svg.split_once(&format!(" {name}=\""))?.1;
+        rest.split_once('"').map(|(number, _)| number)
+    };
+    let (Some(width), Some(height)) = (size("width"), size("height")) else {
+        return svg.to_owned();
+    };
+    svg.replacen("<svg ", &format!("<svg viewBox=\"0 0 {width} {height}\" "), 1)
 }

@@ -180,6 +180,8 @@ impl SoilFamily {
         SoilDocument {
             name: format!("{}, calibrated", document.name),
             source: format!("{source}; other values: {}", document.source),
+            // What was said of the old values need not hold for these.
+            notes: String::new(),
             assumed: document.assumed.into_iter().filter(|one| !is_fitted(one)).collect(),
             model: if named { TheoryWord::named(theory.name()) } else { None },
             uncertainty: samples.map(UncertaintySection::of_samples),

@@ -86,7 +86,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
         }
         let mut page = Page::new("Calibration on plate tests");
         page.heading("What was found");
-        page.code(&text);
+        report::add_parameters(&mut page, &solved);
         let chart = chart(&curves, &solved).to_svg();
         page.drawing(&chart, "Pressure over sinkage, measured and with the fit.");
         folder.add("figures/plates.svg", chart);

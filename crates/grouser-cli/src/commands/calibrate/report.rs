@@ -14,8 +14,11 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{aligned, four_digits};
 use crate::report::page::Page;
 
-/// Points of each scatter in the corner plot.
-const POINTS: usize = 250;
+/// Points of all scatters in a corner plot together, and of one.
+const ALL_POINTS: usize = 12_000;
+const POINTS: usize = 400;
+/// Keys of the corner plot on the page; the file has all.
+const KEYS_ON_PAGE: usize = 7;
 /// Bars of each histogram.
 const BARS: usize = 24;
 
@@ -27,17 +30,23 @@ pub(super) fn toml_of(soil: &SoilDocument) -> String {
 /// For people: blocks with an empty line between them.
 pub(super) fn text(found: &Found) -> String {
     let solved = &found.solved;
-    let overall = GroupRecord::from(&found.validation.overall);
     let mut blocks = vec![parameters(&solved.records)];
     blocks.extend(said(solved));
-    blocks.push(errors("with the fit", &[overall]));
+    blocks.extend(judgement(found));
+    blocks.join("\n")
+}
+
+/// How good the fit is, with the fit and without an angle, and what to measure next.
+fn judgement(found: &Found) -> Vec<String> {
+    let overall = GroupRecord::from(&found.validation.overall);
+    let mut blocks = vec![errors("with the fit", &[overall])];
     if !found.left_out.is_empty() {
         blocks.push(errors("with the angle left out of the fit", &found.left_out));
     }
     if !found.proposals.is_empty() {
         blocks.push(format!("next runs, to make sure of {}\n{}", found.target, next_runs(found)));
     }
-    blocks.join("\n")
+    blocks
 }
 
 fn next_runs(found: &Found) -> String {
@@ -78,14 +87,18 @@ pub(super) fn said(solved: &Solved) -> Vec<String> {
         let lines: String = solved.questions.iter().map(|it| format!("- {it}\n")).collect();
         blocks.push(format!("what these data cannot tell\n{lines}"));
     }
+    blocks.push(discrepancies(solved));
+    blocks
+}
+
+fn discrepancies(solved: &Solved) -> String {
     let rows = solved
         .discrepancies
         .iter()
         .map(|it| vec![it.channel.clone(), four_digits(it.mean.unwrap_or(it.fit))]);
     let header = ["channel", "std"].map(str::to_owned);
     let table = aligned(&header, &rows.collect::<Vec<_>>());
-    blocks.push(format!("model discrepancy, beyond the scatter of the trials\n{table}"));
-    blocks
+    format!("model discrepancy, beyond the scatter of the trials\n{table}")
 }
 
 /// Root mean square errors of groups of cells.
@@ -113,14 +126,17 @@ fn errors(what: &str, groups: &[GroupRecord]) -> String {
 }
 
 /// The page, and the figures as files.
-pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found, text: &str) {
+pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found) {
     let mut page = Page::new("Calibration");
     let soil = &problem.stand.soil.document.name;
     let wheel = &problem.stand.wheel.document.name;
     let theory = problem.stand.theory.name();
     page.answer(&format!("{}: theory {theory}, from {soil}, {wheel}", problem.file));
     page.heading("What was found");
-    page.code(text);
+    add_parameters(&mut page, &found.solved);
+    for block in judgement(found) {
+        page.code(&block);
+    }
     page.heading("Measured and predicted with the fit");
     for figure in validate::figures::all(&found.validation) {
         let svg = figure.chart.to_svg();
@@ -138,23 +154,47 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found, t
          as normal, with the variance of the mean between trials and that of a model discrepancy, \
          one for each quantity of driven and of skidding wheels, which is sampled along.",
     );
-    page.code(&serde_json::to_string_pretty(&problem.settings).unwrap_or_default());
+    let setting = |name: &str| format!("{name}: {}", problem.settings[name]);
+    page.list(["data", "data_fingerprint", "where", "model", "seed", "steps"].map(setting));
+    page.paragraph(
+        "All inputs are in calibration.json, the documents of the start in start-soil.toml and \
+         wheel.toml.",
+    );
     page.heading("Assumptions in force");
     page.list(problem.stand.soil.assumptions.iter().chain(&problem.stand.wheel.assumptions));
     folder.add("report.html", page.to_html());
 }
 
+/// The fitted keys, what stays open, and how far theory and data differ.
+pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
+    page.code(&parameters(&solved.records));
+    if !solved.questions.is_empty() {
+        page.heading("What these data cannot tell");
+        page.list(&solved.questions);
+    }
+    page.code(&discrepancies(solved));
+}
+
 /// Corner plot and traces, if there is a posterior.
 pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: &Solved) {
     let Some(samples) = &solved.samples else { return };
-    let corner = corner(&solved.records, samples).to_svg();
+    let shown = least_known(&solved.records);
+    let which = if shown.len() < solved.records.len() {
+        " Here the keys that are known least; figures/corner.svg has all."
+    } else {
+        ""
+    };
     page.heading("Posterior");
     page.drawing(
-        &corner,
-        "Each fitted key alone (how often) and each pair (samples). A slanted cloud is a pair that \
-         makes up for each other; a cloud that fills its bounds is a key the data say nothing of.",
+        &corner(&solved.records, &shown, samples).to_svg(),
+        &format!(
+            "Each fitted key alone (how often) and each pair (samples). A slanted cloud is a pair \
+             that makes up for each other; a cloud that fills its bounds is a key the data say \
+             nothing of.{which}"
+        ),
     );
-    folder.add("figures/corner.svg", corner);
+    let all: Vec<usize> = (0..solved.records.len()).collect();
+    folder.add("figures/corner.svg", corner(&solved.records, &all, samples).to_svg());
     let traces = traces(&solved.records, samples).to_svg();
     page.drawing(
         &traces,
@@ -169,17 +209,30 @@ fn short(record: &ParameterRecord) -> &str {
     record.key.rsplit('.').next().unwrap_or(&record.key)
 }
 
-fn corner(records: &[ParameterRecord], samples: &Samples) -> Grid {
-    let rows = samples.thinned(POINTS);
-    let count = records.len();
+/// Places of the keys whose deviation is largest beside that of the prior, in the keys' order.
+fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
+    let mut places: Vec<usize> = (0..records.len()).collect();
+    let left = |place: usize| records[place].narrowing.unwrap_or(1.0);
+    places.sort_by(|&one, &other| left(other).total_cmp(&left(one)));
+    places.truncate(KEYS_ON_PAGE);
+    places.sort_unstable();
+    places
+}
+
+/// * `places`: of the keys to show
+fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> Grid {
+    let count = places.len();
+    let pairs = (count * count.saturating_sub(1) / 2).max(1);
+    let rows = samples.thinned(POINTS.min(ALL_POINTS / pairs));
     let cell = |row: usize, column: usize| -> Option<Chart> {
+        let (x, y) = (places[column], places[row]);
         let points: Vec<(f64, f64)> = match row.cmp(&column) {
             std::cmp::Ordering::Less => return None,
-            std::cmp::Ordering::Equal => histogram(samples, row),
-            std::cmp::Ordering::Greater => rows.iter().map(|it| (it[column], it[row])).collect(),
+            std::cmp::Ordering::Equal => histogram(samples, y),
+            std::cmp::Ordering::Greater => rows.iter().map(|it| (it[x], it[y])).collect(),
         };
         let style = if row == column { Style::Line } else { Style::Dots };
-        let label = |place: usize| short(&records[place]).to_owned();
+        let label = |place: usize| short(&records[places[place]]).to_owned();
         Some(Chart {
             title: String::new(),
             x_label: if row + 1 == count { label(column) } else { String::new() },

@@ -100,7 +100,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         }
         folder.add("start-soil.toml", report::toml_of(problem.family.base()));
         folder.add_document("wheel.toml", &problem.stand.wheel);
-        report::add(&mut folder, &problem, &found, &text);
+        report::add(&mut folder, &problem, &found);
         folder.finish()?;
     }
     if let Some(checkpoint) = checkpoint {
