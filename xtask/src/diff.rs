@@ -1,5 +1,11 @@
 //! A difference between two texts, for people.
 
+use std::borrow::Cow;
+
+/// Longer stretches and lines are cut: the reader runs the chore anyway.
+const MOST_LINES: usize = 40;
+const MOST_CHARACTERS: usize = 300;
+
 /// The lines that differ, with `-` for those that stand there and `+` for those that should; empty
 /// if none do. Only the stretch from the first difference to the last is shown.
 pub(crate) fn between(is: &str, should: &str) -> String {
@@ -11,14 +17,22 @@ pub(crate) fn between(is: &str, should: &str) -> String {
     let mut lines = Vec::new();
     for (sign, rest) in [('-', is_rest), ('+', should_rest)] {
         let differing = &rest[..rest.len() - tail];
-        /// Longer stretches are cut: the reader runs the chore anyway.
-        const MOST_LINES: usize = 40;
-        lines.extend(differing.iter().take(MOST_LINES).map(|line| format!("{sign} {line}")));
+        lines.extend(differing.iter().take(MOST_LINES).map(|line| format!("{sign} {}", cut(line))));
         if differing.len() > MOST_LINES {
             lines.push(format!("{sign} … {} more lines", differing.len() - MOST_LINES));
         }
     }
     lines.join("\n")
+}
+
+/// A line, or its start and what is missing.
+fn cut(line: &str) -> Cow<'_, str> {
+    let more = line.chars().count().saturating_sub(MOST_CHARACTERS);
+    if more == 0 {
+        return line.into();
+    }
+    let start: String = line.chars().take(MOST_CHARACTERS).collect();
+    format!("{start} … {more} more characters").into()
 }
 
 #[cfg(test)]
@@ -30,5 +44,7 @@ mod tests {
         assert_eq!(between("a\nb\nc\n", "a\nB\nBB\nc\n"), "- b\n+ B\n+ BB");
         assert_eq!(between("a\n", "a\n"), "");
         assert_eq!(between("", "a\n"), "+ a");
+        let drawing = "x".repeat(302);
+        assert!(between("", &drawing).ends_with("x … 2 more characters"));
     }
 }

@@ -1,6 +1,6 @@
 //! The classical theory extended for small rovers: one parameter set for a wheel and a soil.
 //!
-//! The stresses of [`ishigami`](super::ishigami) on an arc of its own, in a soil that gives way to
+//! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to
 //! a moving wheel, and four forces more. Each term is off unless the soil sets it
 //! ([`crate::soil::extended`]); with none the theory is `ishigami`, to the last bit.
 //!

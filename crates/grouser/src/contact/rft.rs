@@ -10,7 +10,7 @@
 //! F = ∫ ξ d α(n̂, v̂) dA     v = v_hub + ω × r     over rim, grousers and both side faces
 //! ```
 //!
-//! [`facet`] has the law α and the stiffness ξ, [`surface`] the wheel's facets, [`exposure`] which of
+//! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `exposure` which of
 //! them grousers hide. The law knows no front, so the wheel is the sum of its two halves, each seen
 //! with its own mirror; nothing is blended.
 //!
