@@ -39,6 +39,8 @@ pub(crate) enum Command {
     Calibrate(CalibrateArgs),
     /// Turn another laboratory's CSV into the layout that `validate` reads.
     Import(ImportArgs),
+    /// Measure how fast and how accurately this machine computes.
+    Bench(BenchArgs),
     /// Check documents: soils, wheels, rovers, scenarios.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
@@ -410,6 +412,22 @@ pub(crate) enum SlipWord {
     Rim,
     /// wr/v - 1, in driving too.
     Hub,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BenchArgs {
+    /// How long to measure, in all [s]: the longer, the less other work on the machine counts.
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
+    pub(crate) seconds: f64,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+fn bench_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is no number"))?;
+    let range = 0.1..=600.0;
+    range.contains(&seconds).then_some(seconds).ok_or_else(|| "it must be 0.1 to 600".to_owned())
 }
 
 #[derive(Debug, Args)]

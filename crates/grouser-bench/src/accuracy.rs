@@ -1,0 +1,93 @@
+//! How near the units of work come to the same things computed with much more effort.
+
+use grouser::contact::{Ishigami, WheelForces, WheelSoilModel as _, settle};
+use grouser::simulation::{Integrator, Scenario, Simulation};
+use grouser::studies::attitude::{Attitude, AttitudeStudy};
+use grouser::vehicle::dynamics;
+use grouser::vehicle::reaction::forces_of;
+
+use crate::fixtures::Fixtures;
+
+/// The largest errors over the fixtures.
+#[derive(Clone, Copy, Debug)]
+pub struct Accuracy {
+    /// Of a wheel's forces against four times as many nodes, over its load [-].
+    pub force: f64,
+    /// Of the force that carries a settled wheel against its load, over the load [-].
+    pub settle: f64,
+    /// Of the end of a dynamic traverse against a tolerance a thousand times as tight [m].
+    pub traverse_dynamic: f64,
+    /// Of the end of a quasi-steady traverse against the same [m].
+    pub traverse_quasi_steady: f64,
+    /// Of the balance along the slope on the attitude curve, over the weight [-].
+    pub attitude_curve: f64,
+}
+
+impl Accuracy {
+    /// Measures it.
+    ///
+    /// # Panics
+    /// If a fixture cannot be computed: it always could.
+    #[must_use]
+    pub fn of(fixtures: &Fixtures) -> Self {
+        let Fixtures { scenario, .. } = fixtures;
+        let exact = end(&tight(scenario));
+        let miss = |scenario: &Scenario| {
+            let (x, y) = end(scenario);
+            (x - exact.0).hypot(y - exact.1)
+        };
+        Self {
+            force: force(fixtures),
+            settle: carried(fixtures),
+            traverse_dynamic: miss(scenario),
+            traverse_quasi_steady: miss(&fixtures.quasi_steady()),
+            attitude_curve: imbalance(scenario),
+        }
+    }
+}
+
+fn force(fixtures: &Fixtures) -> f64 {
+    let (model, reference) = (fixtures.scenario.theory.model(), Ishigami::reference());
+    let errors = fixtures.wheels.iter().map(|wheel| {
+        let parts = |forces: WheelForces| [forces.drawbar_pull, forces.side_force, forces.normal_force];
+        let found = parts(model.forces(&wheel.contact, wheel.sinkage));
+        let exact = parts(reference.forces(&wheel.contact, wheel.sinkage));
+        let differences = found.iter().zip(exact).map(|(one, other)| (one - other).abs());
+        differences.fold(0.0, f64::max) / wheel.load
+    });
+    errors.fold(0.0, f64::max)
+}
+
+fn carried(fixtures: &Fixtures) -> f64 {
+    let model = fixtures.scenario.theory.model();
+    let errors = fixtures.wheels.iter().map(|wheel| {
+        let settled = settle(model, &wheel.contact, wheel.load).expect("it is carried");
+        (settled.forces.normal_force / wheel.load - 1.0).abs()
+    });
+    errors.fold(0.0, f64::max)
+}
+
+fn tight(scenario: &Scenario) -> Scenario {
+    let mut scenario = scenario.clone();
+    scenario.numerics.integrator = Integrator::Bdf { tolerance: 1e-9 };
+    scenario
+}
+
+fn end(scenario: &Scenario) -> (f64, f64) {
+    let run = Simulation::new(scenario).and_then(Simulation::run).expect("the scenario runs");
+    let position = run.last().state.position;
+    (position.x, position.y)
+}
+
+fn imbalance(scenario: &Scenario) -> f64 {
+    let curve = AttitudeStudy::of(scenario).curve().expect("it has one");
+    let weight = scenario.rover.mass() * scenario.site.gravity;
+    let miss = |attitude: Attitude| {
+        let forces = forces_of(&attitude.wheels);
+        let (force, _) = dynamics::soil_resultant(&scenario.rover, &forces, scenario.own_moments);
+        let pull = weight * attitude.slope.sin();
+        let (forward, left) = (pull * attitude.yaw.sin(), pull * attitude.yaw.cos());
+        (force.x - forward).hypot(force.y - left) / weight
+    };
+    curve.attitudes().into_iter().map(miss).fold(0.0, f64::max)
+}

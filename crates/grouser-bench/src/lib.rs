@@ -1,0 +1,19 @@
+//! Units of work by which Grouser's speed is told, each with the accuracy that it reaches.
+//!
+//! One home for what `grouser bench` measures, `cargo bench` compares and the count of instructions
+//! watches. Everything is fixed: the same wheels, rovers and soils at every call, so that two
+//! measurements differ by the code and the machine alone. There is no clock here.
+
+mod accuracy;
+mod fixtures;
+mod unit;
+
+pub use accuracy::Accuracy;
+pub use fixtures::Fixtures;
+pub use unit::{Done, Unit};
+
+/// Threads that [`Unit::Campaign`] uses.
+#[must_use]
+pub fn threads() -> usize {
+    rayon::current_num_threads()
+}
