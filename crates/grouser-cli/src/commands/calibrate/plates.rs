@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use grouser::document::checkpoint::fingerprint;
+use grouser::document::plates::PlateMeasurements;
 use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, key_of, plates};
 use grouser::studies::calibration::{
     Calibration, FitSettings, ParameterSpace, PlateCurve, PlateLaw, PlateTest,
@@ -39,7 +40,10 @@ struct Results<'a> {
 pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let folder = open_folder(args)?;
     let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
-    let curves = plates::read(file)?;
+    let PlateMeasurements { curves, notes } = plates::read(file)?;
+    for note in &notes {
+        output::tell(&format!("note: {note}"));
+    }
     let (document, law) = with_law(args, &soil.document, gravity);
     let keys: Vec<FitKey> = PlateLaw::PARAMETERS
         .iter()
