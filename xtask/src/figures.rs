@@ -143,8 +143,8 @@ struct Maker {
 
 impl Maker {
     fn output(&self, block: &Block) -> Result<String> {
-        let output = workspace::output_of(&self.program, &block.arguments)?;
-        Ok(markers::as_markdown(&output, &block.arguments))
+        let output = workspace::output_of(&self.program, &block.arguments())?;
+        Ok(markers::as_markdown(&output, &block.arguments()))
     }
 
     /// The picture that a block of a document links to: the file of the same name among those
@@ -153,7 +153,7 @@ impl Maker {
         let target = markers::picture_of(&block.content)?;
         let path = Path::new(document).parent().unwrap_or(Path::new("")).join(target);
         let name = path.file_name().context("the image link names no file")?;
-        let made = file_below(&self.folder(&block.arguments)?, name)?
+        let made = file_below(&self.folder(&block.arguments())?, name)?
             .with_context(|| format!("the command writes no file {}", name.display()))?;
         let should = fs::read_to_string(&made)?;
         let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();

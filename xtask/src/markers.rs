@@ -6,6 +6,7 @@
 use anyhow::{Context, Result, bail};
 
 use crate::markdown::Fences;
+use crate::measurements;
 
 /// What a block shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +21,8 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Block {
     pub(crate) kind: Kind,
-    /// What the program `grouser` is told.
-    pub(crate) arguments: Vec<String>,
+    /// What the program `grouser` is told, as it is written.
+    arguments: Vec<String>,
     /// Line of the first marker, from 1.
     pub(crate) line: usize,
     /// What stands between the markers.
@@ -32,8 +33,20 @@ impl Block {
     /// Whether its command reads measurements, which are not in the repository.
     pub(crate) fn needs_measurements(&self) -> bool {
         let has = |word: &str| self.arguments.iter().any(|argument| argument == word);
-        has("validate") && has("--all") && !has("--data-dir")
+        let names = self.arguments.iter().any(|argument| argument.contains(&folder_variable()));
+        names || has("validate") && has("--all") && !has("--data-dir")
     }
+
+    /// What the program is told, with the folder of measurements in the place of its variable.
+    pub(crate) fn arguments(&self) -> Vec<String> {
+        let folder = measurements::folder().unwrap_or_default().display().to_string();
+        self.arguments.iter().map(|it| it.replace(&folder_variable(), &folder)).collect()
+    }
+}
+
+/// The folder of measurements as a shell would have it.
+fn folder_variable() -> String {
+    format!("${}", measurements::VARIABLE)
 }
 
 /// A piece of a Markdown file.
@@ -218,12 +231,13 @@ between
     }
 
     #[test]
-    fn a_ranking_needs_measurements_and_other_blocks_do_not() {
+    fn rankings_and_blocks_that_name_the_folder_need_measurements() {
         let of = |arguments: &str| {
             let markdown = format!("<!-- made by: {COMMAND}{arguments} -->\n{END}\n");
             blocks(&markdown)[0].needs_measurements()
         };
         assert!(of("validate --all") && of("validate --all --format csv"));
+        assert!(of("calibrate --data $GROUSER_DATA_DIR/a.csv"));
         assert!(!of("validate --data data/a.csv --wheel hakuto --soil toyoura"));
         assert!(!of("validate --all --data-dir examples") && !of("attitude"));
     }

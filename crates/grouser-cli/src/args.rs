@@ -345,7 +345,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) propose: usize,
     /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
-    #[arg(long, value_name = "LIST", value_parser = list::parse, requires = "data")]
+    #[arg(long, value_name = "LIST", value_parser = list::parse, requires = "data", allow_hyphen_values = true)]
     pub(crate) candidate_load_n: Option<Numbers>,
     /// Slip ratios that the stand can run.
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-0.6:0.9:0.3", allow_hyphen_values = true)]

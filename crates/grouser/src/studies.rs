@@ -12,6 +12,7 @@ pub mod attitude_band;
 pub mod calibration;
 pub mod comparison;
 pub mod measurement;
+mod random;
 pub mod reproduction;
 pub mod simulated_test;
 pub mod uncertainty;

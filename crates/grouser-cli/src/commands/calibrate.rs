@@ -1,6 +1,7 @@
 //! `grouser calibrate`: the soil that measurements speak for, and how surely.
 
 mod checkpoint;
+mod next_runs;
 mod plates;
 mod report;
 mod solve;

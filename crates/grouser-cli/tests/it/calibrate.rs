@@ -169,6 +169,40 @@ fn an_unfinished_run_with_other_inputs_is_not_gone_on_with() {
     assert!(!place.file("fit/unfinished-calibration").exists());
 }
 
+/// A fit without samples would end as if it had finished what is unfinished.
+#[test]
+fn a_point_fit_leaves_an_unfinished_run_alone() {
+    let place = with_test();
+    fs::create_dir(place.file("fit")).expect("a folder can be made");
+    place.write("fit/unfinished-calibration", "days of work");
+    let line = format!("{FIT} --point-fit --out fit");
+    let said = check_is_refusal(&place.run(&words(&line)), 2);
+    assert!(said.contains("not empty"), "{said}");
+    json(&place, &format!("{line} --force"));
+    assert_eq!(place.read("fit/unfinished-calibration"), "days of work");
+}
+
+/// What samples cannot change is refused before they are drawn: with a million steps the sampling
+/// would take hours.
+#[test]
+fn nothing_is_sampled_for_what_is_refused() {
+    let place = with_test();
+    fs::create_dir(place.file("old")).expect("a folder can be made");
+    place.write("old/unfinished-calibration", "not a state");
+    let line = format!("{FIT} --steps 999999");
+    for (flags, part) in [
+        ("--cross-validate --where slip_angle_deg=0", "at one"),
+        ("--candidate-slip-angle-deg 0,400", "from -90 to 90"),
+        ("--candidate-slip-ratio nan", "from -2 to 2"),
+        ("--candidate-load-n -1", "from 0 to"),
+        ("--candidate-slip-ratio 0:1:0.001", "at most"),
+        ("--out old", "damaged"),
+    ] {
+        let said = check_is_refusal(&place.run(&words(&format!("{line} {flags}"))), 2);
+        assert!(said.contains(part), "{flags}: {said}");
+    }
+}
+
 /// Bekker's law from three plates without noise: p = (k_c/b + k_φ) zⁿ.
 #[test]
 fn plates_give_the_moduli_and_one_width_says_what_it_cannot() {

@@ -19,6 +19,7 @@ mod error;
 mod import;
 mod notes;
 mod row;
+pub(super) mod table;
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -30,7 +31,7 @@ pub use condition::Condition;
 pub use error::{MeasurementError, MeasurementProblem};
 pub use import::{Layout, Mapping, SlipDefinition, import};
 
-use crate::studies::measurement::{Cell, Trial, WheelTests};
+use crate::studies::measurement::{Cell, Quantity, Trial, WheelTests};
 use notes::LeftOut;
 use row::{Header, Row, Taken};
 
@@ -92,13 +93,14 @@ pub fn read_from(
     source: impl Read,
     choice: &Choice,
 ) -> Result<Measurements, MeasurementError> {
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source);
+    let mut reader = table::reader(source, b',');
     let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
     let header = Header::new(label, &header, &choice.conditions)?;
     let mut rows: Vec<Row> = Vec::new();
     let mut left_out: Option<LeftOut> = None;
     let mut record = csv::StringRecord::new();
-    while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
+    let failed = |error: csv::Error| MeasurementError::csv(label, &error);
+    while table::next_row(&mut reader, &mut record).map_err(failed)? {
         match header.row(&record)? {
             Taken::Row(row) => rows.push(row),
             Taken::Unwanted => {}
@@ -113,7 +115,13 @@ pub fn read_from(
     if rows.is_empty() {
         return Err(MeasurementError::whole(label, why_there_are_none(choice, left_out)));
     }
+    let was_read = |quantity| rows.iter().any(|row| row.readings[quantity].is_some());
+    if !Quantity::ALL.into_iter().any(was_read) {
+        return Err(MeasurementError::whole(label, MeasurementProblem::NoReadings));
+    }
     let mut notes = header.notes();
+    notes.extend(header.empty_readings(was_read));
+    notes.extend(other_wheel(&rows, choice));
     notes.extend(left_out.iter().map(LeftOut::note));
     notes.extend(notes::suspicions(&rows));
     Ok(Measurements { lines: rows.iter().map(|row| row.line).collect(), notes, tests: tests(rows) })
@@ -154,6 +162,14 @@ fn of_one_wheel(
         }
         _ => Err(MeasurementError::whole(label, MeasurementProblem::SeveralWheels { labels })),
     }
+}
+
+/// A word on rows of a single wheel that goes by another name.
+fn other_wheel(rows: &[Row], choice: &Choice) -> Option<String> {
+    let (name, label) = (choice.wheel.as_ref()?, rows.first()?.wheel.as_ref()?);
+    (!is_label_of(label, name)).then(|| {
+        format!("the column `wheel` says `{label}`; its rows are taken as those of `{name}`")
+    })
 }
 
 /// Whether rows labelled so were measured with the wheel of that name or path.

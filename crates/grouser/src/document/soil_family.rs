@@ -87,11 +87,7 @@ impl SoilFamily {
                 return Err(format!("{name} is named twice"));
             }
             let start = lookup(&template, &key.path).and_then(toml::Value::as_float);
-            let start = start.ok_or_else(|| {
-                let known = numbers(&template);
-                let known: Vec<&str> = known.iter().map(String::as_str).collect();
-                format!("{name} is no number of this soil: {}", meant(&key.path, &known))
-            })?;
+            let start = start.ok_or_else(|| no_start(&template, &key.path))?;
             let allowed = allowed_range(&base, &key.path);
             parameters.push(parameter(name, start, &allowed, key.bounds)?);
         }
@@ -200,6 +196,19 @@ impl SoilFamily {
     }
 }
 
+/// Why a key has no value to start from.
+fn no_start(template: &toml::Value, path: &str) -> String {
+    if range(Kind::Soil, path).is_some() {
+        return format!(
+            "soil.{path} is not set by this soil: --set soil.{path}=VALUE gives it a value to \
+             start from"
+        );
+    }
+    let known = numbers(template);
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    format!("soil.{path} is no number of this soil: {}", meant(path, &known))
+}
+
 /// The key in the document that a parameter stands for.
 #[must_use]
 pub fn key_of(parameter: &Parameter) -> &str {
@@ -285,6 +294,7 @@ mod tests {
         for (key, part) in [
             ("soil.cohesion", "cohesion_kpa"),
             ("soil.bulldozing.law", "no number"),
+            ("soil.rft.scale", "--set soil.rft.scale=VALUE"),
             ("soil.friction_angle_deg=40:50", "must lie between"),
             ("soil.friction_angle_deg=30:90", "within 5 to 60"),
             ("soil.friction_angle_deg=45:30", "must rise"),

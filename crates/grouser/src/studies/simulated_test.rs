@@ -4,11 +4,8 @@
 //! Every reading is the theory's value with normal noise added. Noise is drawn from (seed, row), so
 //! that a row stays as it is when rows are added after it, on any number of threads.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use statrs::function::erf::erfc_inv;
-
 use super::measurement::{PerQuantity, Quantity};
+use super::random;
 use super::wheel_test::WheelTest;
 use crate::contact::SettleError;
 
@@ -60,21 +57,11 @@ impl SimulatedTest {
 
     /// The noise of a row, by its place among all rows.
     fn noise_of(&self, row: u64) -> PerQuantity<f64> {
-        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
-        random.set_stream(row);
+        let mut random = random::generator(self.seed, row);
         let mut noise = PerQuantity::default();
         for quantity in Quantity::ALL {
-            noise[quantity] = self.noise[quantity] * standard_normal(&mut random);
+            noise[quantity] = self.noise[quantity] * random::standard_normal(&mut random);
         }
         noise
     }
-}
-
-/// A standard normal number, by the inverse of its distribution at a uniform one,
-/// *z* = −√2 erfc⁻¹(2 *u*).
-fn standard_normal(random: &mut ChaCha8Rng) -> f64 {
-    // In the middle of one of 2⁵³ equal parts: never 0 or 1, so that z is finite.
-    const PARTS: f64 = (1_u64 << 53) as f64;
-    let uniform = ((random.next_u64() >> 11) as f64 + 0.5) / PARTS;
-    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform)
 }

@@ -7,8 +7,8 @@
 
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use statrs::function::erf::erfc_inv;
+
+use super::random;
 
 /// What is known of one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -134,8 +134,7 @@ impl Distribution {
         index: u64,
         mut accept: impl FnMut(&[f64]) -> Option<T>,
     ) -> Result<T, NothingAccepted> {
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        random.set_stream(index);
+        let mut random = random::generator(seed, index);
         let drawn = (0..MOST_TRIES).find_map(|_| accept(&self.values(&mut random)));
         drawn.ok_or(NothingAccepted { index, tries: MOST_TRIES })
     }
@@ -143,10 +142,11 @@ impl Distribution {
     fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
         match &self.0 {
             Law::Samples(rows) => {
-                rows[place_below(uniform(random) * rows.len() as f64, rows.len())].clone()
+                rows[place_below(random::uniform(random) * rows.len() as f64, rows.len())].clone()
             }
             Law::Scores { marginals, factor } => {
-                let independent: Vec<f64> = marginals.iter().map(|_| score(random)).collect();
+                let independent: Vec<f64> =
+                    marginals.iter().map(|_| random::standard_normal(random)).collect();
                 let scores = (0..marginals.len()).map(|row| {
                     (0..=row).map(|column| factor[(row, column)] * independent[column]).sum()
                 });
@@ -162,17 +162,6 @@ fn place_below(place: f64, length: usize) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let whole = place as usize;
     whole.min(length - 1)
-}
-
-/// A number above 0 and below 1, in the middle of one of 2⁵² equal parts.
-fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    const PARTS: f64 = (1_u64 << 52) as f64;
-    ((random.next_u64() >> 12) as f64 + 0.5) / PARTS
-}
-
-/// A standard normal number, through the inverse of its distribution.
-fn score(random: &mut ChaCha8Rng) -> f64 {
-    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform(random))
 }
 
 /// The middle 95 % of a quantity, and its median.
@@ -202,7 +191,7 @@ impl Band {
 
 /// The value below which a share of sorted draws lies, interpolated between the two nearest:
 /// the k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7).
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+pub(super) fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;
     let below = sorted[place_below(place, sorted.len())];

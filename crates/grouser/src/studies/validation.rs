@@ -68,6 +68,8 @@ pub struct Comparison {
     pub measured: f64,
     /// Predicted, over the same trials.
     pub predicted: f64,
+    /// How many trials they are over.
+    pub trials: usize,
     /// Standard deviation between the measured trials; `None` for a single one.
     pub repeatability: Option<f64>,
     /// Standard deviation within a trial, root mean square over those that recorded it.
@@ -193,6 +195,7 @@ fn means(
     Some(Comparison {
         measured,
         predicted: mean(&|place| pairs[place].1),
+        trials: pairs.len(),
         repeatability: (pairs.len() > 1).then(|| (squares / (pairs.len() - 1) as f64).sqrt()),
         scatter: root_mean_square(&scatters),
     })
@@ -208,9 +211,7 @@ fn group(cells: &[CellComparison], belongs: impl Fn(&CellComparison) -> bool) ->
         trials: members.iter().map(|cell| cell.trials).sum(),
         unsettled: members.iter().map(|cell| cell.unsettled).sum(),
         errors: PerQuantity::from_fn(|quantity| {
-            let of_cells = members.iter().filter_map(|cell| {
-                cell.quantities[quantity].map(|comparison| (comparison, cell.trials))
-            });
+            let of_cells = members.iter().filter_map(|cell| cell.quantities[quantity]);
             Errors::of(&of_cells.collect::<Vec<_>>())
         }),
     })
@@ -224,14 +225,12 @@ impl Group {
 }
 
 impl Errors {
-    /// * `comparisons`: each with the number of its trials
-    fn of(comparisons: &[(Comparison, usize)]) -> Option<Self> {
-        let errors: Vec<f64> =
-            comparisons.iter().map(|(it, _)| it.predicted - it.measured).collect();
+    fn of(comparisons: &[Comparison]) -> Option<Self> {
+        let errors: Vec<f64> = comparisons.iter().map(|it| it.predicted - it.measured).collect();
         let rmse = root_mean_square(&errors)?;
         let count = errors.len() as f64;
-        let mean = comparisons.iter().map(|(it, _)| it.measured).sum::<f64>() / count;
-        let spread: f64 = comparisons.iter().map(|(it, _)| (it.measured - mean).powi(2)).sum();
+        let mean = comparisons.iter().map(|it| it.measured).sum::<f64>() / count;
+        let spread: f64 = comparisons.iter().map(|it| (it.measured - mean).powi(2)).sum();
         Some(Self {
             rmse,
             bias: errors.iter().sum::<f64>() / count,
@@ -243,9 +242,9 @@ impl Errors {
 }
 
 /// The standard deviation between trials, over cells weighted by their degrees of freedom.
-fn pooled(comparisons: &[(Comparison, usize)]) -> Option<f64> {
-    let repeated = comparisons.iter().filter_map(|(it, trials)| {
-        it.repeatability.map(|deviation| (deviation * deviation, (trials - 1) as f64))
+fn pooled(comparisons: &[Comparison]) -> Option<f64> {
+    let repeated = comparisons.iter().filter_map(|it| {
+        it.repeatability.map(|deviation| (deviation * deviation, (it.trials - 1) as f64))
     });
     let (squares, freedom) = repeated
         .fold((0.0, 0.0), |(squares, all), (variance, own)| (squares + variance * own, all + own));

@@ -181,14 +181,18 @@ fn broken_files_say_what_is_wrong_and_where() {
     for (text, parts) in [
         (String::new(), vec!["no header"]),
         (header.to_owned(), vec!["no rows below its header"]),
-        (format!("{header}0,0,20\n"), vec!["a.csv:2", "3 fields"]),
+        (format!("{header}0,0,20\n"), vec!["a.csv:2", "this line are 3", "left open"]),
+        (format!("{header}0,0,20,5\n0,0,x,5\n").replace('\n', "\r\n"), vec!["a.csv:3"]),
+        (format!("{header}-,deg,N,mm\n0,0,20,5\n"), vec!["a.csv:2", "line of units"]),
+        (format!("{header}0,0,20,nan\n0.1,0,20,\n"), vec!["has no reading"]),
+        ("slip_ratio,W,sinkage_mm\n0,20,5\n".into(), vec!["not known are `W`", "import"]),
         (format!("{header}0,0,20,5\n0,0,x,5\n"), vec!["a.csv:3", "`load_n` is 'x'"]),
         (format!("{header}0,0,,5\n"), vec!["a.csv:2", "`load_n` has no value"]),
         (format!("{header}nan,0,20,5\n"), vec!["a.csv:2", "`slip_ratio` has no value"]),
         (format!("{header}inf,0,20,5\n"), vec!["a.csv:2", "must be from -2 to 2"]),
         (format!("{header}30,0,20,5\n"), vec!["a.csv:2", "percent"]),
         (format!("{header}0,120,20,5\n"), vec!["`slip_angle_deg` is 120"]),
-        (format!("{header}0,0,-5,5\n"), vec!["`load_n` is -5"]),
+        (format!("{header}0,0,-5,5\n"), vec!["`load_n` is -5", "positive"]),
         (format!("{header}\"0,5\",0,20,5\n"), vec!["decimals with a point"]),
         (format!("{header}0,0,20,5\n{header}0,0,20,5\n"), vec!["a.csv:3", "header stands here"]),
         ("slip_ratio,slip_ratio,load_n,sinkage_mm\n0,0,20,5\n".into(), vec!["is there twice"]),
@@ -216,14 +220,36 @@ fn what_looks_like_another_unit_is_noted() {
         ("0.1,0.2618,20,1,5", "radians"),
         ("0.1,15,20,1500,5", "times the load"),
         ("0.1,15,20,1,0.0125", "in metres"),
+        ("0.1,15,20,1,5,400", "in N·m"),
+        ("0.1,15,20,1,nan", "`sinkage_mm` has no value"),
     ] {
-        let text = format!("slip_ratio,slip_angle_deg,load_n,drawbar_pull_n,sinkage_mm\n{row}\n");
+        let header = "slip_ratio,slip_angle_deg,load_n,drawbar_pull_n,sinkage_mm";
+        let torque = if row.ends_with(",400") { ",torque_nm" } else { "" };
+        let text = format!("{header}{torque}\n{row}\n");
         let notes = read(&text).expect("it can be read").notes;
         assert!(notes.iter().any(|note| note.contains(part)), "{row}: {notes:?}");
     }
     let text = "slip_ratio,load_n,sinkage_mm,sinkage_sd_mm,operator\n0,20,5,1,me\n";
     let notes = read(text).expect("it can be read").notes;
     assert!(notes[0].contains("sinkage_std_mm") && notes[1].contains("operator"), "{notes:?}");
+}
+
+/// Spreadsheets leave columns without a name or a value behind the last.
+#[test]
+fn columns_without_a_name_are_passed_over() {
+    let found = read("slip_ratio,load_n,sinkage_mm,,\n0,20,5,,\n").expect("it can be read");
+    assert_eq!((found.tests.trials.len(), found.notes.len()), (1, 0), "{:?}", found.notes);
+}
+
+/// Rows of one wheel may be taken for another's, whose name the file does not know; but aloud.
+#[test]
+fn rows_of_a_wheel_by_another_name_are_noted() {
+    let text = "wheel,slip_ratio,load_n,sinkage_mm\ngrouser,0,20,5\n";
+    for (wheel, count) in [("cmu-grouser", 0), ("cmu-smooth", 1)] {
+        let choice = Choice { wheel: Some(wheel.to_owned()), ..Choice::default() };
+        let notes = read_from("a.csv", text.as_bytes(), &choice).expect("it can be read").notes;
+        assert_eq!(notes.len(), count, "{wheel}: {notes:?}");
+    }
 }
 
 #[test]
@@ -296,6 +322,16 @@ fn errors_are_those_of_cell_means() {
         .collect();
     let spread = (measured[0] - measured[1]).powi(2) / 2.0;
     assert!((errors.r2.expect("they differ") - (1.0 - 10.0 / spread)).abs() < 1e-12);
+}
+
+/// Of the first cell's three trials two were read, 2 N apart; the second's two are 4 N apart:
+/// variances of 2 and of 8, one degree of freedom each, pooled √5.
+#[test]
+fn a_trial_that_was_not_read_does_not_tell_how_trials_repeat() {
+    let text = "slip_ratio,load_n,drawbar_pull_n,sinkage_mm,cell\n\
+                0.2,20,1,5,a\n0.2,20,3,5,a\n0.2,20,,5,a\n0.4,20,1,5,b\n0.4,20,5,5,b\n";
+    let errors = judge(text).overall.errors.drawbar_pull.expect("it was read");
+    assert!((errors.repeatability.expect("repeats") - 5.0_f64.sqrt()).abs() < 1e-12);
 }
 
 #[test]

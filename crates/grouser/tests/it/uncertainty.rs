@@ -196,6 +196,15 @@ fn the_band_of_evenly_spaced_draws_is_read_off() {
     assert_eq!(Band::of([]), None);
 }
 
+/// 2.5 % of the way from the first to the fifth number is a tenth of the way to the second.
+#[test]
+fn the_ends_of_a_band_lie_between_neighbours() {
+    let band = Band::of([4.0, 0.0, 3.0, 1.0, 2.0]).expect("there are draws");
+    assert!((band.low - 0.1).abs() < 1e-12 && (band.high - 3.9).abs() < 1e-12, "{band:?}");
+    assert_eq!(band.median, 2.0);
+    assert_eq!(Band::of([7.0]), Some(Band { low: 7.0, median: 7.0, high: 7.0 }));
+}
+
 /// A quantile at p of n draws scatters by √(p(1 − p)/n)/f, with f the density there: 0.0584 at
 /// 2.5 %, 0.399 at the median; five of that.
 #[test]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use grouser::document::checkpoint::{CheckpointError, from_bytes, to_bytes};
 use grouser::studies::calibration::PosteriorState;
 
-use crate::args::OutputArgs;
+use crate::args::CalibrateArgs;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::output;
@@ -20,24 +20,38 @@ const FILE: &str = "unfinished-calibration";
 pub(super) struct Checkpoint {
     file: PathBuf,
     identity: String,
+    kept: Option<PosteriorState>,
 }
 
-/// The output folder of a calibration: new, or holding an unfinished one.
-pub(super) fn open_folder(args: &OutputArgs) -> Result<Option<OutputFolder>, Failure> {
-    let Some(target) = &args.out else { return Ok(None) };
-    let old_files =
-        if args.force || target.join(FILE).is_file() { OldFiles::Replace } else { OldFiles::Keep };
+/// The output folder of a calibration: new, or holding an unfinished one that is to be finished.
+pub(super) fn open_folder(args: &CalibrateArgs) -> Result<Option<OutputFolder>, Failure> {
+    let Some(target) = &args.output.out else { return Ok(None) };
+    // A fit without samples finishes nothing: another one's state is not its to replace.
+    let goes_on = !args.point_fit && target.join(FILE).is_file();
+    let old_files = if args.output.force || goes_on { OldFiles::Replace } else { OldFiles::Keep };
     OutputFolder::open(target, old_files).map(Some)
 }
 
 impl Checkpoint {
+    /// That of a calibration, with the state to go on from if an earlier run was interrupted. There
+    /// is none without a folder, or without samples.
+    ///
     /// * `identity`: whatever tells this calibration from others
-    pub(super) fn in_folder(folder: &Path, identity: String) -> Self {
-        Self { file: folder.join(FILE), identity }
+    pub(super) fn open(args: &CalibrateArgs, identity: String) -> Result<Option<Self>, Failure> {
+        let Some(folder) = args.output.out.as_ref().filter(|_| !args.point_fit) else {
+            return Ok(None);
+        };
+        let mut checkpoint = Self { file: folder.join(FILE), identity, kept: None };
+        checkpoint.kept = checkpoint.read(args.output.force)?;
+        Ok(Some(checkpoint))
     }
 
-    /// The state to go on from, if an earlier run was interrupted.
-    pub(super) fn read(&self, force: bool) -> Result<Option<PosteriorState>, Failure> {
+    /// The state to go on from.
+    pub(super) fn kept(&self) -> Option<PosteriorState> {
+        self.kept.clone()
+    }
+
+    fn read(&self, force: bool) -> Result<Option<PosteriorState>, Failure> {
         let bytes = match fs::read(&self.file) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use grouser::document::checkpoint::fingerprint;
+use grouser::document::plates::PlateMeasurements;
 use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, key_of, plates};
 use grouser::studies::calibration::{
     Calibration, FitSettings, ParameterSpace, PlateCurve, PlateLaw, PlateTest,
@@ -37,9 +38,12 @@ struct Results<'a> {
 }
 
 pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
-    let folder = open_folder(&args.output)?;
+    let folder = open_folder(args)?;
     let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
-    let curves = plates::read(file)?;
+    let PlateMeasurements { curves, notes } = plates::read(file)?;
+    for note in &notes {
+        output::tell(&format!("note: {note}"));
+    }
     let (document, law) = with_law(args, &soil.document, gravity);
     let keys: Vec<FitKey> = PlateLaw::PARAMETERS
         .iter()
@@ -50,8 +54,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let test = PlateTest::new(law, curves.clone())?;
     let calibration = Calibration::new(&test, ParameterSpace::new(family.parameters().to_vec())?)?;
     let settings = settings(args, file, &document, gravity)?;
-    let checkpoint =
-        args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, settings.to_string()));
+    let checkpoint = Checkpoint::open(args, settings.to_string())?;
     let fit = solve::fit(&calibration, &FitSettings::default())?;
     let mut solved =
         solve::solve(args, &calibration, fit, family.parameters(), checkpoint.as_ref())?;

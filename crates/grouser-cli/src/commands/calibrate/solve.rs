@@ -139,7 +139,7 @@ fn sample(
     checkpoint: Option<&Checkpoint>,
 ) -> Result<(Samples, SamplerRecord), Failure> {
     let settings = sampler(args);
-    let kept = checkpoint.map(|it| it.read(args.output.force)).transpose()?.flatten();
+    let kept = checkpoint.and_then(Checkpoint::kept);
     let mut state = kept.unwrap_or_else(|| calibration.start_posterior(fit, &settings));
     let bar = output::progress_bar(settings.blocks);
     bar.set_message("blocks of the posterior");

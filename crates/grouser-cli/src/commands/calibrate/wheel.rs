@@ -5,23 +5,22 @@ use std::path::Path;
 use grouser::document::calibration::ProposalRecord;
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::measurements::{self, Choice, Measurements};
-use grouser::document::validation::{GroupRecord, column_of};
+use grouser::document::validation::GroupRecord;
 use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of};
 use grouser::error::ParameterError;
 use grouser::soil::Soil;
-use grouser::studies::calibration::cross_validation::leave_one_angle_out;
-use grouser::studies::calibration::design::{Outlook, Setting, Target};
+use grouser::studies::calibration::cross_validation::{leave_one_angle_out, slip_angles, without};
 use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
 use grouser::studies::calibration::{
     Calibration, Fit, FitSettings, Parameter, ParameterSpace, Resolution, WheelTestExperiment,
 };
-use grouser::studies::measurement::{PerQuantity, Quantity};
 use grouser::studies::validation::{Validation, ValidationStudy};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::super::Answer;
 use super::checkpoint::{Checkpoint, open_folder};
+use super::next_runs::Aim;
 use super::report;
 use super::solve::{self, Solved};
 use crate::args::CalibrateArgs;
@@ -30,9 +29,8 @@ use crate::inputs::{self, StandInputs};
 use crate::output::rows::{Rows, csv};
 use crate::output::{self, Format};
 
-/// Samples that the soil's file keeps, and that the design of the next runs looks at.
+/// Samples that the soil's file keeps.
 const KEPT_SAMPLES: usize = 1000;
-const DESIGN_SAMPLES: usize = 200;
 
 /// Everything that a calibration on wheel tests is made from.
 pub(super) struct Problem {
@@ -69,11 +67,9 @@ struct Results<'a> {
 }
 
 pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
-    let folder = open_folder(&args.output)?;
+    let folder = open_folder(args)?;
     let problem = problem(args)?;
-    let identity = problem.settings.to_string();
-    let checkpoint =
-        args.output.out.as_ref().map(|out| Checkpoint::in_folder(out, identity.clone()));
+    let checkpoint = Checkpoint::open(args, problem.settings.to_string())?;
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
     let results = Results {
@@ -172,6 +168,10 @@ fn find(
     };
     let space = ParameterSpace::new(family.parameters().to_vec())?;
     let experiment = WheelTestExperiment::new(&measured.tests, setup)?;
+    let aim = Aim::of(args, &measured.tests.trials)?;
+    if args.cross_validate {
+        check_that_angles_can_be_left_out(problem, setup, &space)?;
+    }
     let rough =
         solve::fit(&Calibration::new(&experiment, space.clone())?, &FitSettings::default())?;
     // Now that a soil is known, what differing loads did to repeated trials is no scatter.
@@ -179,7 +179,6 @@ fn find(
     let calibration = Calibration::new(&experiment, starting_at(&space, &rough.values)?)?;
     let last = FitSettings { starts: 1, tried: 1, ..FitSettings::default() };
     let fit = Fit { searches: rough.searches, ..solve::fit(&calibration, &last)? };
-    let target = target(args, &measured.tests.trials)?;
     let solved = solve::solve(args, &calibration, fit, family.parameters(), checkpoint)?;
     let soil = family.soil(&solved.fit.values)?;
     let left_out = if args.cross_validate { left_out(problem, setup, &space)? } else { Vec::new() };
@@ -193,7 +192,7 @@ fn find(
         measured.tests.cells.len(),
     );
     Ok(Found {
-        proposals: proposals(args, &experiment, &solved, &target, measured)?,
+        proposals: aim.proposals(&experiment, &solved),
         validation: judge(problem, soil),
         soil: family.fitted(&solved.fit.values, &source, stand.theory, samples),
         left_out,
@@ -225,6 +224,29 @@ fn judge(problem: &Problem, soil: Soil) -> Validation {
     .run()
 }
 
+/// What would fail after hours of sampling fails at once.
+fn check_that_angles_can_be_left_out(
+    problem: &Problem,
+    setup: Setup,
+    space: &ParameterSpace,
+) -> Result<(), Failure> {
+    let tests = &problem.measured.tests;
+    let angles = slip_angles(tests);
+    if let [_] = angles[..] {
+        return Err(Failure::Usage(
+            "--cross-validate leaves out each slip angle in turn, and all trials are at one".into(),
+        ));
+    }
+    for angle in angles {
+        let others = WheelTestExperiment::new(&without(tests, angle), setup)?;
+        Calibration::new(&others, space.clone()).map_err(|error| {
+            let degrees = (angle.to_degrees() * 1e9).round() / 1e9;
+            Failure::Usage(format!("--cross-validate: without the trials at {degrees}°, {error}"))
+        })?;
+    }
+    Ok(())
+}
+
 /// The errors at each slip angle of the fit without it: driven, skid, both.
 fn left_out(
     problem: &Problem,
@@ -247,94 +269,6 @@ fn left_out(
         records.extend(validation.groups.iter().map(GroupRecord::from));
     }
     Ok(records)
-}
-
-/// What the next runs should make sure of.
-fn target(
-    args: &CalibrateArgs,
-    trials: &[grouser::studies::measurement::Trial],
-) -> Result<Target, Failure> {
-    let wrong = |what: String| {
-        Failure::Usage(format!(
-            "--target {}: {what}\nhint: such as drawbar_pull_n:load_n=17,slip_ratio=0.2",
-            args.target
-        ))
-    };
-    let (name, settings) = args.target.split_once(':').unwrap_or((&args.target, ""));
-    let quantity = Quantity::ALL.into_iter().find(|one| column_of(*one) == name);
-    let quantity = quantity.ok_or_else(|| {
-        let names = Quantity::ALL.map(column_of).join(", ");
-        wrong(format!("'{name}' is none of {names}"))
-    })?;
-    let mut setting = Setting { load: median_load(trials), slip_ratio: 0.2, slip_angle: 0.0 };
-    for part in settings.split(',').filter(|part| !part.is_empty()) {
-        let (key, value) = part.split_once('=').ok_or_else(|| wrong(format!("'{part}'")))?;
-        let value: f64 = value
-            .trim()
-            .parse()
-            .ok()
-            .filter(|value: &f64| value.is_finite())
-            .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
-        match key.trim() {
-            "load_n" if value > 0.0 => setting.load = value,
-            "slip_ratio" if value.abs() <= 2.0 => setting.slip_ratio = value,
-            "slip_angle_deg" if value.abs() <= 90.0 => setting.slip_angle = value.to_radians(),
-            _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
-        }
-    }
-    Ok(Target { quantity, setting })
-}
-
-fn median_load(trials: &[grouser::studies::measurement::Trial]) -> f64 {
-    let mut loads: Vec<f64> = trials.iter().map(|trial| trial.load).collect();
-    loads.sort_by(f64::total_cmp);
-    loads[loads.len() / 2]
-}
-
-fn proposals(
-    args: &CalibrateArgs,
-    experiment: &WheelTestExperiment,
-    solved: &Solved,
-    target: &Target,
-    measured: &Measurements,
-) -> Result<Vec<ProposalRecord>, Failure> {
-    let Some(samples) = &solved.samples else { return Ok(Vec::new()) };
-    let median = median_load(&measured.tests.trials);
-    let loads = match &args.candidate_load_n {
-        Some(loads) => loads.0.clone(),
-        None => vec![0.5 * median, median, 2.0 * median],
-    };
-    if let Some(load) = loads.iter().find(|load| !(load.is_finite() && **load >= 0.0)) {
-        return Err(Failure::Usage(format!("--candidate-load-n {load}: it must be from 0 up")));
-    }
-    let mut candidates = Vec::new();
-    for &load in &loads {
-        for &slip_ratio in &args.candidate_slip_ratio.0 {
-            for &angle in &args.candidate_slip_angle_deg.0 {
-                candidates.push(Setting { load, slip_ratio, slip_angle: angle.to_radians() });
-            }
-        }
-    }
-    let noise = noise(experiment, solved);
-    let rows = samples.thinned(DESIGN_SAMPLES);
-    let outlook = Outlook::of_wheel_test(experiment, &rows, target, &candidates, &noise);
-    let unit = if target.quantity == Quantity::Sinkage { 1e3 } else { 1.0 };
-    let proposals = outlook.propose(args.propose);
-    Ok(proposals.iter().map(|it| ProposalRecord::new(it, &candidates, unit)).collect())
-}
-
-/// How far a reading of a new run may be from the theory: mean scatter and model discrepancy.
-fn noise(experiment: &WheelTestExperiment, solved: &Solved) -> PerQuantity<Option<f64>> {
-    use grouser::studies::calibration::Experiment as _;
-    PerQuantity::from_fn(|quantity| {
-        let own = experiment.sources().iter().zip(experiment.observations());
-        let own = own.filter(|((source, _), _)| *source == quantity);
-        let variances: Vec<f64> = own
-            .map(|(_, it)| it.scatter.powi(2) + solved.fit.discrepancies[it.channel].powi(2))
-            .collect();
-        let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
-        (!variances.is_empty()).then(|| mean.sqrt())
-    })
 }
 
 /// Samples of the fitted keys, in the keys' own units.

@@ -47,6 +47,9 @@ pub enum MeasurementProblem {
         /// The first row's status.
         first: String,
     },
+    /// Rows, but nothing that was read in them.
+    #[error("has no reading: every cell of drawbar pull, side force, sinkage and torque is empty")]
+    NoReadings,
     /// More than can be meant.
     #[error("has more than {most} rows")]
     TooManyRows {
@@ -169,14 +172,23 @@ impl MeasurementError {
         let problem = match error.kind() {
             csv::ErrorKind::Io(error) => return Self::io(file, error),
             csv::ErrorKind::UnequalLengths { expected_len, len, .. } => MeasurementProblem::NotCsv(
-                format!("this line has {len} fields, the header has {expected_len}"),
+                format!("the fields of this line are {len}, those of the header {expected_len}"),
             ),
             csv::ErrorKind::Utf8 { .. } => {
                 MeasurementProblem::NotCsv("this line is not UTF-8 text".to_owned())
             }
             _ => MeasurementProblem::NotCsv(error.to_string()),
         };
-        Self { line, ..Self::whole(file, problem) }
+        let hint = match error.kind() {
+            csv::ErrorKind::Utf8 { .. } => {
+                Some("a spreadsheet can save its table as CSV in UTF-8".to_owned())
+            }
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } if len < expected_len => {
+                Some("is a quotation mark left open, or a field missing?".to_owned())
+            }
+            _ => None,
+        };
+        Self { line, ..Self::whole(file, problem) }.with_hint(hint)
     }
 
     /// The line where the trouble is, if it is in one.

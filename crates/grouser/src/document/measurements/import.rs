@@ -2,11 +2,12 @@
 
 use std::io::Read;
 
-use csv::{ReaderBuilder, StringRecord, Writer};
+use csv::{StringRecord, Writer};
 
 use super::super::check::nearest;
 use super::columns::{self, COLUMNS, Column, Meaning};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::table::{self, LineEnds, other_delimiter};
 
 /// How a column of ours is made from one of theirs.
 #[derive(Clone, Debug, PartialEq)]
@@ -193,21 +194,20 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
 /// is no number.
 pub fn import(
     label: &str,
-    mut source: impl Read,
+    source: impl Read,
     mappings: &[Mapping],
     layout: &Layout,
 ) -> Result<String, MeasurementError> {
     let mut bytes = Vec::new();
-    source.read_to_end(&mut bytes).map_err(|error| MeasurementError::io(label, &error))?;
+    LineEnds::of(source)
+        .read_to_end(&mut bytes)
+        .map_err(|error| MeasurementError::io(label, &error))?;
     let mut skipped = 0;
     for _ in 0..layout.skipped_lines {
         let rest = &bytes[skipped..];
         skipped += rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |end| end + 1);
     }
-    let mut reader = ReaderBuilder::new()
-        .delimiter(layout.delimiter)
-        .trim(csv::Trim::All)
-        .from_reader(&bytes[skipped..]);
+    let mut reader = table::reader(&bytes[skipped..], layout.delimiter);
     let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
     let plan = plan(label, &header, mappings)?;
     let mut writer = Writer::from_writer(Vec::new());
@@ -216,7 +216,8 @@ pub fn import(
     };
     write(plan.iter().map(|(mapping, _)| mapping.column.name.to_owned()).collect())?;
     let mut record = StringRecord::new();
-    while reader.read_record(&mut record).map_err(|error| MeasurementError::csv(label, &error))? {
+    let failed = |error: csv::Error| MeasurementError::csv(label, &error);
+    while table::next_row(&mut reader, &mut record).map_err(failed)? {
         let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
         let fields = plan.iter().map(|(mapping, place)| {
             let text = &record[*place];
@@ -264,13 +265,15 @@ fn plan(
     if header.iter().all(str::is_empty) {
         return Err(MeasurementError::whole(label, Problem::NoHeader));
     }
-    let names: Vec<&str> = header.iter().collect();
-    let hint = match names[..] {
-        [only] if only.contains(';') => {
-            "are fields parted by semicolons? --delimiter ';'".to_owned()
+    let names: Vec<String> = header.iter().map(str::to_owned).collect();
+    let nameless = names.iter().filter(|name| name.is_empty()).count();
+    let hint = match other_delimiter(&names) {
+        Some((';', flag)) => format!("are fields parted by semicolons? --delimiter {flag}"),
+        Some((_, flag)) => format!("are fields parted by tabs? --delimiter {flag}"),
+        None if 2 * nameless > names.len() => {
+            "does the header stand further down? --skip-lines N".to_owned()
         }
-        [only] if only.contains('\t') => "are fields parted by tabs? --delimiter tab".to_owned(),
-        _ => format!(
+        None => format!(
             "its columns are {}; say which is which: --column load_n=THEIRS",
             names.join(", ")
         ),
@@ -336,6 +339,16 @@ mod tests {
             assert!((SlipDefinition::Hub.to_ours(rim / hub - 1.0) - ours).abs() < 1e-12);
             assert_eq!(SlipDefinition::Larger.to_ours(ours), ours);
         }
+    }
+
+    /// Spreadsheets write lines that end with both characters.
+    #[test]
+    fn a_value_that_is_wrong_has_its_line() {
+        let text = "Laboratory\r\n2026\r\nW\r\n20\r\nx\r\n";
+        let layout = Layout { skipped_lines: 2, ..Layout::default() };
+        let mapping = Mapping::parse("load_n=W").unwrap();
+        let error = import("a.csv", text.as_bytes(), &[mapping], &layout).unwrap_err();
+        assert_eq!(error.line(), Some(5));
     }
 
     #[test]

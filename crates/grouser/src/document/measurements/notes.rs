@@ -37,6 +37,9 @@ pub(super) fn suspicions(rows: &[Row]) -> Vec<String> {
     /// Forces on a wheel beyond this many loads are rare. Source: ours; a locked wheel resists
     /// with twice its load.
     const MANY_LOADS: f64 = 5.0;
+    /// A torque is no more than the load on this arm [m]. Source: ours; the radius of the largest
+    /// wheel that documents allow, and soil friction is below one.
+    const LONG_ARM: f64 = 1.0;
     /// Sinkages that are all below this were hardly read in millimetres [m]. Source: ours.
     const TINY: f64 = 2e-4;
     let mut notes = Vec::new();
@@ -53,6 +56,15 @@ pub(super) fn suspicions(rows: &[Row]) -> Vec<String> {
                 "line {line}: the {name} is more than {MANY_LOADS} times the load: are both in N?"
             ));
         }
+    }
+    let large = rows.iter().find(|row| {
+        row.readings.torque.is_some_and(|reading| reading.value.abs() > LONG_ARM * row.load)
+    });
+    if let Some(row) = large {
+        let line = row.line;
+        notes.push(format!(
+            "line {line}: the torque is more than the load on an arm of 1 m: is it in N·m?"
+        ));
     }
     let sinkages: Vec<f64> =
         rows.iter().filter_map(|row| row.readings.sinkage).map(|it| it.value.abs()).collect();

@@ -8,6 +8,7 @@ use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::notes::LeftOut;
+use super::table::other_delimiter;
 use crate::contact::Slip;
 use crate::studies::measurement::{PerQuantity, Quantity, Reading};
 use crate::units::Vec2;
@@ -67,7 +68,7 @@ impl<'a> Header<'a> {
         }
         let columns: Vec<_> = names.iter().map(|name| columns::known(name)).collect();
         for (place, name) in names.iter().enumerate() {
-            if names[..place].contains(name) {
+            if names[..place].contains(name) && !name.is_empty() {
                 return Err(failed(Problem::RepeatedColumn(name.clone())));
             }
             let Some(column) = columns[place] else { continue };
@@ -102,15 +103,7 @@ impl<'a> Header<'a> {
             let names = COLUMNS.iter().filter(|column| meanings.contains(&column.meaning));
             let names: Vec<String> = names.map(|column| format!("`{}`", column.name)).collect();
             let problem = Problem::MissingColumn { what, expected: names.join(", ") };
-            let near = self.names.iter().zip(&self.columns).filter(|(_, known)| known.is_none());
-            let near = near.filter_map(|(name, _)| {
-                let candidates = COLUMNS.iter().filter(|column| meanings.contains(&column.meaning));
-                nearest(name, candidates.map(|column| column.name)).map(|known| (name, known))
-            });
-            let hint = near.map(|(name, known)| format!("is `{name}` meant as `{known}`?")).next();
-            let hint = self.other_delimiter().or(hint).unwrap_or_else(|| {
-                "`grouser import` turns files with other columns into this layout".to_owned()
-            });
+            let hint = self.hint_of_missing(meanings);
             MeasurementError::at(self.label, 1, problem).with_hint(hint)
         };
         if !has(Meaning::Load) {
@@ -130,19 +123,50 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    /// A word on fields that are not parted by commas.
-    fn other_delimiter(&self) -> Option<String> {
-        let [only] = &self.names[..] else { return None };
-        let (_, flag) =
-            [(';', "';'"), ('\t', "tab")].into_iter().find(|(c, _)| only.contains(*c))?;
-        Some(format!(
-            "fields are parted by commas here; `grouser import --delimiter {flag}` makes it so"
-        ))
+    /// How to mend a header that has none of some columns.
+    fn hint_of_missing(&self, meanings: &[Meaning]) -> String {
+        if let Some((_, flag)) = other_delimiter(&self.names) {
+            return format!(
+                "fields are parted by commas here; `grouser import --delimiter {flag}` makes it so"
+            );
+        }
+        let named = self.names.iter().zip(&self.columns).filter(|(name, _)| !name.is_empty());
+        let unknown: Vec<&str> =
+            named.filter(|(_, known)| known.is_none()).map(|(name, _)| name.as_str()).collect();
+        let near = unknown.iter().find_map(|name| {
+            let candidates = COLUMNS.iter().filter(|column| meanings.contains(&column.meaning));
+            nearest(name, candidates.map(|column| column.name)).map(|known| (name, known))
+        });
+        match near {
+            Some((name, known)) => format!("is `{name}` meant as `{known}`?"),
+            None if unknown.is_empty() => {
+                "`grouser import` turns files with other columns into this layout".to_owned()
+            }
+            None => format!(
+                "not known are {}; `grouser import` turns files with other columns into this layout",
+                shown(&unknown)
+            ),
+        }
+    }
+
+    /// Notes on columns of readings that are there, but empty.
+    ///
+    /// * `was_read`: whether a row has a quantity
+    pub(super) fn empty_readings(&self, was_read: impl Fn(Quantity) -> bool) -> Vec<String> {
+        let empty = |column: &&Column| match column.meaning {
+            Meaning::Reading(quantity) => !was_read(quantity),
+            Meaning::OpposingSideForce => !was_read(Quantity::SideForce),
+            _ => false,
+        };
+        let columns = self.columns.iter().flatten().copied().filter(empty);
+        columns.map(|column| format!("column `{}` has no value in any row", column.name)).collect()
     }
 
     /// What is worth knowing about the header.
     pub(super) fn notes(&self) -> Vec<String> {
-        let unknown = self.names.iter().zip(&self.columns).filter(|(_, column)| column.is_none());
+        // Spreadsheets leave columns without names behind the last one that was used.
+        let named = self.names.iter().zip(&self.columns).filter(|(name, _)| !name.is_empty());
+        let unknown = named.filter(|(_, column)| column.is_none());
         let mut notes: Vec<String> = unknown
             .map(|(name, _)| match nearest(name, COLUMNS.iter().map(|column| column.name)) {
                 Some(known) => format!("column `{name}` is not used; is `{known}` meant?"),
@@ -338,7 +362,13 @@ impl Cells<'_> {
         let failed = |problem| MeasurementError::at(self.header.label, self.line, problem);
         let name = column.name.to_owned();
         let value: f64 = text.parse().map_err(|_| {
-            let hint = text.contains(',').then(|| "write decimals with a point".to_owned());
+            let hint = if text.contains(',') {
+                Some("write decimals with a point, and thousands without a comma".to_owned())
+            } else {
+                (self.line == 2).then(|| {
+                    "is this a line of units? rows of numbers follow the header at once".to_owned()
+                })
+            };
             let problem = Problem::NotANumber { column: name.clone(), value: text.to_owned() };
             failed(problem).with_hint(hint)
         })?;
@@ -366,11 +396,20 @@ impl Cells<'_> {
     }
 }
 
+/// Names in a row, as many as a message bears.
+fn shown(names: &[&str]) -> String {
+    const MOST: usize = 6;
+    let first: Vec<String> = names.iter().take(MOST).map(|name| format!("`{name}`")).collect();
+    let more = if names.len() > MOST { " …" } else { "" };
+    format!("{}{more}", first.join(", "))
+}
+
 fn hint_of_unit(column: &Column) -> Option<String> {
     match column.meaning {
         Meaning::SlipRatio | Meaning::TotalSlip => {
             Some("a slip ratio is a share: 0.2, not 20 (percent)".to_owned())
         }
+        Meaning::Load => Some("a load presses down and counts as positive, in newtons".to_owned()),
         Meaning::Reading(_) | Meaning::TravelSpeed | Meaning::RimSpeed => {
             Some("is it in the unit that the column's name tells?".to_owned())
         }
