@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, measurements, rustdoc, schema, texts, workspace};
+use crate::{figures, instructions, measurements, rustdoc, schema, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ struct Step {
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
-/// The quick steps come first. All but the last four share the build of the dev profile; the
+/// The quick steps come first. All but the last five share the build of the dev profile; the
 /// program is built once, in the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
     let steps = [
@@ -56,6 +56,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
+        step("instructions", || instructions::check().map(Count::one)),
     ];
     let mut total = Count::default();
     println!("\n{:<14} {:>7} {:>7} {:>9}", "step", "passed", "failed", "seconds");
@@ -98,7 +99,28 @@ fn tools() -> bool {
         println!("{component}: {}", if found { "found" } else { "missing" });
         complete &= found;
     }
-    complete
+    complete & valgrind()
+}
+
+/// Whether instructions can be counted, after fetching what counts them.
+fn valgrind() -> bool {
+    let present = || {
+        let mut probe = Command::new("valgrind");
+        probe.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
+        probe.status().is_ok_and(|status| status.success())
+    };
+    if !present() {
+        println!("valgrind is missing, trying to install it");
+        for arguments in [&["update"][..], &["install", "--yes", "valgrind"]] {
+            let mut install = Command::new("apt-get");
+            install.args(["--quiet=2"]).args(arguments).stdout(Stdio::null());
+            // Where it fails, the second look says so.
+            let _ = install.status();
+        }
+    }
+    let found = present();
+    println!("valgrind: {}", if found { "found" } else { "missing: install it" });
+    found
 }
 
 fn succeeds(command: &mut Command) -> Result<Count> {

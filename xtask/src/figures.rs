@@ -14,7 +14,7 @@ use crate::{measurements, workspace};
 /// Writes every block and picture anew, but for those that need measurements that are not here.
 pub(crate) fn write() -> Result<bool> {
     let mut written = 0;
-    let files = made_files()?;
+    let files = made_files(Measurements::Anew)?;
     for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
         println!(
             "{path} cannot be refreshed without measurements: set {} (docs/guide/data.md)",
@@ -40,7 +40,7 @@ pub(crate) fn write() -> Result<bool> {
 
 /// Whether every block and picture is what the program makes now; prints what is not.
 pub(crate) fn check() -> Result<bool> {
-    let files = made_files()?;
+    let files = made_files(Measurements::AsTheyAre)?;
     let stale: Vec<&MadeFile> = files.iter().filter(|file| !file.differences.is_empty()).collect();
     let mut complete = stale.is_empty();
     for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
@@ -69,7 +69,14 @@ struct MadeFile {
     needs_measurements: bool,
 }
 
-fn made_files() -> Result<Vec<MadeFile>> {
+/// What becomes of what was measured on some machine at some time.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Measurements {
+    Anew,
+    AsTheyAre,
+}
+
+fn made_files(measurements: Measurements) -> Result<Vec<MadeFile>> {
     let mut sources = Vec::new();
     for (path, text) in workspace::texts_with_extension("md")? {
         let pieces = markers::pieces(&text).with_context(|| path.clone())?;
@@ -95,10 +102,16 @@ fn made_files() -> Result<Vec<MadeFile>> {
                     needs_measurements = true;
                     should.push_str(&block.content);
                 }
+                Piece::Made(block)
+                    if block.kind == Kind::Measurement
+                        && measurements == Measurements::AsTheyAre =>
+                {
+                    should.push_str(&block.content);
+                }
                 Piece::Made(block) => {
                     let place = || format!("{path}, line {}", block.line);
                     let made = match block.kind {
-                        Kind::Output => maker.output(&block),
+                        Kind::Output | Kind::Measurement => maker.output(&block),
                         Kind::Picture => maker.picture(&path, &block).map(|picture| {
                             files.push(picture);
                             block.content.clone()

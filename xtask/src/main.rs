@@ -5,6 +5,7 @@ mod cited;
 mod diff;
 mod figures;
 mod hygiene;
+mod instructions;
 mod libtest;
 mod links;
 mod markdown;
@@ -25,6 +26,7 @@ cargo xtask CHORE
   ci [--full]         everything that is checked; --full runs the slow tests too
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
+  instructions        count the instructions of the units of work anew (valgrind)
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -51,6 +53,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
+        ["instructions"] => instructions::write()?,
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };

@@ -1,7 +1,7 @@
 //! Blocks of Markdown files that a command makes. `CONTRIBUTING.md` shows how they look.
 //!
 //! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or `picture
-//! by`) and ends with a line `<!-- end -->`. Markers in fenced code are examples and do not count.
+//! by`, or `measured by`) and ends with a line `<!-- end -->`. Markers in fenced code are examples and do not count.
 
 use anyhow::{Context, Result, bail};
 
@@ -15,6 +15,8 @@ pub(crate) enum Kind {
     Output,
     /// A picture that the command writes.
     Picture,
+    /// What the command printed on one machine at one time: written, never compared.
+    Measurement,
 }
 
 /// A block that a command makes.
@@ -98,6 +100,7 @@ fn start_of(line: &str, number: usize) -> Result<Option<Block>> {
     let (kind, command) = match comment.trim().split_once(": ") {
         Some(("made by", command)) => (Kind::Output, command),
         Some(("picture by", command)) => (Kind::Picture, command),
+        Some(("measured by", command)) => (Kind::Measurement, command),
         _ => return Ok(None),
     };
     let Some(arguments) = command.trim().strip_prefix(COMMAND) else {

@@ -1,14 +1,19 @@
 //! Does one unit of work and nothing else: what a counter of instructions is pointed at.
 //!
-//! `work KEY TIMES`; with TIMES 0 it prepares and does nothing, which is the count to subtract.
+//! `work set` tells the instruction set. `work KEY TIMES`; with TIMES 0 it prepares and does nothing, which is the count to subtract.
 
 use std::hint::black_box;
 use std::process::ExitCode;
 
+use grouser::contact::kernel::InstructionSet;
 use grouser_bench::{Fixtures, Unit};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments == ["set"] {
+        println!("{}", InstructionSet::best().name());
+        return ExitCode::SUCCESS;
+    }
     let unit = arguments.first().and_then(|key| Unit::ALL.into_iter().find(|it| it.key() == key));
     let times = arguments.get(1).and_then(|times| times.parse::<u32>().ok());
     let (Some(unit), Some(times)) = (unit, times) else {

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     rows.extend(start_up());
-    let set = InstructionSet::current().name();
+    let set = InstructionSet::best().name();
     let threads = grouser_bench::threads();
     match args.format {
         Format::Table => {
