@@ -82,6 +82,14 @@ pub(super) fn fit(calibration: &Calibration, settings: &FitSettings) -> Result<F
     if !fit.converged {
         output::tell("note: the best search had not settled when its evaluations were used up");
     }
+    let agreeing = fit.searches.iter().filter(|search| search.agrees).count();
+    if fit.searches.len() > 1 && agreeing < 2 {
+        output::tell(&format!(
+            "note: of {} searches from different starts none agrees with the best: there may be a \
+             better fit; narrow the bounds, or fit fewer keys",
+            fit.searches.len()
+        ));
+    }
     Ok(fit)
 }
 
