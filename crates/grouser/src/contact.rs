@@ -29,7 +29,7 @@ mod theory;
 
 pub use bearing::Bearing;
 pub use bekker::Bekker;
-pub use equilibrium::{SettleError, Settled, settle};
+pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
 pub use extended::Extended;
 pub use forces::WheelForces;
 pub use ishigami::Ishigami;

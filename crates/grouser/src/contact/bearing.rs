@@ -10,6 +10,7 @@ use super::kernel::integral::{self, StressSums};
 use super::kernel::rule::{self, ArcRule};
 use super::model::Contact;
 use super::stress::{Response, StressField, StressLaw};
+use crate::elementary;
 
 /// The vertical force of the soil on one wheel as a function of its sinkage.
 #[derive(Clone, Copy, Debug)]
@@ -59,18 +60,14 @@ impl Bearing {
     }
 
     /// The sinkage [m] at which the wheel would carry a load [N] without shear, were its contact
-    /// shallow.
-    ///
-    /// ```text
-    /// F_z ≈ √(2 r_s) b K_σ h^(n + ½) (1 + √λ)/(1 − a) ∫ₐ¹ (1 − t²)ⁿ dt        a = θ_m/θ_f
-    /// ```
+    /// shallow: where a search may start.
     #[must_use]
-    pub fn shallow_sinkage(&self, width: f64, load: f64) -> f64 {
+    pub fn shallow_sinkage(&self, load: f64) -> f64 {
         let arc = match &self.views {
             Views::One(arc) | Views::Both { front: (arc, _), .. } => arc,
         };
         let (factor, power) = arc.law.shallow();
-        (load / (width * factor)).powf(1.0 / power)
+        elementary::pow(load / (self.area * factor), 1.0 / power)
     }
 }
 

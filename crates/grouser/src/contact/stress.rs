@@ -136,21 +136,25 @@ impl StressLaw {
         }
     }
 
-    /// Where on the load's scale the wheel's sinkage is to be sought: F_z ≈ A h^(n + ½) near the
-    /// surface, without shear: A [N/m^(n + ½)] per width and the power.
+    /// F_z of a shallow wheel without shear over r_s b: the factor [Pa/m^p] and the power p of its
+    /// sinkage.
+    ///
+    /// ```text
+    /// F_z ≈ r_s b K_σ hⁿ θ_f (1 + √λ)/(1 − a) ∫ₐ¹ (1 − t²)ⁿ dt        a = θ_m/θ_f,  θ_f = √(2h/r_s)
+    /// ```
+    ///
+    /// with t = 1 − (1 − a) u and the integral by one node for the weight uⁿ, to a hundredth.
     pub(super) fn shallow(&self) -> (f64, f64) {
-        let n = self.stiffness.exponent;
-        // ∫(1 − t²)ⁿ dt from the peak to the entry, by Simpson's rule in the squared variable.
-        let a = self.peak_share;
-        let profile = |x: f64| {
-            let t = 1.0 - (1.0 - a) * x * x;
-            2.0 * (1.0 - a) * x * (1.0 - t * t).powf(n)
+        let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
+        let node = (n + 1.0) / (n + 2.0);
+        let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
+        let growth = if self.surface_growth == 1.0 {
+            1.0
+        } else {
+            elementary::pow(self.surface_growth, n)
         };
-        let mean =
-            (4.0 * profile(0.25) + 2.0 * profile(0.5) + 4.0 * profile(0.75) + profile(1.0)) / 12.0;
-        let arc = (1.0 + self.exit_ratio.sqrt()) / (1.0 - a) * mean;
-        let growth = self.surface_growth.powf(n);
-        ((2.0 * self.radius).sqrt() * self.stiffness.modulus / growth * arc, n + 0.5)
+        let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
+        (self.stiffness.modulus / growth * arc, n + 0.5)
     }
 }
 
