@@ -11,6 +11,7 @@
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
 
+pub mod bearing;
 pub mod bekker;
 pub mod bulldozing;
 pub mod equilibrium;
@@ -18,6 +19,7 @@ pub mod extended;
 pub mod forces;
 mod gauss;
 pub mod ishigami;
+mod kernel;
 pub mod model;
 pub mod patch;
 pub mod rft;
@@ -25,11 +27,13 @@ pub mod slip;
 pub mod stress;
 mod theory;
 
+pub use bearing::Bearing;
 pub use bekker::Bekker;
-pub use equilibrium::{SettleError, Settled, settle};
+pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
 pub use extended::Extended;
 pub use forces::WheelForces;
 pub use ishigami::Ishigami;
+pub use kernel::InstructionSet;
 pub use model::{Contact, WheelSoilModel};
 pub use patch::ContactPatch;
 pub use rft::Rft;

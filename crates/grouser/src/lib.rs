@@ -49,6 +49,7 @@
 
 pub mod contact;
 pub mod document;
+mod elementary;
 pub mod error;
 mod root;
 pub mod simulation;

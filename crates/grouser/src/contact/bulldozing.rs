@@ -1,8 +1,10 @@
 //! Soil pushed aside by the flank of a wheel that moves sideways (Hegedus 1960, Bekker).
 
 use super::gauss::GAUSS_8;
+use super::kernel::{LANES, sum};
 use super::patch::ContactPatch;
 use super::slip::Slip;
+use super::stress::RimPoint;
 use crate::soil::{Bulldozing, Soil};
 
 /// Resistance of a wall pushed through soil, per metre of wall: *R_b* [N/m].
@@ -39,6 +41,7 @@ impl WallResistance {
 
     /// *R_b* [N/m] at a depth [m].
     #[must_use]
+    #[inline]
     pub fn at(&self, depth: f64) -> f64 {
         let z = depth * self.heaped;
         self.cohesive * z + self.frictional * z * z
@@ -79,6 +82,8 @@ const CENTRE_OF_PRESSURE: f64 = 2.0 / 3.0;
 ///
 /// * `patch`: the arc in contact; behind −θ_f (λ > 1) the rim is above the surface, without load
 /// * `shearing_radius`: *r_s* [m]
+#[expect(clippy::inline_always, reason = "part of the kernel")]
+#[inline(always)]
 #[must_use]
 pub fn flank_load(
     resistance: &WallResistance,
@@ -88,16 +93,19 @@ pub fn flank_load(
     let r = shearing_radius;
     let start = patch.exit.max(-patch.entry);
     let span = patch.entry - start;
-    let cos_entry = patch.entry.cos();
-    let (mut force, mut below, mut ahead) = (0.0, 0.0, 0.0);
-    for (node, weight) in GAUSS_8 {
-        let (sin, cos) = (start + node * span).sin_cos();
-        let depth = r * (cos - cos_entry);
+    let surface = RimPoint::new(patch.entry, 0.0).height;
+    let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let (node, weight) = GAUSS_8[lane];
+        let point = RimPoint::new(start + node * span, 0.0);
+        let (sin, cos) = (point.sin, point.cos());
+        let depth = r * (surface - point.height);
         let strip = weight * span * resistance.at(depth) * (r - depth * cos);
-        force += strip;
-        below += strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
-        ahead += strip * r * sin;
+        force[lane] = strip;
+        below[lane] = strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
+        ahead[lane] = strip * r * sin;
     }
+    let (force, below, ahead) = (sum(&force), sum(&below), sum(&ahead));
     if force == 0.0 {
         return FlankLoad::default();
     }

@@ -2,9 +2,10 @@
 
 use std::f64::consts::LN_10;
 
+use super::bearing::Bearing;
 use super::forces::WheelForces;
 use super::model::{Contact, WheelSoilModel};
-use crate::root;
+use crate::{elementary, root};
 
 /// A wheel that has sunk until the soil carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +14,7 @@ pub struct Settled {
     pub sinkage: f64,
     /// The soil's reaction there.
     pub forces: WheelForces,
-    /// How often the theory was evaluated.
+    /// How often the theory was evaluated, for F_z alone or for all forces.
     pub evaluations: u32,
 }
 
@@ -42,8 +43,10 @@ const LOAD_TOLERANCE: f64 = 1e-12;
 /// The smallest sinkage at which the soil carries `load` [N] (F_z = W), and the forces there.
 ///
 /// F_z starts at 0 and grows like a power of the sinkage, so the search goes by the logarithms of
-/// both, where it is nearly a straight line: about six evaluations. The root is bracketed before
-/// it is closed in on, and where the growth ends before the load is reached (deep, skidding
+/// both, where it is nearly a straight line. It starts where a shallow wheel without shear would
+/// settle, and interpolates through all that it has seen: three or four evaluations of F_z, and one
+/// of all forces. Where they do not close in as they should, the root is bracketed before it is
+/// closed in on, and where the growth ends before the load is reached (deep, skidding
 /// wheels on strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil
 /// F_z may also rise and fall while the wheel has hardly sunk and shear outweighs pressure; there
 /// the answer is one of the sinkages with F_z = W, not always the smallest.)
@@ -56,6 +59,43 @@ pub fn settle(
     contact: &Contact,
     load: f64,
 ) -> Result<Settled, SettleError> {
+    settle_near(model, contact, load, None)
+}
+
+/// As [`settle`], from a sinkage [m] near which the answer is expected: that of the same wheel a
+/// moment ago.
+///
+/// The answer is the same whatever the guess, but for its last digits: F_z and load agree to 1e-12.
+/// A guess is therefore an input like any other where results have to repeat bit for bit. Where
+/// several sinkages carry the load, the guess may decide which is found.
+///
+/// # Errors
+/// As [`settle`].
+pub fn settle_from(
+    model: &dyn WheelSoilModel,
+    contact: &Contact,
+    load: f64,
+    guess: f64,
+) -> Result<Settled, SettleError> {
+    let usable = guess.is_finite() && guess > 0.0;
+    settle_near(model, contact, load, usable.then_some(guess))
+}
+
+/// Many independent wheels under their loads [N], in their order; each has the bits that it has
+/// alone.
+pub fn settle_many(
+    model: &dyn WheelSoilModel,
+    wheels: &[(Contact, f64)],
+) -> Vec<Result<Settled, SettleError>> {
+    wheels.iter().map(|(contact, load)| settle(model, contact, *load)).collect()
+}
+
+fn settle_near(
+    model: &dyn WheelSoilModel,
+    contact: &Contact,
+    load: f64,
+    guess: Option<f64>,
+) -> Result<Settled, SettleError> {
     if !(load.is_finite() && load >= 0.0) {
         return Err(SettleError::BadLoad { load });
     }
@@ -63,10 +103,16 @@ pub fn settle(
         let forces = model.forces(contact, 0.0);
         return Ok(Settled { sinkage: 0.0, forces, evaluations: 1 });
     }
-    let mut search = Search { model, contact, load, evaluations: 0, last: None };
-    let (low, high) = search.bracket()?;
-    let close = LOAD_TOLERANCE;
-    let (log_sinkage, _) = root::bracketed(|x| search.excess(x), low, high, 0.0, close);
+    let bearing = model.bearing(contact);
+    let mut search = Search { model, contact, load, bearing, evaluations: 0, last: None };
+    let start = search.start(guess);
+    let log_sinkage = match search.interpolated(start) {
+        Some(log_sinkage) => log_sinkage,
+        None => {
+            let (low, high) = search.bracket(start)?;
+            root::bracketed(|x| search.excess(x), low, high, 0.0, LOAD_TOLERANCE).0
+        }
+    };
     let (sinkage, forces) = search.reaction(log_sinkage);
     Ok(Settled { sinkage, forces, evaluations: search.evaluations })
 }
@@ -74,18 +120,44 @@ pub fn settle(
 /// A point of the search: ln h and ln(F_z/W).
 type Point = (f64, f64);
 
+/// No step goes further than this at once [ln h]: past the highest F_z the law has no meaning.
+const LONGEST_STEP: f64 = 1.0;
+
+/// The search starts this much above the axle or higher [ln h].
+const MARGIN: f64 = 0.05;
+
+/// The polynomial x(f) through some points, at f = 0 (Neville).
+fn interpolate_at_zero(points: &[Point]) -> f64 {
+    let mut x = [0.0; 4];
+    for (x, point) in x.iter_mut().zip(points) {
+        *x = point.0;
+    }
+    for order in 1..points.len() {
+        for k in 0..points.len() - order {
+            let (f_low, f_high) = (points[k].1, points[k + order].1);
+            x[k] += f_low * (x[k + 1] - x[k]) / (f_low - f_high);
+        }
+    }
+    x[0]
+}
+
 struct Search<'a> {
     model: &'a dyn WheelSoilModel,
     contact: &'a Contact,
     load: f64,
+    bearing: Option<Bearing>,
     evaluations: u32,
     last: Option<(f64, WheelForces)>,
 }
 
 impl Search<'_> {
+    fn sinkage(&self, log_sinkage: f64) -> f64 {
+        elementary::exp(log_sinkage).min(self.contact.wheel.shearing_radius())
+    }
+
     /// The reaction at a sinkage of e^`log_sinkage`; the last one is remembered.
     fn reaction(&mut self, log_sinkage: f64) -> (f64, WheelForces) {
-        let sinkage = log_sinkage.exp().min(self.contact.wheel.shearing_radius());
+        let sinkage = self.sinkage(log_sinkage);
         match self.last {
             Some((at, forces)) if at == log_sinkage => (sinkage, forces),
             _ => {
@@ -99,22 +171,95 @@ impl Search<'_> {
 
     /// ln(F_z/W): negative where the soil carries less than the load.
     fn excess(&mut self, log_sinkage: f64) -> f64 {
+        let force = match &self.bearing {
+            Some(bearing) => {
+                self.evaluations += 1;
+                bearing.normal_force(self.sinkage(log_sinkage))
+            }
+            None => self.reaction(log_sinkage).1.normal_force,
+        };
+        self.logarithm(force)
+    }
+
+    /// The same, from all forces: the last look at a sinkage that will do.
+    fn final_excess(&mut self, log_sinkage: f64) -> f64 {
+        let force = self.reaction(log_sinkage).1.normal_force;
+        self.logarithm(force)
+    }
+
+    fn logarithm(&self, force: f64) -> f64 {
         /// Stands for F_z ≤ 0: below the logarithm of any F_z/W that a double can hold.
         const CARRIES_NOTHING: f64 = -1500.0;
-        let share = self.reaction(log_sinkage).1.normal_force / self.load;
-        if share > 0.0 { share.ln() } else { CARRIES_NOTHING }
+        let share = force / self.load;
+        if share >= f64::MIN_POSITIVE { elementary::ln(share) } else { CARRIES_NOTHING }
+    }
+
+    /// Where the search starts: at the guess, where a shallow wheel would settle, or at a tenth of
+    /// the radius.
+    fn start(&mut self, guess: Option<f64>) -> Point {
+        let axle = self.axle();
+        let guess = guess.or_else(|| self.bearing.map(|bearing| bearing.shallow_sinkage(self.load)));
+        let start = match guess {
+            Some(guess) if guess >= f64::MIN_POSITIVE => elementary::ln(guess).min(axle - MARGIN),
+            _ => axle - LN_10,
+        };
+        (start, self.excess(start))
+    }
+
+    /// ln r_s.
+    fn axle(&self) -> f64 {
+        elementary::ln(self.contact.wheel.shearing_radius())
+    }
+
+    /// The root by interpolation through all points seen, as long as they close in on it.
+    ///
+    /// The sinkage is interpolated as a polynomial of the excess, which is nearly a straight line of
+    /// known slope. `None` where F_z does not grow as a power of the sinkage does.
+    fn interpolated(&mut self, start: Point) -> Option<f64> {
+        /// Points are used up to this many: a cubic.
+        const MOST_POINTS: usize = 4;
+        /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
+        const STEEPEST: f64 = 4.0;
+        let (axle, exponent) = (self.axle(), self.growth());
+        let mut points = [start; MOST_POINTS];
+        for count in 1..=MOST_POINTS {
+            let (here, excess) = points[count - 1];
+            if excess.abs() <= LOAD_TOLERANCE {
+                return Some(here);
+            }
+            let next = if count == 1 {
+                here - excess / exponent
+            } else {
+                let (before, excess_before) = points[count - 2];
+                let slope = (excess - excess_before) / (here - before);
+                if !(slope * STEEPEST > exponent && slope < exponent * STEEPEST) {
+                    return None;
+                }
+                interpolate_at_zero(&points[..count])
+            };
+            // Negated, so that no NaN gets through.
+            if !(next < axle && (next - here).abs() < LONGEST_STEP) {
+                return None;
+            }
+            /// The next point's error is about the product of the last three points', times this.
+            const CURVATURE: f64 = 0.05;
+            let error: f64 = points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
+            let last = count >= 3 && CURVATURE * error < LOAD_TOLERANCE;
+            if last || count == MOST_POINTS {
+                return (self.final_excess(next).abs() <= LOAD_TOLERANCE).then_some(next);
+            }
+            points[count] = (next, self.excess(next));
+        }
+        None
     }
 
     /// Two sinkages, the first carrying less than the load and the second at least as much.
-    fn bracket(&mut self) -> Result<(Point, Point), SettleError> {
-        let exponent = self.growth();
-        let axle = self.contact.wheel.shearing_radius().ln();
+    fn bracket(&mut self, start: Point) -> Result<(Point, Point), SettleError> {
+        let (axle, exponent) = (self.axle(), self.growth());
         /// Each step goes this much beyond the power law's answer [ln h].
         const BEYOND: f64 = 0.02;
-        /// And no further than this at once [ln h]: past the highest F_z the law has no meaning.
-        const LONGEST_STEP: f64 = 1.0;
 
-        let mut here = self.first_guess(axle);
+        let mut here = start;
         let mut step = 0.0;
         while here.1 >= 0.0 {
             step = here.1 / exponent + BEYOND + 2.0 * step;
@@ -146,14 +291,6 @@ impl Search<'_> {
         let unit_weight = soil.unit_weight(*gravity);
         let law = soil.pressure_sinkage;
         law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio).exponent + 0.5
-    }
-
-    /// A power law through one evaluation, at a tenth of the radius or nearer to the answer.
-    fn first_guess(&mut self, axle: f64) -> Point {
-        let start = axle - LN_10;
-        let excess = self.excess(start);
-        let next = (start - excess / self.growth()).min(axle);
-        if next >= start { (start, excess) } else { (next, self.excess(next)) }
     }
 
     /// The bracket where F_z has a highest value: seek it, and look whether it is enough.

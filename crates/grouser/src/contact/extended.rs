@@ -19,17 +19,18 @@
 //!
 //! [`Slip::total`]: super::slip::Slip::total
 
+use super::bearing::{Arc, Bearing, Numerics};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
-use super::gauss::{GAUSS_16, GAUSS_64, Rule};
 use super::ishigami;
+use super::kernel::InstructionSet;
 use super::model::{Contact, WheelSoilModel, from_both_sides};
-use super::stress::{Response, StressField};
+use super::stress::Response;
 
 /// The classical theory with the terms of [`crate::soil::Extended`].
 #[derive(Clone, Copy, Debug)]
 pub struct Extended {
-    rule: &'static Rule,
+    numerics: Numerics,
 }
 
 impl Default for Extended {
@@ -39,13 +40,25 @@ impl Default for Extended {
 }
 
 impl Extended {
-    /// Sixteen nodes for each smooth piece of the arc, as in the classical theory.
-    pub const DEFAULT: Self = Self { rule: &GAUSS_16 };
+    /// As many nodes as in the classical theory.
+    pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
-    /// The same theory with four times as many nodes, to measure the error of the quadrature.
+    /// The same theory with four times as many nodes as the finest rule, to measure the error of the
+    /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
-        Self { rule: &GAUSS_64 }
+        Self { numerics: Numerics::REFERENCE }
+    }
+
+    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// bits are the same.
+    #[must_use]
+    pub fn on(self, set: InstructionSet) -> Self {
+        Self { numerics: Numerics { set: Some(set), ..self.numerics } }
+    }
+
+    fn arc(&self, contact: &Contact) -> Arc {
+        self.numerics.arc(contact, &response(contact))
     }
 }
 
@@ -56,31 +69,35 @@ impl WheelSoilModel for Extended {
         }
         from_both_sides(contact, |contact| self.entering_front(contact, sinkage))
     }
+
+    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
+        Some(Bearing::new(contact, |contact| self.arc(contact)))
+    }
 }
 
 impl Extended {
     fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         let Contact { wheel, soil, gravity, .. } = contact;
-        let field = StressField::of_response(contact, sinkage, &response(contact, sinkage));
         let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
-        let flank = flank_load(contact, &field, &wall);
+        let reaction = self.arc(contact).reaction(&wall, sinkage);
+        let flank = heaped(contact, &reaction.flank);
         let pushed = wheel.width * wall.at(sinkage);
 
-        ishigami::reaction(contact, &field, &flank, self.rule)
+        // Only the first of them carries.
+        ishigami::forces(contact, &reaction, &flank)
             + face_friction(contact, &flank)
             + soil_in_front(contact, pushed, sinkage)
             + soil_behind(contact, pushed)
     }
 }
 
-/// What the soil makes of a wheel's motion at a sinkage [m].
-fn response(contact: &Contact, sinkage: f64) -> Response {
+/// What the soil makes of a wheel's motion.
+fn response(contact: &Contact) -> Response {
     let classical = Response::classical(contact);
     let terms = &contact.soil.extended;
     let (total_slip, beta) = (contact.slip.total(), contact.slip.angle);
-    let depth = sinkage / contact.wheel.shearing_radius();
     Response {
-        sinkage_growth: terms.sinkage.at(total_slip, beta, depth),
+        surface_growth: terms.sinkage.at_the_surface(total_slip, beta),
         exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
         friction: terms
             .rim_friction_angle
@@ -89,11 +106,10 @@ fn response(contact: &Contact, sinkage: f64) -> Response {
 }
 
 /// The flank's load: larger than a bare wall's, and fading as the wheel slips or skids.
-fn flank_load(contact: &Contact, field: &StressField, wall: &WallResistance) -> FlankLoad {
+fn heaped(contact: &Contact, bare: &FlankLoad) -> FlankLoad {
     let terms = &contact.soil.extended.flank;
-    let bare = bulldozing::flank_load(wall, &field.patch, contact.wheel.shearing_radius());
     let fading = (-terms.fading * contact.slip.total().abs()).exp();
-    FlankLoad { force: bare.force * (terms.pressure_factor * fading), ..bare }
+    FlankLoad { force: bare.force * (terms.pressure_factor * fading), ..*bare }
 }
 
 /// Friction of the loaded side face, along the wheel.

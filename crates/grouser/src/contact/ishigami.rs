@@ -12,16 +12,17 @@
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
+use super::bearing::{Arc, Bearing, Numerics, Reaction};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
-use super::gauss::{GAUSS_16, GAUSS_64, Rule};
+use super::kernel::InstructionSet;
 use super::model::{Contact, WheelSoilModel, from_both_sides};
-use super::stress::StressField;
+use super::stress::Response;
 
 /// The theory of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.
 #[derive(Clone, Copy, Debug)]
 pub struct Ishigami {
-    rule: &'static Rule,
+    numerics: Numerics,
 }
 
 impl Default for Ishigami {
@@ -31,15 +32,25 @@ impl Default for Ishigami {
 }
 
 impl Ishigami {
-    /// Sixteen nodes for each smooth piece of the arc: an error below 1e-6 of the load for driving
-    /// wheels, about 1e-5 in skid where K is half a millimetre; at worst, for isotropic shear
-    /// under large wheels that nearly roll, 1e-3.
-    pub const DEFAULT: Self = Self { rule: &GAUSS_16 };
+    /// As many nodes as an error below 1e-6 of the load takes.
+    pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
-    /// The same theory with four times as many nodes, to measure the error of the quadrature.
+    /// The same theory with four times as many nodes as the finest rule, to measure the error of the
+    /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
-        Self { rule: &GAUSS_64 }
+        Self { numerics: Numerics::REFERENCE }
+    }
+
+    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// bits are the same.
+    #[must_use]
+    pub fn on(self, set: InstructionSet) -> Self {
+        Self { numerics: Numerics { set: Some(set), ..self.numerics } }
+    }
+
+    fn arc(&self, contact: &Contact) -> Arc {
+        self.numerics.arc(contact, &Response::classical(contact))
     }
 }
 
@@ -48,29 +59,22 @@ impl WheelSoilModel for Ishigami {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        from_both_sides(contact, |contact| self.entering_front(contact, sinkage))
+        from_both_sides(contact, |contact| {
+            let unit_weight = contact.soil.unit_weight(contact.gravity);
+            let wall = WallResistance::new(&contact.soil, unit_weight);
+            let reaction = self.arc(contact).reaction(&wall, sinkage);
+            forces(contact, &reaction, &reaction.flank)
+        })
     }
-}
 
-impl Ishigami {
-    fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        let field = StressField::new(contact, sinkage);
-        let resistance =
-            WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
-        let radius = contact.wheel.shearing_radius();
-        let flank = bulldozing::flank_load(&resistance, &field.patch, radius);
-        reaction(contact, &field, &flank, self.rule)
+    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
+        Some(Bearing::new(contact, |contact| self.arc(contact)))
     }
 }
 
 /// The stresses on the rim and the load on the flank, added up.
-pub(super) fn reaction(
-    contact: &Contact,
-    field: &StressField,
-    flank: &FlankLoad,
-    rule: &Rule,
-) -> WheelForces {
-    let sums = integrate(field, rule);
+pub(super) fn forces(contact: &Contact, reaction: &Reaction, flank: &FlankLoad) -> WheelForces {
+    let sums = &reaction.sums;
     let r = contact.wheel.shearing_radius();
     let area = r * contact.wheel.width;
     let (across, along) = bulldozing::shares(contact.soil.bulldozing, &contact.slip);
@@ -90,63 +94,7 @@ pub(super) fn reaction(
         motion_resistance,
         side_force_from_shear,
         bulldozing_load: flank.force,
-        max_normal_stress: field.max_normal(),
-        patch: field.patch,
+        max_normal_stress: reaction.max_normal_stress,
+        patch: reaction.field.patch,
     }
-}
-
-/// Integrals of the stresses over the arc [Pa·rad].
-#[derive(Clone, Copy, Debug, Default)]
-struct StressSums {
-    /// ∫ τ_x cos θ dθ
-    shear_forward: f64,
-    /// ∫ σ sin θ dθ
-    normal_back: f64,
-    /// ∫ (τ_x sin θ + σ cos θ) dθ
-    up: f64,
-    /// ∫ τ_x dθ
-    shear: f64,
-    /// ∫ τ_y dθ
-    lateral: f64,
-    /// ∫ τ_y cos θ dθ
-    lateral_below: f64,
-    /// ∫ τ_y sin θ dθ
-    lateral_ahead: f64,
-}
-
-/// The force integral: every piece of the arc on which the stresses are smooth, by one Gauss rule.
-///
-/// At both ends of the arc the stress starts like a power *n* of the distance, which is no
-/// polynomial. Squaring the variable there (θ = θ_f − span x²) turns it into 2n + 1, smooth
-/// enough for the rule from n = 0.5 on.
-fn integrate(field: &StressField, rule: &Rule) -> StressSums {
-    let mut sums = StressSums::default();
-    let entry = field.patch.entry;
-    let (count, breaks) = field.breaks();
-    for (piece, ends) in breaks[..count].windows(2).enumerate() {
-        let (front, back) = (ends[0], ends[1]);
-        let span = front - back;
-        for &(x, weight) in rule {
-            // Distance from the piece's front end, and its derivative by x, over the span.
-            let (share, slope) = if piece == 0 {
-                (x * x, 2.0 * x)
-            } else if piece == count - 2 {
-                (1.0 - x * x, 2.0 * x)
-            } else {
-                (x, 1.0)
-            };
-            let point = field.point((entry - front) + span * share);
-            let stress = field.stress(&point);
-            let (sin, cos) = (point.sin, point.cos);
-            let dtheta = weight * slope * span;
-            sums.shear_forward += stress.longitudinal * cos * dtheta;
-            sums.normal_back += stress.normal * sin * dtheta;
-            sums.up += (stress.longitudinal * sin + stress.normal * cos) * dtheta;
-            sums.shear += stress.longitudinal * dtheta;
-            sums.lateral += stress.lateral * dtheta;
-            sums.lateral_below += stress.lateral * cos * dtheta;
-            sums.lateral_ahead += stress.lateral * sin * dtheta;
-        }
-    }
-    sums
 }

@@ -1,5 +1,6 @@
 //! What a theory of the wheel-soil reaction is.
 
+use super::bearing::Bearing;
 use super::forces::WheelForces;
 use super::slip::Slip;
 use crate::soil::Soil;
@@ -25,6 +26,15 @@ pub struct Contact {
 pub trait WheelSoilModel: Sync {
     /// The reaction of the soil on a wheel sunk by `sinkage` [m].
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;
+
+    /// The contact made ready for a search over sinkages, if the theory knows how.
+    ///
+    /// Its normal force has the bits of [`forces`](Self::forces). A theory without it is asked for
+    /// all its forces at every sinkage.
+    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
+        let _ = contact;
+        None
+    }
 }
 
 /// The reaction for any motion, from a theory of a wheel that enters the soil with its front.
@@ -41,14 +51,12 @@ pub(super) fn from_both_sides(
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
         entering_front(&mirrored).front_to_back()
     };
-    let side = contact.slip.entering_side;
-    // Each share by itself, so that a mirrored wheel has the mirrored bits.
-    let (front_share, back_share) = (0.5 * (1.0 + side), 0.5 * (1.0 - side));
-    if side >= 1.0 {
+    let (front_share, back_share) = contact.slip.shares_of_sides();
+    if back_share <= 0.0 {
         front()
-    } else if side <= -1.0 {
+    } else if front_share <= 0.0 {
         back()
-    } else if side >= 0.0 {
+    } else if front_share >= back_share {
         front() * front_share + back() * back_share
     } else {
         back() * back_share + front() * front_share

@@ -1,5 +1,8 @@
 //! The arc of the rim that touches the soil: where it enters, where it leaves, where stress peaks.
 
+#![expect(clippy::inline_always, reason = "part of the kernel")]
+
+use crate::elementary;
 use crate::soil::Soil;
 
 /// The arc in contact, in angles [rad] from straight down, positive on the entering side.
@@ -36,6 +39,7 @@ impl ContactPatch {
     /// * `depth`: h/r_s [-], 0 to 2
     /// * `peak_share`: θ_m/θ_f [-]
     /// * `exit_ratio`: *λ* [-]
+    #[inline(always)]
     pub(super) fn of_depth(depth: f64, peak_share: f64, exit_ratio: f64) -> Self {
         let entry = angle_at_depth(depth);
         Self { entry, max_stress: peak_share * entry, exit: -angle_at_depth(exit_ratio * depth) }
@@ -46,8 +50,9 @@ impl ContactPatch {
 ///
 /// acos(1 − depth), written so that shallow contact keeps its digits. Depths beyond the wheel's
 /// top count as the top.
+#[inline(always)]
 fn angle_at_depth(depth: f64) -> f64 {
-    2.0 * (depth / 2.0).clamp(0.0, 1.0).sqrt().asin()
+    2.0 * elementary::asin((depth / 2.0).clamp(0.0, 1.0).sqrt())
 }
 
 #[cfg(test)]

@@ -130,6 +130,12 @@ impl Slip {
         (1.0 - self.rim * self.rim).max(0.0).sqrt()
     }
 
+    /// How much the wheel is one that enters the soil with its front, and with its back [-]. Each
+    /// share by itself, so that a mirrored wheel has the mirrored bits.
+    pub(super) fn shares_of_sides(&self) -> (f64, f64) {
+        (0.5 * (1.0 + self.entering_side), 0.5 * (1.0 - self.entering_side))
+    }
+
     /// The same motion seen in a mirror that swaps front and back.
     #[must_use]
     pub fn front_to_back(&self) -> Self {

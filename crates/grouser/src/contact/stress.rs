@@ -1,9 +1,16 @@
 //! Normal and shear stress along the rim (Wong and Reece 1967; Janosi and Hanamoto 1961).
 
+#![expect(
+    clippy::inline_always,
+    reason = "the kernel compiles these formulas for several instruction sets"
+)]
+
 use super::model::Contact;
 use super::patch::ContactPatch;
 use super::slip::Slip;
+use crate::elementary;
 use crate::root;
+use crate::soil::extended::SinkageGrowth;
 use crate::soil::pressure_sinkage::Stiffness;
 use crate::soil::{Shear, Soil};
 
@@ -27,44 +34,46 @@ pub(super) struct RimPoint {
     angle: f64,
     /// sin θ [-].
     pub(super) sin: f64,
-    /// cos θ [-].
-    pub(super) cos: f64,
     /// Height over the rim's lowest point, (1 − cos θ) [radii].
-    height: f64,
+    pub(super) height: f64,
 }
 
 impl RimPoint {
-    fn new(angle: f64, behind_entry: f64) -> Self {
+    #[inline(always)]
+    pub(super) fn new(angle: f64, behind_entry: f64) -> Self {
         // By the half angle, so that shallow contact keeps its digits.
-        let (sin_half, cos_half) = (0.5 * angle).sin_cos();
+        let (sin_half, cos_half) = elementary::sin_cos(0.5 * angle);
         let height = 2.0 * sin_half * sin_half;
-        Self { behind_entry, angle, sin: 2.0 * sin_half * cos_half, cos: 1.0 - height, height }
+        Self { behind_entry, angle, sin: 2.0 * sin_half * cos_half, height }
+    }
+
+    /// cos θ [-].
+    #[inline(always)]
+    pub(super) fn cos(&self) -> f64 {
+        1.0 - self.height
     }
 }
 
-/// The stresses along the arc of one wheel at one sinkage.
-///
-/// All lengths are on the shearing radius *r_s*. The wheel enters the soil at its front: a wheel
-/// that rolls backward is looked at in the mirror ([`Slip::front_to_back`]).
+/// All that decides the stresses on a wheel's rim, but for the sinkage.
 #[derive(Clone, Copy, Debug)]
-pub struct StressField {
-    /// The arc in contact.
-    pub patch: ContactPatch,
+pub(super) struct StressLaw {
     radius: f64,
     slip: Slip,
     stiffness: Stiffness,
     cohesion: f64,
     friction: f64,
     shear: MobilisedShear,
-    /// The point at which the rim enters the soil.
-    entry: RimPoint,
+    /// θ_m/θ_f [-].
+    peak_share: f64,
+    exit_ratio: f64,
+    surface_growth: f64,
 }
 
 /// What a theory decides about a soil under a moving wheel before the stresses are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Response {
-    /// Sinkage growth, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
-    pub(super) sinkage_growth: f64,
+    /// Sinkage growth near the surface, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
+    pub(super) surface_growth: f64,
     /// Exit-angle ratio, *λ* [-].
     pub(super) exit_ratio: f64,
     /// Coefficient of friction between rim and soil [-].
@@ -75,30 +84,170 @@ impl Response {
     /// That of the classical theory.
     pub(super) fn classical(contact: &Contact) -> Self {
         Self {
-            sinkage_growth: 1.0,
+            surface_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
             friction: contact.soil.friction_angle.tan(),
         }
     }
 }
 
+impl StressLaw {
+    /// The law of a soil that responds to the wheel in its own way.
+    pub(super) fn new(contact: &Contact, response: &Response) -> Self {
+        let Contact { wheel, soil, slip, gravity } = contact;
+        let unit_weight = soil.unit_weight(*gravity);
+        let law = soil.pressure_sinkage;
+        Self {
+            radius: wheel.shearing_radius(),
+            slip: *slip,
+            stiffness: law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio),
+            cohesion: soil.cohesion,
+            friction: response.friction,
+            shear: MobilisedShear::new(soil, slip.angle),
+            peak_share: soil.stress_peak.share(slip.ratio),
+            exit_ratio: response.exit_ratio,
+            surface_growth: response.surface_growth,
+        }
+    }
+
+    /// *r_s* [m].
+    pub(super) fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The stresses of the wheel sunk by `sinkage` [m].
+    #[inline(always)]
+    pub(super) fn sunk(&self, sinkage: f64) -> StressField {
+        let depth = sinkage / self.radius;
+        let patch = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
+        let ContactPatch { entry, max_stress, exit } = patch;
+        let (ahead, behind) = (entry - max_stress, max_stress - exit);
+        let mut law = *self;
+        if self.surface_growth != 1.0 {
+            // σ = K (z/ζ)ⁿ, written as a modulus of its own.
+            let growth = SinkageGrowth::at_depth(self.surface_growth, depth);
+            law.stiffness.modulus /= elementary::pow(growth, self.stiffness.exponent);
+        }
+        StressField {
+            patch,
+            entry: RimPoint::new(entry, 0.0),
+            squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
+            law,
+        }
+    }
+
+    /// F_z of a shallow wheel without shear over r_s b: the factor [Pa/m^p] and the power p of its
+    /// sinkage.
+    ///
+    /// ```text
+    /// F_z ≈ r_s b K_σ hⁿ θ_f (1 + √λ)/(1 − a) ∫ₐ¹ (1 − t²)ⁿ dt        a = θ_m/θ_f,  θ_f = √(2h/r_s)
+    /// ```
+    ///
+    /// with t = 1 − (1 − a) u and the integral by one node for the weight uⁿ, to a hundredth.
+    pub(super) fn shallow(&self) -> (f64, f64) {
+        let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
+        let node = (n + 1.0) / (n + 2.0);
+        let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
+        let growth = if self.surface_growth == 1.0 {
+            1.0
+        } else {
+            elementary::pow(self.surface_growth, n)
+        };
+        let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
+        (self.stiffness.modulus / growth * arc, n + 0.5)
+    }
+}
+
 /// The shear law with its moduli at the slip angle.
 #[derive(Clone, Copy, Debug)]
-enum MobilisedShear {
-    Anisotropic { longitudinal: f64, lateral: f64 },
-    Isotropic { modulus: f64 },
+pub(super) enum MobilisedShear {
+    Anisotropic(AnisotropicShear),
+    Isotropic(IsotropicShear),
+}
+
+/// 1/*K_x* and 1/*K_y* [1/m].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AnisotropicShear {
+    per_longitudinal: f64,
+    per_lateral: f64,
+}
+
+/// 1/*K* [1/m].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct IsotropicShear {
+    per_modulus: f64,
 }
 
 impl MobilisedShear {
     fn new(soil: &Soil, slip_angle: f64) -> Self {
         match &soil.shear {
-            Shear::Anisotropic { longitudinal, lateral } => Self::Anisotropic {
-                longitudinal: longitudinal.at(slip_angle),
-                lateral: lateral.at(slip_angle),
-            },
-            Shear::Isotropic { modulus } => Self::Isotropic { modulus: modulus.at(slip_angle) },
+            Shear::Anisotropic { longitudinal, lateral } => Self::Anisotropic(AnisotropicShear {
+                per_longitudinal: 1.0 / longitudinal.at(slip_angle),
+                per_lateral: 1.0 / lateral.at(slip_angle),
+            }),
+            Shear::Isotropic { modulus } => {
+                Self::Isotropic(IsotropicShear { per_modulus: 1.0 / modulus.at(slip_angle) })
+            }
         }
     }
+}
+
+/// Shear stresses, *τ_x* and *τ_y* [Pa], where the soil has a strength of c + σ tan φ [Pa].
+///
+/// ```text
+/// anisotropic   τ_x = ±(c + σ tan φ)(1 − e^(−|j_x|/K_x)) with the sign of j_x; τ_y alike, against v_y
+/// isotropic     |τ| = (c + σ tan φ)(1 − e^(−|j|/K)), against the slip velocity
+/// ```
+pub(super) trait ShearLaw {
+    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64);
+}
+
+impl ShearLaw for AnisotropicShear {
+    #[inline(always)]
+    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+        let (j_x, j_y) = field.displacement(point);
+        let across = -strength * mobilised(j_y, self.per_lateral);
+        let along = strength * mobilised(j_x, self.per_longitudinal);
+        (along, if j_y == 0.0 { 0.0 } else { across })
+    }
+}
+
+impl ShearLaw for IsotropicShear {
+    #[inline(always)]
+    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+        /// Slower than this [-] is at rest; its square is still a number.
+        const AT_REST: f64 = 1e-150;
+        let (j_x, j_y) = field.displacement(point);
+        let (v_x, v_y) = field.slip_velocity(point);
+        let speed = (v_x * v_x + v_y * v_y).sqrt();
+        let per_speed = 1.0 / if speed > AT_REST { speed } else { AT_REST };
+        let stress = strength * mobilised((j_x * j_x + j_y * j_y).sqrt(), self.per_modulus);
+        (stress * (v_x * per_speed), -stress * (v_y * per_speed))
+    }
+}
+
+/// Share of the shear strength mobilised after a displacement, with its sign [-].
+#[inline(always)]
+fn mobilised(displacement: f64, per_modulus: f64) -> f64 {
+    (1.0 - elementary::exp(-displacement.abs() * per_modulus)).copysign(displacement)
+}
+
+/// The stresses along the arc of one wheel at one sinkage.
+///
+/// All lengths are on the shearing radius *r_s*. The wheel enters the soil at its front: a wheel
+/// that rolls backward is looked at in the mirror ([`Slip::front_to_back`]).
+///
+/// The formulas are free of branches, so that the kernel can evaluate them at many points at once.
+#[derive(Clone, Copy, Debug)]
+pub struct StressField {
+    /// The arc in contact.
+    pub patch: ContactPatch,
+    law: StressLaw,
+    /// The point at which the rim enters the soil.
+    entry: RimPoint,
+    /// How much longer the arc before the stress peak is than the one behind it,
+    /// (θ_f − θ_m)/(θ_m − θ_r) [-].
+    squeeze: f64,
 }
 
 /// At most this many points divide the arc into pieces on which the stresses are smooth: entry,
@@ -109,60 +258,49 @@ impl StressField {
     /// The stresses of a wheel sunk by `sinkage` [m].
     #[must_use]
     pub fn new(contact: &Contact, sinkage: f64) -> Self {
-        Self::of_response(contact, sinkage, &Response::classical(contact))
-    }
-
-    /// The stresses of a wheel sunk by `sinkage` [m] in a soil that responds in its own way.
-    pub(super) fn of_response(contact: &Contact, sinkage: f64, response: &Response) -> Self {
-        let Contact { wheel, soil, slip, gravity } = contact;
-        let unit_weight = soil.unit_weight(*gravity);
-        let radius = wheel.shearing_radius();
-        let peak_share = soil.stress_peak.share(slip.ratio);
-        let patch = ContactPatch::of_depth(sinkage / radius, peak_share, response.exit_ratio);
-        let law = soil.pressure_sinkage;
-        let rigid = law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio);
-        // σ = K (z/ζ)ⁿ, written as a modulus of its own.
-        let modulus = rigid.modulus / response.sinkage_growth.powf(rigid.exponent);
-        Self {
-            patch,
-            entry: RimPoint::new(patch.entry, 0.0),
-            radius,
-            slip: *slip,
-            stiffness: Stiffness { modulus, ..rigid },
-            cohesion: soil.cohesion,
-            friction: response.friction,
-            shear: MobilisedShear::new(soil, slip.angle),
-        }
+        StressLaw::new(contact, &Response::classical(contact)).sunk(sinkage)
     }
 
     /// The stresses at an angle [rad] on the rim; none outside the arc.
     #[must_use]
     pub fn at(&self, angle: f64) -> RimStress {
         if angle > self.patch.exit && angle < self.patch.entry {
-            self.stress(&self.point(self.patch.entry - angle))
+            let point = self.point(self.patch.entry - angle);
+            match self.law.shear {
+                MobilisedShear::Anisotropic(law) => self.stress(&law, &point),
+                MobilisedShear::Isotropic(law) => self.stress(&law, &point),
+            }
         } else {
             RimStress::default()
         }
     }
 
+    /// The shear law, ready to be asked.
+    pub(super) fn shear_law(&self) -> MobilisedShear {
+        self.law.shear
+    }
+
     /// The point of the arc `behind_entry` [rad] away from its front end.
-    #[inline]
+    #[inline(always)]
     pub(super) fn point(&self, behind_entry: f64) -> RimPoint {
         RimPoint::new(self.patch.entry - behind_entry, behind_entry)
     }
 
     /// The stresses at a point of the arc.
-    #[inline]
-    pub(super) fn stress(&self, point: &RimPoint) -> RimStress {
+    #[inline(always)]
+    pub(super) fn stress(&self, shear: &impl ShearLaw, point: &RimPoint) -> RimStress {
         let normal = self.normal(point);
-        let (longitudinal, lateral) = self.shear(normal, point);
+        let strength = self.law.cohesion + normal * self.law.friction;
+        let (longitudinal, lateral) = shear.stresses(strength, point, self);
         RimStress { normal, longitudinal, lateral }
     }
 
     /// The largest normal stress on the rim, σ_max = σ(θ_m) [Pa].
     #[must_use]
+    #[inline(always)]
     pub fn max_normal(&self) -> f64 {
-        self.normal(&self.point(self.patch.entry - self.patch.max_stress))
+        let ContactPatch { entry, max_stress, .. } = self.patch;
+        self.normal(&RimPoint::new(max_stress, entry - max_stress))
     }
 
     /// Normal stress, *σ* [Pa].
@@ -171,17 +309,14 @@ impl StressField {
     /// θ ≥ θ_m   σ = K_σ r_sⁿ (cos θ − cos θ_f)ⁿ
     /// θ < θ_m   the same at θ_e = θ_f − (θ − θ_r)(θ_f − θ_m)/(θ_m − θ_r)
     /// ```
-    #[inline]
+    #[inline(always)]
     fn normal(&self, point: &RimPoint) -> f64 {
         let ContactPatch { entry, max_stress, exit } = self.patch;
-        let height = if point.angle >= max_stress {
-            point.height
-        } else {
-            let mirrored = (point.angle - exit) * (entry - max_stress) / (max_stress - exit);
-            let sin_half = (0.5 * (entry - mirrored)).sin();
-            2.0 * sin_half * sin_half
-        };
-        self.stiffness.pressure(self.radius * (self.entry.height - height))
+        let mirrored = entry - (point.angle - exit) * self.squeeze;
+        let sin_half = elementary::sin(0.5 * mirrored);
+        let behind_peak = point.angle < max_stress;
+        let height = if behind_peak { 2.0 * sin_half * sin_half } else { point.height };
+        self.law.stiffness.pressure(self.law.radius * (self.entry.height - height))
     }
 
     /// Shear displacement of the soil against the rim since it entered [m], along and across.
@@ -193,47 +328,20 @@ impl StressField {
     ///
     /// For a driving wheel v_x/|r_s ω| is 1 − s and this is Ishigami et al. (2007). As the rim
     /// comes to rest j grows beyond all bounds: a locked wheel mobilises the full strength.
-    #[inline]
+    #[inline(always)]
     fn displacement(&self, point: &RimPoint) -> (f64, f64) {
-        let Slip { rim, forward, lateral, .. } = self.slip;
+        let Slip { rim, forward, lateral, .. } = self.law.slip;
         let rise = self.entry.sin - point.sin;
-        let j_x = self.radius * (rim * point.behind_entry - forward * rise);
-        let j_y = self.radius * lateral * point.behind_entry;
+        let j_x = self.law.radius * (rim * point.behind_entry - forward * rise);
+        let j_y = self.law.radius * lateral * point.behind_entry;
         (j_x, j_y)
     }
 
     /// Velocity of the rim against the soil over the rim's speed [-], along and across.
-    #[inline]
+    #[inline(always)]
     fn slip_velocity(&self, point: &RimPoint) -> (f64, f64) {
-        (self.slip.rim - self.slip.forward * point.cos, self.slip.lateral)
-    }
-
-    /// Shear stresses, *τ_x* and *τ_y* [Pa], for a normal stress.
-    ///
-    /// ```text
-    /// anisotropic   τ_x = ±(c + σ tan φ)(1 − e^(−|j_x|/K_x)) with the sign of j_x; τ_y alike, against v_y
-    /// isotropic     |τ| = (c + σ tan φ)(1 − e^(−|j|/K)), against the slip velocity
-    /// ```
-    #[inline]
-    fn shear(&self, normal: f64, point: &RimPoint) -> (f64, f64) {
-        let strength = self.cohesion + normal * self.friction;
-        let (j_x, j_y) = self.displacement(point);
-        match self.shear {
-            MobilisedShear::Anisotropic { longitudinal, lateral } => {
-                let along = strength * mobilised(j_x, longitudinal);
-                let across = if j_y == 0.0 { 0.0 } else { -strength * mobilised(j_y, lateral) };
-                (along, across)
-            }
-            MobilisedShear::Isotropic { modulus } => {
-                let (v_x, v_y) = self.slip_velocity(point);
-                let speed = v_x.hypot(v_y);
-                if speed == 0.0 {
-                    return (0.0, 0.0);
-                }
-                let stress = strength * mobilised(j_x.hypot(j_y), modulus);
-                (stress * v_x / speed, -stress * v_y / speed)
-            }
-        }
+        let Slip { rim, forward, lateral, .. } = self.law.slip;
+        (rim - forward * point.cos(), lateral)
     }
 
     /// The ends of the pieces of the arc on which the stresses are smooth, in falling order:
@@ -253,8 +361,8 @@ impl StressField {
             }
         };
         // Where the rim is as fast as the soil under it: cos θ = r_s ω / v_x.
-        let still = self.slip.rim / self.slip.forward;
-        if matches!(self.shear, MobilisedShear::Isotropic { .. }) {
+        let still = self.law.slip.rim / self.law.slip.forward;
+        if matches!(self.law.shear, MobilisedShear::Isotropic(_)) {
             /// A rim slightly faster than its hub is never as fast as the soil, but nearly so under
             /// the hub, where the slip velocity then turns; up to here [-] too sharply for the rule.
             const TURNS_UNDER_HUB: f64 = 1.25;
@@ -287,10 +395,4 @@ impl StressField {
         const NEAR_ENOUGH: f64 = 1e-12;
         Some(root::between(displacement, low, high, NEAR_ENOUGH))
     }
-}
-
-/// Share of the shear strength mobilised after a displacement, with its sign [-].
-#[inline]
-fn mobilised(displacement: f64, modulus: f64) -> f64 {
-    (1.0 - (-displacement.abs() / modulus).exp()).copysign(displacement)
 }

@@ -148,11 +148,17 @@ impl SinkageGrowth {
     /// * `depth`: h/r_s [-], from which on the growth ends: ζ − 1 shrinks by 1 − (h/r_s)¹⁶
     #[must_use]
     pub fn at(&self, total_slip: f64, slip_angle: f64, depth: f64) -> f64 {
-        let shallow = self.at_the_surface(total_slip, slip_angle);
+        Self::at_depth(self.at_the_surface(total_slip, slip_angle), depth)
+    }
+
+    /// What is left of a growth near the surface [-] at a depth h/r_s [-].
+    #[inline]
+    pub(crate) fn at_depth(shallow: f64, depth: f64) -> f64 {
         1.0 + (shallow - 1.0) * (1.0 - depth.clamp(0.0, 1.0).powi(END_OF_DIGGING))
     }
 
-    fn at_the_surface(&self, total_slip: f64, slip_angle: f64) -> f64 {
+    /// The growth *ζ* [-] of a wheel that has hardly sunk.
+    pub(crate) fn at_the_surface(&self, total_slip: f64, slip_angle: f64) -> f64 {
         let q = self.sharpness;
         let (driving, skid) = (total_slip.clamp(0.0, 1.0), (-total_slip).clamp(0.0, 1.0));
         let (sin, cos) = slip_angle.sin_cos();

@@ -3,6 +3,7 @@
 //! Both read σ = K_σ zⁿ; they differ in what K_σ is made of, and so in how a soil changes with
 //! the wheel's width and with gravity. Each variant has constants in units of its own.
 
+use crate::elementary;
 use crate::error::{ParameterError, not_negative, positive};
 
 /// A pressure-sinkage law, σ = K_σ zⁿ.
@@ -66,8 +67,10 @@ pub struct Stiffness {
 impl Stiffness {
     /// Pressure σ [Pa] at a sinkage [m]; zero above the surface.
     #[must_use]
+    #[expect(clippy::inline_always, reason = "part of the kernel")]
+    #[inline(always)]
     pub fn pressure(&self, sinkage: f64) -> f64 {
-        if sinkage > 0.0 { self.modulus * sinkage.powf(self.exponent) } else { 0.0 }
+        self.modulus * elementary::pow(sinkage, self.exponent)
     }
 }
 

@@ -5,6 +5,7 @@ mod documents;
 mod extended;
 mod floors;
 mod given;
+mod kernel;
 mod laws;
 mod measured;
 mod measurements;

@@ -15,12 +15,12 @@ use grouser::wheel::{Grousers, Wheel};
 use super::given::BULLDOZING;
 
 /// Random numbers from a counter (SplitMix64; Steele, Lea and Flood 2014).
-struct Draw {
+pub(crate) struct Draw {
     state: u64,
 }
 
 impl Draw {
-    fn of_case(case: u64) -> Self {
+    pub(crate) fn of_case(case: u64) -> Self {
         // Far apart, so that the cases' streams do not overlap.
         Self { state: case.wrapping_mul(0xD1B5_4A32_D192_ED03) }
     }
@@ -34,17 +34,17 @@ impl Draw {
     }
 
     /// Evenly between two numbers.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
     /// Of every size between two positive numbers.
-    fn sized(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn sized(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
     /// Once in `count`.
-    fn once_in(&mut self, count: u64) -> bool {
+    pub(crate) fn once_in(&mut self, count: u64) -> bool {
         self.bits().is_multiple_of(count)
     }
 
@@ -130,14 +130,14 @@ fn any_soil(draw: &mut Draw) -> Soil {
 }
 
 /// A contact and a load: mostly one that the soil carries at some depth, sometimes of any size.
-struct Case {
-    contact: Contact,
-    load: f64,
+pub(crate) struct Case {
+    pub(crate) contact: Contact,
+    pub(crate) load: f64,
     /// Whether the load was read off at a depth, so that there is one at which it is carried.
     carried: bool,
 }
 
-fn any_case(theory: Theory, case: u64) -> Case {
+pub(crate) fn any_case(theory: Theory, case: u64) -> Case {
     let mut draw = Draw::of_case(case);
     let (wheel, soil) = (any_wheel(&mut draw), any_soil(&mut draw));
     let slip_ratio = draw.or_special(-2.0, 2.0, &[-2.0, -1.0, 0.0, 1.0, 2.0]);

@@ -1,0 +1,97 @@
+//! Which vector instructions the kernel runs on.
+
+#![allow(unsafe_code, reason = "the one place: to call what the processor was asked for before")]
+
+/// A set of vector instructions. All of them give the same bits; they differ in time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InstructionSet {
+    /// What every processor of the target has (SSE2 on x86-64).
+    Baseline,
+    /// Four doubles at once.
+    Avx2,
+    /// Eight doubles at once.
+    Avx512,
+}
+
+/// Work that is compiled once for each instruction set.
+///
+/// `run` and all that it calls have to be `#[inline(always)]`: what is not inlined is compiled for
+/// [`InstructionSet::Baseline`].
+pub(in crate::contact) trait Work {
+    type Output;
+    fn run(self) -> Self::Output;
+}
+
+impl InstructionSet {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
+    /// Its name in reports.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// Whether this processor has it.
+    #[must_use]
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Baseline => true,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 => std::arch::is_x86_feature_detected!("avx2"),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => {
+                std::arch::is_x86_feature_detected!("avx512f")
+                    && std::arch::is_x86_feature_detected!("avx512dq")
+                    && std::arch::is_x86_feature_detected!("avx512vl")
+            }
+            #[cfg(not(target_arch = "x86_64"))]
+            Self::Avx2 | Self::Avx512 => false,
+        }
+    }
+
+    /// The fastest that this processor has. The standard library remembers what it detected.
+    #[must_use]
+    pub fn best() -> Self {
+        if Self::Avx512.is_available() {
+            Self::Avx512
+        } else if Self::Avx2.is_available() {
+            Self::Avx2
+        } else {
+            Self::Baseline
+        }
+    }
+
+    /// Does the work on this set, or on the baseline where the processor lacks it.
+    #[inline]
+    pub(in crate::contact) fn run<W: Work>(self, work: W) -> W::Output {
+        #[cfg(target_arch = "x86_64")]
+        {
+            if self == Self::Avx512 && self.is_available() {
+                // SAFETY: the processor has just been asked for these instructions.
+                return unsafe { on_avx512(work) };
+            }
+            if self == Self::Avx2 && self.is_available() {
+                // SAFETY: as above.
+                return unsafe { on_avx2(work) };
+            }
+        }
+        work.run()
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+fn on_avx512<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn on_avx2<W: Work>(work: W) -> W::Output {
+    work.run()
+}

@@ -1,0 +1,228 @@
+//! The force integral: the same bits on every instruction set, its accuracy, and the search on it.
+
+use grouser::contact::{
+    Contact, Extended, InstructionSet, Ishigami, Slip, Theory, WheelSoilModel, settle, settle_from,
+    settle_many,
+};
+use grouser::soil::{
+    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    extended,
+};
+use grouser::units::deg;
+use grouser::wheel::Wheel;
+
+use super::million::{Draw, any_case};
+
+/// Motions that a rover's wheel has, and those that need the most nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Motion {
+    Driving,
+    Skidding,
+    Locked,
+}
+
+fn any_slip(draw: &mut Draw, motion: Motion) -> Slip {
+    let beta = draw.between(deg(-45.0), deg(45.0));
+    let ratio = match motion {
+        Motion::Driving => draw.between(0.0, 1.0),
+        Motion::Skidding => draw.between(-0.99, -0.01),
+        Motion::Locked => -1.0,
+    };
+    Slip::on_test_stand(ratio, beta)
+}
+
+/// A wheel whose soil mobilises its shear within `hardness` radii or more: K from half a
+/// millimetre, n from 0.5 to 2.
+fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f64) {
+    let radius = draw.sized(0.03, 0.5);
+    let wheel = Wheel { radius, width: 0.7 * radius, grousers: None };
+    let modulus = |draw: &mut Draw| ShearModulus::constant(draw.sized(5e-4, 0.1));
+    let shear = if isotropic {
+        Shear::Isotropic { modulus: modulus(draw) }
+    } else {
+        Shear::Anisotropic { longitudinal: modulus(draw), lateral: modulus(draw) }
+    };
+    let exponent = SinkageExponent::constant(draw.between(0.5, 2.0));
+    let soil = Soil {
+        cohesion: if draw.once_in(2) { 0.0 } else { draw.sized(10.0, 2000.0) },
+        friction_angle: draw.between(deg(20.0), deg(45.0)),
+        density: 1500.0,
+        pressure_sinkage: PressureSinkage::Reece { k_c: 10.0, k_phi: draw.sized(50.0, 500.0), exponent },
+        stress_peak: StressPeak { a0: draw.between(0.1, 0.5), a1: draw.between(0.0, 0.2) },
+        shear,
+        exit: Exit::Ratio(draw.between(0.1, 1.2)),
+        bulldozing: Bulldozing::Sine,
+        extended: extended::Extended::OFF,
+        rft: Rft::PUBLISHED,
+    };
+    let slip = any_slip(draw, motion);
+    (Contact { wheel, soil, slip, gravity: 9.81 }, draw.sized(1e-3, 0.5) * radius)
+}
+
+/// Largest error of any force, over the load, or of any moment, over load times radius [-]; none
+/// where the soil hardly carries.
+fn error(contact: &Contact, sinkage: f64) -> Option<f64> {
+    let [coarse, exact] =
+        [Ishigami::default(), Ishigami::reference()].map(|theory| theory.forces(contact, sinkage));
+    let load = exact.normal_force;
+    let radius = contact.wheel.shearing_radius();
+    // A load that is a small difference of larger forces is no scale.
+    if load < 0.2 * exact.max_normal_stress * contact.wheel.width * radius * exact.patch.entry {
+        return None;
+    }
+    let errors = [
+        (coarse.drawbar_pull - exact.drawbar_pull) / load,
+        (coarse.side_force - exact.side_force) / load,
+        (coarse.normal_force - exact.normal_force) / load,
+        (coarse.torque - exact.torque) / (load * radius),
+        (coarse.overturning_moment - exact.overturning_moment) / (load * radius),
+        (coarse.aligning_moment - exact.aligning_moment) / (load * radius),
+    ];
+    Some(errors.iter().fold(0.0, |most, error| f64::max(most, error.abs())))
+}
+
+/// Errors of many contacts in rising order.
+fn errors(count: u64, motion: Motion, isotropic: bool) -> Vec<f64> {
+    let mut errors: Vec<f64> = (0..count)
+        .filter_map(|case| {
+            let mut draw = Draw::of_case(case);
+            let (contact, sinkage) = any_contact(&mut draw, motion, isotropic);
+            error(&contact, sinkage)
+        })
+        .collect();
+    assert!(errors.len() as u64 > count / 3, "{} of {count} carry", errors.len());
+    errors.sort_by(f64::total_cmp);
+    errors
+}
+
+fn check_errors(motion: Motion, isotropic: bool, share: f64, usual: f64, most: f64) {
+    let errors = errors(20_000, motion, isotropic);
+    let at = errors[(share * (errors.len() - 1) as f64) as usize];
+    let last = errors[errors.len() - 1];
+    println!("{motion:?}, isotropic {isotropic}: {share} of them below {at:.1e}, all below {last:.1e}");
+    assert!(at < usual && last < most, "{motion:?}: {at:.1e}, {last:.1e}");
+}
+
+/// Measured against four times as many nodes as the finest rule has.
+#[test]
+fn driving_wheels_are_integrated_to_a_millionth_of_the_load() {
+    check_errors(Motion::Driving, false, 0.999, 1e-6, 1e-5);
+}
+
+#[test]
+fn skidding_wheels() {
+    check_errors(Motion::Skidding, false, 0.99, 1e-5, 1e-3);
+    check_errors(Motion::Locked, false, 0.99, 1e-6, 1e-5);
+    check_errors(Motion::Driving, true, 0.99, 1e-6, 1e-3);
+    check_errors(Motion::Skidding, true, 0.99, 1e-5, 1e-3);
+}
+
+/// All numbers of a reaction as bits.
+fn bits(model: &dyn WheelSoilModel, contact: &Contact, sinkage: f64) -> Vec<u64> {
+    let forces = model.forces(contact, sinkage);
+    let bearing = model.bearing(contact).expect("these theories have one");
+    [
+        forces.drawbar_pull,
+        forces.side_force,
+        forces.normal_force,
+        forces.torque,
+        forces.overturning_moment,
+        forces.aligning_moment,
+        forces.thrust,
+        forces.motion_resistance,
+        forces.side_force_from_shear,
+        forces.bulldozing_load,
+        forces.max_normal_stress,
+        forces.patch.entry,
+        forces.patch.max_stress,
+        forces.patch.exit,
+        bearing.normal_force(sinkage),
+    ]
+    .map(f64::to_bits)
+    .to_vec()
+}
+
+/// Terms of a small wheel's soil, so that the extended theory differs from the classical one.
+fn with_terms(contact: &Contact, draw: &mut Draw) -> Contact {
+    let mut contact = *contact;
+    let terms = &mut contact.soil.extended;
+    terms.sinkage.with_slip_angle = draw.between(0.0, 3.0);
+    terms.sinkage.with_slip = draw.between(0.0, 3.0);
+    terms.exit.with_slip = draw.between(0.0, 0.5);
+    terms.flank.friction = 0.5;
+    terms.heap.front = draw.between(0.0, 2.0);
+    contact
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let sets = InstructionSet::ALL.map(|set| (set, set.is_available()));
+    println!("{sets:?}");
+    for case in 0..20_000 {
+        let contact = any_case(Theory::Ishigami, case).contact;
+        let mut draw = Draw::of_case(!case);
+        let sinkage = draw.sized(1e-6, 1.0) * contact.wheel.shearing_radius();
+        let extended = with_terms(&contact, &mut draw);
+        let on = |set| {
+            let mut numbers = bits(&Ishigami::DEFAULT.on(set), &contact, sinkage);
+            numbers.extend(bits(&Extended::DEFAULT.on(set), &extended, sinkage));
+            numbers
+        };
+        let baseline = on(InstructionSet::Baseline);
+        for (set, available) in sets {
+            assert!(!available || on(set) == baseline, "case {case} on {set:?}: {contact:?}");
+        }
+    }
+}
+
+/// The search asks for F_z alone; what it finds is the wheel's normal force to the last bit.
+#[test]
+fn a_bearing_has_the_bits_of_the_normal_force() {
+    for case in 0..5_000 {
+        let contact = any_case(Theory::Ishigami, case).contact;
+        let sinkage = Draw::of_case(!case).sized(1e-6, 1.0) * contact.wheel.shearing_radius();
+        for theory in [Theory::Ishigami, Theory::Extended] {
+            let numbers = bits(theory.model(), &contact, sinkage);
+            assert_eq!(numbers[2], numbers[14], "case {case}, {theory:?}: {contact:?}");
+        }
+    }
+}
+
+#[test]
+fn settling_does_not_depend_on_the_guess() {
+    for case in 0..5_000 {
+        let mut draw = Draw::of_case(case);
+        let (contact, sinkage) = any_contact(&mut draw, Motion::Driving, false);
+        // Without cohesion F_z grows with the sinkage, so that one sinkage carries the load.
+        let contact = Contact { soil: Soil { cohesion: 0.0, ..contact.soil }, ..contact };
+        for theory in [Theory::Ishigami, Theory::Bekker, Theory::Extended] {
+            let model = theory.model();
+            let load = model.forces(&contact, sinkage).normal_force;
+            let cold = settle(model, &contact, load).expect("it is carried there");
+            let guess = draw.sized(1e-6, 3.0) * contact.wheel.shearing_radius();
+            for guess in [guess, cold.sinkage, 1.001 * cold.sinkage, 0.0, f64::NAN] {
+                let warm = settle_from(model, &contact, load, guess).expect("it is carried there");
+                let apart = (warm.sinkage / sinkage - 1.0).abs();
+                // F_z agrees to 1e-12 and grows at least with a root of the sinkage.
+                assert!(apart < 1e-10, "case {case}, {theory:?} from {guess}: {apart:.1e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wheel_settles_alike_alone_and_among_others() {
+    for theory in Theory::ALL {
+        let wheels: Vec<(Contact, f64)> = (0..100)
+            .map(|case| any_case(theory, case))
+            .map(|case| (case.contact, case.load))
+            .collect();
+        let alone: Vec<_> =
+            wheels.iter().map(|(contact, load)| settle(theory.model(), contact, *load)).collect();
+        assert_eq!(settle_many(theory.model(), &wheels), alone);
+        let reversed: Vec<_> = wheels.iter().rev().copied().collect();
+        let mut backward = settle_many(theory.model(), &reversed);
+        backward.reverse();
+        assert_eq!(backward, alone);
+    }
+}
