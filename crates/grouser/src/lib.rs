@@ -50,6 +50,7 @@
 pub mod contact;
 pub mod document;
 pub mod error;
+mod newton;
 mod root;
 pub mod simulation;
 pub mod site;
