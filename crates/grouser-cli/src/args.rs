@@ -33,6 +33,8 @@ pub(crate) enum Command {
     WheelTest(WheelTestArgs),
     /// The yaw that keeps a traverse level on a slope, and the steepest slope that has one.
     Attitude(AttitudeArgs),
+    /// The yaw that keeps a course on a slope, over slope, course and soil.
+    AttitudeMap(AttitudeMapArgs),
     /// Compare a theory with measured wheel tests, or rank all theories.
     Validate(ValidateArgs),
     /// Find the soil that measured wheel tests, or plate tests, speak for, and how surely.
@@ -132,6 +134,9 @@ pub(crate) struct TraverseArgs {
     /// Motion at the start: `rolling` or `rest`.
     #[arg(long, value_name = "WORD")]
     pub(crate) start: Option<String>,
+    /// `dynamic`, or `quasi-steady`: velocities in balance at every instant, many times faster.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) simulation: Option<String>,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
@@ -221,6 +226,38 @@ pub(crate) struct AttitudeArgs {
     pub(crate) slope_deg: Numbers,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "A course is a direction of travel, counted from the contour and positive \
+                        uphill; course 0 is what `attitude` asks. A row without an attitude says \
+                        why in its status.")]
+pub(crate) struct AttitudeMapArgs {
+    /// A scenario's file or preset, for its rover, soil, gravity and balance; without it the
+    /// default scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    /// The soils, separated by commas: presets or files.
+    #[arg(long, value_name = "NAMES|FILES", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: Vec<String>,
+    /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0:24:2", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Numbers,
+    /// Courses [°], -90 to 90: 0 along the contour, positive uphill.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-60:60:15", allow_hyphen_values = true)]
+    pub(crate) course_deg: Numbers,
+    /// Rim speed [m/s], for the power.
+    #[arg(long, value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
+    pub(crate) speed_m_s: Numbers,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]

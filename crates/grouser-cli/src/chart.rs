@@ -5,6 +5,7 @@ use std::sync::Arc;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{ColorMap, Heatmap};
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::figure::Figure;
@@ -150,6 +151,52 @@ impl Series {
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
         }
+    }
+}
+
+/// A table drawn in colours: a value for each row and column, or none, which stays grey.
+#[derive(Clone, Debug)]
+pub(crate) struct HeatMap {
+    /// What it shows, with the unit.
+    pub(crate) title: String,
+    /// Quantity and unit of the columns, and what they are.
+    pub(crate) x_label: String,
+    pub(crate) columns: Vec<f64>,
+    /// Quantity and unit of the rows, and what they are, from the bottom up.
+    pub(crate) y_label: String,
+    pub(crate) rows: Vec<f64>,
+    /// Row by row.
+    pub(crate) values: Vec<Vec<Option<f64>>>,
+}
+
+impl HeatMap {
+    /// The map as a stand-alone SVG document.
+    pub(crate) fn to_svg(&self) -> String {
+        let colours = |share: f64| {
+            if share.is_nan() { "#dddddd".to_owned() } else { ColorMap::Viridis.map(share) }
+        };
+        let numbers = |row: &Vec<Option<f64>>| {
+            row.iter().map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
+        };
+        let map = Heatmap::new()
+            .with_data(self.values.iter().map(numbers).collect::<Vec<Vec<f64>>>())
+            .with_color_map(ColorMap::Custom(Arc::new(colours)));
+        let places = |values: &[f64]| values.iter().map(|value| four_digits(*value)).collect();
+        let plots = vec![Plot::Heatmap(map)];
+        let layout = Layout::auto_from_plots(&plots)
+            .with_title(self.title.as_str())
+            .with_x_label(self.x_label.as_str())
+            .with_y_label(self.y_label.as_str())
+            .with_x_categories(places(&self.columns))
+            .with_y_categories(places(&self.rows))
+            .with_width(760.0)
+            .with_height(430.0)
+            .with_title_size(15)
+            .with_label_size(13)
+            .with_tick_size(12)
+            .with_body_size(12)
+            .with_font_family("Helvetica, Arial, sans-serif");
+        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
 }
 

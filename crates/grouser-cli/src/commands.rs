@@ -2,6 +2,7 @@
 
 pub(crate) mod attitude;
 mod attitude_band;
+pub(crate) mod attitude_map;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod check;

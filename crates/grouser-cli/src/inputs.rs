@@ -8,7 +8,9 @@ use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
 };
 
-use crate::args::{AttitudeArgs, BalanceArgs, SettingArgs, StandArgs, TraverseArgs, WheelTestArgs};
+use crate::args::{
+    AttitudeArgs, AttitudeMapArgs, BalanceArgs, SettingArgs, StandArgs, TraverseArgs, WheelTestArgs,
+};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 
@@ -42,6 +44,7 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
         ("--soil", "scenario.soil", &args.soil),
         ("--drive", "scenario.drive.law", &args.drive),
         ("--start", "scenario.start.motion", &args.start),
+        ("--simulation", "scenario.simulation", &args.simulation),
     ];
     for (flag, key, value) in texts {
         if let Some(value) = value {
@@ -74,23 +77,60 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
 
 /// The scenario whose rover, soil and balance an attitude study takes; its slope is not used.
 pub(crate) fn attitude(args: &AttitudeArgs) -> Result<LoadedScenario, Failure> {
-    let source = scenario_source("attitude", args.scenario.as_deref())?;
-    let mut overrides = Overrides::parse(&args.setting.settings)?;
+    check_slopes(&args.slope_deg)?;
+    let scenario = args.scenario.as_deref();
+    let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
+    balanced("attitude", scenario, rover, soil, &args.setting, &args.balance)
+}
+
+/// The scenarios of an attitude map, one for each soil.
+pub(crate) fn attitude_map(args: &AttitudeMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
+    use document::study;
+    check_slopes(&args.slope_deg)?;
+    check_numbers("--course-deg", &args.course_deg, &study::COURSE_DEG)?;
+    let [_] = args.speed_m_s.0[..] else {
+        return Err(Failure::Usage("--speed-m-s: one speed, please, for all rows".into()));
+    };
+    check_numbers("--speed-m-s", &args.speed_m_s, &study::MAP_SPEED_M_S)?;
+    let soils: Vec<Option<&String>> =
+        if args.soil.is_empty() { vec![None] } else { args.soil.iter().map(Some).collect() };
+    check_rows((soils.len() * args.slope_deg.0.len() * args.course_deg.0.len()) as f64)?;
+    let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
+    let read = |soil: &Option<&String>| {
+        balanced("attitude-map", scenario, rover, *soil, &args.setting, &args.balance)
+    };
+    soils.iter().map(read).collect()
+}
+
+fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
+    let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
+    check_numbers("--slope-deg", slopes, &range)
+}
+
+/// A scenario for its rover, soil and balance alone.
+fn balanced(
+    command: &str,
+    scenario: Option<&str>,
+    rover: Option<&String>,
+    soil: Option<&String>,
+    setting: &SettingArgs,
+    balance: &BalanceArgs,
+) -> Result<LoadedScenario, Failure> {
+    let source = scenario_source(command, scenario)?;
+    let mut overrides = Overrides::parse(&setting.settings)?;
     overrides.refuse(
         Kind::Scenario,
-        &["slope_deg", "duration_s", "sample_interval_s", "drive", "start"],
+        &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
         "slopes are given by --slope-deg; a level attitude has no drive, start or duration",
     )?;
-    scenario_settings(&mut overrides, &args.setting, &args.balance)?;
+    scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in
-        [("--rover", "scenario.rover", &args.rover), ("--soil", "scenario.soil", &args.soil)]
+        [("--rover", "scenario.rover", rover), ("--soil", "scenario.soil", soil)]
     {
         if let Some(value) = value {
             overrides.flag_text(flag, key, value)?;
         }
     }
-    let slopes = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
-    check_numbers("--slope-deg", &args.slope_deg, &slopes)?;
     Ok(document::read_scenario(&source, &overrides)?)
 }
 

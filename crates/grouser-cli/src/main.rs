@@ -42,6 +42,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Traverse(args) => commands::traverse::run(args),
         Command::WheelTest(args) => commands::wheel_test::run(args),
         Command::Attitude(args) => commands::attitude::run(args),
+        Command::AttitudeMap(args) => commands::attitude_map::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Import(args) => commands::import::run(args),

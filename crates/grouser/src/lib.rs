@@ -51,6 +51,7 @@ pub mod contact;
 pub mod document;
 mod elementary;
 pub mod error;
+mod newton;
 mod root;
 pub mod simulation;
 pub mod site;

@@ -1,17 +1,22 @@
 //! Floor 3: a run, from its [`Scenario`] to its [`Trajectory`].
 //!
-//! [`equations`] is one evaluation of the motion, `integrate` carries it through time, and
-//! [`run`] puts both together, watches what becomes of the rover and keeps the samples.
+//! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
+//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities in [`balance`].
+//! [`run`] takes one of them and keeps the samples, [`watch`] sees what becomes of the rover.
 //! [`power`] does the books of the energy.
 
+pub mod balance;
 pub mod equations;
 mod integrate;
 pub mod power;
+pub mod quasi_steady;
 pub mod run;
 pub mod scenario;
 pub mod trajectory;
+pub mod watch;
 
+pub use balance::Unsteady;
 pub use power::EnergyBalance;
 pub use run::{Simulation, SimulationError};
-pub use scenario::{Integrator, Motion, Numerics, Scenario, Start};
-pub use trajectory::{Outcome, Sample, StuckBecause, Trajectory, WheelSample};
+pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
+pub use trajectory::{Method, Outcome, Sample, StuckBecause, Trajectory, WheelSample, Work};

@@ -1,7 +1,7 @@
 //! Floor 4: questions about a wheel or a rover, answered with the floors below.
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
-//! [`attitude_band`] the same where the soil is uncertain, with what [`uncertainty`] knows of draws,
+//! [`attitude_map`] the same for other courses and several soils, [`attitude_band`] where the soil is uncertain, with what [`uncertainty`] knows of draws,
 //! [`measurement`] what a real stand reads, [`simulated_test`] makes such readings with a known
 //! truth, [`validation`] judges a theory by them, [`calibration`] finds the soil that they speak
 //! for, [`comparison`] has the metrics by which the source paper judges a run, and
@@ -9,6 +9,7 @@
 
 pub mod attitude;
 pub mod attitude_band;
+pub mod attitude_map;
 pub mod calibration;
 pub mod comparison;
 pub mod measurement;

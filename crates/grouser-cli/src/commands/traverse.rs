@@ -88,9 +88,14 @@ fn table(record: &TrajectoryRecord) -> String {
     });
     let rows = Rows::from_maps(rows.collect());
     let end = &record.end;
+    let simulation = match (record.simulation, &record.simulation_reason) {
+        (_, Some(reason)) => format!("\nsimulation: {reason}"),
+        ("dynamic", None) => String::new(),
+        (word, None) => format!("\nsimulation: {word}"),
+    };
     let reason = record.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
     format!(
-        "{}{} after {} s{reason}; x {} m, y {} m, yaw {}°, {} J\n",
+        "{}{} after {} s{reason}; x {} m, y {} m, yaw {}°, {} J{simulation}\n",
         rows.to_table(&COLUMNS),
         record.outcome,
         four_digits(end.time_s),

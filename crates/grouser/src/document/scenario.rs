@@ -13,7 +13,7 @@ use super::{
 };
 use crate::error::ParameterError;
 use crate::simulation::scenario::LONGEST_DURATION;
-use crate::simulation::{Motion, Numerics, Scenario, Start};
+use crate::simulation::{Approach, Motion, Numerics, Scenario, Start};
 use crate::site::Site;
 use crate::units::EARTH_GRAVITY;
 use crate::vehicle::drive::SlipTarget;
@@ -73,6 +73,9 @@ pub struct ScenarioDocument {
     /// Whether the wheels' own overturning and aligning moments act on the rover.
     #[serde(default)]
     pub moments: MomentsWord,
+    /// Whether velocities are integrated or in balance.
+    #[serde(default)]
+    pub simulation: SimulationWord,
     /// What turns the wheels.
     #[serde(default)]
     pub drive: DriveSection,
@@ -112,6 +115,17 @@ pub enum MomentsWord {
     Neglected,
     /// They act on the rover.
     Included,
+}
+
+/// Where velocities come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SimulationWord {
+    /// They are integrated with the pose.
+    #[default]
+    Dynamic,
+    /// They are those at which nothing accelerates: fast; where that is not valid, dynamic.
+    QuasiSteady,
 }
 
 /// What turns the wheels.
@@ -302,7 +316,11 @@ impl Document for ScenarioDocument {
                 motion: self.start.motion.to_domain(),
             },
             duration: self.duration_s,
-            numerics: Numerics { sample_interval: self.sample_interval_s, ..Numerics::default() },
+            numerics: Numerics {
+                approach: self.simulation.to_domain(),
+                sample_interval: self.sample_interval_s,
+                ..Numerics::default()
+            },
         };
         let at = |path: &'static str| {
             move |error: ParameterError| {
@@ -401,6 +419,15 @@ impl MomentsWord {
         match self {
             Self::Neglected => OwnMoments::Neglected,
             Self::Included => OwnMoments::Included,
+        }
+    }
+}
+
+impl SimulationWord {
+    fn to_domain(self) -> Approach {
+        match self {
+            Self::Dynamic => Approach::Dynamic,
+            Self::QuasiSteady => Approach::QuasiSteady,
         }
     }
 }

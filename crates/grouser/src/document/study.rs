@@ -4,8 +4,9 @@ use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use crate::studies::attitude::{AttitudeCurve, NoAttitude};
+use crate::studies::attitude::{Attitude, AttitudeCurve, NoAttitude};
 use crate::studies::attitude_band::{AttitudeBand, SlopeBand};
+use crate::studies::attitude_map::{AttitudeMap, AttitudeRow};
 use crate::studies::uncertainty::Band;
 use crate::studies::wheel_test::WheelTestRow;
 use crate::vehicle::Rover;
@@ -16,6 +17,11 @@ pub const LOAD_N: RangeInclusive<f64> = 0.0..=1e5;
 pub const SLIP_RATIO: RangeInclusive<f64> = -2.0..=2.0;
 /// Slip angles that a wheel test may ask for [°].
 pub const SLIP_ANGLE_DEG: RangeInclusive<f64> = -90.0..=90.0;
+
+/// Courses that an attitude map may ask for [°].
+pub const COURSE_DEG: RangeInclusive<f64> = -90.0..=90.0;
+/// Rim speeds that an attitude map may ask for [m/s].
+pub const MAP_SPEED_M_S: RangeInclusive<f64> = 1e-6..=10.0;
 
 /// Status of a row that has its results.
 pub const OK: &str = "ok";
@@ -146,8 +152,12 @@ impl AttitudeRecord {
     /// The record of a curve at a slope [rad].
     #[must_use]
     pub fn of(curve: &AttitudeCurve, rover: &Rover, slope: f64) -> Self {
+        Self::new(curve.at(slope).as_ref(), rover, slope)
+    }
+
+    fn new(attitude: Result<&Attitude, &NoAttitude>, rover: &Rover, slope: f64) -> Self {
         let slope_deg = printed_degrees(slope);
-        match curve.at(slope) {
+        match attitude {
             Ok(attitude) => Self {
                 slope_deg,
                 yaw_deg: Some(attitude.yaw.to_degrees()),
@@ -169,6 +179,43 @@ impl AttitudeRecord {
                 status: error.to_string(),
             },
         }
+    }
+}
+
+/// The attitude of one course on one slope and soil. Results are null where `status` is not `ok`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AttitudeMapRecord {
+    /// The soil's name.
+    pub soil: String,
+    /// Direction of travel from the contour [°], positive uphill.
+    pub course_deg: f64,
+    /// The attitude there: its yaw is the body's, and its work that of a metre along the course.
+    #[serde(flatten)]
+    pub attitude: AttitudeRecord,
+    /// Power of the motors at the map's rim speed [W].
+    pub power_w: Option<f64>,
+    /// The steepest slope on which the course can be held [°]; null where the rover cannot move.
+    pub limit_slope_deg: Option<f64>,
+}
+
+impl AttitudeMapRecord {
+    /// The records of a map, row by row.
+    ///
+    /// * `soils`: the name of each study's soil
+    /// * `rim_speed`: for the power [m/s]
+    #[must_use]
+    pub fn of(map: &AttitudeMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Vec<Self> {
+        let cells = |row: &AttitudeRow| {
+            let record = |(slope, cell): (&f64, &Result<Attitude, NoAttitude>)| Self {
+                soil: soils[row.study].clone(),
+                course_deg: printed_degrees(row.course),
+                attitude: AttitudeRecord::new(cell.as_ref(), rover, *slope),
+                power_w: cell.as_ref().ok().map(|attitude| attitude.power(rover, rim_speed)),
+                limit_slope_deg: row.limit.as_ref().ok().map(|(slope, _)| slope.to_degrees()),
+            };
+            map.slopes.iter().zip(&row.cells).map(record).collect::<Vec<Self>>()
+        };
+        map.rows.iter().flat_map(cells).collect()
     }
 }
 

@@ -13,6 +13,10 @@ pub struct TrajectoryRecord {
     pub outcome: &'static str,
     /// What that means here; null for a completed run.
     pub reason: Option<String>,
+    /// How it was computed: `dynamic`, `quasi-steady`, or `fell-back` from the second to the first.
+    pub simulation: &'static str,
+    /// Since when and why it fell back; null if it did not.
+    pub simulation_reason: Option<String>,
     /// Work of the motors over the run [J].
     pub energy_j: f64,
     /// What the energy books cannot account for [J].
@@ -82,6 +86,8 @@ impl TrajectoryRecord {
         Self {
             outcome: run.outcome.name(),
             reason: run.outcome.reason(),
+            simulation: run.method.name(),
+            simulation_reason: run.method.reason(),
             energy_j: run.last().energy.motors,
             energy_error_j: run.energy_error(),
             end: SampleRecord::new(run.last(), rover),

@@ -3,12 +3,15 @@
 use std::cell::{Cell, RefCell};
 
 use super::power;
+use super::trajectory::Work;
 use crate::contact::Slip;
+use crate::site::Site;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{hub_velocity, wheel_slips};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
-    Acceleration, OwnMoments, ReactionError, RoverState, WheelReaction, dynamics, reaction::Ground,
+    Acceleration, OwnMoments, ReactionError, Rover, RoverState, WheelReaction, dynamics,
+    reaction::Ground,
 };
 
 /// The equations of motion of a rover whose wheels turn at given speeds.
@@ -16,8 +19,17 @@ pub struct Equations<'a> {
     ground: Ground<'a>,
     rim_speeds: &'a [f64],
     wheel_speeds: Vec<f64>,
-    evaluations: Cell<u64>,
+    work: Cell<Work>,
     failure: RefCell<Option<ReactionError>>,
+}
+
+/// One evaluation of the motion: its rates, and the wheels that they come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evaluation {
+    /// Rates of change.
+    pub rates: Rates,
+    /// Each wheel, settled, in the mounts' order.
+    pub wheels: Vec<WheelReaction>,
 }
 
 /// Rates of change of a rover's motion, and the powers of its energy books.
@@ -44,7 +56,7 @@ impl<'a> Equations<'a> {
             ground,
             rim_speeds,
             wheel_speeds: rim_speeds.iter().map(|speed| speed / radius).collect(),
-            evaluations: Cell::new(0),
+            work: Cell::default(),
             failure: RefCell::new(None),
         }
     }
@@ -54,8 +66,14 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
-        let slips: Vec<Slip> = wheel_slips(self.ground.rover, state, self.rim_speeds).collect();
+        let slips: Vec<Slip> = self.slips(state).collect();
+        self.count(|work| work.settled_wheels += slips.len() as u64);
         self.ground.reactions(state.yaw, &slips)
+    }
+
+    /// The slip of every wheel, from the motion alone.
+    pub fn slips<'s>(&'s self, state: &'s RoverState) -> impl Iterator<Item = Slip> + 's {
+        wheel_slips(self.ground.rover, state, self.rim_speeds)
     }
 
     /// The rates at a state.
@@ -63,6 +81,14 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn rates(&self, state: &RoverState) -> Result<Rates, ReactionError> {
+        self.evaluate(state).map(|evaluation| evaluation.rates)
+    }
+
+    /// The rates at a state, and the wheels there.
+    ///
+    /// # Errors
+    /// As [`rates`](Self::rates).
+    pub fn evaluate(&self, state: &RoverState) -> Result<Evaluation, ReactionError> {
         let Ground { rover, site, own_moments, .. } = self.ground;
         let wheels = self.reactions(state)?;
         let acceleration =
@@ -72,13 +98,32 @@ impl<'a> Equations<'a> {
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =
             power::powers(&wheels, &self.wheel_speeds, hubs, aligning_work_rate);
-        Ok(Rates {
+        let rates = Rates {
             velocity_slope: state.velocity_slope(),
             yaw_rate: state.yaw_rate,
             acceleration,
             motor_power,
             soil_power,
-        })
+        };
+        Ok(Evaluation { rates, wheels })
+    }
+
+    /// The rover that moves.
+    #[must_use]
+    pub fn rover(&self) -> &Rover {
+        self.ground.rover
+    }
+
+    /// Where it moves.
+    #[must_use]
+    pub fn site(&self) -> &Site {
+        self.ground.site
+    }
+
+    /// The wheels' rim speeds, *ω r_s* [m/s].
+    #[must_use]
+    pub fn rim_speeds(&self) -> &[f64] {
+        self.rim_speeds
     }
 
     /// The wheels' angular speeds, *ω* [rad/s].
@@ -87,20 +132,27 @@ impl<'a> Equations<'a> {
         &self.wheel_speeds
     }
 
-    /// As [`rates`](Self::rates), for an integrator: it may try states that no rover can have, so
-    /// the reason of a failure is kept for when the integrator gives up.
-    pub(super) fn try_rates(&self, state: &RoverState) -> Option<Rates> {
-        self.evaluations.set(self.evaluations.get() + 1);
-        self.rates(state).map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
+    /// As [`evaluate`](Self::evaluate), for a solver: it may try states that no rover can have, so
+    /// the reason of a failure is kept for when the solver gives up.
+    pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
+        self.count(|work| work.evaluations += 1);
+        self.evaluate(state).map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
     }
 
-    /// Why the last failed trial failed.
+    /// Why the last failed attempt failed.
     pub(super) fn take_failure(&self) -> Option<ReactionError> {
         self.failure.borrow_mut().take()
     }
 
-    /// How often the equations were evaluated.
-    pub(super) fn evaluations(&self) -> u64 {
-        self.evaluations.get()
+    /// What was computed so far.
+    pub(super) fn work(&self) -> Work {
+        self.work.get()
+    }
+
+    /// Counts work done.
+    pub(super) fn count(&self, add: impl Fn(&mut Work)) {
+        let mut work = self.work.get();
+        add(&mut work);
+        self.work.set(work);
     }
 }

@@ -3,7 +3,10 @@
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
 
-use diffsol::{NalgebraLU, NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverProblem, Vector};
+use diffsol::{
+    BdfState, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeSolverMethod, OdeSolverProblem,
+    OdeSolverState, Vector,
+};
 
 use super::equations::{Equations, Rates};
 use crate::units::Vec2;
@@ -76,7 +79,29 @@ const COUPLED: std::ops::Range<usize> = 2..6;
 /// energies [J] to match.
 const SMALL: [f64; SIZE] = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-2, 1e-2];
 
+/// What an implicit integration knows at its end: step size, order and the points behind it. One
+/// that goes on from there with other rim speeds need not feel its way from a tiny step again.
+#[derive(Default)]
+pub(super) struct History(Option<BdfState<NalgebraVec<f64>, NalgebraMat<f64>>>);
+
+impl History {
+    /// Forgets it: what comes is no continuation.
+    pub(super) fn clear(&mut self) {
+        self.0 = None;
+    }
+
+    /// That of the motion which ended at a point, if it did.
+    fn take(&mut self, point: &Point, time: f64) -> Option<BdfState<NalgebraVec<f64>>> {
+        let state = self.0.take()?;
+        let reached = state.as_ref();
+        let there = Point::from_array(&reached.y.clone_as_vec());
+        (reached.t == time && there.state == point.state).then_some(state)
+    }
+}
+
 /// Implicit integration with steps of its own (BDF), from `start` through all `times`.
+///
+/// * `history`: of the motion so far, and afterwards of this one
 ///
 /// # Errors
 /// [`Stalled`] where no step is small enough.
@@ -86,6 +111,7 @@ pub(super) fn bdf(
     start_time: f64,
     times: &[f64],
     tolerance: f64,
+    history: &mut History,
     on_sample: &mut OnSample<'_>,
 ) -> Result<(), Stalled> {
     type Matrix = NalgebraMat<f64>;
@@ -107,6 +133,10 @@ pub(super) fn bdf(
                 base.1.copy_from_slice(rates);
             },
             |y: &[f64], _: &[f64], _: f64, direction: &[f64], product: &mut [f64]| {
+                // The solver asks for one column after the other.
+                if direction[0] != 0.0 {
+                    equations.count(|work| work.jacobians += 1);
+                }
                 if base.borrow().0 != *y {
                     let rates = rates_at(equations, y);
                     let mut base = base.borrow_mut();
@@ -122,7 +152,14 @@ pub(super) fn bdf(
     // They are counted over the whole run, and each only shortens a step: that no step is short
     // enough is found by the step's own limit.
     problem.ode_options.max_nonlinear_solver_failures = usize::MAX;
-    let mut solver = problem.bdf::<NalgebraLU<f64>>().map_err(stalled)?;
+    let mut solver = match history.take(start, start_time) {
+        Some(state) => problem.bdf_solver::<NalgebraLU<f64>>(state),
+        None => problem.bdf::<NalgebraLU<f64>>(),
+    }
+    .map_err(stalled)?;
+    // A continued motion counts its work from its own start on; the books may have moved meanwhile.
+    let counted = Point::from_array(&solver.state().y.clone_as_vec());
+    let (motors, soil) = (start.motors - counted.motors, start.soil - counted.soil);
     if let Some(&last) = times.last() {
         solver.set_stop_time(last).map_err(stalled)?;
     }
@@ -130,6 +167,7 @@ pub(super) fn bdf(
         let mut steps = 0;
         while solver.state().t < time {
             solver.step().map_err(stalled)?;
+            equations.count(|work| work.steps += 1);
             reached.set(solver.state().t);
             steps += 1;
             if steps > MOST_STEPS {
@@ -138,10 +176,14 @@ pub(super) fn bdf(
             }
         }
         let y = solver.interpolate(time).map_err(stalled)?;
-        if on_sample(time, &Point::from_array(&y.clone_as_vec())).is_break() {
-            break;
+        let mut point = Point::from_array(&y.clone_as_vec());
+        point.motors += motors;
+        point.soil += soil;
+        if on_sample(time, &point).is_break() {
+            return Ok(());
         }
     }
+    history.0 = Some(solver.into_state());
     Ok(())
 }
 
@@ -153,7 +195,8 @@ const MOST_STEPS: u32 = 100_000;
 
 fn rates_at(equations: &Equations<'_>, y: &[f64]) -> [f64; SIZE] {
     // A state without rates is one the integrator must step back from; it does so at NaN.
-    equations.try_rates(&Point::from_array(y).state).map_or([f64::NAN; SIZE], Rates::to_array)
+    let evaluation = equations.attempt(&Point::from_array(y).state);
+    evaluation.map_or([f64::NAN; SIZE], |evaluation| evaluation.rates.to_array())
 }
 
 /// Derivative of the rates along a direction, by a forward difference.
@@ -202,6 +245,7 @@ pub(super) fn rk4(
         let h = (time - now) / left;
         while left > 0.0 {
             left -= 1.0;
+            equations.count(|work| work.steps += 1);
             let k_1 = rates_at(equations, &y);
             let k_2 = rates_at(equations, &moved(&y, &k_1, 0.5 * h));
             let k_3 = rates_at(equations, &moved(&y, &k_2, 0.5 * h));

@@ -2,34 +2,26 @@
 
 use std::ops::ControlFlow;
 
+use super::balance::Unsteady;
 use super::equations::Equations;
-use super::integrate::{self, Point, Stalled};
+use super::integrate::{self, History, Point, Stalled};
 use super::power::{self, EnergyBalance};
-use super::scenario::{Integrator, Scenario};
-use super::trajectory::{Outcome, Sample, StuckBecause, Trajectory, WheelSample, Work};
+use super::quasi_steady::{Carried, QuasiSteady};
+use super::scenario::{Approach, Integrator, Scenario};
+use super::trajectory::{Method, Outcome, Sample, StuckBecause, Trajectory, WheelSample, Work};
+use super::watch::{WATCH_PERIOD, Watch};
 use crate::contact::SettleError;
 use crate::error::ParameterError;
 use crate::vehicle::drive::DriveInput;
-use crate::vehicle::kinematics::hub_velocity;
 use crate::vehicle::reaction::Ground;
 use crate::vehicle::{Drive, ReactionError, WheelReaction};
 
 /// Time between two looks of a drive that varies [s]. Source: ours, a usual rate of rover control.
 pub const CONTROL_PERIOD: f64 = 0.1;
 
-/// Time between two looks at what becomes of the rover [s]: however rarely samples are recorded, a
-/// finding is found. Source: ours, a tenth of [`CERTAIN_AFTER`].
-pub const WATCH_PERIOD: f64 = 0.1;
-/// A finding about the motion must hold for this long [s], so that a jolt is none. Source: ours.
-pub const CERTAIN_AFTER: f64 = 1.0;
-/// Mean slip above which the wheels only dig [-]. Source: ours; Opportunity was given up for
-/// stuck at 0.9955 on 32°.
-pub const SPINNING_SLIP: f64 = 0.99;
-/// Progress of the hubs over the rims' below which a rover is stuck [-]. Source: ours, as above.
-pub const LEAST_PROGRESS: f64 = 0.01;
-/// Sliding of a rover whose wheels stand still starts here [m/s]. Source: ours; a parked rover
-/// creeps a thousand times slower.
-pub const SLIDING_SPEED: f64 = 1e-3;
+/// Rim speeds that change by more than this, over the fastest, begin a motion of its own [-]:
+/// below it the integrator goes on with its history. Source: ours.
+const ABRUPT: f64 = 0.1;
 
 /// Why a run could not be computed. (What a rover does is an [`Outcome`], not an error.)
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -64,13 +56,23 @@ pub struct Simulation<'a> {
     scenario: &'a Scenario,
     drive: Box<dyn Drive + 'a>,
     rim_speeds: Vec<f64>,
+    record: Record,
+    method: Method,
+    /// Of the quasi-steady motion so far.
+    carried: Carried,
+    work: Work,
+}
+
+/// What is known of a run so far.
+struct Record {
     time: f64,
     point: Point,
     samples: Vec<Sample>,
     slip_ratios: Vec<f64>,
     watch: Watch,
     outcome: Option<Outcome>,
-    work: Work,
+    /// Of the dynamic motion so far.
+    history: History,
 }
 
 impl<'a> Simulation<'a> {
@@ -98,18 +100,21 @@ impl<'a> Simulation<'a> {
         let input = DriveInput { rover, yaw: scenario.start.yaw, slip_ratios: &slip_ratios };
         drive.rim_speeds(&input, &mut rim_speeds);
         let state = scenario.start_state(&rim_speeds);
-        let mut simulation = Self {
-            scenario,
-            drive,
-            rim_speeds,
+        let record = Record {
             time: 0.0,
             point: Point { state, motors: 0.0, soil: 0.0 },
             samples: Vec::new(),
             slip_ratios,
             watch: Watch::default(),
             outcome: None,
-            work: Work::default(),
+            history: History::default(),
         };
+        let method = match scenario.numerics.approach {
+            Approach::Dynamic => Method::Dynamic,
+            Approach::QuasiSteady => Method::QuasiSteady,
+        };
+        let (carried, work) = (Carried::default(), Work::default());
+        let mut simulation = Self { scenario, drive, rim_speeds, record, method, carried, work };
         simulation.advance_through(&[])?;
         Ok(simulation)
     }
@@ -121,15 +126,16 @@ impl<'a> Simulation<'a> {
     pub fn run(mut self) -> Result<Trajectory, SimulationError> {
         let duration = self.scenario.duration;
         if self.drive.varies() {
-            while self.outcome.is_none() && self.time < duration {
-                let periods = (self.time / CONTROL_PERIOD).round() + 1.0;
+            while self.record.outcome.is_none() && self.record.time < duration {
+                let periods = (self.record.time / CONTROL_PERIOD).round() + 1.0;
                 self.advance((periods * CONTROL_PERIOD).min(duration))?;
             }
         } else {
             self.advance(duration)?;
         }
-        let outcome = self.outcome.unwrap_or(Outcome::Completed);
-        Ok(Trajectory { samples: self.samples, outcome, work: self.work })
+        let Record { samples, outcome, .. } = self.record;
+        let outcome = outcome.unwrap_or(Outcome::Completed);
+        Ok(Trajectory { samples, outcome, method: self.method, work: self.work })
     }
 
     /// Asks the drive, then lets the motion go on to a time [s], unless an outcome ends it.
@@ -137,13 +143,14 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// [`SimulationError`] if the motion cannot be computed.
     pub fn advance(&mut self, until: f64) -> Result<(), SimulationError> {
-        if self.outcome.is_some() || until <= self.time {
+        let now = self.record.time;
+        if self.record.outcome.is_some() || until <= now {
             return Ok(());
         }
         self.ask_drive();
         let interval = self.scenario.numerics.sample_interval;
-        let mut times = multiples_between(self.time, until, interval);
-        times.extend(multiples_between(self.time, until, WATCH_PERIOD));
+        let mut times = multiples_between(now, until, interval);
+        times.extend(multiples_between(now, until, WATCH_PERIOD));
         times.push(until);
         times.sort_by(f64::total_cmp);
         times.dedup_by(|later, earlier| is_same_time(*later, *earlier));
@@ -153,45 +160,41 @@ impl<'a> Simulation<'a> {
     /// What became of the rover, if that is known already.
     #[must_use]
     pub fn outcome(&self) -> Option<&Outcome> {
-        self.outcome.as_ref()
+        self.record.outcome.as_ref()
     }
 
     /// The samples so far.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
-        &self.samples
+        &self.record.samples
     }
 
     fn ask_drive(&mut self) {
-        if self.time == 0.0 || !self.drive.varies() {
+        if self.record.time == 0.0 || !self.drive.varies() {
             return;
         }
         let rover = &self.scenario.rover;
         let radius = rover.wheel().shearing_radius();
+        let old = self.rim_speeds.clone();
         let wheel_speeds =
             |rims: &[f64]| rims.iter().map(|speed| speed / radius).collect::<Vec<f64>>();
         let before = power::spin_energy(rover, &wheel_speeds(&self.rim_speeds));
-        let input = DriveInput { rover, yaw: self.point.state.yaw, slip_ratios: &self.slip_ratios };
+        let yaw = self.record.point.state.yaw;
+        let input = DriveInput { rover, yaw, slip_ratios: &self.record.slip_ratios };
         self.drive.rim_speeds(&input, &mut self.rim_speeds);
         // The motors change the spin at once; the books must not lose that work.
-        self.point.motors += power::spin_energy(rover, &wheel_speeds(&self.rim_speeds)) - before;
+        let after = power::spin_energy(rover, &wheel_speeds(&self.rim_speeds));
+        self.record.point.motors += after - before;
+        let fastest = old.iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
+        let changed = |(rim, old): (&f64, &f64)| (rim - old).abs() > ABRUPT * fastest;
+        if self.rim_speeds.iter().zip(&old).any(changed) {
+            self.record.history.clear();
+        }
     }
 
-    /// Integrates through the given times and looks at the rover at each; with none, at the start.
-    /// Keeps a sample where one is due, and at the end.
+    /// Goes on through the given times and looks at the rover at each; with none, at the start.
     fn advance_through(&mut self, times: &[f64]) -> Result<(), SimulationError> {
-        let Self {
-            scenario,
-            rim_speeds,
-            time,
-            point,
-            samples,
-            slip_ratios,
-            watch,
-            outcome,
-            work,
-            ..
-        } = self;
+        let scenario = self.scenario;
         let ground = Ground {
             rover: &scenario.rover,
             site: &scenario.site,
@@ -199,64 +202,172 @@ impl<'a> Simulation<'a> {
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
         };
-        let equations = Equations::new(ground, rim_speeds);
-        let mut failure = None;
-        let (start, start_time) = (*point, *time);
-        let mut take_sample = |now: f64, reached: &Point| {
-            (*time, *point) = (now, *reached);
-            match equations.reactions(&reached.state) {
-                Ok(wheels) => {
-                    let sample = sample_of(scenario, &equations, now, reached, &wheels);
-                    if is_multiple(now, WATCH_PERIOD) {
-                        *outcome = watch.look(scenario, &sample, rim_speeds);
-                    }
-                    slip_ratios.clear();
-                    slip_ratios.extend(wheels.iter().map(|wheel| wheel.slip.ratio));
-                    if outcome.is_some() || is_sample_due(scenario, now) {
-                        samples.push(sample);
-                    }
-                }
-                Err(error) => {
-                    samples.push(sample_of(scenario, &equations, now, reached, &[]));
-                    failure = Some((now, error));
+        let equations = Equations::new(ground, &self.rim_speeds);
+        let record = &mut self.record;
+        let mut times = times;
+        let mut done = Ok(());
+        if self.method == Method::QuasiSteady {
+            let end = times.last().copied().unwrap_or(record.time);
+            let varies = self.drive.varies();
+            let plan = Plan {
+                horizon_end: if varies { end } else { scenario.duration.max(end) },
+                rims_changed: varies,
+            };
+            let carried = std::mem::take(&mut self.carried);
+            match record.advance_steadily(scenario, &equations, carried, times, plan) {
+                Ok(carried) => self.carried = carried,
+                Err(Ended::Failed(error)) => done = Err(error),
+                Err(Ended::Unsteady(because)) => {
+                    self.method = Method::FellBack { time: record.time, because };
+                    times = &times[times.partition_point(|time| *time <= record.time)..];
                 }
             }
-            if failure.is_some() || outcome.is_some() {
+        }
+        if self.method != Method::QuasiSteady && done.is_ok() {
+            done = record.advance_dynamically(scenario, &equations, times);
+        }
+        self.work += equations.work();
+        done
+    }
+}
+
+/// What a quasi-steady motion is told of the rims.
+#[derive(Clone, Copy)]
+struct Plan {
+    /// Until when they keep their speeds [s].
+    horizon_end: f64,
+    /// Whether they had others before.
+    rims_changed: bool,
+}
+
+/// Why a quasi-steady motion went no further.
+enum Ended {
+    /// It is not valid from here on.
+    Unsteady(Unsteady),
+    /// It cannot be computed.
+    Failed(SimulationError),
+}
+
+/// Wheels at the point that is looked at, if they are asked for.
+type Wheels<'a> = &'a dyn Fn() -> Result<Vec<WheelReaction>, ReactionError>;
+
+impl Record {
+    /// Velocities in balance, the pose integrated.
+    fn advance_steadily(
+        &mut self,
+        scenario: &Scenario,
+        equations: &Equations<'_>,
+        carried: Carried,
+        times: &[f64],
+        plan: Plan,
+    ) -> Result<Carried, Ended> {
+        let Plan { horizon_end, rims_changed } = plan;
+        let mut point = self.point;
+        let horizon = horizon_end - self.time;
+        let at_start = times.is_empty();
+        let started = QuasiSteady::from(equations, carried, &mut point, horizon, rims_changed);
+        let mut motion = started.map_err(Ended::Unsteady)?;
+        if at_start {
+            // A run starts in balance: what its start would cost the motors is not in the books.
+            point.motors = 0.0;
+            let wheels = || Ok(motion.wheels(&point));
+            let _ = self.look(scenario, equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
+        }
+        for &time in times {
+            let span = time - self.time;
+            let advanced = motion.advance(&mut point, span, horizon_end - self.time);
+            advanced.map_err(Ended::Unsteady)?;
+            let wheels = || Ok(motion.wheels(&point));
+            let looked = self.look(scenario, equations, time, &point, &wheels);
+            if looked.map_err(Ended::Failed)?.is_break() {
+                break;
+            }
+        }
+        Ok(motion.carry())
+    }
+
+    /// Pose and velocities integrated.
+    fn advance_dynamically(
+        &mut self,
+        scenario: &Scenario,
+        equations: &Equations<'_>,
+        times: &[f64],
+    ) -> Result<(), SimulationError> {
+        let (start, start_time) = (self.point, self.time);
+        let mut history = std::mem::take(&mut self.history);
+        let mut failed = None;
+        let mut on_sample = |now: f64, reached: &Point| {
+            let wheels = || equations.reactions(&reached.state);
+            self.look(scenario, equations, now, reached, &wheels).unwrap_or_else(|error| {
+                failed = Some(error);
                 ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
+            })
         };
         let integrated = if times.is_empty() {
-            let _ = take_sample(start_time, &start);
+            let _ = on_sample(start_time, &start);
             Ok(())
         } else {
             match scenario.numerics.integrator {
                 Integrator::Bdf { tolerance } => integrate::bdf(
-                    &equations,
+                    equations,
                     &start,
                     start_time,
                     times,
                     tolerance,
-                    &mut take_sample,
+                    &mut history,
+                    &mut on_sample,
                 ),
                 Integrator::Rk4 { step } => {
-                    integrate::rk4(&equations, &start, start_time, times, step, &mut take_sample)
+                    integrate::rk4(equations, &start, start_time, times, step, &mut on_sample)
                 }
             }
         };
-        work.evaluations += equations.evaluations();
+        self.history = history;
+        if let Some(error) = failed {
+            return Err(error);
+        }
         if let Err(Stalled { time, reason }) = integrated {
             // The integrator stalls where the equations end: then their reason is the reason.
             match equations.take_failure() {
-                Some(error) => failure = Some((time, error)),
+                Some(error) => self.outcome = Some(outcome_of(time, error)?),
                 None => return Err(SimulationError::Stalled { time, reason }),
             }
         }
-        if let Some((time, error)) = failure {
-            *outcome = Some(outcome_of(time, error)?);
-        }
         Ok(())
+    }
+
+    /// Looks at the rover: what became of it, and a sample where one is due.
+    fn look(
+        &mut self,
+        scenario: &Scenario,
+        equations: &Equations<'_>,
+        now: f64,
+        reached: &Point,
+        wheels: Wheels<'_>,
+    ) -> Result<ControlFlow<()>, SimulationError> {
+        (self.time, self.point) = (now, *reached);
+        let state = &reached.state;
+        if is_multiple(now, WATCH_PERIOD) {
+            let slips = equations.slips(state);
+            self.outcome = self.watch.look(scenario, now, state, slips, equations.rim_speeds());
+        }
+        self.slip_ratios.clear();
+        self.slip_ratios.extend(equations.slips(state).map(|slip| slip.ratio));
+        if self.outcome.is_some() || is_sample_due(scenario, now) {
+            match wheels() {
+                Ok(wheels) => {
+                    self.samples.push(sample_of(scenario, equations, now, reached, &wheels));
+                }
+                Err(error) => {
+                    self.samples.push(sample_of(scenario, equations, now, reached, &[]));
+                    self.outcome = Some(outcome_of(now, error)?);
+                }
+            }
+        }
+        Ok(match self.outcome {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        })
     }
 }
 
@@ -323,57 +434,4 @@ fn sample_of(
         .map(|(&reaction, &wheel_speed)| WheelSample { wheel_speed, reaction })
         .collect();
     Sample { time, state, wheels, energy }
-}
-
-/// Since when each condition has held [s].
-#[derive(Clone, Copy, Debug, Default)]
-struct Watch {
-    spinning: Option<f64>,
-    without_progress: Option<f64>,
-    sliding: Option<f64>,
-}
-
-impl Watch {
-    fn look(
-        &mut self,
-        scenario: &Scenario,
-        sample: &Sample,
-        rim_speeds: &[f64],
-    ) -> Option<Outcome> {
-        let time = sample.time;
-        let rim_sum: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
-        let fastest_rim = rim_speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
-        let downhill = -sample.state.velocity_slope().y;
-        let sliding = downhill > fastest_rim.max(SLIDING_SPEED);
-
-        let turning = || rim_speeds.iter().zip(&sample.wheels).filter(|(rim, _)| **rim != 0.0);
-        let mean_slip =
-            turning().map(|(rim, wheel)| rim.signum() * wheel.reaction.slip.ratio).sum::<f64>()
-                / turning().count().max(1) as f64;
-        let along_rims: f64 = rim_speeds
-            .iter()
-            .zip(scenario.rover.mounts())
-            .filter(|(rim, _)| **rim != 0.0)
-            .map(|(rim, mount)| rim.signum() * hub_velocity(&sample.state, mount.position.xy()).x)
-            .sum();
-        let turns = rim_sum > 0.0;
-
-        let certain = |since: &mut Option<f64>, holds: bool| {
-            *since = if holds { since.or(Some(time)) } else { None };
-            since.is_some_and(|since| time - since >= CERTAIN_AFTER)
-        };
-        let slides = certain(&mut self.sliding, sliding);
-        let spins = certain(&mut self.spinning, turns && mean_slip > SPINNING_SLIP);
-        let stands =
-            certain(&mut self.without_progress, turns && along_rims < LEAST_PROGRESS * rim_sum);
-        if slides {
-            Some(Outcome::Sliding { time })
-        } else if spins {
-            Some(Outcome::Immobilised { time, because: StuckBecause::WheelsSpin })
-        } else if stands {
-            Some(Outcome::Immobilised { time, because: StuckBecause::NoProgress })
-        } else {
-            None
-        }
-    }
 }

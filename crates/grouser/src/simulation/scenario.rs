@@ -32,6 +32,8 @@ pub struct Scenario {
 /// How a run is computed and recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numerics {
+    /// Whether velocities are integrated or in balance.
+    pub approach: Approach,
     /// What carries the motion through time.
     pub integrator: Integrator,
     /// Time between samples [s].
@@ -40,8 +42,20 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Self { integrator: Integrator::Bdf { tolerance: 1e-6 }, sample_interval: 0.1 }
+        let approach = Approach::Dynamic;
+        Self { approach, integrator: Integrator::Bdf { tolerance: 1e-6 }, sample_interval: 0.1 }
     }
+}
+
+/// Where a run's velocities come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Approach {
+    /// They are integrated with the pose.
+    #[default]
+    Dynamic,
+    /// They are the ones at which nothing accelerates, and the pose alone is integrated. Where that
+    /// is not valid the run goes on dynamically, and its trajectory says so.
+    QuasiSteady,
 }
 
 /// What carries the motion through time.

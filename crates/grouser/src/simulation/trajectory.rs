@@ -1,5 +1,8 @@
 //! What a run leaves behind.
 
+use std::ops::AddAssign;
+
+use super::balance::Unsteady;
 use super::power::EnergyBalance;
 use crate::vehicle::{RoverState, WheelReaction};
 
@@ -10,15 +13,71 @@ pub struct Trajectory {
     pub samples: Vec<Sample>,
     /// What became of the rover.
     pub outcome: Outcome,
+    /// How it was computed.
+    pub method: Method,
     /// Work of the solver.
     pub work: Work,
 }
 
-/// How much was computed for a run.
+/// How much was computed for a run: counts that repeat on every machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Evaluations of the equations of motion.
+    /// Evaluations of the equations of motion, by whatever solves them.
     pub evaluations: u64,
+    /// Jacobians among them: each is made of a few of those evaluations.
+    pub jacobians: u64,
+    /// Steps in time.
+    pub steps: u64,
+    /// Wheels that were settled, for the evaluations and for the samples.
+    pub settled_wheels: u64,
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.evaluations += other.evaluations;
+        self.jacobians += other.jacobians;
+        self.steps += other.steps;
+        self.settled_wheels += other.settled_wheels;
+    }
+}
+
+/// How a run was computed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// The velocities were integrated like the pose.
+    Dynamic,
+    /// The velocities were in balance at every instant, the pose was integrated.
+    QuasiSteady,
+    /// Quasi-steady up to a time, dynamic from there on.
+    FellBack {
+        /// When [s].
+        time: f64,
+        /// Why the quasi-steady motion is not valid there.
+        because: Unsteady,
+    },
+}
+
+impl Method {
+    /// `dynamic`, `quasi-steady`, or `fell-back`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Dynamic => "dynamic",
+            Self::QuasiSteady => "quasi-steady",
+            Self::FellBack { .. } => "fell-back",
+        }
+    }
+
+    /// Since when and why it fell back to dynamic, in a few words.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Self::FellBack { time, because } => {
+                Some(format!("dynamic from {time:.1} s on: {because}"))
+            }
+            Self::Dynamic | Self::QuasiSteady => None,
+        }
+    }
 }
 
 /// The rover at one time.
@@ -78,9 +137,9 @@ pub enum Outcome {
 /// What stopped a rover.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StuckBecause {
-    /// The wheels' mean slip stayed above [`SPINNING_SLIP`](super::run::SPINNING_SLIP).
+    /// The wheels' mean slip stayed above [`SPINNING_SLIP`](super::watch::SPINNING_SLIP).
     WheelsSpin,
-    /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::run::LEAST_PROGRESS) of the rims'.
+    /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the rims'.
     NoProgress,
     /// A wheel sank to its axle.
     SunkToAxle {

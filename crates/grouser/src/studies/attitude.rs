@@ -12,19 +12,24 @@
 //! steepest slope, where turning further uphill costs as much thrust as it gains, and folds back.
 //! The curve is followed by its arc length, so that the fold is a point like any other. The yaw
 //! moment is not balanced: it is reported.
+//!
+//! A level traverse is one course among many. On a course χ, the direction of travel counted from
+//! the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and the
+//! same two equations hold, at the yaw γ = χ + c.
 
-use nalgebra::{Matrix3, Vector3};
+mod path;
 
-use crate::contact::{Slip, Theory};
-use crate::error::ParameterError;
+use nalgebra::Vector3;
+
+use self::path::{JUST_TURNED, Path, Place, Point};
+use crate::contact::Theory;
+use crate::error::{ParameterError, finite};
 use crate::root;
 use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::soil::Soil;
-use crate::vehicle::reaction::{Ground, forces_of};
-use crate::vehicle::{
-    LoadSharing, OwnMoments, ReactionError, Rover, WheelReaction, dynamics, load,
-};
+use crate::vehicle::reaction::forces_of;
+use crate::vehicle::{LoadSharing, OwnMoments, Rover, WheelReaction, dynamics};
 
 /// A rover and its ground, on slopes yet to be chosen.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,11 +48,13 @@ pub struct AttitudeStudy {
     pub own_moments: OwnMoments,
 }
 
-/// A level traverse: a point of the curve.
+/// A balanced way along a course, level where that is 0: a point of the curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attitude {
     /// Slope, *α* [rad].
     pub slope: f64,
+    /// Course, *χ* [rad]: direction of travel from the contour, positive uphill.
+    pub course: f64,
     /// Yaw, *γ* [rad], positive uphill.
     pub yaw: f64,
     /// Slip ratio of every wheel, *s* [-].
@@ -56,6 +63,8 @@ pub struct Attitude {
     pub yaw_moment: f64,
     /// The wheels, in the mounts' order.
     pub wheels: Vec<WheelReaction>,
+    /// How many wheels were settled to find it, beyond those of the curve.
+    pub settled_wheels: u64,
 }
 
 impl Attitude {
@@ -72,11 +81,20 @@ impl Attitude {
         self.wheels.iter().map(|wheel| wheel.settled.forces.torque).sum()
     }
 
-    /// Work of the wheels per metre along the contour, ΣT cos γ / [(1 − s) r_s] [J/m].
+    /// Work of the wheels per metre of way, ΣT cos c / [(1 − s) r_s] [J/m], and with 1 + s instead
+    /// of the divisor for wheels that brake; c = γ − χ.
     #[must_use]
     pub fn energy_per_metre(&self, rover: &Rover) -> f64 {
+        let s = self.slip_ratio;
+        let rim_over_hub = if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s };
         let radius = rover.wheel().shearing_radius();
-        self.torque() / radius * self.yaw.cos() / (1.0 - self.slip_ratio)
+        self.torque() / radius * (self.yaw - self.course).cos() * rim_over_hub
+    }
+
+    /// Power of the motors at a rim speed ω r_s [m/s], ΣT ω [W].
+    #[must_use]
+    pub fn power(&self, rover: &Rover, rim_speed: f64) -> f64 {
+        self.torque() * rim_speed / rover.wheel().shearing_radius()
     }
 }
 
@@ -89,10 +107,13 @@ pub enum NoAttitude {
     /// The slope is above the steepest that can be crossed.
     /// (The slope is rounded down: one that is rounded up has no attitude.)
     #[error(
-        "no level attitude: the steepest slope is {:.2}°, {reason}",
+        "no {}: the steepest slope is {:.2}°, {reason}",
+        if *.course == 0.0 { "level attitude" } else { "attitude on this course" },
         (.limit.to_degrees() * 100.0).floor() / 100.0
     )]
     TooSteep {
+        /// The course [rad]: 0 for a level one.
+        course: f64,
         /// The steepest slope [rad].
         limit: f64,
         /// What ends the curve there.
@@ -100,32 +121,25 @@ pub enum NoAttitude {
     },
 }
 
-/// All level traverses from level ground to the steepest slope.
+/// All attitudes of a course from level ground to the steepest slope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttitudeCurve {
     study: AttitudeStudy,
+    course: f64,
     /// Points of the branch, rising; empty if the rover cannot move.
     points: Vec<Point>,
-    /// Below this slope the flank holds the rover without any yaw [rad]; 0 for smooth soils' laws.
+    /// Below this slope the flank holds the rover without any crab [rad]; 0 for smooth soils' laws.
     held_below: f64,
     end: String,
+    settled_wheels: u64,
 }
-
-/// (s, γ, α).
-type Point = Vector3<f64>;
 
 /// The steepest slope that is looked at [rad]: 60°. Source: the documents' range.
 const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
-/// Longest step along the curve [-, rad].
-const LONGEST_STEP: f64 = 0.03;
-/// First step along the curve [-, rad].
-const FIRST_STEP: f64 = 0.005;
-/// A step this short means that the curve ends here [-, rad].
-const SHORTEST_STEP: f64 = 1e-7;
-/// Force left over, over the weight, below which a traverse counts as level [-].
-const BALANCED: f64 = 1e-10;
-/// Stands for γ = 0⁺, where a flank law that jumps has its full force [rad].
-const JUST_TURNED: f64 = 1e-9;
+
+/// The farthest course from the contour [rad]: straight up or down the slope. Beyond it a rover
+/// travels the other way, and is its own mirror image.
+pub const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
 
 impl AttitudeStudy {
     /// The study of a scenario's rover and soil, whatever its slope and drive.
@@ -141,198 +155,59 @@ impl AttitudeStudy {
         }
     }
 
-    /// Follows the curve from level ground to its end.
+    /// Follows the curve of level traverses from level ground to its end.
     ///
     /// # Errors
     /// [`ParameterError`] if soil or gravity are no such things.
     pub fn curve(&self) -> Result<AttitudeCurve, ParameterError> {
-        self.site(0.0).check()?;
-        let mut curve = AttitudeCurve {
-            study: self.clone(),
-            points: Vec::new(),
-            held_below: 0.0,
-            end: String::new(),
-        };
-        match self.start() {
-            Err(reason) => curve.end = reason,
-            Ok(start) => {
-                curve.held_below = start.z;
-                curve.points.push(start);
-                curve.end = self.follow(&mut curve.points);
-            }
-        }
-        Ok(curve)
+        self.curve_on(0.0)
     }
 
-    fn site(&self, slope: f64) -> Site {
-        Site { soil: self.soil, slope, gravity: self.gravity }
-    }
-
-    fn reactions(&self, point: &Point) -> Result<Vec<WheelReaction>, ReactionError> {
-        let (slip_ratio, yaw, slope) = (point.x, point.y, point.z);
-        let slips = vec![Slip::on_test_stand(slip_ratio, -yaw); self.rover.wheel_count()];
-        let ground = Ground {
-            rover: &self.rover,
-            site: &self.site(slope),
-            model: self.theory.model(),
-            sharing: self.sharing,
-            own_moments: self.own_moments,
-        };
-        ground.reactions(yaw, &slips)
-    }
-
-    /// Forces left over, over the weight: along and across the rover [-].
-    fn imbalance(&self, point: &Point) -> Result<[f64; 2], ReactionError> {
-        let forces = forces_of(&self.reactions(point)?);
-        let (soil, _) = dynamics::soil_resultant(&self.rover, &forces, self.own_moments);
-        let pull = load::slope_pull(&self.rover, &self.site(point.z), point.y);
-        let left_over = (soil + pull) / (self.rover.mass() * self.gravity);
-        Ok([left_over.x, left_over.y])
-    }
-
-    /// Slip at which the wheels balance the weight along the rover, for a yaw and a slope.
-    fn slip_at(&self, yaw: f64, slope: f64) -> Result<f64, String> {
-        let pull = |slip_ratio: f64| self.imbalance(&Point::new(slip_ratio, yaw, slope));
-        let most = pull(MOST_SLIP).map_err(|error| error.to_string())?[0];
-        if most < 0.0 {
-            let lacking = -most * self.rover.mass() * self.gravity;
-            return Err(format!("even spinning, they lack {lacking:.2} N of thrust"));
-        }
-        /// In skid the wheels hold the rover back on any slope that they can be driven on.
-        const DEEPEST_SKID: f64 = -0.9;
-        let thrust = |slip_ratio: f64| pull(slip_ratio).map_or(-1.0, |left_over| left_over[0]);
-        Ok(root::between(thrust, DEEPEST_SKID, MOST_SLIP, 1e-13))
-    }
-
-    /// The curve's first point, at γ = 0⁺: slip and slope that balance there.
-    fn start(&self) -> Result<Point, String> {
-        let mut slope = 0.0;
-        for _ in 0..ROUNDS {
-            let slip_ratio = self.slip_at(JUST_TURNED, slope)?;
-            let point = Point::new(slip_ratio, JUST_TURNED, slope);
-            let left_over = self.imbalance(&point).map_err(|error| error.to_string())?[1];
-            if left_over.abs() < BALANCED {
-                return Ok(point);
-            }
-            slope = (slope.sin() + left_over).clamp(0.0, STEEPEST.sin()).asin();
-        }
-        Err("the start of the curve was not found".into())
-    }
-
-    /// Follows the curve from its one point until it folds or ends; says what ended it.
-    fn follow(&self, points: &mut Vec<Point>) -> String {
-        let mut tangent = Vector3::z();
-        let mut step = FIRST_STEP;
-        loop {
-            let here = points[points.len() - 1];
-            if here.z >= STEEPEST {
-                return "the end of the range of slopes".into();
-            }
-            if here.x >= MOST_SLIP {
-                return "where the wheels spin on the spot".into();
-            }
-            let Some(next_tangent) = self.tangent(&here, &tangent) else {
-                return self.why_not_beyond(&here, &tangent);
-            };
-            tangent = next_tangent;
-            let next = loop {
-                let guess = here + tangent * step;
-                match self.correct(&guess, &tangent) {
-                    Some(next) if (next - here).norm() < 2.0 * step => break Some(next),
-                    _ if step < SHORTEST_STEP => break None,
-                    _ => step *= 0.5,
-                }
-            };
-            let Some(next) = next else {
-                return self.why_not_beyond(&here, &tangent);
-            };
-            if next.z < here.z {
-                points.push(self.fold_between(&here, &tangent, (next - here).norm()));
-                return "where turning further uphill costs more thrust than it gains".into();
-            }
-            points.push(next);
-            step = (1.5 * step).min(LONGEST_STEP);
-        }
-    }
-
-    fn why_not_beyond(&self, here: &Point, tangent: &Point) -> String {
-        match self.imbalance(&(here + tangent * FIRST_STEP)) {
-            Err(ReactionError::Tipping(_)) => "where the rover tips over".into(),
-            Err(error) => format!("where {error}"),
-            Ok(_) => "where the balance of forces breaks off".into(),
-        }
-    }
-
-    /// Unit vector along the curve, in the sense of `towards`.
-    fn tangent(&self, point: &Point, towards: &Point) -> Option<Point> {
-        let [along, across] = self.gradients(point, self.imbalance(point).ok()?)?;
-        let tangent = along.cross(&across);
-        let tangent = tangent.try_normalize(f64::MIN_POSITIVE)?;
-        Some(if tangent.dot(towards) < 0.0 { -tangent } else { tangent })
-    }
-
-    /// Derivatives of the two imbalances by (s, γ, α), by forward differences.
+    /// Follows the curve of another course, *χ* [rad], −π/2 to π/2, positive uphill.
     ///
-    /// * `here`: the imbalances at the point itself
-    fn gradients(&self, point: &Point, here: [f64; 2]) -> Option<[Point; 2]> {
-        /// Forces are exact to 1e-12.
-        const STEP: f64 = 1e-7;
-        let mut gradients = [Point::zeros(); 2];
-        for axis in 0..3 {
-            let mut beside = *point;
-            beside[axis] += STEP;
-            let there = self.imbalance(&beside).ok()?;
-            for (gradient, (there, here)) in gradients.iter_mut().zip(there.iter().zip(here)) {
-                gradient[axis] = (there - here) / STEP;
-            }
+    /// # Errors
+    /// As [`curve`](Self::curve), and for a course out of its range.
+    pub fn curve_on(&self, course: f64) -> Result<AttitudeCurve, ParameterError> {
+        Site { soil: self.soil, slope: 0.0, gravity: self.gravity }.check()?;
+        finite("course [rad]", course)?;
+        if course.abs() > STRAIGHT_UP {
+            return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
         }
-        Some(gradients)
-    }
-
-    /// The point of the curve in the plane through `guess` across `normal`, by Newton's method.
-    fn correct(&self, guess: &Point, normal: &Point) -> Option<Point> {
-        const MOST_STEPS: usize = 12;
-        let mut point = *guess;
-        for _ in 0..MOST_STEPS {
-            let [along, across] = self.imbalance(&point).ok()?;
-            let beside = normal.dot(&(point - guess));
-            if along.abs().max(across.abs()).max(beside.abs()) < BALANCED {
-                return (point.y >= 0.0).then_some(point);
+        let path = Path::new(self, course);
+        let (mut points, mut held_below) = (Vec::new(), 0.0);
+        let end = match path.start() {
+            Err(reason) => reason,
+            Ok(start) => {
+                held_below = start.place.z;
+                points.push(start);
+                path.follow(&mut points)
             }
-            let [d_along, d_across] = self.gradients(&point, [along, across])?;
-            let jacobian = Matrix3::from_rows(&[
-                d_along.transpose(),
-                d_across.transpose(),
-                normal.transpose(),
-            ]);
-            point -= jacobian.lu().solve(&Vector3::new(along, across, beside))?;
-        }
-        None
-    }
-
-    /// The curve's highest point, within `span` of a point before it.
-    fn fold_between(&self, before: &Point, tangent: &Point, span: f64) -> Point {
-        let at = |distance: f64| self.correct(&(before + tangent * distance), tangent);
-        let rise = |distance: f64| {
-            at(distance).and_then(|point| self.tangent(&point, tangent)).map_or(-1.0, |t| t.z)
         };
-        at(root::between(rise, 0.0, span, 1e-9)).unwrap_or(*before)
+        let settled_wheels = path.settled_wheels();
+        Ok(AttitudeCurve { study: self.clone(), course, points, held_below, end, settled_wheels })
     }
 }
 
-/// Wheels that slip this much no longer move the rover [-].
-const MOST_SLIP: f64 = 0.999;
-/// Rounds in which the start of the curve settles.
-const ROUNDS: usize = 100;
-
 impl AttitudeCurve {
-    /// The steepest slope that can be crossed level [rad], and what ends the curve there.
+    /// The course, *χ* [rad].
+    #[must_use]
+    pub fn course(&self) -> f64 {
+        self.course
+    }
+
+    /// How many wheels were settled to follow the curve.
+    #[must_use]
+    pub fn settled_wheels(&self) -> u64 {
+        self.settled_wheels
+    }
+
+    /// The steepest slope that has an attitude [rad], and what ends the curve there.
     ///
     /// # Errors
     /// [`NoAttitude::CannotMove`] if there is none.
     pub fn limit(&self) -> Result<(f64, &str), NoAttitude> {
         match self.points.last() {
-            Some(last) => Ok((last.z.min(STEEPEST), &self.end)),
+            Some(last) => Ok((last.place.z.min(STEEPEST), &self.end)),
             None => Err(NoAttitude::CannotMove(self.end.clone())),
         }
     }
@@ -340,58 +215,81 @@ impl AttitudeCurve {
     /// The attitude on a slope [rad].
     ///
     /// # Errors
-    /// [`NoAttitude`] if no yaw keeps the traverse level there.
+    /// [`NoAttitude`] if no yaw keeps the course there.
     pub fn at(&self, slope: f64) -> Result<Attitude, NoAttitude> {
         let (limit, reason) = self.limit()?;
         if slope > limit {
-            return Err(NoAttitude::TooSteep { limit, reason: reason.into() });
+            let reason = reason.into();
+            return Err(NoAttitude::TooSteep { course: self.course, limit, reason });
         }
-        if slope <= self.held_below {
-            let slip_ratio = self.study.slip_at(0.0, slope).map_err(NoAttitude::CannotMove)?;
-            return self.attitude(&Point::new(slip_ratio, 0.0, slope));
-        }
-        let above = self.points.partition_point(|point| point.z < slope).max(1);
-        let (low, high) = (self.points[above - 1], self.points[above.min(self.points.len() - 1)]);
-        let share = if high.z > low.z { (slope - low.z) / (high.z - low.z) } else { 1.0 };
-        let guess = low + (high - low) * share;
-        self.attitude(&self.settle_on(slope, guess, low, high))
+        let path = Path::new(&self.study, self.course);
+        let point = if slope <= self.held_below {
+            let slip_ratio = path.slip_at(0.0, slope).map_err(NoAttitude::CannotMove)?;
+            let place = Place::new(slip_ratio, 0.0, slope);
+            path.point(place).map_err(|error| NoAttitude::CannotMove(error.to_string()))?
+        } else {
+            let above = self.points.partition_point(|point| point.place.z < slope).max(1);
+            let high = &self.points[above.min(self.points.len() - 1)];
+            Self::settle_on(&path, slope, &self.points[above - 1], high)
+        };
+        Ok(self.attitude(&point, path.settled_wheels()))
     }
 
     /// The curve's point on a slope, between two known ones.
-    fn settle_on(&self, slope: f64, guess: Point, low: Point, high: Point) -> Point {
+    fn settle_on(path: &Path<'_>, slope: f64, below: &Point, above: &Point) -> Point {
+        let (low, high) = (below.place, above.place);
+        let share = if high.z > low.z { (slope - low.z) / (high.z - low.z) } else { 1.0 };
+        let rise = high.z - low.z;
+        let guess = match (Path::per_slope(below), Path::per_slope(above)) {
+            (Some(at_low), Some(at_high)) => {
+                // The cubic with these ends and slopes (Hermite).
+                let (t, u) = (share, 1.0 - share);
+                low * (u * u * (1.0 + 2.0 * t))
+                    + high * (t * t * (1.0 + 2.0 * u))
+                    + (at_low * u - at_high * t) * (rise * t * u)
+            }
+            _ => low + (high - low) * share,
+        };
         let level = Vector3::z();
-        let on_slope = Point::new(guess.x, guess.y, slope);
-        if let Some(point) = self.study.correct(&on_slope, &level) {
-            let inside = point.y >= low.y.min(high.y) - 1e-9 && point.y <= low.y.max(high.y) + 1e-9;
+        let on_slope = Place::new(guess.x, guess.y, slope);
+        if let Some(point) = path.correct(&on_slope, &level, &above.gradients) {
+            let inside = point.place.y >= low.y.min(high.y) - 1e-9
+                && point.place.y <= low.y.max(high.y) + 1e-9;
             if inside {
                 return point;
             }
         }
         // Close to the fold the slope no longer tells the point: go by the distance along the curve.
-        let chord = (high - low).normalize();
-        let along = |share: f64| self.study.correct(&(low + (high - low) * share), &chord);
-        let rise = |share: f64| along(share).map_or(-1.0, |point| point.z - slope);
-        along(root::between(rise, 0.0, 1.0, 1e-13)).unwrap_or(guess)
+        let Some(chord) = (high - low).try_normalize(f64::MIN_POSITIVE) else {
+            return above.clone();
+        };
+        let along =
+            |share: f64| path.correct(&(low + (high - low) * share), &chord, &below.gradients);
+        let rise = |share: f64| along(share).map_or(-1.0, |point| point.place.z - slope);
+        let nearest = if share < 0.5 { below } else { above };
+        along(root::between(rise, 0.0, 1.0, 1e-13)).unwrap_or_else(|| nearest.clone())
     }
 
     /// Points along the curve, from level ground to the steepest slope.
     #[must_use]
     pub fn attitudes(&self) -> Vec<Attitude> {
-        self.points.iter().filter_map(|point| self.attitude(point).ok()).collect()
+        self.points.iter().map(|point| self.attitude(point, 0)).collect()
     }
 
-    fn attitude(&self, point: &Point) -> Result<Attitude, NoAttitude> {
+    fn attitude(&self, point: &Point, settled_wheels: u64) -> Attitude {
         let study = &self.study;
-        let wheels =
-            study.reactions(point).map_err(|error| NoAttitude::CannotMove(error.to_string()))?;
-        let forces = forces_of(&wheels);
+        let Point { place, wheels, .. } = point;
+        let forces = forces_of(wheels);
         let (force, moment) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
-        Ok(Attitude {
-            slope: point.z,
-            yaw: if point.y <= JUST_TURNED { 0.0 } else { point.y },
-            slip_ratio: point.x,
+        let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
+        Attitude {
+            slope: place.z,
+            course: self.course,
+            yaw: self.course + crab,
+            slip_ratio: place.x,
             yaw_moment: moment - study.rover.centre_of_mass().perp(&force),
-            wheels,
-        })
+            wheels: wheels.clone(),
+            settled_wheels,
+        }
     }
 }

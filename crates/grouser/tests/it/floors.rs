@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// The modules of each floor, from the ground up.
 const FLOORS: [&[&str]; 6] = [
-    &["units", "error", "elementary", "root", "soil", "wheel", "site"],
+    &["units", "error", "elementary", "newton", "root", "soil", "wheel", "site"],
     &["contact"],
     &["vehicle"],
     &["simulation"],

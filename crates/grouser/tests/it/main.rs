@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
+mod attitude_map;
 mod calibration;
 mod documents;
 mod extended;

@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use grouser::contact::Theory;
 use grouser::document::{self, Kind, Overrides, Source};
+use grouser::simulation::balance::LONGEST_SETTLING;
 use grouser::simulation::{
-    Integrator, Motion, Numerics, Outcome, Scenario, Start, StuckBecause, Trajectory,
+    Approach, Integrator, Method, Motion, Numerics, Outcome, Sample, Scenario, Start, StuckBecause,
+    Trajectory, WheelSample,
 };
 use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
@@ -133,6 +135,173 @@ fn the_sample_interval_changes_nothing_visible() {
     let often = Numerics { sample_interval: 0.013, ..scenario.numerics };
     let often = Scenario { numerics: often, ..scenario.clone() };
     check_together("often", &run(&scenario), &run(&often), 1e-7);
+}
+
+// ---- quasi-steady ----
+
+fn quasi_steady(scenario: &Scenario) -> Scenario {
+    let numerics = Numerics { approach: Approach::QuasiSteady, ..scenario.numerics };
+    Scenario { numerics, ..scenario.clone() }
+}
+
+/// How far two runs of a scenario are from each other, once both have settled.
+struct Apart {
+    position: f64,
+    yaw: f64,
+    slip_ratio: f64,
+    sinkage: f64,
+    /// Over the power itself.
+    power: f64,
+}
+
+impl Apart {
+    /// The greatest differences over all samples from 1 s on: slip settles in milliseconds, at most
+    /// in a tenth of a second.
+    fn over(one: &Trajectory, other: &Trajectory) -> Self {
+        let mut apart = Self { position: 0.0, yaw: 0.0, slip_ratio: 0.0, sinkage: 0.0, power: 0.0 };
+        let power = |sample: &Sample| sample.wheels.iter().map(WheelSample::power).sum::<f64>();
+        for (one, other) in one.samples.iter().zip(&other.samples).skip(10) {
+            assert_eq!(one.time, other.time);
+            let max = |most: &mut f64, value: f64| *most = most.max(value.abs());
+            max(&mut apart.position, (one.state.position - other.state.position).norm());
+            max(&mut apart.yaw, one.state.yaw - other.state.yaw);
+            max(&mut apart.power, power(other) / power(one) - 1.0);
+            for (one, other) in one.wheels.iter().zip(&other.wheels) {
+                let (one, other) = (&one.reaction, &other.reaction);
+                max(&mut apart.slip_ratio, one.slip.ratio - other.slip.ratio);
+                max(&mut apart.sinkage, one.settled.sinkage - other.settled.sinkage);
+            }
+        }
+        apart
+    }
+
+    /// What is further apart than it may be.
+    fn beyond(&self, name: &str, within: &Self) -> Vec<String> {
+        let told = [
+            ("position [m]", self.position, within.position),
+            ("yaw [rad]", self.yaw, within.yaw),
+            ("slip ratio", self.slip_ratio, within.slip_ratio),
+            ("sinkage [m]", self.sinkage, within.sinkage),
+            ("power", self.power, within.power),
+        ];
+        let beyond = told.iter().filter(|(_, apart, within)| apart >= within);
+        let line = |(quantity, apart, within): &(&str, f64, f64)| {
+            format!("{name}: {quantity} {apart:.1e} apart, not {within:.1e}\n")
+        };
+        beyond.map(line).collect()
+    }
+}
+
+/// What a quasi-steady run may differ by from a dynamic one.
+///
+/// It settles at once, and so leaves out what the first instants change: in position and yaw the
+/// velocities that have to settle, times the time they take. That is 3 ms where slip is small
+/// and ten times as much where the wheels nearly spin. Afterwards velocities lag behind their
+/// balance by up to 3e-4 of the rims' speed (measured, in arcs across a slope; 1e-5 in traverses), and
+/// what was lost in yaw stays.
+fn tolerance(dynamic: &Trajectory, steady: &Trajectory) -> Apart {
+    /// Longest time of settling [s].
+    const SETTLING: f64 = LONGEST_SETTLING;
+    let (start, balance) = (&dynamic.samples[0].state, &steady.samples[0].state);
+    let to_settle = (start.velocity - balance.velocity).norm();
+    // Hubs are 0.3 m from the middle: what jolts the rover along may turn it as well.
+    let turn_to_settle = (start.yaw_rate - balance.yaw_rate).abs() + to_settle / 0.3;
+    Apart {
+        position: 1e-4 + SETTLING * to_settle,
+        yaw: 5e-5 + SETTLING * turn_to_settle,
+        slip_ratio: 5e-4,
+        sinkage: 3e-6,
+        power: 2e-3,
+    }
+}
+
+/// Many slopes and headings, on two soils: what one way to simulate says, the other says too.
+#[test]
+fn quasi_steady_and_dynamic_runs_agree() {
+    let soils = [("toyoura", given::toyoura()), ("simulant", given::simulant_2007())];
+    let mut beyond = Vec::new();
+    for ((soil_name, soil), slope) in
+        soils.iter().flat_map(|soil| [0.0, 5.0, 10.0, 15.0, 20.0].map(|slope| (soil, slope)))
+    {
+        for yaw in [-40.0, -10.0, 0.0, 4.0, 12.0, 30.0, 70.0, 180.0] {
+            let base = traverse(deg(slope), deg(yaw));
+            let site = Site { soil: *soil, ..base.site };
+            let scenario = Scenario { site, duration: 5.0, ..base };
+            let name = format!("{soil_name}, {slope}°, yaw {yaw}°");
+            let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
+            assert_eq!(dynamic.outcome, steady.outcome, "{name}");
+            assert_eq!(dynamic.samples.len(), steady.samples.len(), "{name}");
+            let within = tolerance(&dynamic, &steady);
+            beyond.extend(Apart::over(&dynamic, &steady).beyond(&name, &within));
+            // Where the wheels all but spin, velocities need tenths of a second.
+            let rolls = slope <= 15.0 && dynamic.outcome == Outcome::Completed;
+            if rolls && steady.method != Method::QuasiSteady {
+                beyond.push(format!("{name}: {:?}\n", steady.method));
+            }
+        }
+    }
+    assert!(beyond.is_empty(), "{}", beyond.concat());
+}
+
+/// Every kind of run, whether it is quasi-steady to its end or falls back.
+#[test]
+fn every_kind_of_run_can_be_asked_for_quasi_steadily() {
+    let mut beyond = Vec::new();
+    for (name, scenario) in all_kinds() {
+        let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
+        assert_eq!(dynamic.outcome.name(), steady.outcome.name(), "{name}");
+        let within = match name {
+            // On 35° velocities approach their balance through ever slower stages: at 1 s a part in
+            // 100 is left.
+            "sliding" => Apart {
+                slip_ratio: 0.01,
+                sinkage: 3e-5,
+                power: 0.02,
+                ..tolerance(&dynamic, &steady)
+            },
+            _ => tolerance(&dynamic, &steady),
+        };
+        beyond.extend(Apart::over(&dynamic, &steady).beyond(name, &within));
+        let energy = &steady.last().energy;
+        let exchanged = energy.motors.abs() + energy.soil.abs() + energy.kinetic;
+        // Balances leave forces of a 1e-7 over, and tables of them a 1e-6.
+        let error = steady.energy_error().abs();
+        if error > 2e-6 * exchanged {
+            beyond.push(format!("{name}: {error:.1e} of {exchanged:.1e} J\n"));
+        }
+    }
+    assert!(beyond.is_empty(), "{}", beyond.concat());
+}
+
+/// What the name promises: the work goes with the yaw that is turned through, not with the way.
+#[test]
+fn driving_straight_costs_one_balance_however_far() {
+    let settled = |duration: f64, scenario: Scenario| {
+        let run = run(&quasi_steady(&Scenario { duration, ..scenario }));
+        assert_eq!(run.method, Method::QuasiSteady);
+        run.work.settled_wheels
+    };
+    assert_eq!(settled(20.0, on_level_ground()), settled(2000.0, on_level_ground()));
+    // On a slope a rover at its attitude has next to no yaw rate, and turns until it has none.
+    let across = |duration| settled(duration, traverse(deg(10.0), deg(5.0)));
+    let uphill = |duration| settled(duration, traverse(deg(10.0), deg(90.0)));
+    assert!(across(20.0) < 200 && across(2000.0) < 2 * across(20.0), "{}", across(2000.0));
+    assert_eq!(uphill(20.0), uphill(2000.0));
+    // A dynamic run of 20 s settles some 1500 wheels.
+    assert!(run(&traverse(deg(10.0), deg(5.0))).work.settled_wheels > 5 * across(20.0));
+}
+
+/// Where no balance is stable, or none exists, the run is dynamic and says so: the same bits.
+#[test]
+fn without_a_valid_balance_the_run_is_dynamic() {
+    let locked = DriveLaw::ConstantEach(vec![0.0, 0.0, 0.0, 0.0]);
+    let parked =
+        Scenario { drive: locked, duration: 2.0, start: AT_REST, ..traverse(deg(10.0), 0.0) };
+    for scenario in [parked, Scenario { duration: 2.0, ..traverse(deg(58.0), 0.0) }] {
+        let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
+        assert!(matches!(steady.method, Method::FellBack { time: 0.0, .. }), "{:?}", steady.method);
+        assert_eq!((dynamic.samples, dynamic.outcome), (steady.samples, steady.outcome));
+    }
 }
 
 // ---- energy ----

@@ -1,0 +1,124 @@
+//! `grouser attitude-map`
+
+use grouser::document::LoadedScenario;
+use grouser::document::study::AttitudeMapRecord;
+use grouser::studies::attitude::{Attitude, AttitudeStudy};
+use grouser::studies::attitude_map::AttitudeMap;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::Answer;
+use crate::args::AttitudeMapArgs;
+use crate::chart::HeatMap;
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::Rows;
+use crate::output::{self, Format};
+
+/// Columns of the table on a terminal.
+const COLUMNS: [&str; 9] = [
+    "soil",
+    "course_deg",
+    "slope_deg",
+    "yaw_deg",
+    "slip_ratio",
+    "sinkage_mm",
+    "energy_j_per_m",
+    "power_w",
+    "status",
+];
+
+pub(crate) fn run(args: &AttitudeMapArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let scenarios = inputs::attitude_map(args)?;
+    let studies: Vec<AttitudeStudy> =
+        scenarios.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
+    let radians = |list: &[f64]| list.iter().map(|number| number.to_radians()).collect::<Vec<_>>();
+    let (courses, slopes) = (radians(&args.course_deg.0), radians(&args.slope_deg.0));
+    let map = AttitudeMap::of(&studies, &courses, &slopes)?;
+    let names: Vec<String> = scenarios.iter().map(soil_name).collect();
+    let records =
+        AttitudeMapRecord::of(&map, &names, &scenarios[0].value.rover, args.speed_m_s.0[0]);
+    let rows = Rows::of(&records);
+    let answer =
+        Answer::new("attitude-map", settings(args, &scenarios), Results { rows: &records });
+    if let Some(mut folder) = folder {
+        folder.add("attitude-map.json", answer.to_text());
+        folder.add("attitude-map.csv", rows.to_csv()?);
+        for (place, (scenario, name)) in scenarios.iter().zip(&names).enumerate() {
+            // One soil needs no number.
+            let number =
+                if scenarios.len() > 1 { format!("-{}", place + 1) } else { String::new() };
+            for (file, figure) in figures(args, &map, place, name) {
+                folder.add(&format!("{file}{number}.svg"), figure.to_svg());
+            }
+            folder.add_document(&format!("scenario{number}.toml"), scenario);
+        }
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&rows.to_table(&COLUMNS)),
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    rows: &'a [AttitudeMapRecord],
+}
+
+fn soil_name(scenario: &LoadedScenario) -> String {
+    scenario.document.soil.inline().map_or("unnamed".into(), |soil| soil.name.clone())
+}
+
+/// What the answer was made from.
+fn settings(args: &AttitudeMapArgs, scenarios: &[LoadedScenario]) -> Value {
+    let first = &scenarios[0].document;
+    let soils: Vec<_> = scenarios.iter().map(|scenario| &scenario.document.soil).collect();
+    let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.theory.name()).collect();
+    json!({
+        "rover": first.rover,
+        "soils": soils,
+        "models": models,
+        "gravity_m_s2": first.gravity_m_s2,
+        "loads": first.loads,
+        "moments": first.moments,
+        "course_deg": args.course_deg.0,
+        "slope_deg": args.slope_deg.0,
+        "speed_m_s": args.speed_m_s.0[0],
+    })
+}
+
+/// How far the nose points uphill of the course, and the slip, over slope and course.
+fn figures(
+    args: &AttitudeMapArgs,
+    map: &AttitudeMap,
+    soil: usize,
+    name: &str,
+) -> [(&'static str, HeatMap); 2] {
+    let figure = |title: &str, value: fn(&Attitude) -> f64| {
+        let rows = map.rows.iter().filter(|row| row.study == soil);
+        let values = rows.map(|row| {
+            row.cells.iter().map(|cell| cell.as_ref().ok().map(value)).collect::<Vec<_>>()
+        });
+        HeatMap {
+            title: format!("{title}, on {name}; grey: no attitude"),
+            x_label: "slope [°]".into(),
+            columns: args.slope_deg.0.clone(),
+            y_label: "course, positive uphill [°]".into(),
+            rows: args.course_deg.0.clone(),
+            values: values.collect(),
+        }
+    };
+    [
+        (
+            "crab",
+            figure("Yaw beyond the course [°]", |attitude| {
+                (attitude.yaw - attitude.course).to_degrees()
+            }),
+        ),
+        ("slip", figure("Slip ratio", |attitude| attitude.slip_ratio)),
+    ]
+}

@@ -1,0 +1,105 @@
+//! The zero of three functions of three unknowns, near a guess.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// A zero, and what was learnt on the way to it.
+pub(crate) struct Zero<T> {
+    /// Where it is.
+    pub(crate) at: Vector3<f64>,
+    /// What the functions come from there.
+    pub(crate) value: T,
+    /// The inverse Jacobian, as far as it was needed.
+    pub(crate) inverse: Matrix3<f64>,
+}
+
+/// Steps after which a search is given up.
+const MOST_STEPS: usize = 12;
+
+/// The zero nearest to a guess: Newton's method with Broyden's updates of the inverse Jacobian, so
+/// that a step costs one evaluation. None where a step is not shorter than the one before it, where
+/// it is longer than `longest`, or where the functions have no value.
+///
+/// * `f`: their values, and what those come from
+/// * `size`: of a step
+/// * `is_zero`: told the values and the step that they would lead to
+pub(crate) fn zero_near<T>(
+    f: impl Fn(&Vector3<f64>) -> Option<(Vector3<f64>, T)>,
+    guess: &Vector3<f64>,
+    mut inverse: Matrix3<f64>,
+    size: impl Fn(&Vector3<f64>) -> f64,
+    longest: f64,
+    is_zero: impl Fn(&Vector3<f64>, &Vector3<f64>) -> bool,
+) -> Option<Zero<T>> {
+    let mut at = *guess;
+    let (mut here, mut value) = f(&at)?;
+    let mut step = -(inverse * here);
+    for _ in 0..MOST_STEPS {
+        if is_zero(&here, &step) {
+            return Some(Zero { at, value, inverse });
+        }
+        let length = size(&step);
+        if length.is_nan() || length > longest {
+            return None;
+        }
+        at += step;
+        let (there, value_there) = f(&at)?;
+        inverse = updated(&inverse, &step, &(there - here))?;
+        (here, value) = (there, value_there);
+        step = -(inverse * here);
+        if size(&step) >= length {
+            // As near as rounding lets it come, or going away.
+            return is_zero(&here, &step).then_some(Zero { at, value, inverse });
+        }
+    }
+    None
+}
+
+/// Broyden's update of an inverse Jacobian *B*, the one nearest to the old that explains a step:
+///
+/// ```text
+/// B' = B + (Δx − B Δf) (Δxᵀ B) / (Δxᵀ B Δf)                            Broyden (1965)
+/// ```
+fn updated(
+    inverse: &Matrix3<f64>,
+    step: &Vector3<f64>,
+    change: &Vector3<f64>,
+) -> Option<Matrix3<f64>> {
+    let predicted = inverse * change;
+    let divisor = step.dot(&predicted);
+    let is_sound = divisor != 0.0 && divisor.is_finite();
+    is_sound.then(|| inverse + (step - predicted) * (step.transpose() * inverse) / divisor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curved(x: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(x.x + 0.1 * x.y * x.z - 1.0, x.y.sin() - 0.2, x.z.exp() - x.x)
+    }
+
+    #[test]
+    fn a_nearby_zero_is_found_from_a_rough_jacobian() {
+        let found = zero_near(
+            |x| Some((curved(x), ())),
+            &Vector3::new(0.9, 0.1, 0.1),
+            Matrix3::identity(),
+            Vector3::norm,
+            1.0,
+            |value, _| value.norm() < 1e-12,
+        );
+        let zero = found.expect("it is near").at;
+        assert!(curved(&zero).norm() < 1e-12, "{zero}");
+    }
+
+    #[test]
+    fn where_there_is_none_none_is_found() {
+        let above = |x: &Vector3<f64>| Some((Vector3::new(1.0 + x.x * x.x, x.y, x.z), ()));
+        let inverse = Matrix3::identity();
+        let size = |step: &Vector3<f64>| step.norm();
+        let found = zero_near(above, &Vector3::zeros(), inverse, size, 10.0, |value, _| {
+            value.norm() < 1e-9
+        });
+        assert!(found.is_none());
+    }
+}

@@ -1,0 +1,361 @@
+//! Quasi-steady motion: velocities in balance at every instant, the pose alone integrated.
+//!
+//! On a plane with steady commands nothing but the yaw γ decides the balance: velocities V(γ),
+//! powers and wheels are functions of one variable,
+//!
+//! ```text
+//! γ̇ = r(γ)        (ẋ, ẏ) = R(γ) (u, v)(γ)        Ė = P(γ)
+//! ```
+//!
+//! They are tabulated over the stretch of yaw ahead, as polynomials through balances found there,
+//! and the pose follows from the table. So the work goes with the yaw that a rover turns through,
+//! not with the way it drives: one that keeps its yaw costs one balance, however far it goes.
+
+use nalgebra::Vector3;
+
+use super::balance::{Balance, Balancer, Memory, Unsteady};
+use super::equations::Equations;
+use super::integrate::Point;
+use super::power;
+use crate::contact::WheelForces;
+use crate::units::Vec2;
+use crate::vehicle::WheelReaction;
+use crate::vehicle::kinematics::wheel_slips;
+
+/// The velocities may lag behind their balance by this much, over the fastest rim's speed [-]: the
+/// balance's own motion in one settling time. Source: ours; theories err by ten times as much.
+pub const MOST_LAG: f64 = 0.01;
+/// And the balance may change its yaw rate at most this fast, over the rate of settling [-], or
+/// yaw and velocities would not be a slow and a fast motion. Source: ours.
+pub const MOST_COUPLING: f64 = 0.1;
+
+/// A yaw that will change by less than this is held [rad]: over ten metres of way, 0.1 µm.
+const HELD: f64 = 1e-8;
+/// Over so little yaw velocities change in proportion [rad]: a tenth of a degree.
+const LINEAR: f64 = 1.75e-3;
+/// The longest stretch of yaw with one polynomial [rad].
+const LONGEST_STRETCH: f64 = 0.1;
+/// A stretch reaches further than the yaw rate at its start would need, by this factor [-].
+const AMPLE: f64 = 1.25;
+/// Parabolas through three balances must meet those between them to this, over the fastest rim's
+/// speed [-]. The polynomial through all five is nearer by a hundred times where motion is smooth.
+const RESOLVED: f64 = 1e-5;
+/// A step in time turns the rover by at most this share of a stretch [-].
+const STEP_SHARE: f64 = 0.1;
+
+/// Balances over a stretch of yaw, evenly spaced: one, two or five.
+pub(super) struct Stretch {
+    nodes: Vec<Balance>,
+    /// From the first to the last [rad], with its sign.
+    width: f64,
+}
+
+/// What one run hands on from one advance to the next.
+#[derive(Default)]
+pub(super) struct Carried {
+    memory: Memory,
+    stretch: Option<Stretch>,
+}
+
+/// The motion of a rover whose wheels turn at given speeds.
+pub(super) struct QuasiSteady<'a> {
+    equations: &'a Equations<'a>,
+    balancer: Balancer<'a>,
+    stretch: Stretch,
+}
+
+impl<'a> QuasiSteady<'a> {
+    /// The motion from a point on; sets the point's velocities to their balance.
+    ///
+    /// * `carried`: of the run so far
+    /// * `horizon`: how long the rims will keep their speeds [s]
+    /// * `rims_changed`: whether they were others so far
+    pub(super) fn from(
+        equations: &'a Equations<'a>,
+        carried: Carried,
+        point: &mut Point,
+        horizon: f64,
+        rims_changed: bool,
+    ) -> Result<Self, Unsteady> {
+        let mut balancer = Balancer::new(equations, carried.memory);
+        let yaw = point.state.yaw;
+        let guess = match carried.stretch {
+            Some(stretch) if !rims_changed => return Ok(Self { equations, balancer, stretch }),
+            Some(stretch) => stretch.velocities(yaw),
+            None => rolling(equations),
+        };
+        let here = balancer.find(yaw, &guess)?;
+        let stretch = Stretch::ahead(&mut balancer, here, horizon)?;
+        let mut motion = Self { equations, balancer, stretch };
+        motion.set_velocities(point);
+        Ok(motion)
+    }
+
+    /// What the next advance starts with.
+    pub(super) fn carry(self) -> Carried {
+        Carried { memory: self.balancer.memory(), stretch: Some(self.stretch) }
+    }
+
+    /// The wheels at a point of the motion.
+    pub(super) fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
+        let slips = wheel_slips(self.equations.rover(), &point.state, self.equations.rim_speeds());
+        let weights = self.stretch.weights(point.state.yaw);
+        slips
+            .enumerate()
+            .map(|(wheel, slip)| {
+                let reactions = self.stretch.nodes.iter().map(|node| &node.wheels[wheel]);
+                WheelReaction { slip, ..blended(reactions.zip(weights)) }
+            })
+            .collect()
+    }
+
+    /// Goes on for a while.
+    ///
+    /// * `span`: how long [s]
+    /// * `horizon`: how long the rims will keep their speeds [s], at least the span
+    pub(super) fn advance(
+        &mut self,
+        point: &mut Point,
+        span: f64,
+        horizon: f64,
+    ) -> Result<(), Unsteady> {
+        let mut gone = 0.0;
+        while gone < span {
+            let yaw = point.state.yaw;
+            let rate = self.stretch.velocities(yaw).z;
+            let longest = STEP_SHARE * self.stretch.width.abs() / rate.abs();
+            let left = span - gone;
+            let step = if self.stretch.nodes.len() > 1 { left.min(longest) } else { left };
+            if !self.stretch.covers(yaw + rate * step) {
+                let here = self.balancer.find(yaw, &self.stretch.velocities(yaw))?;
+                self.stretch = Stretch::ahead(&mut self.balancer, here, horizon - gone)?;
+                continue;
+            }
+            self.step(point, step);
+            gone = if step < left { gone + step } else { span };
+        }
+        Ok(())
+    }
+
+    /// One Runge-Kutta step of the pose and the energies, on the table.
+    fn step(&mut self, point: &mut Point, step: f64) {
+        self.equations.count(|work| work.steps += 1);
+        let yaw = point.state.yaw;
+        let k_1 = self.stretch.rates(yaw);
+        let k_2 = self.stretch.rates(yaw + 0.5 * step * k_1.yaw_rate);
+        let k_3 = self.stretch.rates(yaw + 0.5 * step * k_2.yaw_rate);
+        let k_4 = self.stretch.rates(yaw + step * k_3.yaw_rate);
+        let stages = [(1.0, k_1), (2.0, k_2), (2.0, k_3), (1.0, k_4)];
+        for (weight, k) in stages {
+            let share = weight * step / 6.0;
+            point.state.position += k.velocity_slope * share;
+            point.state.yaw += k.yaw_rate * share;
+            point.motors += k.powers.0 * share;
+            point.soil += k.powers.1 * share;
+        }
+        self.set_velocities(point);
+    }
+
+    /// Sets velocities to their balance. What that changes in kinetic energy the motors pay for:
+    /// the balance itself leaves nothing over to accelerate with.
+    fn set_velocities(&mut self, point: &mut Point) {
+        let rover = self.equations.rover();
+        let before = power::kinetic_energy(rover, &point.state);
+        let velocities = self.stretch.velocities(point.state.yaw);
+        point.state.velocity = velocities.xy();
+        point.state.yaw_rate = velocities.z;
+        point.motors += power::kinetic_energy(rover, &point.state) - before;
+    }
+}
+
+/// Rates of the pose and the energies.
+#[derive(Clone, Copy)]
+struct PoseRates {
+    velocity_slope: Vec2,
+    yaw_rate: f64,
+    powers: (f64, f64),
+}
+
+impl Stretch {
+    /// The stretch that the rover will turn through from a balance on.
+    fn ahead(balancer: &mut Balancer<'_>, here: Balance, horizon: f64) -> Result<Self, Unsteady> {
+        let settling_time = balancer.settling_time(&here)?;
+        let rate = here.velocities.z;
+        // On level ground no yaw differs from another.
+        if balancer.is_level() || rate.abs() * horizon <= HELD {
+            return Ok(Self { nodes: vec![here], width: 0.0 });
+        }
+        let width = (AMPLE * rate * horizon).clamp(-LONGEST_STRETCH, LONGEST_STRETCH);
+        let stretch = Self::through(balancer, here, width)?;
+        stretch.check(balancer, settling_time, rate)?;
+        Ok(stretch)
+    }
+
+    /// Balances over a stretch that starts with a known one, halved until it is resolved.
+    fn through(
+        balancer: &mut Balancer<'_>,
+        here: Balance,
+        mut width: f64,
+    ) -> Result<Self, Unsteady> {
+        let mut known = vec![(0.0, here)];
+        while width.abs() > LINEAR {
+            if fill(balancer, &mut known, width, &QUARTERS).is_ok()
+                && roughness(balancer, &known) <= RESOLVED
+            {
+                let nodes = known.into_iter().map(|(_, balance)| balance).collect();
+                return Ok(Self { nodes, width });
+            }
+            known.retain(|(share, _)| *share <= 0.5);
+            for (share, _) in &mut known {
+                *share *= 2.0;
+            }
+            width *= 0.5;
+        }
+        known.retain(|(share, _)| *share == 0.0 || *share == 1.0);
+        fill(balancer, &mut known, width, &[0.0, 1.0])?;
+        Ok(Self { nodes: known.into_iter().map(|(_, balance)| balance).collect(), width })
+    }
+
+    /// That velocities can follow the balance as it moves along the stretch.
+    fn check(
+        &self,
+        balancer: &Balancer<'_>,
+        settling_time: f64,
+        rate: f64,
+    ) -> Result<(), Unsteady> {
+        let [first, last] = [&self.nodes[0], &self.nodes[self.nodes.len() - 1]];
+        let slope = (last.velocities - first.velocities) / self.width;
+        let lag = settling_time * rate.abs() * balancer.size(&slope);
+        if lag > MOST_LAG || settling_time * slope.z.abs() > MOST_COUPLING {
+            return Err(Unsteady::Lags { settling_time, lag });
+        }
+        Ok(())
+    }
+
+    /// Where a yaw is on the stretch: 0 at its start, 1 at its end.
+    fn share(&self, yaw: f64) -> f64 {
+        if self.width == 0.0 { 0.0 } else { (yaw - self.nodes[0].yaw) / self.width }
+    }
+
+    /// Whether a yaw is on the stretch. A little before its start counts: a rover that swings back
+    /// by rounding is still where it was.
+    fn covers(&self, yaw: f64) -> bool {
+        (-0.05..=1.0).contains(&self.share(yaw))
+    }
+
+    fn weights(&self, yaw: f64) -> [f64; 5] {
+        match self.nodes.len() {
+            1 => [1.0, 0.0, 0.0, 0.0, 0.0],
+            2 => lagrange(&[0.0, 1.0], self.share(yaw)),
+            _ => lagrange(&QUARTERS, self.share(yaw)),
+        }
+    }
+
+    fn velocities(&self, yaw: f64) -> Vector3<f64> {
+        let weighted = self.nodes.iter().zip(self.weights(yaw));
+        weighted.map(|(node, weight)| node.velocities * weight).sum()
+    }
+
+    fn rates(&self, yaw: f64) -> PoseRates {
+        let (mut velocities, mut motors, mut soil) = (Vector3::zeros(), 0.0, 0.0);
+        for (node, weight) in self.nodes.iter().zip(self.weights(yaw)) {
+            velocities += node.velocities * weight;
+            motors += node.powers.0 * weight;
+            soil += node.powers.1 * weight;
+        }
+        let velocity_slope = nalgebra::Rotation2::new(yaw) * velocities.xy();
+        PoseRates { velocity_slope, yaw_rate: velocities.z, powers: (motors, soil) }
+    }
+}
+
+/// Where the balances of a long stretch are.
+const QUARTERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// Finds the balances that are missing at some shares of a stretch, each from those known; leaves
+/// them in the order of the shares.
+fn fill(
+    balancer: &mut Balancer<'_>,
+    known: &mut Vec<(f64, Balance)>,
+    width: f64,
+    shares: &[f64],
+) -> Result<(), Unsteady> {
+    let start = known[0].1.yaw;
+    for &share in shares {
+        if known.iter().any(|(at, _)| *at == share) {
+            continue;
+        }
+        let places: Vec<f64> = known.iter().take(5).map(|(at, _)| *at).collect();
+        let weighted = known.iter().zip(lagrange(&places, share));
+        let guess = weighted.map(|((_, node), weight)| node.velocities * weight).sum();
+        let balance = balancer.find(start + share * width, &guess)?;
+        known.push((share, balance));
+        known.sort_by(|(one, _), (other, _)| one.total_cmp(other));
+    }
+    Ok(())
+}
+
+/// How far parabolas through the first, the middle and the last of five balances miss the other
+/// two, over the fastest rim's speed [-].
+fn roughness(balancer: &Balancer<'_>, nodes: &[(f64, Balance)]) -> f64 {
+    let miss = |at: usize| {
+        let weights = lagrange(&[0.0, 0.5, 1.0], nodes[at].0);
+        let parabola: Vector3<f64> =
+            (0..3).map(|node| nodes[2 * node].1.velocities * weights[node]).sum();
+        balancer.size(&(nodes[at].1.velocities - parabola))
+    };
+    miss(1).max(miss(3))
+}
+
+/// Weights of up to five values in the polynomial through them (Lagrange).
+fn lagrange(places: &[f64], at: f64) -> [f64; 5] {
+    let mut weights = [0.0; 5];
+    for (index, (weight, place)) in weights.iter_mut().zip(places).enumerate() {
+        let others = places.iter().enumerate().filter(|(other, _)| *other != index);
+        *weight = others.map(|(_, other)| (at - other) / (place - other)).product();
+    }
+    weights
+}
+
+/// A wheel between its reactions at several balances; its slip is for the caller to set.
+fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> WheelReaction {
+    let mut sum: Option<WheelReaction> = None;
+    for (reaction, weight) in weighted {
+        let blend = sum.get_or_insert_with(|| nothing_of(reaction));
+        let (forces, patch) = (reaction.settled.forces, reaction.settled.forces.patch);
+        blend.load += weight * reaction.load;
+        blend.settled.sinkage += weight * reaction.settled.sinkage;
+        blend.settled.forces = blend.settled.forces + forces * weight;
+        // The patch, which is no force, is not scaled with them.
+        let angles = &mut blend.settled.forces.patch;
+        angles.entry += weight * patch.entry;
+        angles.exit += weight * patch.exit;
+        angles.max_stress += weight * patch.max_stress;
+    }
+    sum.expect("a stretch has balances")
+}
+
+/// A reaction with all that is weighted at zero; nothing was evaluated for it.
+fn nothing_of(reaction: &WheelReaction) -> WheelReaction {
+    let mut nothing = *reaction;
+    nothing.load = 0.0;
+    nothing.settled.sinkage = 0.0;
+    nothing.settled.evaluations = 0;
+    nothing.settled.forces = WheelForces::default();
+    nothing
+}
+
+/// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.
+fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
+    let (mounts, rims) = (equations.rover().mounts(), equations.rim_speeds());
+    let count = rims.len() as f64;
+    let mean = mounts.iter().map(|mount| mount.position.xy()).sum::<Vec2>() / count;
+    let mean_rim = rims.iter().sum::<f64>() / count;
+    let (mut across, mut spread) = (0.0, 0.0);
+    for (mount, rim) in mounts.iter().zip(rims) {
+        let arm = mount.position.y - mean.y;
+        across -= arm * (rim - mean_rim);
+        spread += arm * arm;
+    }
+    let rate = if spread > 0.0 { across / spread } else { 0.0 };
+    super::scenario::ROLLING_SHARE * Vector3::new(mean_rim + rate * mean.y, -rate * mean.x, rate)
+}

@@ -1,0 +1,322 @@
+//! Follows the curve of attitudes: predict along it, correct across it, stop where it folds.
+
+use std::cell::Cell;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{AttitudeStudy, STEEPEST, STRAIGHT_UP};
+use crate::contact::Slip;
+use crate::newton;
+use crate::root;
+use crate::site::Site;
+use crate::vehicle::reaction::{Ground, forces_of};
+use crate::vehicle::{ReactionError, WheelReaction, dynamics, load};
+
+/// (s, c, α): slip ratio, crab angle c = γ − χ, slope.
+pub(super) type Place = Vector3<f64>;
+
+/// A point of the curve.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Point {
+    /// Slip ratio, crab angle, slope.
+    pub(super) place: Place,
+    /// Derivatives of the two imbalances there, as far as they were needed.
+    pub(super) gradients: Gradients,
+    /// The wheels, in the mounts' order.
+    pub(super) wheels: Vec<WheelReaction>,
+}
+
+/// Derivatives of the imbalances along and across the rover by (s, c, α).
+pub(super) type Gradients = [Place; 2];
+
+/// The study of one course.
+pub(super) struct Path<'a> {
+    study: &'a AttitudeStudy,
+    /// Direction of travel, *χ* [rad].
+    course: f64,
+    settled_wheels: Cell<u64>,
+}
+
+/// Longest step along the curve [-, rad].
+const LONGEST_STEP: f64 = 0.05;
+/// First step along the curve [-, rad].
+const FIRST_STEP: f64 = 0.005;
+/// A step this short means that the curve ends here [-, rad].
+const SHORTEST_STEP: f64 = 1e-7;
+/// Force left over, over the weight, below which a rover counts as balanced [-].
+const BALANCED: f64 = 1e-10;
+/// Stands for c = 0⁺, where a flank law that jumps has its full force [rad].
+pub(super) const JUST_TURNED: f64 = 1e-9;
+/// Wheels that slip this much no longer move the rover, or hold it [-].
+const MOST_SLIP: f64 = 0.999;
+
+impl<'a> Path<'a> {
+    pub(super) fn new(study: &'a AttitudeStudy, course: f64) -> Self {
+        Self { study, course, settled_wheels: Cell::new(0) }
+    }
+
+    /// How many wheels were settled so far.
+    pub(super) fn settled_wheels(&self) -> u64 {
+        self.settled_wheels.get()
+    }
+
+    fn site(&self, slope: f64) -> Site {
+        Site { soil: self.study.soil, slope, gravity: self.study.gravity }
+    }
+
+    fn reactions(&self, place: &Place) -> Result<Vec<WheelReaction>, ReactionError> {
+        let AttitudeStudy { rover, theory, sharing, own_moments, .. } = self.study;
+        let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
+        let slips = vec![Slip::on_test_stand(slip_ratio, -crab); rover.wheel_count()];
+        self.settled_wheels.set(self.settled_wheels.get() + slips.len() as u64);
+        let ground = Ground {
+            rover,
+            site: &self.site(slope),
+            model: theory.model(),
+            sharing: *sharing,
+            own_moments: *own_moments,
+        };
+        ground.reactions(self.course + crab, &slips)
+    }
+
+    /// The wheels at a place, and the forces left over there, over the weight: along and across
+    /// the rover [-].
+    fn balance(&self, place: &Place) -> Result<([f64; 2], Vec<WheelReaction>), ReactionError> {
+        let study = self.study;
+        let wheels = self.reactions(place)?;
+        let forces = forces_of(&wheels);
+        let (soil, _) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
+        let pull = load::slope_pull(&study.rover, &self.site(place.z), self.course + place.y);
+        let left_over = (soil + pull) / (study.rover.mass() * study.gravity);
+        Ok(([left_over.x, left_over.y], wheels))
+    }
+
+    fn imbalance(&self, place: &Place) -> Result<[f64; 2], ReactionError> {
+        self.balance(place).map(|(left_over, _)| left_over)
+    }
+
+    /// Slip at which the wheels balance the weight along the rover, for a crab angle and a slope.
+    pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, String> {
+        let pull = |slip_ratio: f64| self.imbalance(&Place::new(slip_ratio, crab, slope));
+        let most = pull(MOST_SLIP).map_err(|error| error.to_string())?[0];
+        if most < 0.0 {
+            let lacking = -most * self.study.rover.mass() * self.study.gravity;
+            return Err(format!("even spinning, they lack {lacking:.2} N of thrust"));
+        }
+        /// In skid the wheels hold the rover back on any slope that they can be driven on.
+        const DEEPEST_SKID: f64 = -0.9;
+        let thrust = |slip_ratio: f64| pull(slip_ratio).map_or(-1.0, |left_over| left_over[0]);
+        Ok(root::between(thrust, DEEPEST_SKID, MOST_SLIP, 1e-13))
+    }
+
+    /// A point that is known to be on the curve.
+    pub(super) fn point(&self, place: Place) -> Result<Point, ReactionError> {
+        let (here, wheels) = self.balance(&place)?;
+        let gradients = self.gradients(&place, here).unwrap_or_default();
+        Ok(Point { place, gradients, wheels })
+    }
+
+    /// The curve's first point, at c = 0⁺: slip and slope that balance there.
+    pub(super) fn start(&self) -> Result<Point, String> {
+        /// Rounds in which slip and slope settle on each other.
+        const ROUNDS: usize = 100;
+        // Straight up or down the slope nothing pulls sideways, and the rover does not crab.
+        if self.course.abs() >= STRAIGHT_UP {
+            let place = Place::new(self.slip_at(0.0, 0.0)?, 0.0, 0.0);
+            return self.point(place).map_err(|error| error.to_string());
+        }
+        let mut slope = 0.0;
+        for _ in 0..ROUNDS {
+            let slip_ratio = self.slip_at(JUST_TURNED, slope)?;
+            let place = Place::new(slip_ratio, JUST_TURNED, slope);
+            let left_over = self.imbalance(&place).map_err(|error| error.to_string())?[1];
+            if left_over.abs() < BALANCED {
+                return self.point(place).map_err(|error| error.to_string());
+            }
+            // The slope's pull across the rover goes with the cosine of its yaw.
+            slope = (slope.sin() + left_over / self.course.cos()).clamp(0.0, STEEPEST.sin()).asin();
+        }
+        Err("the start of the curve was not found".into())
+    }
+
+    /// Follows the curve from its one point until it folds or ends; says what ended it.
+    pub(super) fn follow(&self, points: &mut Vec<Point>) -> String {
+        let mut step = FIRST_STEP;
+        loop {
+            let here = points[points.len() - 1].clone();
+            if here.place.z >= STEEPEST {
+                return "the end of the range of slopes".into();
+            }
+            let next = loop {
+                let Some(way) = self.predict(points, step) else {
+                    return self.why_not_beyond(&here.place, &Vector3::z());
+                };
+                let normal = way.normalize();
+                match self.correct(&(here.place + way), &normal, &here.gradients) {
+                    Some(next) if (next.place - here.place).norm() < 2.0 * step => break next,
+                    _ if step < SHORTEST_STEP => {
+                        return self.why_not_beyond(&here.place, &normal);
+                    }
+                    _ => step *= 0.5,
+                }
+            };
+            if next.place.x.abs() > MOST_SLIP {
+                return self.end_at_most_slip(points, &next.place);
+            }
+            if next.place.z < here.place.z {
+                self.end_at_fold(points, next);
+                return "where turning further uphill costs more thrust than it gains".into();
+            }
+            points.push(next);
+            step = (1.5 * step).min(LONGEST_STEP);
+        }
+    }
+
+    /// The way to a guess of the next point: along the tangent, then along the parabola through
+    /// the last three points by the length of their chords.
+    fn predict(&self, points: &[Point], step: f64) -> Option<Place> {
+        let here = &points[points.len() - 1];
+        if points.len() < 3 {
+            let towards = match points.len() {
+                1 => Vector3::z(),
+                _ => here.place - points[points.len() - 2].place,
+            };
+            return Some(self.tangent(here, &towards)? * step);
+        }
+        let [two_back, back] = [&points[points.len() - 3], &points[points.len() - 2]];
+        let last = here.place - back.place;
+        let (length, before) = (last.norm(), (back.place - two_back.place).norm());
+        let slope = last / length;
+        let slope_before = (back.place - two_back.place) / before;
+        let bend = (slope - slope_before) / (length + before);
+        Some(slope * step + bend * (step * (step + length)))
+    }
+
+    fn why_not_beyond(&self, here: &Place, towards: &Place) -> String {
+        match self.imbalance(&(here + towards * FIRST_STEP)) {
+            Err(ReactionError::Tipping(_)) => "where the rover tips over".into(),
+            Err(error) => format!("where {error}"),
+            Ok(_) => "where the balance of forces breaks off".into(),
+        }
+    }
+
+    /// How slip ratio and crab angle go with the slope at a point, *(ds/dα, dc/dα, 1)*.
+    pub(super) fn per_slope(point: &Point) -> Option<Place> {
+        let [along, across] = &point.gradients;
+        let tangent = along.cross(across);
+        /// Flatter than this the curve folds, and the slope tells nothing [-].
+        const STEEP: f64 = 0.05;
+        (tangent.z.abs() > STEEP * tangent.norm()).then(|| tangent / tangent.z)
+    }
+
+    /// Unit vector along the curve, in the sense of `towards`.
+    fn tangent(&self, point: &Point, towards: &Place) -> Option<Place> {
+        let fresh = self.gradients(&point.place, self.imbalance(&point.place).ok()?)?;
+        let tangent = fresh[0].cross(&fresh[1]).try_normalize(f64::MIN_POSITIVE)?;
+        Some(if tangent.dot(towards) < 0.0 { -tangent } else { tangent })
+    }
+
+    /// Derivatives of the two imbalances by (s, c, α), by forward differences.
+    ///
+    /// * `here`: the imbalances at the place itself
+    fn gradients(&self, place: &Place, here: [f64; 2]) -> Option<Gradients> {
+        /// Forces are exact to 1e-12.
+        const STEP: f64 = 1e-7;
+        let mut gradients = Gradients::default();
+        for axis in 0..3 {
+            let mut beside = *place;
+            beside[axis] += STEP;
+            let there = self.imbalance(&beside).ok()?;
+            for (gradient, (there, here)) in gradients.iter_mut().zip(there.iter().zip(here)) {
+                gradient[axis] = (there - here) / STEP;
+            }
+        }
+        Some(gradients)
+    }
+
+    /// The point of the curve in the plane through `guess` across `normal`.
+    ///
+    /// * `gradients`: from nearby; where they lead nowhere, those of the guess are taken
+    pub(super) fn correct(
+        &self,
+        guess: &Place,
+        normal: &Place,
+        gradients: &Gradients,
+    ) -> Option<Point> {
+        self.correct_with(guess, normal, gradients).or_else(|| {
+            let fresh = self.gradients(guess, self.imbalance(guess).ok()?)?;
+            self.correct_with(guess, normal, &fresh)
+        })
+    }
+
+    fn correct_with(&self, guess: &Place, normal: &Place, gradients: &Gradients) -> Option<Point> {
+        /// A correction longer than this is of another part of the curve [-, rad].
+        const LONGEST: f64 = 0.5;
+        let [along, across] = gradients;
+        let rows = [along.transpose(), across.transpose(), normal.transpose()];
+        let zero = newton::zero_near(
+            |place| {
+                let ([along, across], wheels) = self.balance(place).ok()?;
+                Some((Vector3::new(along, across, normal.dot(&(place - guess))), wheels))
+            },
+            guess,
+            Matrix3::from_rows(&rows).try_inverse()?,
+            Vector3::norm,
+            LONGEST,
+            |left_over, _| left_over.amax() < BALANCED,
+        )?;
+        // Straight up or down the slope the crab angle is nothing but rounding.
+        if zero.at.y < -JUST_TURNED {
+            return None;
+        }
+        let jacobian = zero.inverse.try_inverse()?;
+        let gradients = [0, 1].map(|row| jacobian.row(row).transpose());
+        Some(Point { place: zero.at, gradients, wheels: zero.value })
+    }
+
+    /// Ends a curve where slip reaches [`MOST_SLIP`], in drive or in skid.
+    ///
+    /// * `beyond`: a place past it
+    fn end_at_most_slip(&self, points: &mut Vec<Point>, beyond: &Place) -> String {
+        let here = &points[points.len() - 1];
+        let most = MOST_SLIP.copysign(beyond.x);
+        let share = (most - here.place.x) / (beyond.x - here.place.x);
+        let mut guess = here.place + (beyond - here.place) * share;
+        guess.x = most;
+        points.extend(self.correct(&guess, &Vector3::x(), &here.gradients));
+        let reason = if most > 0.0 {
+            "where the wheels spin on the spot"
+        } else {
+            "where the wheels are all but locked"
+        };
+        reason.into()
+    }
+
+    /// Ends a curve at its highest point, which lies around the last of `points`.
+    ///
+    /// * `beyond`: a point past it
+    fn end_at_fold(&self, points: &mut Vec<Point>, beyond: Point) {
+        let climbs = |point: &Point, towards: &Place| self.tangent(point, towards).map(|t| t.z);
+        let mut after = beyond;
+        let last = &points[points.len() - 1];
+        if points.len() > 1 {
+            let way = last.place - points[points.len() - 2].place;
+            if climbs(last, &way).is_some_and(|climb| climb < 0.0) {
+                after = points[points.len() - 1].clone();
+                points.pop();
+            }
+        }
+        /// The slope hardly changes around its highest point: this share of a step is enough [-].
+        const NEARLY: f64 = 1e-5;
+        let before = &points[points.len() - 1];
+        let chord = after.place - before.place;
+        let normal = chord.normalize();
+        let at =
+            |share: f64| self.correct(&(before.place + chord * share), &normal, &before.gradients);
+        let climb =
+            |share: f64| at(share).and_then(|point| climbs(&point, &normal)).unwrap_or(-1.0);
+        if let Some(top) = at(root::between(climb, 0.0, 1.0, NEARLY)) {
+            points.push(top);
+        }
+    }
+}
