@@ -49,7 +49,8 @@ impl Accuracy {
 fn force(fixtures: &Fixtures) -> f64 {
     let (model, reference) = (fixtures.scenario.theory.model(), Ishigami::reference());
     let errors = fixtures.wheels.iter().map(|wheel| {
-        let parts = |forces: WheelForces| [forces.drawbar_pull, forces.side_force, forces.normal_force];
+        let parts =
+            |forces: WheelForces| [forces.drawbar_pull, forces.side_force, forces.normal_force];
         let found = parts(model.forces(&wheel.contact, wheel.sinkage));
         let exact = parts(reference.forces(&wheel.contact, wheel.sinkage));
         let differences = found.iter().zip(exact).map(|(one, other)| (one - other).abs());

@@ -120,11 +120,11 @@ impl Fixtures {
     }
 
     fn settle_batched(&self) -> Done {
-        let contacts: Vec<Contact> = self.wheels.iter().map(|wheel| wheel.contact).collect();
-        let loads: Vec<f64> = self.wheels.iter().map(|wheel| wheel.load).collect();
-        let settled = settle_many(self.scenario.theory.model(), &contacts, &loads);
+        let wheels: Vec<(Contact, f64)> =
+            self.wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
+        let settled = settle_many(self.scenario.theory.model(), &wheels);
         let sinkages = settled.iter().map(|it| it.as_ref().expect("it is carried").sinkage);
-        Done { count: contacts.len(), checksum: sinkages.sum() }
+        Done { count: wheels.len(), checksum: sinkages.sum() }
     }
 
     fn rover_rates(&self) -> Done {
@@ -140,7 +140,7 @@ impl Fixtures {
         let mut sum = 0.0;
         for time in 0..TIMES {
             state.yaw = 1e-4 * time as f64;
-            sum += equations.rates(&state).expect("it stands").acceleration.u;
+            sum += equations.rates(&state).expect("it stands").acceleration.yaw_acceleration;
         }
         Done { count: TIMES, checksum: sum }
     }
@@ -149,7 +149,10 @@ impl Fixtures {
         let curve = AttitudeStudy::of(&self.scenario).curve().expect("it has one");
         let (steepest, _) = curve.limit().expect("it can move");
         let slopes = (1..=25).map(|step| steepest * f64::from(step) / 25.0);
-        Done { count: 1, checksum: slopes.filter_map(|it| curve.at(it).ok()).map(|it| it.yaw).sum() }
+        Done {
+            count: 1,
+            checksum: slopes.filter_map(|it| curve.at(it).ok()).map(|it| it.yaw).sum(),
+        }
     }
 
     fn run_campaign(&self) -> Done {

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use grouser::contact::kernel::InstructionSet;
+use grouser::contact::InstructionSet;
 use grouser_bench::{Fixtures, Unit};
 
 fn main() -> ExitCode {

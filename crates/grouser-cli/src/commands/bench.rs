@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use grouser::contact::kernel::InstructionSet;
+use grouser::contact::InstructionSet;
 use grouser_bench::{Accuracy, Fixtures, Unit};
 use serde_json::{Map, Value, json};
 

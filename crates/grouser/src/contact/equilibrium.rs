@@ -198,7 +198,8 @@ impl Search<'_> {
     /// the radius.
     fn start(&mut self, guess: Option<f64>) -> Point {
         let axle = self.axle();
-        let guess = guess.or_else(|| self.bearing.map(|bearing| bearing.shallow_sinkage(self.load)));
+        let guess =
+            guess.or_else(|| self.bearing.map(|bearing| bearing.shallow_sinkage(self.load)));
         let start = match guess {
             Some(guess) if guess >= f64::MIN_POSITIVE => elementary::ln(guess).min(axle - MARGIN),
             _ => axle - LN_10,
@@ -243,7 +244,8 @@ impl Search<'_> {
             }
             /// The next point's error is about the product of the last three points', times this.
             const CURVATURE: f64 = 0.05;
-            let error: f64 = points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
+            let error: f64 =
+                points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
             let last = count >= 3 && CURVATURE * error < LOAD_TOLERANCE;
             if last || count == MOST_POINTS {
                 return (self.final_excess(next).abs() <= LOAD_TOLERANCE).then_some(next);

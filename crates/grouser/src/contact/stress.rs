@@ -148,11 +148,8 @@ impl StressLaw {
         let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
         let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
-        let growth = if self.surface_growth == 1.0 {
-            1.0
-        } else {
-            elementary::pow(self.surface_growth, n)
-        };
+        let growth =
+            if self.surface_growth == 1.0 { 1.0 } else { elementary::pow(self.surface_growth, n) };
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
         (self.stiffness.modulus / growth * arc, n + 0.5)
     }

@@ -47,7 +47,11 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         cohesion: if draw.once_in(2) { 0.0 } else { draw.sized(10.0, 2000.0) },
         friction_angle: draw.between(deg(20.0), deg(45.0)),
         density: 1500.0,
-        pressure_sinkage: PressureSinkage::Reece { k_c: 10.0, k_phi: draw.sized(50.0, 500.0), exponent },
+        pressure_sinkage: PressureSinkage::Reece {
+            k_c: 10.0,
+            k_phi: draw.sized(50.0, 500.0),
+            exponent,
+        },
         stress_peak: StressPeak { a0: draw.between(0.1, 0.5), a1: draw.between(0.0, 0.2) },
         shear,
         exit: Exit::Ratio(draw.between(0.1, 1.2)),
@@ -99,7 +103,9 @@ fn check_errors(motion: Motion, isotropic: bool, share: f64, usual: f64, most: f
     let errors = errors(20_000, motion, isotropic);
     let at = errors[(share * (errors.len() - 1) as f64) as usize];
     let last = errors[errors.len() - 1];
-    println!("{motion:?}, isotropic {isotropic}: {share} of them below {at:.1e}, all below {last:.1e}");
+    println!(
+        "{motion:?}, isotropic {isotropic}: {share} of them below {at:.1e}, all below {last:.1e}"
+    );
     assert!(at < usual && last < most, "{motion:?}: {at:.1e}, {last:.1e}");
 }
 
