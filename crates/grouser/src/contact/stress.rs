@@ -148,11 +148,8 @@ impl StressLaw {
         let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
         let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
-        let growth = if self.surface_growth == 1.0 {
-            1.0
-        } else {
-            elementary::pow(self.surface_growth, n)
-        };
+        let growth =
+            if self.surface_growth == 1.0 { 1.0 } else { elementary::pow(self.surface_growth, n) };
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
         (self.stiffness.modulus / growth * arc, n + 0.5)
     }
@@ -278,6 +275,12 @@ impl StressField {
     /// The shear law, ready to be asked.
     pub(super) fn shear_law(&self) -> MobilisedShear {
         self.law.shear
+    }
+
+    /// Whether the rim is at least as fast as the hub, forward.
+    #[inline(always)]
+    pub(super) fn is_driven(&self) -> bool {
+        self.law.slip.forward <= self.law.slip.rim
     }
 
     /// The point of the arc `behind_entry` [rad] away from its front end.
