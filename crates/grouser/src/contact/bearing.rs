@@ -3,6 +3,8 @@
 //! A wheel that settles asks for F_z at several sinkages. What does not depend on the sinkage, and
 //! what F_z does not depend on, is left out of that loop.
 
+#![expect(clippy::inline_always, reason = "part of the kernel")]
+
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
@@ -10,7 +12,6 @@ use super::kernel::integral::{self, StressSums};
 use super::kernel::rule::{self, ArcRule};
 use super::model::Contact;
 use super::stress::{Response, StressField, StressLaw};
-use crate::elementary;
 
 /// The vertical force of the soil on one wheel as a function of its sinkage.
 #[derive(Clone, Copy, Debug)]
@@ -59,15 +60,15 @@ impl Bearing {
         }
     }
 
-    /// The sinkage [m] at which the wheel would carry a load [N] without shear, were its contact
-    /// shallow: where a search may start.
+    /// F_z of a shallow wheel without shear: the factor [N/m^p] and the power p of its sinkage. A search
+    /// starts there.
     #[must_use]
-    pub fn shallow_sinkage(&self, load: f64) -> f64 {
+    pub fn shallow(&self) -> (f64, f64) {
         let arc = match &self.views {
             Views::One(arc) | Views::Both { front: (arc, _), .. } => arc,
         };
         let (factor, power) = arc.law.shallow();
-        elementary::pow(load / (self.area * factor), 1.0 / power)
+        (self.area * factor, power)
     }
 }
 

@@ -30,10 +30,11 @@ impl WallResistance {
     pub fn new(soil: &Soil, unit_weight: f64) -> Self {
         let phi = soil.friction_angle;
         let x_c = soil.destructive_angle();
-        let (d_1, d_2) = (d1(x_c, phi), d2(x_c, phi));
+        let (cot, tan_phi) = (1.0 / x_c.tan(), phi.tan());
+        let (d_1, d_2) = (d1(cot, (x_c + phi).tan()), d2(cot, tan_phi));
         // The heap reaches cot X_c ahead of the wall and lies at the angle φ.
         let heaped = match soil.bulldozing {
-            Bulldozing::SineSquared => 1.0 + phi.tan() / x_c.tan(),
+            Bulldozing::SineSquared => 1.0 + tan_phi * cot,
             Bulldozing::None | Bulldozing::Sign | Bulldozing::Sine => 1.0,
         };
         Self { cohesive: d_1 * soil.cohesion, frictional: d_1 * d_2 * unit_weight / 2.0, heaped }
@@ -49,14 +50,17 @@ impl WallResistance {
 }
 
 /// D₁ = cot X_c + tan(X_c + φ) [-].
-fn d1(x_c: f64, phi: f64) -> f64 {
-    1.0 / x_c.tan() + (x_c + phi).tan()
+///
+/// * `cot`: cot X_c [-], and `tan_sum`: tan(X_c + φ) [-]
+fn d1(cot: f64, tan_sum: f64) -> f64 {
+    cot + tan_sum
 }
 
 /// D₂ = cot X_c + cot² X_c / cot φ [-].
-fn d2(x_c: f64, phi: f64) -> f64 {
-    let cot = 1.0 / x_c.tan();
-    cot + cot * cot * phi.tan()
+///
+/// * `cot`: cot X_c [-], and `tan_phi`: tan φ [-]
+fn d2(cot: f64, tan_phi: f64) -> f64 {
+    cot + cot * cot * tan_phi
 }
 
 /// The soil's force on the buried segment of a flank, and where it acts.
@@ -138,10 +142,13 @@ mod tests {
     /// Source: D₁ and D₂ for φ = 38°, X_c = 26°, and for φ = 37.2°, X_c = 26.4°: independent code.
     #[test]
     fn wall_coefficients() {
-        assert!((d1(deg(26.0), deg(38.0)) - 4.100_608).abs() < 1e-6);
-        assert!((d2(deg(26.0), deg(38.0)) - 5.334_630).abs() < 1e-6);
-        assert!((d1(deg(26.4), deg(37.2)) - 4.028_974).abs() < 1e-6);
-        assert!((d2(deg(26.4), deg(37.2)) - 5.094_796).abs() < 1e-6);
+        for (phi, x_c, first, second) in
+            [(38.0, 26.0, 4.100_608, 5.334_630), (37.2, 26.4, 4.028_974, 5.094_796)]
+        {
+            let cot = 1.0 / deg(x_c).tan();
+            assert!((d1(cot, deg(x_c + phi).tan()) - first).abs() < 1e-6);
+            assert!((d2(cot, deg(phi).tan()) - second).abs() < 1e-6);
+        }
     }
 
     #[test]

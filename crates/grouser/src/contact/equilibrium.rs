@@ -104,14 +104,16 @@ fn settle_near(
         return Ok(Settled { sinkage: 0.0, forces, evaluations: 1 });
     }
     let bearing = model.bearing(contact);
-    let mut search = Search { model, contact, load, bearing, evaluations: 0, last: None };
+    let exponent = bearing.map_or_else(|| growth(contact), |bearing| bearing.shallow().1);
+    let axle = elementary::ln(contact.wheel.shearing_radius());
+    let mut search =
+        Search { model, contact, load, bearing, exponent, axle, evaluations: 0, last: None };
     let start = search.start(guess);
-    let log_sinkage = match search.interpolated(start) {
-        Some(log_sinkage) => log_sinkage,
-        None => {
-            let (low, high) = search.bracket(start)?;
-            root::bracketed(|x| search.excess(x), low, high, 0.0, LOAD_TOLERANCE).0
-        }
+    let log_sinkage = if let Some(log_sinkage) = search.interpolated(start) {
+        log_sinkage
+    } else {
+        let (low, high) = search.bracket(start)?;
+        root::bracketed(|x| search.excess(x), low, high, 0.0, LOAD_TOLERANCE).0
     };
     let (sinkage, forces) = search.reaction(log_sinkage);
     Ok(Settled { sinkage, forces, evaluations: search.evaluations })
@@ -141,11 +143,23 @@ fn interpolate_at_zero(points: &[Point]) -> f64 {
     x[0]
 }
 
+/// The exponent with which F_z of a theory without a bearing grows.
+fn growth(contact: &Contact) -> f64 {
+    let Contact { wheel, soil, slip, gravity } = contact;
+    let unit_weight = soil.unit_weight(*gravity);
+    let law = soil.pressure_sinkage;
+    law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio).exponent + 0.5
+}
+
 struct Search<'a> {
     model: &'a dyn WheelSoilModel,
     contact: &'a Contact,
     load: f64,
     bearing: Option<Bearing>,
+    /// With which F_z grows for shallow sinkage: n + ½.
+    exponent: f64,
+    /// ln r_s.
+    axle: f64,
     evaluations: u32,
     last: Option<(f64, WheelForces)>,
 }
@@ -197,19 +211,17 @@ impl Search<'_> {
     /// Where the search starts: at the guess, where a shallow wheel would settle, or at a tenth of
     /// the radius.
     fn start(&mut self, guess: Option<f64>) -> Point {
-        let axle = self.axle();
-        let guess =
-            guess.or_else(|| self.bearing.map(|bearing| bearing.shallow_sinkage(self.load)));
+        let axle = self.axle;
+        let shallow = |bearing: Bearing| {
+            let (factor, power) = bearing.shallow();
+            elementary::pow(self.load / factor, 1.0 / power)
+        };
+        let guess = guess.or_else(|| self.bearing.map(shallow));
         let start = match guess {
             Some(guess) if guess >= f64::MIN_POSITIVE => elementary::ln(guess).min(axle - MARGIN),
             _ => axle - LN_10,
         };
         (start, self.excess(start))
-    }
-
-    /// ln r_s.
-    fn axle(&self) -> f64 {
-        elementary::ln(self.contact.wheel.shearing_radius())
     }
 
     /// The root by interpolation through all points seen, as long as they close in on it.
@@ -221,7 +233,7 @@ impl Search<'_> {
         const MOST_POINTS: usize = 4;
         /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
         const STEEPEST: f64 = 4.0;
-        let (axle, exponent) = (self.axle(), self.growth());
+        let (axle, exponent) = (self.axle, self.exponent);
         let mut points = [start; MOST_POINTS];
         for count in 1..=MOST_POINTS {
             let (here, excess) = points[count - 1];
@@ -257,7 +269,7 @@ impl Search<'_> {
 
     /// Two sinkages, the first carrying less than the load and the second at least as much.
     fn bracket(&mut self, start: Point) -> Result<(Point, Point), SettleError> {
-        let (axle, exponent) = (self.axle(), self.growth());
+        let (axle, exponent) = (self.axle, self.exponent);
         /// Each step goes this much beyond the power law's answer [ln h].
         const BEYOND: f64 = 0.02;
 
@@ -285,14 +297,6 @@ impl Search<'_> {
             here = deeper;
         }
         self.bracket_below_the_peak(axle)
-    }
-
-    /// The exponent with which F_z grows for shallow sinkage: n + ½.
-    fn growth(&self) -> f64 {
-        let Contact { wheel, soil, slip, gravity } = self.contact;
-        let unit_weight = soil.unit_weight(*gravity);
-        let law = soil.pressure_sinkage;
-        law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio).exponent + 0.5
     }
 
     /// The bracket where F_z has a highest value: seek it, and look whether it is enough.

@@ -277,6 +277,12 @@ impl StressField {
         self.law.shear
     }
 
+    /// Whether the rim is at least as fast as the hub, forward.
+    #[inline(always)]
+    pub(super) fn is_driven(&self) -> bool {
+        self.law.slip.forward <= self.law.slip.rim
+    }
+
     /// The point of the arc `behind_entry` [rad] away from its front end.
     #[inline(always)]
     pub(super) fn point(&self, behind_entry: f64) -> RimPoint {

@@ -1,8 +1,12 @@
 //! All wheels settled under their share of the weight: load sharing and soil together.
 
+use std::iter::repeat;
+
 use super::load::{self, LoadSharing, OwnMoments, Tipping};
 use super::rover::Rover;
-use crate::contact::{Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle};
+use crate::contact::{
+    Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle, settle_from,
+};
 use crate::site::Site;
 use crate::units::Vec2;
 
@@ -71,7 +75,7 @@ impl Ground<'_> {
         let coupled = sharing == LoadSharing::QuasiStaticTorque
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
         let mut moments = load::moments(rover, site, yaw, sharing, own_moments, &[]);
-        let mut wheels = self.settle_under(moments, slips)?;
+        let mut wheels = self.settle_under(moments, slips, &[])?;
         if !coupled {
             return Ok(wheels);
         }
@@ -89,22 +93,32 @@ impl Ground<'_> {
                 return Ok(wheels);
             }
             moments = next;
-            wheels = self.settle_under(moments, slips)?;
+            wheels = self.settle_under(moments, slips, &wheels)?;
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }
 
+    /// * `before`: the wheels in the round before, near which they settle now; none in the first. (What
+    ///   they were a moment ago is not asked: the same motion has the same bits, whatever came before.)
     fn settle_under(
         &self,
         moments: Vec2,
         slips: &[Slip],
+        before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, model, sharing, .. } = *self;
         let weight = rover.mass() * site.gravity * site.slope.cos();
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
-        let settled = slips.iter().zip(loads).zip(rover.mounts()).map(|((&slip, load), mount)| {
+        let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
+        let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
+        let settled = wheels.map(|(((&slip, load), mount), guess)| {
             let (wheel, soil, gravity) = (*rover.wheel(), site.soil, site.gravity);
-            settle(model, &Contact { wheel, soil, slip, gravity }, load)
+            let contact = Contact { wheel, soil, slip, gravity };
+            guess
+                .map_or_else(
+                    || settle(model, &contact, load),
+                    |guess| settle_from(model, &contact, load, guess),
+                )
                 .map(|settled| WheelReaction { slip, load, settled })
                 .map_err(|source| ReactionError::Wheel { wheel: mount.name.clone(), source })
         });

@@ -31,8 +31,8 @@ fn any_slip(draw: &mut Draw, motion: Motion) -> Slip {
     Slip::on_test_stand(ratio, beta)
 }
 
-/// A wheel whose soil mobilises its shear within `hardness` radii or more: K from half a
-/// millimetre, n from 0.5 to 2.
+/// Wheels of 3 cm to half a metre, sunk by up to half a radius, K from half a millimetre, n from
+/// 0.5 to 2.
 fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f64) {
     let radius = draw.sized(0.03, 0.5);
     let wheel = Wheel { radius, width: 0.7 * radius, grousers: None };
@@ -63,17 +63,15 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
     (Contact { wheel, soil, slip, gravity: 9.81 }, draw.sized(1e-3, 0.5) * radius)
 }
 
-/// Largest error of any force, over the load, or of any moment, over load times radius [-]; none
-/// where the soil hardly carries.
-fn error(contact: &Contact, sinkage: f64) -> Option<f64> {
+/// Largest error of any force, over the load, or of any moment, over load times radius [-]. Where
+/// cohesion holds a wheel harder than its load presses it, that is the scale.
+fn error(contact: &Contact, sinkage: f64) -> f64 {
     let [coarse, exact] =
         [Ishigami::default(), Ishigami::reference()].map(|theory| theory.forces(contact, sinkage));
-    let load = exact.normal_force;
-    let radius = contact.wheel.shearing_radius();
-    // A load that is a small difference of larger forces is no scale.
-    if load < 0.2 * exact.max_normal_stress * contact.wheel.width * radius * exact.patch.entry {
-        return None;
-    }
+    let Contact { wheel, soil, .. } = contact;
+    let radius = wheel.shearing_radius();
+    let held = soil.cohesion * wheel.width * radius * (exact.patch.entry - exact.patch.exit);
+    let load = exact.normal_force.max(held);
     let errors = [
         (coarse.drawbar_pull - exact.drawbar_pull) / load,
         (coarse.side_force - exact.side_force) / load,
@@ -82,45 +80,46 @@ fn error(contact: &Contact, sinkage: f64) -> Option<f64> {
         (coarse.overturning_moment - exact.overturning_moment) / (load * radius),
         (coarse.aligning_moment - exact.aligning_moment) / (load * radius),
     ];
-    Some(errors.iter().fold(0.0, |most, error| f64::max(most, error.abs())))
+    errors.iter().fold(0.0, |most, error| f64::max(most, error.abs()))
 }
 
 /// Errors of many contacts in rising order.
 fn errors(count: u64, motion: Motion, isotropic: bool) -> Vec<f64> {
     let mut errors: Vec<f64> = (0..count)
-        .filter_map(|case| {
+        .map(|case| {
             let mut draw = Draw::of_case(case);
             let (contact, sinkage) = any_contact(&mut draw, motion, isotropic);
             error(&contact, sinkage)
         })
         .collect();
-    assert!(errors.len() as u64 > count / 3, "{} of {count} carry", errors.len());
     errors.sort_by(f64::total_cmp);
     errors
 }
 
-fn check_errors(motion: Motion, isotropic: bool, share: f64, usual: f64, most: f64) {
+/// * `usual`: bound for 99 of 100, `most`: for all
+fn check_errors(motion: Motion, isotropic: bool, usual: f64, most: f64) {
     let errors = errors(20_000, motion, isotropic);
-    let at = errors[(share * (errors.len() - 1) as f64) as usize];
-    let last = errors[errors.len() - 1];
+    let last = errors.len() - 1;
+    let (at_99, at_last) = (errors[last - last / 100], errors[last]);
     println!(
-        "{motion:?}, isotropic {isotropic}: {share} of them below {at:.1e}, all below {last:.1e}"
+        "{motion:?}, isotropic {isotropic}: 99 of 100 below {at_99:.1e}, all below {at_last:.1e}"
     );
-    assert!(at < usual && last < most, "{motion:?}: {at:.1e}, {last:.1e}");
+    assert!(at_99 < usual && at_last < most, "{motion:?}: {at_99:.1e}, {at_last:.1e}");
 }
 
-/// Measured against four times as many nodes as the finest rule has.
+/// Measured against four times as many nodes as the finest rule has: 5e-7 at most.
 #[test]
 fn driving_wheels_are_integrated_to_a_millionth_of_the_load() {
-    check_errors(Motion::Driving, false, 0.999, 1e-6, 1e-5);
+    check_errors(Motion::Driving, false, 1e-6, 1e-6);
 }
 
+/// The corners of skid and the turning of the isotropic law cost digits where K is millimetres.
 #[test]
-fn skidding_wheels() {
-    check_errors(Motion::Skidding, false, 0.99, 1e-5, 1e-3);
-    check_errors(Motion::Locked, false, 0.99, 1e-6, 1e-5);
-    check_errors(Motion::Driving, true, 0.99, 1e-6, 1e-3);
-    check_errors(Motion::Skidding, true, 0.99, 1e-5, 1e-3);
+fn most_other_wheels_are_integrated_to_a_few_millionths() {
+    check_errors(Motion::Skidding, false, 3e-6, 2e-3);
+    check_errors(Motion::Locked, false, 2e-5, 1e-4);
+    check_errors(Motion::Driving, true, 1e-6, 1e-3);
+    check_errors(Motion::Skidding, true, 1e-5, 1e-3);
 }
 
 /// All numbers of a reaction as bits.

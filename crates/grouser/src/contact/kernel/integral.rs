@@ -69,7 +69,8 @@ fn over_arc<const ALL: bool>(field: &StressField, rule: &ArcRule, sums: &mut Lan
     }
 }
 
-/// Piece by piece: each of them is smooth.
+/// Piece by piece: each of them is smooth. Under a wheel that skids or is locked the soil shears at
+/// once, however soft it is: there every piece has the finest rule's nodes.
 #[inline(always)]
 fn over_pieces<const ALL: bool>(
     field: &StressField,
@@ -78,7 +79,7 @@ fn over_pieces<const ALL: bool>(
     sums: &mut LaneSums,
 ) {
     let (count, breaks) = field.breaks();
-    if count == 3 {
+    if count == 3 && field.is_driven() {
         let spans = Spans { start: 0.0, front: breaks[0] - breaks[1], rear: breaks[1] - breaks[2] };
         return over_packs::<ALL>(field, law, rule.whole, &spans, sums);
     }
