@@ -29,7 +29,7 @@ pub enum Unit {
     TraverseQuasiSteady,
     /// The attitude on 25 slopes up to the steepest.
     AttitudeCurve,
-    /// Traverses of 20 s on varied soil, on all cores.
+    /// Quasi-steady traverses of 20 s on varied soil, on all cores.
     Campaign,
 }
 
