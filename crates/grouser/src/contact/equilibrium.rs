@@ -254,11 +254,12 @@ impl Search<'_> {
             if !(next < axle && (next - here).abs() < LONGEST_STEP) {
                 return None;
             }
-            /// The next point's error is about the product of the last three points', times this.
+            /// The next point's error is below the product of the last points' (three, or the only two), times
+            /// this.
             const CURVATURE: f64 = 0.05;
             let error: f64 =
                 points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
-            let last = count >= 3 && CURVATURE * error < LOAD_TOLERANCE;
+            let last = count >= 2 && CURVATURE * error < LOAD_TOLERANCE;
             if last || count == MOST_POINTS {
                 return (self.final_excess(next).abs() <= LOAD_TOLERANCE).then_some(next);
             }

@@ -1,6 +1,6 @@
 //! The source paper's theory: stresses integrated along the arc (Ishigami et al. 2007).
 //!
-//! The stresses of [`StressField`] act on the rim of a wheel of shearing radius *r_s* and width
+//! The stresses of [`StressField`](super::stress::StressField) act on the rim of a wheel of shearing radius *r_s* and width
 //! *b*; the soil pushed aside acts on its flank. With θ from straight down, the rim's point is
 //! (r_s sin θ, 0, −r_s cos θ), normal stress points to the hub and shear stress along the rim, so
 //!

@@ -251,6 +251,10 @@ pub struct StressField {
 /// exit, stress peak, two zeros of the shear displacement, two of the slip velocity.
 pub(super) const MOST_BREAKS: usize = 7;
 
+/// A rim slightly faster than its hub is never as fast as the soil, but nearly so under the hub, where
+/// the slip velocity then turns; up to here [-], in hub speeds, too sharply for the isotropic law's rule.
+const TURNS_UNDER_HUB: f64 = 1.25;
+
 impl StressField {
     /// The stresses of a wheel sunk by `sinkage` [m].
     #[must_use]
@@ -277,10 +281,15 @@ impl StressField {
         self.law.shear
     }
 
-    /// Whether the rim is at least as fast as the hub, forward.
+    /// Whether the arc has no [`breaks`](Self::breaks) but the stress peak: the rim is faster than
+    /// the soil under it everywhere, and not nearly as slow where that matters.
     #[inline(always)]
-    pub(super) fn is_driven(&self) -> bool {
-        self.law.slip.forward <= self.law.slip.rim
+    pub(super) fn has_two_pieces(&self) -> bool {
+        let margin = match self.law.shear {
+            MobilisedShear::Anisotropic(_) => 1.0,
+            MobilisedShear::Isotropic(_) => TURNS_UNDER_HUB,
+        };
+        self.law.slip.rim >= margin * self.law.slip.forward
     }
 
     /// The point of the arc `behind_entry` [rad] away from its front end.
@@ -366,9 +375,6 @@ impl StressField {
         // Where the rim is as fast as the soil under it: cos θ = r_s ω / v_x.
         let still = self.law.slip.rim / self.law.slip.forward;
         if matches!(self.law.shear, MobilisedShear::Isotropic(_)) {
-            /// A rim slightly faster than its hub is never as fast as the soil, but nearly so under
-            /// the hub, where the slip velocity then turns; up to here [-] too sharply for the rule.
-            const TURNS_UNDER_HUB: f64 = 1.25;
             if still > 0.0 && still < 1.0 {
                 add(still.acos());
                 add(-still.acos());

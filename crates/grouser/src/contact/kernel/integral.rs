@@ -2,6 +2,7 @@
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
+use super::super::patch::ContactPatch;
 use super::super::stress::{MobilisedShear, ShearLaw, StressField};
 use super::rule::{ArcRule, Pack};
 use super::{LANES, Lanes, sum};
@@ -78,11 +79,12 @@ fn over_pieces<const ALL: bool>(
     rule: &ArcRule,
     sums: &mut LaneSums,
 ) {
-    let (count, breaks) = field.breaks();
-    if count == 3 && field.is_driven() {
-        let spans = Spans { start: 0.0, front: breaks[0] - breaks[1], rear: breaks[1] - breaks[2] };
+    if field.has_two_pieces() {
+        let ContactPatch { entry, max_stress, exit } = field.patch;
+        let spans = Spans { start: 0.0, front: entry - max_stress, rear: max_stress - exit };
         return over_packs::<ALL>(field, law, rule.whole, &spans, sums);
     }
+    let (count, breaks) = field.breaks();
     for (number, ends) in breaks[..count].windows(2).enumerate() {
         let packs = match number {
             0 => rule.opening,
