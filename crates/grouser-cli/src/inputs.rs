@@ -96,10 +96,10 @@ pub(crate) fn attitude_map(args: &AttitudeMapArgs) -> Result<Vec<LoadedScenario>
         if args.soil.is_empty() { vec![None] } else { args.soil.iter().map(Some).collect() };
     check_rows((soils.len() * args.slope_deg.0.len() * args.course_deg.0.len()) as f64)?;
     let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
-    let read = |soil: &Option<&String>| {
-        balanced("attitude-map", scenario, rover, *soil, &args.setting, &args.balance)
+    let read = |soil: Option<&String>| {
+        balanced("attitude-map", scenario, rover, soil, &args.setting, &args.balance)
     };
-    soils.iter().map(read).collect()
+    soils.into_iter().map(read).collect()
 }
 
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {

@@ -12,6 +12,7 @@ pub mod power;
 pub mod quasi_steady;
 pub mod run;
 pub mod scenario;
+mod times;
 pub mod trajectory;
 pub mod watch;
 

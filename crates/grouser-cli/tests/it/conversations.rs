@@ -77,6 +77,7 @@ fn help_of_each_command() {
         "traverse",
         "wheel-test",
         "attitude",
+        "attitude-map",
         "validate",
         "import",
         "check",
@@ -123,6 +124,22 @@ fn attitude_for_programs() {
     let line = "attitude --slope-deg 10,25";
     check_rounded("attitude-json", &format!("{line} --format json"), rounded_json);
     check_rounded("attitude-csv", &format!("{line} --format csv"), rounded_csv);
+}
+
+#[test]
+fn attitude_map_as_a_table_and_for_programs() {
+    let line = "attitude-map --course-deg -30,0,30 --slope-deg 10,20";
+    check_conversation("attitude-map", line);
+    check_rounded("attitude-map-csv", &format!("{line} --format csv"), rounded_csv);
+}
+
+#[test]
+fn quasi_steady_traverses_say_how_they_were_computed() {
+    check_conversation("traverse-quasi-steady", "traverse --simulation quasi-steady");
+    check_conversation(
+        "traverse-that-fell-back",
+        "traverse --simulation quasi-steady --slope-deg 25 --yaw-deg 90",
+    );
 }
 
 #[test]

@@ -8,6 +8,7 @@ use super::integrate::{self, History, Point, Stalled};
 use super::power::{self, EnergyBalance};
 use super::quasi_steady::{Carried, QuasiSteady};
 use super::scenario::{Approach, Integrator, Scenario};
+use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::trajectory::{Method, Outcome, Sample, StuckBecause, Trajectory, WheelSample, Work};
 use super::watch::{WATCH_PERIOD, Watch};
 use crate::contact::SettleError;
@@ -369,36 +370,6 @@ impl Record {
             None => ControlFlow::Continue(()),
         })
     }
-}
-
-/// Multiples of an interval after one time and before another.
-fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f64> {
-    let mut times = Vec::new();
-    let mut count = (after / interval).floor();
-    while count * interval < until {
-        let time = count * interval;
-        if time > after && !is_same_time(time, after) && !is_same_time(time, until) {
-            times.push(time);
-        }
-        count += 1.0;
-    }
-    times
-}
-
-/// Whether two times are one, but for rounding.
-fn is_same_time(one: f64, other: f64) -> bool {
-    /// Far below any step, far above the rounding of a day in seconds [s].
-    const APART: f64 = 1e-9;
-    (one - other).abs() < APART
-}
-
-/// Whether a sample belongs at a time: at the start, the end and the intervals between.
-fn is_sample_due(scenario: &Scenario, time: f64) -> bool {
-    is_multiple(time, scenario.numerics.sample_interval) || is_same_time(time, scenario.duration)
-}
-
-fn is_multiple(time: f64, interval: f64) -> bool {
-    is_same_time(time, (time / interval).round() * interval)
 }
 
 /// The outcome that a missing reaction means, if it means one.

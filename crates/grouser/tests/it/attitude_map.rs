@@ -64,7 +64,8 @@ fn forces_balance_in_every_cell() {
     let slopes: Vec<f64> = (0..=12).map(|step| deg(2.0 * f64::from(step))).collect();
     let courses: Vec<f64> = (-6..=6).map(|step| deg(15.0 * f64::from(step))).collect();
     let study = study();
-    let map = AttitudeMap::of(&[study.clone()], &courses, &slopes).expect("courses and slopes");
+    let map = AttitudeMap::of(std::slice::from_ref(&study), &courses, &slopes)
+        .expect("courses and slopes");
     let weight = study.rover.mass() * study.gravity;
     let mut found = 0;
     for row in &map.rows {

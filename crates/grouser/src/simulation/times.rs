@@ -1,0 +1,34 @@
+//! Times of a run at which something is due.
+
+use super::scenario::Scenario;
+
+/// Multiples of an interval after one time and before another.
+pub(super) fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f64> {
+    let mut times = Vec::new();
+    let mut count = (after / interval).floor();
+    while count * interval < until {
+        let time = count * interval;
+        if time > after && !is_same_time(time, after) && !is_same_time(time, until) {
+            times.push(time);
+        }
+        count += 1.0;
+    }
+    times
+}
+
+/// Whether two times are one, but for rounding.
+pub(super) fn is_same_time(one: f64, other: f64) -> bool {
+    /// Far below any step, far above the rounding of a day in seconds [s].
+    const APART: f64 = 1e-9;
+    (one - other).abs() < APART
+}
+
+/// Whether a sample belongs at a time: at the start, the end and the intervals between.
+pub(super) fn is_sample_due(scenario: &Scenario, time: f64) -> bool {
+    is_multiple(time, scenario.numerics.sample_interval) || is_same_time(time, scenario.duration)
+}
+
+/// Whether a time is a multiple of an interval, but for rounding.
+pub(super) fn is_multiple(time: f64, interval: f64) -> bool {
+    is_same_time(time, (time / interval).round() * interval)
+}
