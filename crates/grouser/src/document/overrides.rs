@@ -62,6 +62,25 @@ impl Overrides {
         self.add(&text, key.trim(), value, true)
     }
 
+    /// Adds one `key = value` of a caller that is no command line. Messages quote the whole of it as
+    /// [`change_label`](Self::change_label) writes it.
+    ///
+    /// * `value`: as TOML
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is no such document, or the value is not TOML.
+    pub fn change(&mut self, key: &str, value: &str) -> Result<(), DocumentError> {
+        let text = argument(Self::change_label(key, value));
+        let value = parse_value(&text, text.content.len() - value.len())?;
+        self.add(&text, key, value, true)
+    }
+
+    /// What messages call a [`change`](Self::change).
+    #[must_use]
+    pub fn change_label(key: &str, value: &str) -> String {
+        format!("{key} = {value}")
+    }
+
     /// Adds the value of a flag of its own, such as `--slope-deg 15`.
     ///
     /// * `flag`: as it was written, for messages

@@ -78,7 +78,9 @@ pub struct WheelRecord {
 }
 
 impl WheelRecord {
-    pub(super) fn new(settled: &crate::contact::Settled) -> Self {
+    /// The record of a settled wheel, all of it known.
+    #[must_use]
+    pub fn new(settled: &crate::contact::Settled) -> Self {
         let forces = &settled.forces;
         Self {
             sinkage_mm: Some(settled.sinkage * 1e3),

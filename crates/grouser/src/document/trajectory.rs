@@ -97,7 +97,9 @@ impl TrajectoryRecord {
 }
 
 impl SampleRecord {
-    fn new(sample: &Sample, rover: &Rover) -> Self {
+    /// The record of a rover at one time.
+    #[must_use]
+    pub fn new(sample: &Sample, rover: &Rover) -> Self {
         let (state, energy) = (&sample.state, &sample.energy);
         let wheels = sample.wheels.iter().zip(rover.mounts());
         Self {

@@ -1,0 +1,83 @@
+"""Predicts how a wheeled rover moves on loose soil.
+
+Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
+`wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
+(`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows (`wheel_test`).
+
+Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
+project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
+points uphill, slip angles and side forces are positive to the left.
+
+Examples
+--------
+>>> import grouser as gr
+>>> wheel = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=[0.1, 0.2, 0.4])
+>>> wheel.sinkage_mm.shape
+(3,)
+>>> run = gr.simulate(slope_deg=10.0)
+>>> run.outcome
+'completed'
+"""
+
+from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
+from ._descriptions import Rover, Scenario, Site, Soil, Wheel
+from ._errors import (
+    DocumentError,
+    DocumentNotFoundError,
+    DocumentUnreadableError,
+    GrouserError,
+    ParameterError,
+    SimulationError,
+)
+from ._studies import (
+    Attitudes,
+    AttitudeMap,
+    Rollout,
+    Trajectory,
+    WheelTest,
+    attitude,
+    attitude_map,
+    rollout,
+    simulate,
+    wheel_test,
+)
+from ._wheels import Settled, WheelForces, settle, wheel_forces
+
+__all__ = [
+    "EARTH_GRAVITY",
+    "MARS_GRAVITY",
+    "MOON_GRAVITY",
+    "AttitudeMap",
+    "Attitudes",
+    "DocumentError",
+    "DocumentNotFoundError",
+    "DocumentUnreadableError",
+    "GrouserError",
+    "ParameterError",
+    "Rollout",
+    "Rover",
+    "Scenario",
+    "Settled",
+    "SimulationError",
+    "Site",
+    "Soil",
+    "Trajectory",
+    "Wheel",
+    "WheelForces",
+    "WheelTest",
+    "__version__",
+    "attitude",
+    "attitude_map",
+    "rollout",
+    "settle",
+    "simulate",
+    "wheel_forces",
+    "wheel_test",
+]
+
+# One canonical path for each name, in messages and in documentation.
+for _name in __all__:
+    _thing = globals()[_name]
+    if hasattr(_thing, "__module__"):
+        _thing.__module__ = __name__
+del _name, _thing

@@ -1,0 +1,62 @@
+"""The native half: documents, arrays of wheels, studies."""
+
+import os
+from collections.abc import Sequence
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+EARTH_GRAVITY: float
+MOON_GRAVITY: float
+MARS_GRAVITY: float
+
+_Floats = NDArray[np.float64]
+
+@final
+class Document:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def assumptions(self) -> list[str]: ...
+    def to_toml(self) -> str: ...
+    def to_dict(self) -> dict[str, Any]: ...
+
+def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ...
+def read_document_file(
+    kind: str, path: str | os.PathLike[str], changes: dict[str, Any]
+) -> Document: ...
+def read_document_text(kind: str, label: str, text: str, changes: dict[str, Any]) -> Document: ...
+def read_document_table(
+    kind: str, label: str, table: dict[str, Any], changes: dict[str, Any]
+) -> Document: ...
+def presets(kind: str) -> list[tuple[str, str, str]]: ...
+def to_toml(label: str, table: dict[str, Any]) -> str: ...
+def settle(
+    soils: Sequence[Document],
+    wheel: Document,
+    setting: Document,
+    load_n: _Floats,
+    slip_ratio: _Floats,
+    slip_angle_deg: _Floats,
+    soil_index: NDArray[np.int64] | None,
+) -> tuple[_Floats, list[str]]: ...
+def wheel_forces(
+    soils: Sequence[Document],
+    wheel: Document,
+    setting: Document,
+    sinkage_mm: _Floats,
+    slip_ratio: _Floats,
+    slip_angle_deg: _Floats,
+    soil_index: NDArray[np.int64] | None,
+) -> tuple[_Floats, list[str]]: ...
+def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
+def simulate(scenario: Document) -> dict[str, Any]: ...
+def rollout(scenarios: Sequence[Document]) -> dict[str, Any]: ...
+def attitude(
+    scenario: Document, slope_deg: _Floats
+) -> tuple[dict[str, Any], float | None, str]: ...
+def attitude_map(
+    scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, speed_m_s: float
+) -> dict[str, Any]: ...

@@ -1,0 +1,347 @@
+"""Descriptions of soils, wheels, rovers, sites and runs: frozen values, made from documents."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeVar, Union
+
+from . import _core
+from ._errors import ParameterError
+
+_Self = TypeVar("_Self", bound="_Description")
+#: What a description is made from: a preset's name, a path, or its keys.
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+class _Description:
+    """A value with named keys. Frozen; equal to another with the same keys and values."""
+
+    __slots__ = ("_document", "_items", "_toml")
+    _kind: ClassVar[str]
+    _document: _core.Document
+    _items: dict[str, Any]
+    _toml: str
+
+    def __init__(self, source: Source | None = None, /, **changes: Any) -> None:
+        self._take(self._read(source, changes))
+
+    def _read(self, source: object, changes: dict[str, Any]) -> _core.Document:
+        kind, label = self._kind, f"{type(self).__name__}(…)"
+        if isinstance(source, type(self)):
+            return _core.read_document_text(kind, label, source._toml, changes)
+        if source is None:
+            return self._from_keys(label, changes)
+        if isinstance(source, str):
+            return _core.find_document(kind, source, changes)
+        if isinstance(source, os.PathLike):
+            return _core.read_document_file(kind, os.fspath(source), changes)
+        if isinstance(source, Mapping):
+            return _core.read_document_table(kind, label, dict(source), changes)
+        given = type(source).__name__
+        raise TypeError(
+            f"{type(self).__name__} is made from a preset's name, a path, a mapping or keywords, "
+            f"not from {given}"
+        )
+
+    def _from_keys(self, label: str, keys: dict[str, Any]) -> _core.Document:
+        return _core.read_document_table(self._kind, label, keys, {})
+
+    def _take(self, document: _core.Document) -> None:
+        object.__setattr__(self, "_document", document)
+        object.__setattr__(self, "_items", document.to_dict())
+        object.__setattr__(self, "_toml", document.to_toml())
+
+    @classmethod
+    def from_toml(cls: type[_Self], text: str) -> _Self:
+        """The description that a TOML text gives.
+
+        Raises
+        ------
+        DocumentError
+            With line and column, if the text is none.
+        """
+        made = cls.__new__(cls)
+        made._take(_core.read_document_text(cls._kind, "TOML", text, {}))
+        return made
+
+    @classmethod
+    def presets(cls) -> dict[str, str]:
+        """Names of the presets, each with its title and source."""
+        return {name: f"{title} ({source})" for name, title, source in _core.presets(cls._kind)}
+
+    def replace(self: _Self, **changes: Any) -> _Self:
+        """The same with other values.
+
+        A mapping changes single keys of a table: ``soil.replace(pressure_sinkage={"n": 1.1})``. A
+        changed value is noted among the ``assumptions``, because the source no longer speaks for it.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such key, or its value is not allowed.
+        """
+        return type(self)(self, **changes)
+
+    def to_toml(self) -> str:
+        """The resolved document: read again, it gives an equal description."""
+        return self._toml
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its keys and values, as the document has them; a copy."""
+        return self._document.to_dict()
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What was assumed, each with the name of the document that says so."""
+        return tuple(self._document.assumptions)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return _frozen(self._items[name])
+        except KeyError:
+            raise AttributeError(
+                f"{type(self).__name__} has no key {name!r}; it has {', '.join(self._items)}"
+            ) from None
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._items})
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(
+            f"a {type(self).__name__} does not change; .replace({name}=…) gives another"
+        )
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a {type(self).__name__} does not change")
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return self._toml == other._toml
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._toml))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self).from_toml, (self._toml,)
+
+    def __copy__(self: _Self) -> _Self:
+        return self
+
+    def __deepcopy__(self: _Self, memo: object) -> _Self:
+        return self
+
+    def __repr__(self) -> str:
+        skipped = {"schema", "source", "notes", "assumed"}
+        shown = (f"{key}={_short(value)}" for key, value in self._items.items() if key not in skipped)
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+    def _repr_html_(self) -> str:
+        title = html.escape(str(self._items.get("name", "")))
+        return f"<b>{type(self).__name__}</b> {title}{_html_table(self._items)}"
+
+
+def _frozen(value: Any) -> Any:
+    """What cannot be changed by who asked for it."""
+    if isinstance(value, dict):
+        return MappingProxyType({key: _frozen(item) for key, item in value.items()})
+    if isinstance(value, list):
+        return tuple(_frozen(item) for item in value)
+    return value
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, dict):
+        if "name" in value and "schema" in value:
+            return f"<{value['name']}>"
+        return "{" + ", ".join(f"{key}: {_short(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(_short(item) for item in value) + "]"
+    return repr(value)
+
+
+def _html_table(items: Mapping[str, Any]) -> str:
+    def cell(value: Any) -> str:
+        if isinstance(value, dict):
+            return _html_table(value)
+        if isinstance(value, list) and any(isinstance(item, dict) for item in value):
+            return "".join(cell(item) for item in value)
+        return html.escape(", ".join(map(str, value)) if isinstance(value, list) else str(value))
+
+    rows = (
+        f"<tr><th style='text-align:left'>{html.escape(key)}</th><td>{cell(value)}</td></tr>"
+        for key, value in items.items()
+        if key != "schema"
+    )
+    return f"<table>{''.join(rows)}</table>"
+
+
+class Soil(_Description):
+    """A soil, and how it bears and shears.
+
+    ``Soil("toyoura")`` is a preset, ``Soil("my-soil.toml")`` or ``Soil(pathlib.Path(…))`` a file,
+    ``Soil({…})`` or ``Soil(cohesion_kpa=0.0, …)`` its keys, and keywords beside a source change
+    single keys: ``Soil("toyoura", cohesion_kpa=0.5)``.
+
+    Keys, each also an attribute (``schema/soil.json`` has all, with their ranges): ``cohesion_kpa``
+    [kPa], ``friction_angle_deg`` [°], ``density_kg_m3`` [kg/m³], and the tables
+    ``pressure_sinkage``, ``stress_peak``, ``shear``, ``exit``, ``bulldozing``.
+
+    Raises
+    ------
+    ParameterError
+        For a keyword that does not exist or is out of its range.
+    DocumentError
+        For a file that cannot be used, with line and column.
+    DocumentNotFoundError
+        A ``FileNotFoundError``: neither a preset nor a file.
+    """
+
+    __slots__ = ()
+    _kind = "soil"
+
+
+class Wheel(_Description):
+    """A rigid wheel with a flat rim: ``radius_m`` [m], ``width_m`` [m], and ``grousers`` with
+    ``height_m`` [m] and ``count``, left out for a smooth wheel. Made and failing as `Soil` is."""
+
+    __slots__ = ()
+    _kind = "wheel"
+
+
+class Rover(_Description):
+    """A rover: ``body``, ``wheel_unit`` with its ``wheel``, and a ``mount`` for each wheel with its
+    ``position_m`` [m] from the body's centre of mass, in the body frame (x forward, y left, z up).
+    Made and failing as `Soil` is."""
+
+    __slots__ = ()
+    _kind = "rover"
+
+    @property
+    def wheel(self) -> Wheel:
+        """The wheel on every mount."""
+        return Wheel(self._items["wheel_unit"]["wheel"])
+
+
+class Scenario(_Description):
+    """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
+    ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``, ``loads``,
+    ``moments``, ``simulation``, ``drive``, ``start``. Every key has a default: together they are the
+    source paper's traverse of a slope of 10°. A ``site=Site(…)`` stands for its three keys.
+
+    Made and failing as `Soil` is.
+    """
+
+    __slots__ = ()
+    _kind = "scenario"
+
+    def __init__(
+        self, source: Source | None = None, /, *, site: Site | None = None, **changes: Any
+    ) -> None:
+        if site is not None:
+            if not isinstance(site, Site):
+                raise TypeError(f"site is a Site, not {type(site).__name__}")
+            twice = site._items.keys() & changes.keys()
+            if twice:
+                name = sorted(twice)[0]
+                raise ParameterError(f"{name} is given by the site already", name)
+            changes = {**changes, **site._keys()}
+        super().__init__(source, **changes)
+
+    @property
+    def rover(self) -> Rover:
+        """The rover."""
+        return Rover(self._items["rover"])
+
+    @property
+    def soil(self) -> Soil:
+        """The soil."""
+        return Soil(self._items["soil"])
+
+    @property
+    def site(self) -> Site:
+        """Soil, slope and gravity."""
+        keys = ("slope_deg", "gravity_m_s2")
+        return Site(self.soil, **{key: self._items[key] for key in keys})
+
+
+class Site(_Description):
+    """Where a rover drives: a plane of one soil on a slope, under a gravity.
+
+    Parameters
+    ----------
+    soil : Soil, str, path or mapping
+        The soil, or what one is made from.
+    slope_deg : float
+        Inclination of the plane [°], 0 to 60; it rises along +y.
+    gravity_m_s2 : float
+        Gravity [m/s²], 0.01 to 30; ``MOON_GRAVITY`` and ``MARS_GRAVITY`` are others'.
+
+    Raises
+    ------
+    ParameterError
+        For a value out of its range.
+    """
+
+    __slots__ = ()
+    # There are no documents of sites: a scenario's checks are those of its place.
+    _kind = "scenario"
+    _KEYS: ClassVar[tuple[str, ...]] = ("soil", "slope_deg", "gravity_m_s2")
+
+    def __init__(
+        self,
+        soil: Soil | Source,
+        *,
+        slope_deg: float = 0.0,
+        gravity_m_s2: float = _core.EARTH_GRAVITY,
+    ) -> None:
+        soil = soil if isinstance(soil, Soil) else Soil(soil)
+        keys = {"soil": soil, "slope_deg": slope_deg, "gravity_m_s2": gravity_m_s2}
+        self._take(_core.read_document_table("scenario", "Site(…)", keys, {}))
+
+    def _take(self, document: _core.Document) -> None:
+        items = document.to_dict()
+        kept = {key: items[key] for key in self._KEYS}
+        object.__setattr__(self, "_document", document)
+        object.__setattr__(self, "_items", kept)
+        object.__setattr__(self, "_toml", _core.to_toml("site", kept))
+
+    def _keys(self) -> dict[str, Any]:
+        return {**self._items, "soil": self.soil}
+
+    @property
+    def soil(self) -> Soil:
+        """The soil."""
+        return Soil(self._items["soil"])
+
+    @classmethod
+    def from_toml(cls, text: str) -> Site:
+        """The site of a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or of a
+        scenario's."""
+        if "schema" not in text.split("[", 1)[0]:
+            text = 'schema = "scenario/1"\n' + text
+        return Scenario.from_toml(text).site
+
+    @classmethod
+    def presets(cls) -> dict[str, str]:
+        """None: a site is a soil's preset on a slope."""
+        return {}
+
+    def replace(self, **changes: Any) -> Site:
+        """The same with another soil, slope or gravity."""
+        for name in changes:
+            if name not in self._KEYS:
+                raise ParameterError(f"a Site has no {name}", name, None, ", ".join(self._KEYS))
+        soil = changes.get("soil", self.soil)
+        if isinstance(soil, Mapping):
+            changes["soil"] = self.soil.replace(**soil)
+        return Site(**{**self._keys(), **changes})
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its three keys, the soil's as a table; a copy."""
+        return {key: self._document.to_dict()[key] for key in self._KEYS}

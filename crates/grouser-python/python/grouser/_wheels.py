@@ -1,0 +1,296 @@
+"""What the soil does to wheels, on whole arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _tables
+from ._descriptions import Scenario, Soil, Source, Wheel
+from ._errors import ParameterError
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Floats = NDArray[np.float64]
+#: One soil, or a sequence that broadcasts with the other arguments.
+Soils = Union[Soil, Source, Sequence[Any], NDArray[np.object_]]
+
+#: `Settled.status` of a wheel that the soil carries.
+CARRIED = 0
+#: `Settled.status` of a wheel that sinks to its axle.
+SUNK_TO_AXLE = 1
+
+
+@dataclass(frozen=True, eq=False)
+class WheelForces:
+    """The soil's reaction on wheels, about the hub, in the wheel frame (x forward, y left, z up).
+
+    Every field is an array of the shape to which the arguments broadcast; of no dimensions if all
+    were single values. Angles are from straight down, positive towards the side that enters the
+    soil.
+    """
+
+    slip_ratio: Floats
+    """Slip ratio [-], as asked."""
+    slip_angle_deg: Floats
+    """Slip angle [°], as asked; positive where the hub moves to the left."""
+    sinkage_mm: Floats
+    """Sinkage of the grouser tips [mm]."""
+    entry_angle_deg: Floats
+    """Entry angle [°]."""
+    exit_angle_deg: Floats
+    """Exit angle [°], not positive."""
+    max_stress_angle_deg: Floats
+    """Angle of the largest normal stress [°]."""
+    drawbar_pull_n: Floats
+    """Force along the wheel [N]: thrust less motion resistance."""
+    side_force_n: Floats
+    """Force across the wheel [N], positive to the left."""
+    side_force_from_shear_n: Floats
+    """Part of the side force from shear [N]."""
+    bulldozing_load_n: Floats
+    """Full load of the soil that the flank pushes aside [N], before the slip angle's share."""
+    normal_force_n: Floats
+    """Force out of the ground [N]."""
+    torque_nm: Floats
+    """Torque of the drive [N·m], positive while it drives the wheel forward."""
+    overturning_moment_nm: Floats
+    """Moment about the wheel's long axis [N·m]."""
+    aligning_moment_nm: Floats
+    """Moment about the wheel's upright axis [N·m]."""
+    thrust_n: Floats
+    """Part of the drawbar pull from shear [N]."""
+    motion_resistance_n: Floats
+    """Part of the drawbar pull from normal stress and bulldozing [N]; it counts negative."""
+    max_normal_stress_kpa: Floats
+    """Largest normal stress on the rim [kPa]."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of every field."""
+        return self.slip_ratio.shape
+
+    def _columns(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each wheel, in the order of the flattened fields."""
+        return _tables.frame(self._columns())
+
+    def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
+        """A dataset with units in the attributes.
+
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the dimensions; ``dim_0``, ``dim_1`` … without.
+        """
+        names = tuple(dims) if dims is not None else tuple(f"dim_{k}" for k in range(len(self.shape)))
+        if len(names) != len(self.shape):
+            raise ParameterError(
+                f"dims has {len(names)} names, the fields have {len(self.shape)} dimensions", "dims"
+            )
+        return _tables.dataset(names, self._columns())
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of shape {self.shape}>"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Settled(WheelForces):
+    """Wheels that sank until the soil carries them. A wheel that it does not carry has ``status`` 1
+    and NaN for all results."""
+
+    load_n: Floats
+    """Load [N], as asked."""
+    status: NDArray[np.int8]
+    """0 for a wheel that is carried, 1 for one that sinks to its axle."""
+    capacity_n: Floats
+    """The most that the soil carries down to axle depth [N], where that is less than the load; else
+    NaN."""
+
+    @property
+    def messages(self) -> NDArray[np.object_]:
+        """Each wheel's status in words, as the program's tables have it: ``ok``, or why not."""
+        words = np.full(self.shape, "ok", dtype=object)
+        sunk = self.status == SUNK_TO_AXLE
+        words[sunk] = _core.not_carried(self.load_n[sunk], self.capacity_n[sunk])
+        return words
+
+
+def settle(
+    soil: Soils,
+    wheel: Wheel | Source,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = 0.0,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    model: str | None = None,
+) -> Settled:
+    """The smallest sinkages at which the soil carries wheels (F_z = load), and the forces there.
+
+    The arguments broadcast against each other as those of NumPy's ufuncs do. Wheels are shared
+    among all cores, without Python's lock, and each has the bits that it has alone.
+
+    Parameters
+    ----------
+    soil : Soil, name, path, mapping, or a sequence of them
+        A sequence broadcasts as an array of its shape does.
+    wheel : Wheel, name, path or mapping
+        The wheel.
+    load_n : array_like
+        Load on the wheel [N], 0 to 1e5.
+    slip_ratio : array_like
+        Slip ratio [-], −2 to 2, positive where the wheel drives.
+    slip_angle_deg : array_like
+        Slip angle [°], −90 to 90, positive where the hub moves to the left.
+    gravity_m_s2 : float
+        Gravity [m/s²]; it gives the soil its weight.
+    model : str, optional
+        The theory: ``ishigami``, ``bekker``, ``extended`` or ``rft``; without it each soil's own.
+
+    Returns
+    -------
+    Settled
+
+    Raises
+    ------
+    ParameterError
+        For a value that is no number or out of its range, or shapes that do not broadcast.
+    DocumentNotFoundError
+        If there is no such soil or wheel.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> wheels = gr.settle("toyoura", "hakuto", load_n=[[10.0], [20.0]], slip_ratio=[0.1, 0.2, 0.3])
+    >>> wheels.drawbar_pull_n.shape
+    (2, 3)
+    """
+    stand = _Stand(soil, wheel, gravity_m_s2, model)
+    inputs = {"load_n": load_n, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
+    arrays, shape = stand.broadcast(inputs)
+    rows, names = _core.settle(*stand.documents, *arrays, stand.index)
+    found = dict(zip(names, rows.reshape(len(names), *shape)))
+    found |= zip(inputs, (array.reshape(shape) for array in arrays))
+    status = np.isnan(found["normal_force_n"]).astype(np.int8)
+    return Settled(**found, status=status)
+
+
+def wheel_forces(
+    soil: Soils,
+    wheel: Wheel | Source,
+    *,
+    sinkage_mm: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = 0.0,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    model: str | None = None,
+) -> WheelForces:
+    """The soil's reaction on wheels that are sunk as deep as they are told.
+
+    Broadcasts as `settle` does.
+
+    Parameters
+    ----------
+    sinkage_mm : array_like
+        Sinkage of the grouser tips [mm], from 0 to the axle's depth.
+    soil, wheel, slip_ratio, slip_angle_deg, gravity_m_s2, model
+        As for `settle`.
+
+    Returns
+    -------
+    WheelForces
+
+    Raises
+    ------
+    ParameterError, DocumentNotFoundError
+        As `settle`.
+    """
+    stand = _Stand(soil, wheel, gravity_m_s2, model)
+    inputs = {"sinkage_mm": sinkage_mm, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
+    arrays, shape = stand.broadcast(inputs)
+    rows, names = _core.wheel_forces(*stand.documents, *arrays, stand.index)
+    found = dict(zip(names, rows.reshape(len(names), *shape)))
+    del found["given_sinkage_mm"]
+    found |= zip(inputs, (array.reshape(shape) for array in arrays))
+    return WheelForces(**found)
+
+
+class _Stand:
+    """What all wheels of a call share, and which soil each has."""
+
+    def __init__(
+        self, soil: Soils, wheel: Wheel | Source, gravity_m_s2: float, model: str | None
+    ) -> None:
+        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+        named = {} if model is None else {"model": model}
+        setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
+        self._soils, places = _soils(soil)
+        self._places = places
+        self.index: NDArray[np.int64] | None = None
+        self.documents = ([one._document for one in self._soils], wheel._document, setting._document)
+
+    def broadcast(self, inputs: dict[str, ArrayLike]) -> tuple[list[Floats], tuple[int, ...]]:
+        """The arguments at their common shape, flat."""
+        arrays: list[Any] = [_numbers(name, values) for name, values in inputs.items()]
+        try:
+            *whole, index = np.broadcast_arrays(*arrays, self._places)
+        except ValueError:
+            shapes = ", ".join(f"{name} {np.shape(a)}" for name, a in zip(inputs, arrays))
+            raise ParameterError(
+                f"shapes do not broadcast: {shapes}, soil {self._places.shape}"
+            ) from None
+        if len(self._soils) > 1:
+            self.index = np.ascontiguousarray(index, dtype=np.int64).ravel()
+        return [np.ascontiguousarray(array).ravel() for array in whole], index.shape
+
+
+def _numbers(name: str, values: ArrayLike) -> Floats:
+    """Real numbers as an array; anything else says what was expected."""
+    try:
+        array = np.asarray(values)
+    except ValueError:
+        raise ParameterError(f"{name} is ragged, it must be an array of numbers", name) from None
+    if array.dtype.kind not in "fiu" and array.size:
+        raise ParameterError(
+            f"{name} has dtype {array.dtype}, it must be real numbers", name, None, "real numbers"
+        )
+    return array.astype(np.float64)
+
+
+def _soils(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
+    """The different soils, and for each place which of them is there."""
+    is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
+    cells = np.empty((), dtype=object)
+    if is_one:
+        cells[()] = soil
+    elif isinstance(soil, np.ndarray):
+        cells = soil.astype(object)
+    elif isinstance(soil, Sequence):
+        cells = np.empty(len(soil), dtype=object)
+        cells[:] = soil
+    else:
+        cells[()] = soil
+    different: dict[Soil, int] = {}
+    made: dict[Any, Soil] = {}
+    places = np.empty(cells.shape, dtype=np.int64)
+    for place, cell in np.ndenumerate(cells):
+        if isinstance(cell, Soil):
+            one = cell
+        elif isinstance(cell, str):
+            one = made.setdefault(cell, made.get(cell) or Soil(cell))
+        else:
+            one = Soil(cell)
+        places[place] = different.setdefault(one, len(different))
+    if not different:
+        # An empty sequence asks for no wheels at all.
+        return [Soil("toyoura")], places
+    return list(different), places

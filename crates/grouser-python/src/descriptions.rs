@@ -1,0 +1,215 @@
+//! Documents for Python: read from presets, files, texts and tables, changed, and written back.
+
+use std::path::PathBuf;
+
+use grouser::document::{
+    self, DocumentError, Kind, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Overrides,
+    Source,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use toml::{Table, Value};
+
+use crate::{errors, values};
+
+/// A document that was read: what it says, and what that means.
+#[pyclass(frozen, module = "grouser._core")]
+pub(crate) struct Document {
+    read: Read,
+}
+
+/// By its kind.
+enum Read {
+    Soil(Box<LoadedSoil>),
+    Wheel(Box<LoadedWheel>),
+    Rover(Box<LoadedRover>),
+    Scenario(Box<LoadedScenario>),
+}
+
+impl Read {
+    fn new(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Self, DocumentError> {
+        Ok(match kind {
+            Kind::Soil => Self::Soil(document::read_soil(source, overrides)?.into()),
+            Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
+            Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
+            Kind::Scenario | Kind::DataSet => {
+                Self::Scenario(document::read_scenario(source, overrides)?.into())
+            }
+        })
+    }
+}
+
+impl Document {
+    /// The document as a table, in the order of its keys.
+    pub(crate) fn table(&self) -> Table {
+        let table = match &self.read {
+            Read::Soil(it) => Table::try_from(&it.document),
+            Read::Wheel(it) => Table::try_from(&it.document),
+            Read::Rover(it) => Table::try_from(&it.document),
+            Read::Scenario(it) => Table::try_from(&it.document),
+        };
+        // A document that was read has text keys and finite numbers only.
+        table.unwrap_or_default()
+    }
+
+    pub(crate) fn soil(&self) -> PyResult<&LoadedSoil> {
+        match &self.read {
+            Read::Soil(soil) => Ok(soil),
+            _ => Err(self.is_no("soil")),
+        }
+    }
+
+    pub(crate) fn wheel(&self) -> PyResult<&LoadedWheel> {
+        match &self.read {
+            Read::Wheel(wheel) => Ok(wheel),
+            _ => Err(self.is_no("wheel")),
+        }
+    }
+
+    pub(crate) fn scenario(&self) -> PyResult<&LoadedScenario> {
+        match &self.read {
+            Read::Scenario(scenario) => Ok(scenario),
+            _ => Err(self.is_no("scenario")),
+        }
+    }
+
+    fn is_no(&self, expected: &str) -> PyErr {
+        PyValueError::new_err(format!("this is a {}, not a {expected}", self.kind()))
+    }
+}
+
+#[pymethods]
+impl Document {
+    /// `soil`, `wheel`, `rover` or `scenario`.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match &self.read {
+            Read::Soil(_) => Kind::Soil.name(),
+            Read::Wheel(_) => Kind::Wheel.name(),
+            Read::Rover(_) => Kind::Rover.name(),
+            Read::Scenario(_) => Kind::Scenario.name(),
+        }
+    }
+
+    /// What was assumed, each with the name of the document that says so.
+    #[getter]
+    fn assumptions(&self) -> Vec<String> {
+        match &self.read {
+            Read::Soil(it) => it.assumptions.clone(),
+            Read::Wheel(it) => it.assumptions.clone(),
+            Read::Rover(it) => it.assumptions.clone(),
+            Read::Scenario(it) => it.assumptions.clone(),
+        }
+    }
+
+    /// The resolved document as TOML.
+    fn to_toml(&self) -> String {
+        match &self.read {
+            Read::Soil(it) => it.to_toml(),
+            Read::Wheel(it) => it.to_toml(),
+            Read::Rover(it) => it.to_toml(),
+            Read::Scenario(it) => it.to_toml(),
+        }
+    }
+
+    /// The resolved document as a dictionary of its own.
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        values::to_dict(py, &self.table())
+    }
+}
+
+/// A preset by its name, or else a file by its path.
+#[pyfunction]
+pub(crate) fn find_document(
+    kind: &str,
+    name: &str,
+    changes: &Bound<'_, PyDict>,
+) -> PyResult<Document> {
+    let kind = kind_of(kind)?;
+    let source = Source::find(kind, name).map_err(|error| errors::of_document(&error, &[]))?;
+    changed(kind, &source, changes, vec![])
+}
+
+/// A file.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+pub(crate) fn read_document_file(
+    kind: &str,
+    path: PathBuf,
+    changes: &Bound<'_, PyDict>,
+) -> PyResult<Document> {
+    changed(kind_of(kind)?, &Source::file(path), changes, vec![])
+}
+
+/// A text, under a label for messages.
+#[pyfunction]
+pub(crate) fn read_document_text(
+    kind: &str,
+    label: &str,
+    text: &str,
+    changes: &Bound<'_, PyDict>,
+) -> PyResult<Document> {
+    changed(kind_of(kind)?, &Source::text(label, text), changes, vec![])
+}
+
+/// A table of keys, under a label for messages; it need not say what it describes.
+#[pyfunction]
+pub(crate) fn read_document_table(
+    kind: &str,
+    label: &str,
+    table: &Bound<'_, PyDict>,
+    changes: &Bound<'_, PyDict>,
+) -> PyResult<Document> {
+    let kind = kind_of(kind)?;
+    let mut content = match values::to_toml(label, table.as_any())? {
+        Value::Table(table) => table,
+        _ => Table::new(),
+    };
+    if !content.contains_key("schema") {
+        content.insert("schema".to_owned(), Value::String(kind.tag().to_owned()));
+    }
+    let source = Source::text(label, document::to_toml(&content));
+    changed(kind, &source, changes, vec![label.to_owned()])
+}
+
+/// Reads a document with changes; errors in those, or in the texts of `arguments`, are the
+/// caller's.
+fn changed(
+    kind: Kind,
+    source: &Source,
+    changes: &Bound<'_, PyDict>,
+    mut arguments: Vec<String>,
+) -> PyResult<Document> {
+    let mut overrides = Overrides::none();
+    for (key, value) in values::changes(kind.name(), changes)? {
+        arguments.push(Overrides::change_label(&key, &value));
+        overrides.change(&key, &value).map_err(|error| errors::of_document(&error, &arguments))?;
+    }
+    let read = changes.py().detach(|| Read::new(kind, source, &overrides));
+    read.map(|read| Document { read }).map_err(|error| errors::of_document(&error, &arguments))
+}
+
+fn kind_of(name: &str) -> PyResult<Kind> {
+    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario];
+    known
+        .into_iter()
+        .find(|kind| kind.name() == name)
+        .ok_or_else(|| PyValueError::new_err(format!("there are no documents of kind {name:?}")))
+}
+
+/// The presets of a kind: name, title and source of each.
+#[pyfunction]
+pub(crate) fn presets(kind: &str) -> PyResult<Vec<(&'static str, String, String)>> {
+    let told = |preset: &'static document::Preset| {
+        let (title, source) = preset.title_and_source();
+        (preset.name, title, source)
+    };
+    Ok(document::presets(kind_of(kind)?).map(told).collect())
+}
+
+/// A dictionary as TOML.
+#[pyfunction]
+pub(crate) fn to_toml(label: &str, table: &Bound<'_, PyDict>) -> PyResult<String> {
+    Ok(document::to_toml(&values::to_toml(label, table.as_any())?))
+}

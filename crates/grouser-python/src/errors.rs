@@ -1,0 +1,117 @@
+//! The library's errors as Python's, by the names of `grouser/_errors.py`.
+
+use grouser::document::{DocumentError, Problem};
+use grouser::error::ParameterError;
+use grouser::simulation::SimulationError;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+
+/// The classes, where Python finds them.
+mod classes {
+    use pyo3::import_exception;
+
+    import_exception!(grouser._errors, ParameterError);
+    import_exception!(grouser._errors, DocumentError);
+    import_exception!(grouser._errors, DocumentNotFoundError);
+    import_exception!(grouser._errors, DocumentUnreadableError);
+    import_exception!(grouser._errors, SimulationError);
+}
+
+/// What a document's problem says of a value.
+struct Facts {
+    key: Option<String>,
+    value: Option<f64>,
+    expected: Option<String>,
+}
+
+/// A document that cannot be used.
+///
+/// * `arguments`: what messages call the caller's own arguments; what is wrong with those is a
+///   `ParameterError`
+pub(crate) fn of_document(error: &DocumentError, arguments: &[String]) -> PyErr {
+    let place = error.place();
+    let message = error.to_string();
+    let Facts { key, value, expected } = facts(error.problem());
+    match error.problem() {
+        Problem::NoSuchPresetOrFile { .. } | Problem::NoSuchFile | Problem::NoSamples { .. } => {
+            let hint = error.hint().map(str::to_owned);
+            classes::DocumentNotFoundError::new_err((message, place.document.clone(), hint))
+        }
+        Problem::Folder | Problem::Unreadable { .. } => {
+            classes::DocumentUnreadableError::new_err((message, place.document.clone()))
+        }
+        _ if arguments.contains(&place.document) => {
+            classes::ParameterError::new_err((message, key, value, expected))
+        }
+        _ => {
+            let spot = place.spot.as_ref();
+            let (line, column) = (spot.map(|spot| spot.line), spot.map(|spot| spot.column));
+            let hint = error.hint().map(str::to_owned);
+            let file = place.document.clone();
+            classes::DocumentError::new_err((
+                message, file, line, column, key, value, expected, hint,
+            ))
+        }
+    }
+}
+
+fn facts(problem: &Problem) -> Facts {
+    let (key, value, expected) = match problem {
+        Problem::UnknownKey { key }
+        | Problem::MissingKey { key }
+        | Problem::RepeatedName { key, .. }
+        | Problem::NotANumber { key }
+        | Problem::NotUncertain { key } => (Some(key.clone()), None, None),
+        Problem::WrongType { key, expected, .. } => {
+            (Some(key.clone()), None, Some(expected.clone()))
+        }
+        Problem::NotFinite { key, value, range } => {
+            (Some(key.clone()), Some(*value), Some(format!("finite{range}")))
+        }
+        Problem::OutOfRange { key, value, range } => {
+            (Some(key.clone()), Some(*value), Some(range.clone()))
+        }
+        Problem::NotAllowed { key, allowed, .. } | Problem::WrongLength { key, allowed, .. } => {
+            (Some(key.clone()), None, Some(allowed.clone()))
+        }
+        Problem::Unfit(error) => {
+            (Some(error.name.clone()), Some(error.value), Some(error.expected.to_owned()))
+        }
+        _ => (None, None, None),
+    };
+    Facts { key, value, expected }
+}
+
+/// A parameter that nothing can have.
+pub(crate) fn of_parameter(error: &ParameterError) -> PyErr {
+    parameter(error.to_string(), &error.name, Some(error.value), error.expected)
+}
+
+/// An argument that is not what it must be.
+pub(crate) fn parameter(
+    message: String,
+    name: &str,
+    value: Option<f64>,
+    expected: impl Into<String>,
+) -> PyErr {
+    classes::ParameterError::new_err((message, name.to_owned(), value, expected.into()))
+}
+
+/// A run that cannot be computed.
+pub(crate) fn of_simulation(error: &SimulationError) -> PyErr {
+    match error {
+        SimulationError::Parameter(error) => of_parameter(error),
+        SimulationError::Reaction { time, .. } | SimulationError::Stalled { time, .. } => {
+            classes::SimulationError::new_err((error.to_string(), *time))
+        }
+    }
+}
+
+/// A value of a type that no document has.
+pub(crate) fn wrong_type(key: &str, found: &Bound<'_, PyAny>) -> PyErr {
+    let kind = found.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
+    PyTypeError::new_err(format!(
+        "{key} is of type {kind}; documents hold numbers, texts, truth values, sequences, \
+         mappings, paths and descriptions such as Soil"
+    ))
+}

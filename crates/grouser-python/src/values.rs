@@ -1,0 +1,149 @@
+//! Python's values as those of documents, and back.
+
+use pyo3::exceptions::PyRecursionError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
+use toml::{Table, Value};
+
+use crate::descriptions::Document;
+use crate::errors;
+
+/// Tables and lists may be nested this deep. Source: ours, as the reader of documents has it.
+const DEEPEST: usize = 16;
+
+/// A change of one key: its path, joined by dots, and the value as TOML.
+pub(crate) type Change = (String, String);
+
+/// A value for a document.
+pub(crate) fn to_toml(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
+    convert(key, value, 0)
+}
+
+fn convert(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    if depth > DEEPEST {
+        let message = format!("{key} is nested more than {DEEPEST} levels deep");
+        return Err(PyRecursionError::new_err(message));
+    }
+    if let Some(document) = described(value)? {
+        return Ok(Value::Table(document.get().table()));
+    }
+    if value.is_instance_of::<PyBool>() {
+        return Ok(Value::Boolean(value.extract()?));
+    }
+    if value.is_instance_of::<PyString>() {
+        return Ok(Value::String(value.extract()?));
+    }
+    if value.is_instance_of::<PyFloat>() {
+        return Ok(Value::Float(value.extract()?));
+    }
+    if value.is_instance_of::<PyInt>() {
+        // What is beyond 64 bits is beyond every range, and said so as a number.
+        let integer = value.extract::<i64>().map(Value::Integer);
+        return integer.or_else(|_| Ok(Value::Float(value.extract().unwrap_or(f64::INFINITY))));
+    }
+    if let Ok(mapping) = value.cast::<PyMapping>() {
+        let mut table = Table::new();
+        for item in mapping.items()?.iter() {
+            let (name, child): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+            let name: String = name.extract().map_err(|_| errors::wrong_type(key, &name))?;
+            let child = convert(&format!("{key}.{name}"), &child, depth + 1)?;
+            table.insert(name, child);
+        }
+        return Ok(Value::Table(table));
+    }
+    other(key, value, depth)
+}
+
+/// Paths, scalars and arrays of NumPy, and sequences.
+fn other(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+    if value.hasattr("__fspath__")? {
+        let path: String = value.call_method0("__fspath__")?.extract()?;
+        return Ok(Value::String(path));
+    }
+    if value.hasattr("tolist")? {
+        let plain = value.call_method0("tolist")?;
+        // What stays as it is would come here for ever.
+        return if plain.hasattr("tolist")? {
+            Err(errors::wrong_type(key, value))
+        } else {
+            convert(key, &plain, depth + 1)
+        };
+    }
+    let is_sequence = value.hasattr("__len__")? && value.hasattr("__getitem__")?;
+    if !is_sequence || value.hasattr("decode")? {
+        return Err(errors::wrong_type(key, value));
+    }
+    let items = value.try_iter()?.enumerate();
+    let list = items.map(|(place, item)| convert(&format!("{key}.{place}"), &item?, depth + 1));
+    Ok(Value::Array(list.collect::<PyResult<_>>()?))
+}
+
+/// The document of a description such as `Soil`.
+fn described<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, Document>>> {
+    match value.getattr_opt("_document")? {
+        Some(document) => Ok(document.cast_into::<Document>().ok()),
+        None => Ok(None),
+    }
+}
+
+/// The changes that a mapping asks for: what is in a table changes single keys of it; laws first, so
+/// that keys which only a new law knows find it there.
+pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
+    let mut all = Vec::new();
+    collect(prefix, mapping.as_any(), &mut all, 0)?;
+    all.sort_by_key(|(path, _)| !path.ends_with(".law"));
+    Ok(all)
+}
+
+fn collect(
+    prefix: &str,
+    value: &Bound<'_, PyAny>,
+    all: &mut Vec<Change>,
+    depth: usize,
+) -> PyResult<()> {
+    let mapping = value.cast::<PyMapping>();
+    let is_table = depth <= DEEPEST && described(value)?.is_none();
+    match mapping {
+        Ok(mapping) if is_table && !mapping.is_empty()? => {
+            for item in mapping.items()?.iter() {
+                let (name, child): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+                let name: String = name.extract().map_err(|_| errors::wrong_type(prefix, &name))?;
+                collect(&format!("{prefix}.{name}"), &child, all, depth + 1)?;
+            }
+            Ok(())
+        }
+        _ => {
+            let inline = to_toml(prefix, value)?.to_string();
+            all.push((prefix.to_owned(), inline));
+            Ok(())
+        }
+    }
+}
+
+/// A document's value for Python.
+pub(crate) fn to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        Value::String(text) => PyString::new(py, text).into_any(),
+        Value::Integer(integer) => integer.into_pyobject(py)?.into_any(),
+        Value::Float(float) => PyFloat::new(py, *float).into_any(),
+        Value::Boolean(truth) => truth.into_pyobject(py)?.to_owned().into_any(),
+        Value::Datetime(date) => PyString::new(py, &date.to_string()).into_any(),
+        Value::Array(items) => {
+            let list = PyList::empty(py);
+            for item in items {
+                list.append(to_python(py, item)?)?;
+            }
+            list.into_any()
+        }
+        Value::Table(table) => to_dict(py, table)?.into_any(),
+    })
+}
+
+/// A table as a dictionary, in its order.
+pub(crate) fn to_dict<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (key, value) in table {
+        dict.set_item(key, to_python(py, value)?)?;
+    }
+    Ok(dict)
+}

@@ -1,0 +1,226 @@
+//! Arrays of wheels: each settles by itself, and has the bits that it has alone.
+
+use std::ops::RangeInclusive;
+
+use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
+use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO, WheelRecord};
+use grouser::soil::Soil;
+use grouser::wheel::Wheel;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::columns::{WHEEL_COLUMNS, wheel_row};
+use crate::descriptions::Document;
+use crate::errors;
+
+/// Wheels between two looks for signals: a small part of a second for the slowest theory.
+const BATCH: usize = 1 << 13;
+
+/// Wheels that a thread takes at once.
+const SHARE: usize = 256;
+
+/// What all wheels share.
+struct Stand {
+    soils: Vec<(Soil, Theory)>,
+    wheel: Wheel,
+    gravity: f64,
+}
+
+/// What each wheel has of its own.
+struct Inputs<'a> {
+    /// Load [N], or sinkage [m].
+    pressed: &'a [f64],
+    slip_ratios: &'a [f64],
+    slip_angles_deg: &'a [f64],
+    soils: Option<&'a [i64]>,
+}
+
+impl Stand {
+    /// * `setting`: a scenario that gives gravity, and a theory where it names one
+    fn new(soils: &[PyRef<'_, Document>], wheel: &Document, setting: &Document) -> PyResult<Self> {
+        let setting = setting.scenario()?;
+        let named = setting.document.model.is_some().then_some(setting.value.theory);
+        let soils = soils.iter().map(|soil| {
+            let soil = soil.soil()?;
+            let theory = named.or_else(|| soil.document.theory()).unwrap_or_default();
+            Ok((soil.value, theory))
+        });
+        let soils = soils.collect::<PyResult<Vec<_>>>()?;
+        Ok(Self { soils, wheel: wheel.wheel()?.value, gravity: setting.value.site.gravity })
+    }
+
+    fn contact(&self, inputs: &Inputs<'_>, place: usize) -> (Contact, Theory) {
+        let soil = inputs.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0));
+        let (soil, theory) = self.soils[soil];
+        let angle = inputs.slip_angles_deg[place].to_radians();
+        let slip = Slip::on_test_stand(inputs.slip_ratios[place], angle);
+        (Contact { wheel: self.wheel, soil, slip, gravity: self.gravity }, theory)
+    }
+}
+
+impl Inputs<'_> {
+    /// That all arrays are of one length and in their ranges.
+    fn check(&self, soils: usize, name: &str, pressed: &RangeInclusive<f64>) -> PyResult<()> {
+        let count = self.pressed.len();
+        let lengths = [self.slip_ratios.len(), self.slip_angles_deg.len()];
+        let indices = self.soils.map_or(count, <[i64]>::len);
+        if lengths != [count, count] || indices != count {
+            let message = "the arrays differ in length".to_owned();
+            return Err(errors::parameter(message, name, None, "arrays of one length"));
+        }
+        let known = |index: &i64| usize::try_from(*index).is_ok_and(|index| index < soils);
+        if soils == 0 || self.soils.is_some_and(|indices| !indices.iter().all(known)) {
+            let message = "there is no soil for every wheel".to_owned();
+            return Err(errors::parameter(message, "soil", None, "at least one soil"));
+        }
+        check(name, self.pressed, pressed)?;
+        check("slip_ratio", self.slip_ratios, &SLIP_RATIO)?;
+        check("slip_angle_deg", self.slip_angles_deg, &SLIP_ANGLE_DEG)
+    }
+}
+
+/// That numbers are in their range; the first that is not is told by its place.
+pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> PyResult<()> {
+    let Some(place) = values.iter().position(|value| !range.contains(value)) else {
+        return Ok(());
+    };
+    let expected = format!("from {} to {}", range.start(), range.end());
+    let value = values[place];
+    let at = if values.len() > 1 { format!(" (entry {place})") } else { String::new() };
+    let message = format!("{name} is {value}{at}, it must be {expected}");
+    Err(errors::parameter(message, name, Some(value), expected))
+}
+
+/// A column for each of [`WHEEL_COLUMNS`], then what one of them adds.
+type Row = [f64; WHEEL_COLUMNS.len() + 1];
+
+fn row(record: &WheelRecord, last: f64) -> Row {
+    let mut row = [last; WHEEL_COLUMNS.len() + 1];
+    row[..WHEEL_COLUMNS.len()].copy_from_slice(&wheel_row(record));
+    row
+}
+
+/// Evaluates every wheel in order, batch by batch, into an array of a row for each result.
+fn evaluate<'py>(
+    py: Python<'py>,
+    count: usize,
+    one: impl Fn(usize) -> Row + Sync,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let results = PyArray2::<f64>::zeros(py, [WHEEL_COLUMNS.len() + 1, count], false);
+    {
+        let mut results = results.readwrite();
+        let cells = results.as_slice_mut()?;
+        let mut start = 0;
+        while start < count {
+            let end = (start + BATCH).min(count);
+            let rows: Vec<Row> =
+                py.detach(|| (start..end).into_par_iter().with_min_len(SHARE).map(&one).collect());
+            for (offset, row) in rows.iter().enumerate() {
+                for (column, value) in row.iter().enumerate() {
+                    cells[column * count + start + offset] = *value;
+                }
+            }
+            py.check_signals()?;
+            start = end;
+        }
+    }
+    Ok(results)
+}
+
+/// What `settle` returns: results by rows, the names of the rows, and whether each wheel is carried.
+type Answer<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>);
+
+fn names(last: &'static str) -> Vec<&'static str> {
+    WHEEL_COLUMNS.into_iter().chain([last]).collect()
+}
+
+/// The sinkages at which wheels carry their loads, and the forces there. A row that is NaN but for
+/// `capacity_n`, its last, is a wheel that the soil does not carry.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn settle<'py>(
+    py: Python<'py>,
+    soils: Vec<PyRef<'py, Document>>,
+    wheel: &Document,
+    setting: &Document,
+    load_n: PyReadonlyArray1<'py, f64>,
+    slip_ratio: PyReadonlyArray1<'py, f64>,
+    slip_angle_deg: PyReadonlyArray1<'py, f64>,
+    soil_index: Option<PyReadonlyArray1<'py, i64>>,
+) -> PyResult<Answer<'py>> {
+    let stand = Stand::new(&soils, wheel, setting)?;
+    let inputs = Inputs {
+        pressed: load_n.as_slice()?,
+        slip_ratios: slip_ratio.as_slice()?,
+        slip_angles_deg: slip_angle_deg.as_slice()?,
+        soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+    };
+    inputs.check(stand.soils.len(), "load_n", &LOAD_N)?;
+    let one = |place: usize| {
+        let (contact, theory) = stand.contact(&inputs, place);
+        match settle_one(theory.model(), &contact, inputs.pressed[place]) {
+            Ok(settled) => row(&WheelRecord::new(&settled), f64::NAN),
+            Err(SettleError::SunkToAxle { capacity, .. }) => row(&WheelRecord::default(), capacity),
+            // Loads were checked.
+            Err(SettleError::BadLoad { .. }) => row(&WheelRecord::default(), f64::NAN),
+        }
+    };
+    Ok((evaluate(py, inputs.pressed.len(), one)?, names("capacity_n")))
+}
+
+/// The forces on wheels at given sinkages. Its last row is that sinkage once more.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn wheel_forces<'py>(
+    py: Python<'py>,
+    soils: Vec<PyRef<'py, Document>>,
+    wheel: &Document,
+    setting: &Document,
+    sinkage_mm: PyReadonlyArray1<'py, f64>,
+    slip_ratio: PyReadonlyArray1<'py, f64>,
+    slip_angle_deg: PyReadonlyArray1<'py, f64>,
+    soil_index: Option<PyReadonlyArray1<'py, i64>>,
+) -> PyResult<Answer<'py>> {
+    let stand = Stand::new(&soils, wheel, setting)?;
+    let inputs = Inputs {
+        pressed: sinkage_mm.as_slice()?,
+        slip_ratios: slip_ratio.as_slice()?,
+        slip_angles_deg: slip_angle_deg.as_slice()?,
+        soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+    };
+    let deepest = stand.wheel.shearing_radius() * 1e3;
+    inputs.check(stand.soils.len(), "sinkage_mm", &(0.0..=deepest))?;
+    let one = |place: usize| {
+        let (contact, theory) = stand.contact(&inputs, place);
+        let sinkage = inputs.pressed[place] * 1e-3;
+        let forces = theory.model().forces(&contact, sinkage);
+        row(&WheelRecord::new(&Settled { sinkage, forces, evaluations: 1 }), inputs.pressed[place])
+    };
+    Ok((evaluate(py, inputs.pressed.len(), one)?, names("given_sinkage_mm")))
+}
+
+/// The library's words for wheels that the soil does not carry.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn not_carried(
+    load_n: PyReadonlyArray1<'_, f64>,
+    capacity_n: PyReadonlyArray1<'_, f64>,
+) -> PyResult<Vec<String>> {
+    let pairs = load_n.as_slice()?.iter().zip(capacity_n.as_slice()?);
+    let words = |(load, capacity): (&f64, &f64)| SettleError::SunkToAxle {
+        load: *load,
+        capacity: *capacity,
+    };
+    Ok(pairs.map(words).map(|error| error.to_string()).collect())
+}
+
+/// Numbers as a column.
+pub(crate) fn column<'py>(
+    py: Python<'py>,
+    numbers: impl IntoIterator<Item = f64>,
+) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_vec(py, numbers.into_iter().collect())
+}
