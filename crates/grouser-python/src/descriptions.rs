@@ -9,6 +9,7 @@ use grouser::document::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use serde_json::Value as Json;
 use toml::{Table, Value};
 
 use crate::{errors, values};
@@ -41,7 +42,7 @@ impl Read {
 }
 
 impl Document {
-    /// The document as a table, in the order of its keys.
+    /// The document as a table.
     pub(crate) fn table(&self) -> Table {
         let table = match &self.read {
             Read::Soil(it) => Table::try_from(&it.document),
@@ -51,6 +52,17 @@ impl Document {
         };
         // A document that was read has text keys and finite numbers only.
         table.unwrap_or_default()
+    }
+
+    /// The same in the order of its keys.
+    fn in_order(&self) -> Json {
+        let json = match &self.read {
+            Read::Soil(it) => serde_json::to_value(&it.document),
+            Read::Wheel(it) => serde_json::to_value(&it.document),
+            Read::Rover(it) => serde_json::to_value(&it.document),
+            Read::Scenario(it) => serde_json::to_value(&it.document),
+        };
+        json.unwrap_or_default()
     }
 
     pub(crate) fn soil(&self) -> PyResult<&LoadedSoil> {
@@ -114,8 +126,8 @@ impl Document {
     }
 
     /// The resolved document as a dictionary of its own.
-    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        values::to_dict(py, &self.table())
+    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        values::to_python(py, &self.in_order())
     }
 }
 

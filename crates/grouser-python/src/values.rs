@@ -3,6 +3,7 @@
 use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
+use serde_json::Value as Json;
 use toml::{Table, Value};
 
 use crate::descriptions::Document;
@@ -90,7 +91,10 @@ fn described<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, Docum
 /// that keys which only a new law knows find it there.
 pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     let mut all = Vec::new();
-    collect(prefix, mapping.as_any(), &mut all, 0)?;
+    for (name, value) in mapping {
+        let name: String = name.extract().map_err(|_| errors::wrong_type(prefix, &name))?;
+        collect(&format!("{prefix}.{name}"), &value, &mut all, 0)?;
+    }
     all.sort_by_key(|(path, _)| !path.ends_with(".law"));
     Ok(all)
 }
@@ -121,29 +125,28 @@ fn collect(
 }
 
 /// A document's value for Python.
-pub(crate) fn to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn to_python<'py>(py: Python<'py>, value: &Json) -> PyResult<Bound<'py, PyAny>> {
     Ok(match value {
-        Value::String(text) => PyString::new(py, text).into_any(),
-        Value::Integer(integer) => integer.into_pyobject(py)?.into_any(),
-        Value::Float(float) => PyFloat::new(py, *float).into_any(),
-        Value::Boolean(truth) => truth.into_pyobject(py)?.to_owned().into_any(),
-        Value::Datetime(date) => PyString::new(py, &date.to_string()).into_any(),
-        Value::Array(items) => {
+        Json::Null => py.None().into_bound(py),
+        Json::String(text) => PyString::new(py, text).into_any(),
+        Json::Number(number) => match number.as_i64() {
+            Some(integer) => integer.into_pyobject(py)?.into_any(),
+            None => PyFloat::new(py, number.as_f64().unwrap_or(f64::NAN)).into_any(),
+        },
+        Json::Bool(truth) => truth.into_pyobject(py)?.to_owned().into_any(),
+        Json::Array(items) => {
             let list = PyList::empty(py);
             for item in items {
                 list.append(to_python(py, item)?)?;
             }
             list.into_any()
         }
-        Value::Table(table) => to_dict(py, table)?.into_any(),
+        Json::Object(table) => {
+            let dict = PyDict::new(py);
+            for (key, value) in table {
+                dict.set_item(key, to_python(py, value)?)?;
+            }
+            dict.into_any()
+        }
     })
-}
-
-/// A table as a dictionary, in its order.
-pub(crate) fn to_dict<'py>(py: Python<'py>, table: &Table) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    for (key, value) in table {
-        dict.set_item(key, to_python(py, value)?)?;
-    }
-    Ok(dict)
 }
