@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, instructions, measurements, rustdoc, schema, texts, workspace};
+use crate::{figures, instructions, measurements, python, rustdoc, schema, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ struct Step {
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
-/// The quick steps come first. All but the last five share the build of the dev profile; the
+/// The quick steps come first. All but the last six share the build of the dev profile; the
 /// program is built once, in the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
     let steps = [
@@ -56,6 +56,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
+        step("python", python::check),
         step("instructions", || instructions::check().map(Count::one)),
     ];
     let mut total = Count::default();

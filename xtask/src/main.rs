@@ -11,6 +11,7 @@ mod links;
 mod markdown;
 mod markers;
 mod measurements;
+mod python;
 mod rustdoc;
 mod schema;
 mod texts;
@@ -27,6 +28,7 @@ cargo xtask CHORE
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
   instructions        count the instructions of the units of work anew (valgrind)
+  python              build the Python package's wheel and test it in an environment of its own
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -54,6 +56,11 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
         ["instructions"] => instructions::write()?,
+        ["python"] => {
+            let libtest::Count { passed, failed } = python::check()?;
+            println!("{passed} passed, {failed} failed");
+            failed == 0
+        }
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };

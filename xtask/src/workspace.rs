@@ -78,9 +78,14 @@ pub(crate) fn build_program() -> Result<PathBuf> {
         .status()
         .context("cargo did not start")?;
     ensure!(status.success(), "the program `grouser` does not build");
-    let target =
+    Ok(target().join("release").join(format!("grouser{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// The folder that cargo builds into.
+pub(crate) fn target() -> PathBuf {
+    let folder =
         std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
-    Ok(root().join(target).join("release").join(format!("grouser{}", std::env::consts::EXE_SUFFIX)))
+    root().join(folder)
 }
 
 /// Runs the program at the root and returns what it prints.

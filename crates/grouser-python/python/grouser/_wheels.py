@@ -259,7 +259,8 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
         array = np.asarray(values)
     except ValueError:
         raise ParameterError(f"{name} is ragged, it must be an array of numbers", name) from None
-    if array.dtype.kind not in "fiu" and array.size:
+    if array.dtype.kind not in "fiu":
+        # NumPy gives an empty list of no type the type of a number.
         raise ParameterError(
             f"{name} has dtype {array.dtype}, it must be real numbers", name, None, "real numbers"
         )

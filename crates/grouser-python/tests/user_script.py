@@ -1,0 +1,35 @@
+"""A user's script, for a strict type checker: what is not typed as it is used here is a fault."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+import grouser as gr
+
+
+def deepest(soils: list[gr.Soil], load_n: float) -> float:
+    wheels: gr.Settled = gr.settle(soils, gr.Wheel("hakuto"), load_n=load_n, slip_ratio=0.2)
+    sinkage: NDArray[np.float64] = wheels.sinkage_mm
+    return float(sinkage.max())
+
+
+def drift(slope_deg: float) -> float:
+    run: gr.Trajectory = gr.simulate(gr.Scenario(slope_deg=slope_deg), duration_s=5.0)
+    y_m: NDArray[np.float64] = run.y_m
+    return float(y_m[-1]) if run.outcome == "completed" else float("nan")
+
+
+def main() -> None:
+    site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
+    soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
+    level: gr.Attitudes = gr.attitude(slope_deg=[5.0, 10.0])
+    ends: gr.Rollout = gr.rollout([gr.Scenario(site=site)])
+    limit: float | None = level.limit_slope_deg
+    try:
+        print(deepest([soil], 17.0), drift(10.0), limit, ends.outcome[0])
+    except gr.ParameterError as error:
+        print(error.name, error.value, error.expected)
+
+
+main()

@@ -1,0 +1,138 @@
+//! The Python package: built as a wheel, installed into an environment of its own, and tested there
+//! as its users have it.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::libtest::Count;
+use crate::workspace;
+
+/// The package's folder.
+const PACKAGE: &str = "crates/grouser-python";
+
+/// What builds and tests the package, by name: where from is for pip's own settings to say.
+const NEEDED: [&str; 8] = [
+    "maturin>=1.16,<2",
+    "numpy",
+    "pandas",
+    "xarray",
+    "matplotlib",
+    "pytest>=8",
+    "hypothesis>=6",
+    "mypy>=1.10",
+];
+
+/// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of its
+/// docstrings, and its types.
+pub(crate) fn check() -> Result<Count> {
+    let folder = workspace::target().join("python");
+    let python = environment(&folder.join("environment"))?;
+    let wheel = build_wheel(&python, &folder.join("wheels"))?;
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
+    let program = workspace::build_program()?;
+    let mut count = pytest(&python, &program, &["tests"])?;
+    count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
+    count += types(&python, &["-m", "mypy.stubtest", "grouser._core"])?;
+    count += types(&python, &["-m", "mypy", "--strict", "tests/user_script.py"])?;
+    Ok(count)
+}
+
+/// An environment with all that is needed, and its Python.
+fn environment(folder: &Path) -> Result<PathBuf> {
+    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    if !python.exists() {
+        let system = if cfg!(windows) { "python" } else { "python3" };
+        let make = ["-m", "venv", "--clear"];
+        done(Command::new(system).args(make).arg(folder), "no virtual environment can be made")?;
+    }
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    let command = &mut Command::new(&python);
+    done(command.args(install).args(NEEDED), "pip cannot install what is needed")?;
+    Ok(python)
+}
+
+/// The wheel, optimised.
+fn build_wheel(python: &Path, folder: &Path) -> Result<PathBuf> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).context("old wheels")?;
+    }
+    let mut build = Command::new(python);
+    build.args(["-m", "maturin", "build", "--release", "--quiet", "--out"]).arg(folder);
+    build.arg("--manifest-path").arg(workspace::root().join(PACKAGE).join("Cargo.toml"));
+    done(&mut build, "the wheel does not build")?;
+    let mut wheels = fs::read_dir(folder).context("the folder of the wheel")?;
+    Ok(wheels.next().context("maturin made no wheel")??.path())
+}
+
+/// Runs pytest in the package's folder, shows what it says, and counts.
+fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
+    let mut command = Command::new(python);
+    command.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]).args(arguments);
+    command.current_dir(workspace::root().join(PACKAGE)).env("GROUSER_PROGRAM", program);
+    let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
+    let mut last = String::new();
+    if let Some(stdout) = child.stdout.take() {
+        for line in BufReader::new(stdout).lines() {
+            last = line?;
+            println!("{last}");
+        }
+    }
+    Ok(count_of(&last, child.wait()?.success()))
+}
+
+/// The counts of pytest's last line, `1 failed, 59 passed in 12.3s`.
+fn count_of(line: &str, succeeded: bool) -> Count {
+    let before = |word: &str| -> u64 {
+        let mut words = line.split([' ', ',']).filter(|part| !part.is_empty());
+        let mut number = 0;
+        while let Some(part) = words.next() {
+            match part.parse() {
+                Ok(found) => number = found,
+                Err(_) if part.starts_with(word) => return number,
+                Err(_) => {}
+            }
+        }
+        0
+    };
+    let (passed, failed) = (before("passed"), before("failed") + before("error"));
+    // A run that ended badly without a failed test counts as one failure, and so does one without
+    // any tests.
+    let silent = failed == 0 && (!succeeded || passed == 0);
+    Count { passed, failed: failed + u64::from(silent) }
+}
+
+fn types(python: &Path, arguments: &[&str]) -> Result<Count> {
+    let mut command = Command::new(python);
+    command.args(arguments).current_dir(workspace::root().join(PACKAGE)).stdin(Stdio::null());
+    Ok(Count::one(command.status().context("mypy did not start")?.success()))
+}
+
+fn done(command: &mut Command, otherwise: &str) -> Result<()> {
+    command.current_dir(workspace::root()).stdin(Stdio::null());
+    let status = command.status().with_context(|| otherwise.to_owned())?;
+    ensure!(status.success(), "{otherwise}");
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_line_of_pytest_is_counted() {
+        let counts = |line, succeeded| {
+            let Count { passed, failed } = count_of(line, succeeded);
+            (passed, failed)
+        };
+        assert_eq!(counts("59 passed in 21.33s", true), (59, 0));
+        assert_eq!(counts("7 failed, 52 passed, 1 warning in 21.33s", false), (52, 7));
+        assert_eq!(counts("1 passed, 2 errors in 0.1s", false), (1, 2));
+        assert_eq!(counts("no tests ran in 0.01s", true), (0, 1));
+        assert_eq!(counts("Segmentation fault", false), (0, 1));
+    }
+}
