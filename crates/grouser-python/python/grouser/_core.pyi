@@ -7,6 +7,27 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Document",
+    "EARTH_GRAVITY",
+    "MARS_GRAVITY",
+    "MOON_GRAVITY",
+    "__version__",
+    "attitude",
+    "attitude_map",
+    "find_document",
+    "not_carried",
+    "presets",
+    "read_document_file",
+    "read_document_table",
+    "read_document_text",
+    "rollout",
+    "settle",
+    "simulate",
+    "to_toml",
+    "wheel_forces",
+]
+
 __version__: str
 EARTH_GRAVITY: float
 MOON_GRAVITY: float
