@@ -88,9 +88,9 @@ fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
 /// The counts of pytest's last line, `1 failed, 59 passed in 12.3s`.
 fn count_of(line: &str, succeeded: bool) -> Count {
     let before = |word: &str| -> u64 {
-        let mut words = line.split([' ', ',']).filter(|part| !part.is_empty());
+        let words = line.split([' ', ',']).filter(|part| !part.is_empty());
         let mut number = 0;
-        while let Some(part) = words.next() {
+        for part in words {
             match part.parse() {
                 Ok(found) => number = found,
                 Err(_) if part.starts_with(word) => return number,

@@ -1,5 +1,6 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
+use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
 use grouser::simulation::SimulationError;
@@ -80,6 +81,33 @@ fn facts(problem: &Problem) -> Facts {
         _ => (None, None, None),
     };
     Facts { key, value, expected }
+}
+
+/// A file of measurements that cannot be used.
+pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
+    let (message, file) = (error.to_string(), file.to_owned());
+    match error.problem() {
+        MeasurementProblem::NoSuchFile => {
+            classes::DocumentNotFoundError::new_err((message, file, None::<String>))
+        }
+        MeasurementProblem::Folder | MeasurementProblem::Unreadable(_) => {
+            classes::DocumentUnreadableError::new_err((message, file))
+        }
+        problem => {
+            let (key, value, expected) = match problem {
+                MeasurementProblem::OutOfRange { column, value, least, most } => {
+                    (Some(column.clone()), Some(*value), Some(format!("from {least} to {most}")))
+                }
+                MeasurementProblem::NotANumber { column, .. }
+                | MeasurementProblem::MissingValue { column, .. } => {
+                    (Some(column.clone()), None, Some("a number".to_owned()))
+                }
+                _ => (None, None, None),
+            };
+            let (line, column) = (error.line(), None::<u64>);
+            classes::DocumentError::new_err((message, file, line, column, key, value, expected))
+        }
+    }
 }
 
 /// A parameter that nothing can have.

@@ -10,6 +10,7 @@ mod descriptions;
 mod errors;
 mod interrupt;
 mod studies;
+mod validation;
 mod values;
 mod wheels;
 
@@ -23,6 +24,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::studies::{attitude, attitude_map, rollout, simulate};
+    #[pymodule_export]
+    use super::validation::validate;
     #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 

@@ -39,15 +39,13 @@ struct Inputs<'a> {
 impl Stand {
     /// * `setting`: a scenario that gives gravity, and a theory where it names one
     fn new(soils: &[PyRef<'_, Document>], wheel: &Document, setting: &Document) -> PyResult<Self> {
-        let setting = setting.scenario()?;
-        let named = setting.document.model.is_some().then_some(setting.value.theory);
         let soils = soils.iter().map(|soil| {
-            let soil = soil.soil()?;
-            let theory = named.or_else(|| soil.document.theory()).unwrap_or_default();
-            Ok((soil.value, theory))
+            let (theory, _) = theory_and_gravity(soil, setting)?;
+            Ok((soil.soil()?.value, theory))
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
-        Ok(Self { soils, wheel: wheel.wheel()?.value, gravity: setting.value.site.gravity })
+        let gravity = setting.scenario()?.value.site.gravity;
+        Ok(Self { soils, wheel: wheel.wheel()?.value, gravity })
     }
 
     fn contact(&self, inputs: &Inputs<'_>, place: usize) -> (Contact, Theory) {
@@ -90,6 +88,14 @@ pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> 
     let at = if values.len() > 1 { format!(" (entry {place})") } else { String::new() };
     let message = format!("{name} is {value}{at}, it must be {expected}");
     Err(errors::parameter(message, name, Some(value), expected))
+}
+
+/// The theory that a setting names, or else the soil's own; and the setting's gravity [m/s²].
+pub(crate) fn theory_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
+    let setting = setting.scenario()?;
+    let named = setting.document.model.is_some().then_some(setting.value.theory);
+    let theory = named.or_else(|| soil.soil().ok()?.document.theory()).unwrap_or_default();
+    Ok((theory, setting.value.site.gravity))
 }
 
 /// A column for each of [`WHEEL_COLUMNS`], then what one of them adds.

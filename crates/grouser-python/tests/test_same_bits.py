@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from conftest import Program
 
 import grouser as gr
+
+DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
 
 
 def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
@@ -70,3 +73,13 @@ def test_attitude_map(program: Program) -> None:
     assert table.soil.tolist() == [row["soil"] for row in rows]
     for name in rows[0].keys() - {"status", "soil"}:
         assert same(table[name], rows, name), name
+
+
+def test_validate(program: Program) -> None:
+    data = str(DATA / "simulated-wheel-test" / "toyoura-20n.csv")
+    told = program("validate", "--data", data, "--soil", "toyoura", "--wheel", "hakuto")
+    found = gr.validate(data, "toyoura", "hakuto")
+    assert found.overall == told["overall"] and found.driven == told["driven"]
+    assert list(found.groups) == told["rows"]
+    for name in told["cells"][0].keys() - {"motion"}:
+        assert same(found.cells[name], told["cells"], name), name

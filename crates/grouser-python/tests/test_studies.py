@@ -6,11 +6,14 @@ import os
 import signal
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import grouser as gr
+
+DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
 
 
 def test_a_run_has_its_samples_and_its_wheels() -> None:
@@ -101,6 +104,26 @@ def test_what_cannot_be_asked_says_what_can() -> None:
         gr.rollout(gr.Scenario())  # type: ignore[arg-type]
     with pytest.raises(gr.ParameterError, match="unknown key"):
         gr.simulate(slop_deg=10.0)
+
+
+def test_a_theory_agrees_with_readings_that_it_made(tmp_path: Path) -> None:
+    """The noise of the simulated stand is 0.3 N, three trials a cell: errors of cell means are
+    below that."""
+    data = DATA / "simulated-wheel-test" / "toyoura-20n.csv"
+    found = gr.validate(data, "toyoura", "hakuto", where="slip_angle_deg=0")
+    assert found.overall["drawbar_pull_n"]["rmse"] < 0.3
+    assert found.to_pandas().shape[0] == found.overall["trials"]
+    assert found.plot() is not None
+    with pytest.raises(FileNotFoundError):
+        gr.validate(tmp_path / "none.csv", "toyoura", "hakuto")
+    broken = tmp_path / "broken.csv"
+    lines = data.read_text().splitlines()
+    broken.write_text("\n".join([*lines[:3], lines[3].replace("20", "heavy", 1)]))
+    with pytest.raises(gr.DocumentError, match="it must be a number") as caught:
+        gr.validate(broken, "toyoura", "hakuto")
+    assert caught.value.file == str(broken) and caught.value.line == 4
+    with pytest.raises(gr.ParameterError):
+        gr.validate(data, "toyoura", "hakuto", where="nothing")
 
 
 def interrupted_after(seconds: float) -> threading.Timer:

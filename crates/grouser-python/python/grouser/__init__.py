@@ -2,7 +2,8 @@
 
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
-(`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows (`wheel_test`).
+(`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
+(`wheel_test`, `validate`).
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -41,6 +42,7 @@ from ._studies import (
     simulate,
     wheel_test,
 )
+from ._validation import Validation, validate
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 
 __all__ = [
@@ -62,6 +64,7 @@ __all__ = [
     "Site",
     "Soil",
     "Trajectory",
+    "Validation",
     "Wheel",
     "WheelForces",
     "WheelTest",
@@ -71,6 +74,7 @@ __all__ = [
     "rollout",
     "settle",
     "simulate",
+    "validate",
     "wheel_forces",
     "wheel_test",
 ]

@@ -25,6 +25,7 @@ __all__ = [
     "settle",
     "simulate",
     "to_toml",
+    "validate",
     "wheel_forces",
 ]
 
@@ -80,4 +81,12 @@ def attitude(
 ) -> tuple[dict[str, Any], float | None, str]: ...
 def attitude_map(
     scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, speed_m_s: float
+) -> dict[str, Any]: ...
+def validate(
+    data: str | os.PathLike[str],
+    soil: Document,
+    wheel: Document,
+    setting: Document,
+    wheel_label: str | None,
+    conditions: Sequence[str],
 ) -> dict[str, Any]: ...

@@ -1,0 +1,108 @@
+"""A theory beside measured wheel tests."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+
+from . import _core, _tables
+from ._descriptions import Scenario, Soil, Source, Wheel
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False)
+class Validation:
+    """A theory's errors against measurements, in the words of ``grouser validate``.
+
+    A group of cells is a mapping: ``slip_angle_deg``, ``motion``, ``cells``, ``trials``,
+    ``unsettled_trials``, and for each of ``drawbar_pull_n``, ``side_force_n``, ``sinkage_mm`` and
+    ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability`` and
+    ``cells``, or None where it was not measured.
+    """
+
+    overall: Mapping[str, Any]
+    """All cells."""
+    driven: Mapping[str, Any] | None
+    """The driven cells; None where there are none."""
+    skid: Mapping[str, Any] | None
+    """The skidding ones; None where there are none."""
+    groups: tuple[Mapping[str, Any], ...]
+    """The cells of each slip angle, driven and skidding."""
+    cells: Mapping[str, Any]
+    """Columns over cells: repeated trials under one condition, measured means and predictions."""
+    trials: Mapping[str, Any]
+    """Columns over trials, in the order of the file."""
+    notes: tuple[str, ...]
+    """What was noticed in the file and left."""
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each trial."""
+        return _tables.frame(self.trials)
+
+    def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
+        """Draws the predictions of a quantity over its measurements, a dot for each cell."""
+        axes = _tables.axes_or_new(axes)
+        measured, predicted = self.cells[f"measured_{name}"], self.cells[name]
+        axes.plot(measured, predicted, **{"ls": "", "marker": ".", **style})
+        low, high = np.nanmin([measured, predicted]), np.nanmax([measured, predicted])
+        axes.plot([low, high], [low, high], color="grey", lw=0.8)
+        axes.set_xlabel(f"measured {_tables.label(name)}")
+        axes.set_ylabel(f"predicted {_tables.label(name)}")
+        return axes
+
+    def __repr__(self) -> str:
+        return f"<Validation of {self.overall['trials']} trials in {self.overall['cells']} cells>"
+
+
+def validate(
+    data: Union[str, os.PathLike[str]],
+    soil: Soil | Source,
+    wheel: Wheel | Source,
+    *,
+    where: Sequence[str] | str = (),
+    wheel_label: str | None = None,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    model: str | None = None,
+) -> Validation:
+    """Holds a theory against a file of measured wheel tests.
+
+    Parameters
+    ----------
+    data : str or path
+        A CSV file in the layout of ``docs/guide/data.md``.
+    soil, wheel, gravity_m_s2, model
+        As for `settle`; one soil.
+    where : sequence of str
+        Which rows count: ``column=value,value`` or ``column!=value``; all conditions must be met.
+    wheel_label : str, optional
+        Which wheel's rows of a file with several; the name or path of the wheel without.
+
+    Returns
+    -------
+    Validation
+
+    Raises
+    ------
+    DocumentError
+        For a file that cannot be used, with its line.
+    DocumentNotFoundError, ParameterError
+        As `settle`, and for a file that is not there.
+    """
+    if wheel_label is None and isinstance(wheel, (str, os.PathLike)):
+        wheel_label = os.fspath(wheel)
+    soil = soil if isinstance(soil, Soil) else Soil(soil)
+    wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+    named = {} if model is None else {"model": model}
+    setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
+    conditions = [where] if isinstance(where, str) else list(where)
+    documents = (soil._document, wheel._document, setting._document)
+    found = _core.validate(os.fspath(data), *documents, wheel_label, conditions)
+    found["groups"], found["notes"] = tuple(found["groups"]), tuple(found["notes"])
+    return Validation(**found)

@@ -1,0 +1,66 @@
+//! A theory beside measured wheel tests.
+
+use std::path::PathBuf;
+
+use grouser::document::measurements::{self, Choice, Condition};
+use grouser::document::validation::{CellRecord, GroupRecord, trials};
+use grouser::studies::validation::ValidationStudy;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use serde::Serialize;
+
+use crate::columns::columns;
+use crate::descriptions::Document;
+use crate::interrupt::listening;
+use crate::wheels::theory_and_gravity;
+use crate::{errors, values};
+
+/// Predicts every trial of a file and judges the means of its cells.
+///
+/// * `wheel_label`: which rows of a file with several wheels; the program takes the wheel's name
+#[pyfunction]
+#[pyo3(signature = (data, soil, wheel, setting, wheel_label, conditions))]
+#[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+pub(crate) fn validate<'py>(
+    py: Python<'py>,
+    data: PathBuf,
+    soil: &Document,
+    wheel: &Document,
+    setting: &Document,
+    wheel_label: Option<String>,
+    conditions: Vec<String>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let condition = |text: &String| {
+        Condition::parse(text)
+            .map_err(|why| errors::parameter(why, "where", None, "column=value or column!=value"))
+    };
+    let conditions = conditions.iter().map(condition).collect::<PyResult<_>>()?;
+    let choice = Choice { conditions, wheel: wheel_label };
+    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
+    let file = data.display().to_string();
+    let found = listening(py, move |_| {
+        let measured = measurements::read(&data, &choice)?;
+        let study = ValidationStudy { tests: &measured.tests, wheel, soil, theory, gravity };
+        let validation = study.run();
+        Ok((measured, validation))
+    })?;
+    let (measured, validation) = found.map_err(|error| errors::of_measurements(&error, &file))?;
+    let cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
+    let groups = validation.groups.iter().map(|group| in_words(py, &GroupRecord::from(group)));
+    let dict = PyDict::new(py);
+    let group = |group: &_| in_words(py, &GroupRecord::from(group));
+    dict.set_item("overall", group(&validation.overall)?)?;
+    dict.set_item("driven", validation.driven.as_ref().map(group).transpose()?)?;
+    dict.set_item("skid", validation.skid.as_ref().map(group).transpose()?)?;
+    dict.set_item("groups", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
+    dict.set_item("cells", columns(py, &cells)?)?;
+    dict.set_item("trials", columns(py, &trials(&measured, &validation))?)?;
+    dict.set_item("notes", &measured.notes)?;
+    Ok(dict)
+}
+
+/// A record as a dictionary.
+fn in_words<'py>(py: Python<'py>, record: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    values::to_python(py, &serde_json::to_value(record).unwrap_or_default())
+}
