@@ -65,7 +65,9 @@ def test_a_mapping_changes_single_keys_and_says_so() -> None:
     other = soil.replace(pressure_sinkage={"n": 1.2}, cohesion_kpa=np.float32(0.5))
     assert other.pressure_sinkage["n"] == 1.2
     assert other.pressure_sinkage["k_phi"] == soil.pressure_sinkage["k_phi"]
-    assert other != soil and other == gr.Soil("toyoura", pressure_sinkage={"n": 1.2}, cohesion_kpa=0.5)
+    assert other != soil and other == gr.Soil(
+        "toyoura", pressure_sinkage={"n": 1.2}, cohesion_kpa=0.5
+    )
     assert any("pressure_sinkage.n: set to 1.2" in it for it in other.assumptions)
 
 
@@ -81,7 +83,9 @@ def test_parts_are_descriptions() -> None:
     assert rover.wheel == wheel
     run = gr.Scenario(rover=rover, soil=gr.Soil("lunar-nominal"))
     assert run.rover == rover and run.soil == gr.Soil("lunar-nominal")
-    assert run.replace(rover={"wheel_unit": {"wheel": {"radius_m": 0.1}}}).rover.wheel.radius_m == 0.1
+    assert (
+        run.replace(rover={"wheel_unit": {"wheel": {"radius_m": 0.1}}}).rover.wheel.radius_m == 0.1
+    )
 
 
 def test_a_site_stands_for_its_three_keys() -> None:
@@ -114,7 +118,9 @@ def test_a_keyword_out_of_its_range_tells_value_and_range() -> None:
 
 def test_a_bad_file_tells_file_line_and_column(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "soil.toml"
-    path.write_text(gr.Soil("toyoura").to_toml().replace("density_kg_m3 = 1490.0", "density_kg_m3 = 1.5"))
+    path.write_text(
+        gr.Soil("toyoura").to_toml().replace("density_kg_m3 = 1490.0", "density_kg_m3 = 1.5")
+    )
     with pytest.raises(gr.DocumentError, match="it must be 200 to 4000") as caught:
         gr.Soil(path)
     error = caught.value

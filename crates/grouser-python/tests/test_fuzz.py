@@ -14,13 +14,17 @@ import grouser as gr
 OURS = (gr.GrouserError, TypeError, RecursionError)
 
 numbers = st.floats() | st.integers() | st.sampled_from([0.2, 17.0, 1e300, -0.0, 5e-324])
-dtypes = st.sampled_from(["f4", "f8", "i1", "i8", "u8", "c16", "U3", "O", "?", "M8[s]", ">f8", "f2"])
+dtypes = st.sampled_from(
+    ["f4", "f8", "i1", "i8", "u8", "c16", "U3", "O", "?", "M8[s]", ">f8", "f2"]
+)
 shapes = st.lists(st.integers(0, 3), max_size=3).map(tuple)
 arrays = st.builds(lambda shape, dtype: np.zeros(shape, dtype), shapes, dtypes)
 ragged = st.recursive(numbers, lambda inner: st.lists(inner, max_size=3), max_leaves=6)
 anything = numbers | arrays | ragged | st.none() | st.text() | st.binary() | st.booleans()
 keys = st.sampled_from([*gr.Soil("toyoura").to_dict(), "n", "", "a.b", "shear.law"]) | st.text()
-tables = st.recursive(anything, lambda inner: st.dictionaries(keys, inner, max_size=3), max_leaves=8)
+tables = st.recursive(
+    anything, lambda inner: st.dictionaries(keys, inner, max_size=3), max_leaves=8
+)
 
 
 @settings(max_examples=300, deadline=None)

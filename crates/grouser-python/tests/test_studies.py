@@ -57,7 +57,9 @@ def test_the_level_attitude_is_level() -> None:
 
 def test_an_attitude_map_has_the_level_attitudes_on_course_0() -> None:
     slopes = [0.0, 10.0, 15.0]
-    maps = gr.attitude_map(soil=["toyoura", "lunar-nominal"], slope_deg=slopes, course_deg=[-20, 0, 20])
+    maps = gr.attitude_map(
+        soil=["toyoura", "lunar-nominal"], slope_deg=slopes, course_deg=[-20, 0, 20]
+    )
     assert maps.yaw_deg.shape == (2, 3, 3) and maps.soil == ("Toyoura sand", "Lunar soil, nominal")
     for k, soil in enumerate(["toyoura", "lunar-nominal"]):
         level = gr.attitude(soil=soil, slope_deg=slopes)
@@ -65,6 +67,11 @@ def test_an_attitude_map_has_the_level_attitudes_on_course_0() -> None:
     data = maps.to_xarray()
     assert data.power_w.sel(course_deg=0.0, slope_deg=10.0).dims == ("soil",)
     assert maps.to_pandas().shape[0] == 18
+
+
+def test_no_slopes_no_attitudes() -> None:
+    assert gr.attitude(slope_deg=[]).yaw_deg.shape == (0,)
+    assert gr.attitude_map(slope_deg=[], course_deg=[0.0]).power_w.shape == (1, 1, 0)
 
 
 def test_a_wheel_test_is_every_load_with_every_angle_and_ratio() -> None:

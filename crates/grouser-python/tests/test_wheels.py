@@ -29,7 +29,10 @@ def test_soils_broadcast_too() -> None:
     many = gr.settle(column, "hakuto", load_n=[10.0, 17.0], slip_ratio=0.2)
     assert many.shape == (3, 2)
     assert (many.sinkage_mm[0] == many.sinkage_mm[2]).all()
-    assert many.sinkage_mm[1, 1] == gr.settle("lunar-nominal", "hakuto", load_n=17, slip_ratio=0.2).sinkage_mm
+    assert (
+        many.sinkage_mm[1, 1]
+        == gr.settle("lunar-nominal", "hakuto", load_n=17, slip_ratio=0.2).sinkage_mm
+    )
     assert gr.settle(soils, "hakuto", load_n=17.0, slip_ratio=0.2).shape == (3,)
 
 
@@ -42,7 +45,9 @@ def test_nothing_in_nothing_out() -> None:
 def test_forces_at_the_settled_sinkage_carry_the_load() -> None:
     """F_z = W to 1e-12, as the library says; a sinkage in millimetres rounds its last digit, and
     F_z grows with its power of 2.2."""
-    wheel = gr.settle("toyoura", "hakuto", load_n=[5.0, 17.0, 80.0], slip_ratio=0.3, slip_angle_deg=10)
+    wheel = gr.settle(
+        "toyoura", "hakuto", load_n=[5.0, 17.0, 80.0], slip_ratio=0.3, slip_angle_deg=10
+    )
     forces = gr.wheel_forces(
         "toyoura", "hakuto", sinkage_mm=wheel.sinkage_mm, slip_ratio=0.3, slip_angle_deg=10
     )
@@ -60,7 +65,11 @@ def test_a_wheel_that_sinks_is_a_result() -> None:
 
 def test_a_soil_brings_its_theory_and_the_caller_may_choose_another() -> None:
     def pull(**model: Any) -> float:
-        return float(gr.settle("cmu-direct90-smooth", "cmu-smooth", load_n=40.0, slip_ratio=0.2, **model).drawbar_pull_n)
+        return float(
+            gr.settle(
+                "cmu-direct90-smooth", "cmu-smooth", load_n=40.0, slip_ratio=0.2, **model
+            ).drawbar_pull_n
+        )
 
     own = gr.Soil("cmu-direct90-smooth").model
     assert pull() == pull(model=own) != pull(model="bekker")

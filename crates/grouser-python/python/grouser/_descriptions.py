@@ -138,7 +138,9 @@ class _Description:
 
     def __repr__(self) -> str:
         skipped = {"schema", "source", "notes", "assumed"}
-        shown = (f"{key}={_short(value)}" for key, value in self._items.items() if key not in skipped)
+        shown = (
+            f"{key}={_short(value)}" for key, value in self._items.items() if key not in skipped
+        )
         return f"{type(self).__name__}({', '.join(shown)})"
 
     def _repr_html_(self) -> str:

@@ -20,28 +20,33 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class _Columns:
-    """A result that is a set of arrays, each also an attribute."""
+def _columns(result: Any, names: Iterable[str]) -> dict[str, Any]:
+    return {name: getattr(result, name) for name in names}
 
-    _arrays: Mapping[str, Any]
 
-    def __getattr__(self, name: str) -> Any:
-        if not name.startswith("_") and name in self._arrays:
-            return self._arrays[name]
-        raise AttributeError(f"{type(self).__name__} has no {name!r}")
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self._arrays})
+#: Fields of a `Trajectory` over time, and of a `Rollout` over runs.
+_SAMPLE = (
+    "time_s",
+    "x_m",
+    "y_m",
+    "yaw_deg",
+    "forward_speed_m_s",
+    "lateral_speed_m_s",
+    "yaw_rate_deg_s",
+    "power_w",
+    "energy_j",
+    "soil_energy_j",
+    "kinetic_energy_j",
+    "potential_energy_j",
+)
+#: Fields of `Attitudes`, and of an `AttitudeMap`.
+_ATTITUDE = ("yaw_deg", "slip_ratio", "sinkage_mm", "torque_nm", "energy_j_per_m", "yaw_moment_nm")
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory(_Columns):
-    """A run: what became of the rover, and its samples.
-
-    Arrays of shape (samples,): ``time_s`` [s], ``x_m`` along the contour and ``y_m`` uphill [m] in
-    the slope frame, ``yaw_deg`` [°] positive uphill, ``forward_speed_m_s`` and
-    ``lateral_speed_m_s`` [m/s] in the body frame, ``yaw_rate_deg_s`` [°/s], ``power_w`` [W],
-    ``energy_j`` of the motors, ``soil_energy_j``, ``kinetic_energy_j``, ``potential_energy_j`` [J].
+class Trajectory:
+    """A run: what became of the rover, and its samples: arrays of shape (samples,). Positions are in
+    the slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
 
     ``wheel`` has arrays of shape (samples, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
@@ -64,12 +69,35 @@ class Trajectory(_Columns):
     """The wheels, in the order of their mounts."""
     wheel: Mapping[str, Floats]
     """Arrays of shape (samples, wheels), by name."""
-    _arrays: Mapping[str, Floats]
+    time_s: Floats
+    """Time [s]."""
+    x_m: Floats
+    """Along the contour [m], of the body's centre of mass."""
+    y_m: Floats
+    """Uphill [m]."""
+    yaw_deg: Floats
+    """Yaw [°], positive where the nose points uphill."""
+    forward_speed_m_s: Floats
+    """Speed along the body [m/s]."""
+    lateral_speed_m_s: Floats
+    """Speed across the body [m/s], positive to the left."""
+    yaw_rate_deg_s: Floats
+    """Yaw rate [°/s]."""
+    power_w: Floats
+    """Power of all motors [W]."""
+    energy_j: Floats
+    """Work of the motors so far [J]."""
+    soil_energy_j: Floats
+    """Work done on the soil so far [J]."""
+    kinetic_energy_j: Floats
+    """Kinetic energy [J]."""
+    potential_energy_j: Floats
+    """Potential energy, zero at the start's height [J]."""
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each sample; columns of a wheel start with its name, as in
         ``front-left.slip_ratio``, as the program's CSV has them."""
-        columns = dict(self._arrays)
+        columns = _columns(self, _SAMPLE)
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
         return _tables.frame(columns)
@@ -77,14 +105,16 @@ class Trajectory(_Columns):
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for what each wheel has; the
         latter's names start with ``wheel_``. Units stand in the attributes."""
-        rover = {name: values for name, values in self._arrays.items() if name != "time_s"}
-        data = _tables.dataset(("time_s",), rover, {"time_s": self._arrays["time_s"]})
+        rover = _columns(self, _SAMPLE[1:])
+        data = _tables.dataset(("time_s",), rover, {"time_s": self.time_s})
         for name, values in self.wheel.items():
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
             data[longer] = _tables.variable(("time_s", "wheel"), name, values)
         data = data.assign_coords(wheel=list(self.wheel_names))
         attrs = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
-        return data.assign_attrs(attrs if self.message is None else {**attrs, "message": self.message})
+        return data.assign_attrs(
+            attrs if self.message is None else {**attrs, "message": self.message}
+        )
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the path on the slope, seen from above.
@@ -97,13 +127,13 @@ class Trajectory(_Columns):
             For ``Axes.plot``.
         """
         axes = _tables.axes_or_new(axes)
-        axes.plot(self._arrays["x_m"], self._arrays["y_m"], **{"label": self.outcome, **style})
+        axes.plot(self.x_m, self.y_m, **{"label": self.outcome, **style})
         axes.set_xlabel("along the contour, x [m]")
         axes.set_ylabel("uphill, y [m]")
         return axes
 
     def __repr__(self) -> str:
-        end = {name: float(self._arrays[name][-1]) for name in ("time_s", "x_m", "y_m", "yaw_deg")}
+        end = {name: float(getattr(self, name)[-1]) for name in ("time_s", "x_m", "y_m", "yaw_deg")}
         words = ", ".join(f"{name}={value:.4g}" for name, value in end.items())
         return f"<Trajectory {self.outcome}: {words}>"
 
@@ -149,26 +179,49 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
         energy_error_j=found["energy_error_j"],
         wheel_names=tuple(found["wheels"]),
         wheel=found["each_wheel"],
-        _arrays=found["rover"],
+        **found["rover"],
     )
 
 
 @dataclass(frozen=True, eq=False)
-class Rollout(_Columns):
-    """The ends of many runs. Arrays of shape (runs,), in the scenarios' order: those of a
-    `Trajectory` at its end, and NaN where a run could not be computed."""
+class Rollout:
+    """The ends of many runs: arrays of shape (runs,), in the scenarios' order; NaN where a run could
+    not be computed. Frames are those of a `Trajectory`."""
 
     outcome: NDArray[np.str_]
     """Each run's outcome; ``failed`` where it could not be computed."""
     message: NDArray[np.object_]
     """What that means; None for a completed run."""
-    _arrays: Mapping[str, Floats]
+    time_s: Floats
+    """Time [s]."""
+    x_m: Floats
+    """Along the contour [m], of the body's centre of mass."""
+    y_m: Floats
+    """Uphill [m]."""
+    yaw_deg: Floats
+    """Yaw [°], positive where the nose points uphill."""
+    forward_speed_m_s: Floats
+    """Speed along the body [m/s]."""
+    lateral_speed_m_s: Floats
+    """Speed across the body [m/s], positive to the left."""
+    yaw_rate_deg_s: Floats
+    """Yaw rate [°/s]."""
+    power_w: Floats
+    """Power of all motors [W]."""
+    energy_j: Floats
+    """Work of the motors so far [J]."""
+    soil_energy_j: Floats
+    """Work done on the soil so far [J]."""
+    kinetic_energy_j: Floats
+    """Kinetic energy [J]."""
+    potential_energy_j: Floats
+    """Potential energy, zero at the start's height [J]."""
 
     def __len__(self) -> int:
         return len(self.outcome)
 
     def _columns(self) -> dict[str, Any]:
-        return {"outcome": self.outcome, "message": self.message, **self._arrays}
+        return {"outcome": self.outcome, "message": self.message, **_columns(self, _SAMPLE)}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run."""
@@ -181,7 +234,7 @@ class Rollout(_Columns):
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws where the runs ended, seen from above."""
         axes = _tables.axes_or_new(axes)
-        axes.plot(self._arrays["x_m"], self._arrays["y_m"], **{"ls": "", "marker": ".", **style})
+        axes.plot(self.x_m, self.y_m, **{"ls": "", "marker": ".", **style})
         axes.set_xlabel("along the contour, x [m]")
         axes.set_ylabel("uphill, y [m]")
         return axes
@@ -217,15 +270,12 @@ def rollout(scenarios: Iterable[Scenario | Source]) -> Rollout:
     found = _core.rollout([run._document for run in runs])
     outcome = np.array(found.pop("outcome"), dtype=np.str_)
     message = np.array(found.pop("reason"), dtype=object)
-    return Rollout(outcome=outcome, message=message, _arrays=found)
+    return Rollout(outcome=outcome, message=message, **found)
 
 
 @dataclass(frozen=True, eq=False)
-class Attitudes(_Columns):
-    """Level attitudes. Arrays of shape (slopes,), NaN where there is none: ``slope_deg``,
-    ``yaw_deg`` [°] positive uphill, ``slip_ratio`` [-] of every wheel, ``sinkage_mm`` [mm] in the
-    mean, ``torque_nm`` [N·m] of all wheels, ``energy_j_per_m`` [J/m] of the wheels along the
-    contour, ``yaw_moment_nm`` [N·m] left over, negative where it turns the nose downhill."""
+class Attitudes:
+    """Level attitudes: arrays of shape (slopes,), NaN where there is none."""
 
     limit_slope_deg: float | None
     """The steepest slope with a level attitude [°]; None where the rover cannot move."""
@@ -233,10 +283,23 @@ class Attitudes(_Columns):
     """What ends the curve there."""
     status: NDArray[np.object_]
     """Of each slope: ``ok``, or why there is no attitude."""
-    _arrays: Mapping[str, Floats]
+    slope_deg: Floats
+    """Slopes [°]."""
+    yaw_deg: Floats
+    """Yaw that keeps the course [°], positive uphill."""
+    slip_ratio: Floats
+    """Slip ratio of every wheel [-]."""
+    sinkage_mm: Floats
+    """Mean sinkage of the wheels [mm]."""
+    torque_nm: Floats
+    """Torque of all wheels together [N·m]."""
+    energy_j_per_m: Floats
+    """Work of the wheels per metre along the course [J/m]."""
+    yaw_moment_nm: Floats
+    """Yaw moment left over [N·m]; negative turns the nose downhill."""
 
     def _columns(self) -> dict[str, Any]:
-        return {**self._arrays, "status": self.status}
+        return {**_columns(self, ("slope_deg", *_ATTITUDE)), "status": self.status}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -251,7 +314,7 @@ class Attitudes(_Columns):
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the yaw over the slope."""
         axes = _tables.axes_or_new(axes)
-        axes.plot(self._arrays["slope_deg"], self._arrays["yaw_deg"], **style)
+        axes.plot(self.slope_deg, self.yaw_deg, **style)
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("yaw, positive uphill [°]")
         return axes
@@ -293,15 +356,18 @@ def attitude(
     >>> round(float(gr.attitude(slope_deg=[10.0]).yaw_deg[0]), 1)
     5.0
     """
-    found, limit, reason = _core.attitude(_scenario(scenario, changes)._document, _line("slope_deg", slope_deg))
+    slopes, run = _line("slope_deg", slope_deg), _scenario(scenario, changes)
+    found, limit, reason = _core.attitude(run._document, slopes)
     status = np.array(found.pop("status", []), dtype=object)
-    return Attitudes(limit_slope_deg=limit, limit_message=reason, status=status, _arrays=found)
+    # Without slopes there are no rows to tell the columns.
+    columns = {name: found.get(name, np.empty(0)) for name in ("slope_deg", *_ATTITUDE)}
+    return Attitudes(limit_slope_deg=limit, limit_message=reason, status=status, **columns)
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeMap(_Columns):
-    """Attitudes over soil, course and slope. Arrays of shape (soils, courses, slopes): those of
-    `Attitudes`, ``power_w`` [W] of the motors, and ``limit_slope_deg`` [°] of each course."""
+class AttitudeMap:
+    """Attitudes over soil, course and slope: arrays of shape (soils, courses, slopes), NaN where
+    there is none."""
 
     soil: tuple[str, ...]
     """The soils' names."""
@@ -311,27 +377,47 @@ class AttitudeMap(_Columns):
     """Slopes [°]; shape (slopes,)."""
     status: NDArray[np.object_]
     """``ok``, or why there is no attitude; shape (soils, courses, slopes)."""
-    _arrays: Mapping[str, Floats]
+    yaw_deg: Floats
+    """Yaw that keeps the course [°], positive uphill."""
+    slip_ratio: Floats
+    """Slip ratio of every wheel [-]."""
+    sinkage_mm: Floats
+    """Mean sinkage of the wheels [mm]."""
+    torque_nm: Floats
+    """Torque of all wheels together [N·m]."""
+    energy_j_per_m: Floats
+    """Work of the wheels per metre along the course [J/m]."""
+    yaw_moment_nm: Floats
+    """Yaw moment left over [N·m]; negative turns the nose downhill."""
+    power_w: Floats
+    """Power of the motors at the rim speed of the map [W]."""
+    limit_slope_deg: Floats
+    """The steepest slope of the soil and course [°], the same on every slope."""
 
     def _columns(self) -> dict[str, Any]:
-        return {**self._arrays, "status": self.status}
+        names = (*_ATTITUDE, "power_w", "limit_slope_deg")
+        return {**_columns(self, names), "status": self.status}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each soil, course and slope, as the program has it."""
         soil, course, slope = np.meshgrid(
             np.array(self.soil, dtype=object), self.course_deg, self.slope_deg, indexing="ij"
         )
-        return _tables.frame({"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()})
+        return _tables.frame(
+            {"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()}
+        )
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``soil``, ``course_deg`` and ``slope_deg``, units in the attributes."""
         coords = {"soil": self.soil, "course_deg": self.course_deg, "slope_deg": self.slope_deg}
         return _tables.dataset(tuple(coords), self._columns(), coords)
 
-    def plot(self, axes: Axes | None = None, *, soil: int = 0, name: str = "slip_ratio", **style: Any) -> Axes:
+    def plot(
+        self, axes: Axes | None = None, *, soil: int = 0, name: str = "slip_ratio", **style: Any
+    ) -> Axes:
         """Draws a quantity over slope and course, for one of the soils by its place."""
         axes = _tables.axes_or_new(axes)
-        mesh = axes.pcolormesh(self.slope_deg, self.course_deg, self._arrays[name][soil], **style)
+        mesh = axes.pcolormesh(self.slope_deg, self.course_deg, getattr(self, name)[soil], **style)
         axes.figure.colorbar(mesh, ax=axes, label=_tables.label(name))
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("course, positive uphill [°]")
@@ -388,12 +474,14 @@ def attitude_map(
     speed = _number("speed_m_s", speed_m_s)
     found = _core.attitude_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
-    for name in ("soil", "course_deg", "slope_deg"):
-        found.pop(name, None)
-    arrays = {name: np.asarray(values, dtype=object if name == "status" else np.float64).reshape(shape) for name, values in found.items()}
-    status = arrays.pop("status", np.empty(shape, dtype=object))
+    # Without slopes or courses there are no rows to tell the columns.
+    numbers = {
+        name: np.asarray(found.get(name, np.empty(0)), dtype=np.float64).reshape(shape)
+        for name in (*_ATTITUDE, "power_w", "limit_slope_deg")
+    }
+    status = np.array(found.get("status", []), dtype=object).reshape(shape)
     names = tuple(run.soil.name for run in runs)
-    return AttitudeMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, _arrays=arrays)
+    return AttitudeMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)
 
 
 @dataclass(frozen=True, eq=False)
@@ -426,7 +514,9 @@ class WheelTest:
         values = getattr(self.wheels, name)
         for i, load in enumerate(self.load_n):
             for j, angle in enumerate(self.slip_angle_deg):
-                axes.plot(self.slip_ratio, values[i, j], **{"label": f"{load:g} N, {angle:g}°", **style})
+                axes.plot(
+                    self.slip_ratio, values[i, j], **{"label": f"{load:g} N, {angle:g}°", **style}
+                )
         axes.set_xlabel("slip ratio")
         axes.set_ylabel(_tables.label(name))
         axes.legend()

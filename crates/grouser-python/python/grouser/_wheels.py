@@ -91,7 +91,9 @@ class WheelForces:
         dims : sequence of str, optional
             Names of the dimensions; ``dim_0``, ``dim_1`` … without.
         """
-        names = tuple(dims) if dims is not None else tuple(f"dim_{k}" for k in range(len(self.shape)))
+        names = (
+            tuple(dims) if dims is not None else tuple(f"dim_{k}" for k in range(len(self.shape)))
+        )
         if len(names) != len(self.shape):
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {len(self.shape)} dimensions", "dims"
@@ -236,7 +238,11 @@ class _Stand:
         self._soils, places = _soils(soil)
         self._places = places
         self.index: NDArray[np.int64] | None = None
-        self.documents = ([one._document for one in self._soils], wheel._document, setting._document)
+        self.documents = (
+            [one._document for one in self._soils],
+            wheel._document,
+            setting._document,
+        )
 
     def broadcast(self, inputs: dict[str, ArrayLike]) -> tuple[list[Floats], tuple[int, ...]]:
         """The arguments at their common shape, flat."""
