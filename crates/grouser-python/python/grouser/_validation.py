@@ -99,7 +99,7 @@ def validate(
         wheel_label = os.fspath(wheel)
     soil = soil if isinstance(soil, Soil) else Soil(soil)
     wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-    named = {} if model is None else {"model": model}
+    named: dict[str, Any] = {} if model is None else {"model": model}
     setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
     conditions = [where] if isinstance(where, str) else list(where)
     documents = (soil._document, wheel._document, setting._document)

@@ -179,7 +179,8 @@ def settle(
     stand = _Stand(soil, wheel, gravity_m_s2, model)
     inputs = {"load_n": load_n, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
     arrays, shape = stand.broadcast(inputs)
-    rows, names = _core.settle(*stand.documents, *arrays, stand.index)
+    loads, ratios, angles = arrays
+    rows, names = _core.settle(*stand.documents, loads, ratios, angles, stand.index)
     found = dict(zip(names, rows.reshape(len(names), *shape)))
     found |= zip(inputs, (array.reshape(shape) for array in arrays))
     status = np.isnan(found["normal_force_n"]).astype(np.int8)
@@ -219,7 +220,8 @@ def wheel_forces(
     stand = _Stand(soil, wheel, gravity_m_s2, model)
     inputs = {"sinkage_mm": sinkage_mm, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
     arrays, shape = stand.broadcast(inputs)
-    rows, names = _core.wheel_forces(*stand.documents, *arrays, stand.index)
+    depths, ratios, angles = arrays
+    rows, names = _core.wheel_forces(*stand.documents, depths, ratios, angles, stand.index)
     found = dict(zip(names, rows.reshape(len(names), *shape)))
     del found["given_sinkage_mm"]
     found |= zip(inputs, (array.reshape(shape) for array in arrays))
@@ -233,7 +235,7 @@ class _Stand:
         self, soil: Soils, wheel: Wheel | Source, gravity_m_s2: float, model: str | None
     ) -> None:
         wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        named = {} if model is None else {"model": model}
+        named: dict[str, Any] = {} if model is None else {"model": model}
         setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
         self._soils, places = _soils(soil)
         self._places = places
@@ -276,7 +278,7 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
 def _soils(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
     """The different soils, and for each place which of them is there."""
     is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
-    cells = np.empty((), dtype=object)
+    cells: NDArray[np.object_] = np.empty((), dtype=object)
     if is_one:
         cells[()] = soil
     elif isinstance(soil, np.ndarray):
