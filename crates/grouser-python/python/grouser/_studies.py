@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _tables
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
-from ._wheels import Floats, Settled, _numbers, settle
+from ._wheels import Floats, Settled, number, numbers, settle
 
 if TYPE_CHECKING:
     import pandas
@@ -471,7 +471,7 @@ def attitude_map(
         raise ParameterError("soil is empty, it must be at least one", "soil")
     runs = [one if it is None else one.replace(soil=_soil(it)) for it in soils]
     slopes, courses = _line("slope_deg", slope_deg), _line("course_deg", course_deg)
-    speed = _number("speed_m_s", speed_m_s)
+    speed = number("speed_m_s", speed_m_s)
     found = _core.attitude_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
     # Without slopes or courses there are no rows to tell the columns.
@@ -585,14 +585,7 @@ def _soil(soil: Any) -> Soil:
 
 def _line(name: str, values: ArrayLike) -> Floats:
     """Numbers in a row; one number is a row of one."""
-    array = _numbers(name, values)
+    array = numbers(name, values)
     if array.ndim > 1:
         raise ParameterError(f"{name} has shape {array.shape}, it must be one row", name)
     return np.ascontiguousarray(np.atleast_1d(array))
-
-
-def _number(name: str, value: Any) -> float:
-    array = _numbers(name, value)
-    if array.ndim:
-        raise ParameterError(f"{name} has shape {array.shape}, it must be one number", name)
-    return float(array)

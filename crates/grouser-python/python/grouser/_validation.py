@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _core, _tables
-from ._descriptions import Scenario, Soil, Source, Wheel
+from ._descriptions import Soil, Source, Wheel
+from ._wheels import setting
 
 if TYPE_CHECKING:
     import pandas
@@ -62,7 +63,7 @@ class Validation:
 
 
 def validate(
-    data: Union[str, os.PathLike[str]],
+    data: str | os.PathLike[str],
     soil: Soil | Source,
     wheel: Wheel | Source,
     *,
@@ -99,10 +100,9 @@ def validate(
         wheel_label = os.fspath(wheel)
     soil = soil if isinstance(soil, Soil) else Soil(soil)
     wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-    named: dict[str, Any] = {} if model is None else {"model": model}
-    setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
+    stand = setting(gravity_m_s2, model)
     conditions = [where] if isinstance(where, str) else list(where)
-    documents = (soil._document, wheel._document, setting._document)
+    documents = (soil._document, wheel._document, stand._document)
     found = _core.validate(os.fspath(data), *documents, wheel_label, conditions)
     found["groups"], found["notes"] = tuple(found["groups"]), tuple(found["notes"])
     return Validation(**found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -235,20 +236,19 @@ class _Stand:
         self, soil: Soils, wheel: Wheel | Source, gravity_m_s2: float, model: str | None
     ) -> None:
         wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        named: dict[str, Any] = {} if model is None else {"model": model}
-        setting = Scenario(gravity_m_s2=gravity_m_s2, **named)
+        stand = setting(gravity_m_s2, model)
         self._soils, places = _soils(soil)
         self._places = places
         self.index: NDArray[np.int64] | None = None
         self.documents = (
             [one._document for one in self._soils],
             wheel._document,
-            setting._document,
+            stand._document,
         )
 
     def broadcast(self, inputs: dict[str, ArrayLike]) -> tuple[list[Floats], tuple[int, ...]]:
         """The arguments at their common shape, flat."""
-        arrays: list[Any] = [_numbers(name, values) for name, values in inputs.items()]
+        arrays: list[Any] = [numbers(name, values) for name, values in inputs.items()]
         try:
             *whole, index = np.broadcast_arrays(*arrays, self._places)
         except ValueError:
@@ -261,7 +261,30 @@ class _Stand:
         return [np.ascontiguousarray(array).ravel() for array in whole], index.shape
 
 
-def _numbers(name: str, values: ArrayLike) -> Floats:
+def setting(gravity_m_s2: float, model: str | None) -> Scenario:
+    """Gravity and theory, checked as those of a scenario are; remembered, because asking for one
+    wheel is quicker than reading a document."""
+    if not isinstance(model, (str, type(None))):
+        given = type(model).__name__
+        raise ParameterError(f"model is of type {given}, it must be a name", "model")
+    return _setting(number("gravity_m_s2", gravity_m_s2), model)
+
+
+@lru_cache(maxsize=64)
+def _setting(gravity_m_s2: float, model: str | None) -> Scenario:
+    named: dict[str, Any] = {} if model is None else {"model": model}
+    return Scenario(gravity_m_s2=gravity_m_s2, **named)
+
+
+def number(name: str, value: Any) -> float:
+    """One real number."""
+    array = numbers(name, value)
+    if array.ndim:
+        raise ParameterError(f"{name} has shape {array.shape}, it must be one number", name)
+    return float(array)
+
+
+def numbers(name: str, values: ArrayLike) -> Floats:
     """Real numbers as an array; anything else says what was expected."""
     try:
         array = np.asarray(values)
