@@ -95,7 +95,7 @@ pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec
         let name: String = name.extract().map_err(|_| errors::wrong_type(prefix, &name))?;
         collect(&format!("{prefix}.{name}"), &value, &mut all, 0)?;
     }
-    all.sort_by_key(|(path, _)| !path.ends_with(".law"));
+    all.sort_by_key(|(path, _)| path.rsplit('.').next() != Some("law"));
     Ok(all)
 }
 

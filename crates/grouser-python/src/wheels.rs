@@ -108,11 +108,11 @@ fn row(record: &WheelRecord, last: f64) -> Row {
 }
 
 /// Evaluates every wheel in order, batch by batch, into an array of a row for each result.
-fn evaluate<'py>(
-    py: Python<'py>,
+fn evaluate(
+    py: Python<'_>,
     count: usize,
     one: impl Fn(usize) -> Row + Sync,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
     let results = PyArray2::<f64>::zeros(py, [WHEEL_COLUMNS.len() + 1, count], false);
     {
         let mut results = results.readwrite();
@@ -224,9 +224,9 @@ pub(crate) fn not_carried(
 }
 
 /// Numbers as a column.
-pub(crate) fn column<'py>(
-    py: Python<'py>,
+pub(crate) fn column(
+    py: Python<'_>,
     numbers: impl IntoIterator<Item = f64>,
-) -> Bound<'py, PyArray1<f64>> {
+) -> Bound<'_, PyArray1<f64>> {
     PyArray1::from_vec(py, numbers.into_iter().collect())
 }
