@@ -1,8 +1,8 @@
 //! How many instructions the units of work take: unlike time, a count that repeats.
 //!
 //! `crates/grouser-bench/instructions.txt` keeps the counts, so that a slow-down shows as a
-//! difference. They belong to a compiler and an instruction set, which the file names; with others
-//! the counts are shown and not judged.
+//! difference. They belong to a compiler, an instruction set and a processor, which the file names;
+//! with others the counts are shown and not judged.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -101,11 +101,16 @@ fn build() -> Result<PathBuf> {
     Ok(workspace::root().join("target/release/work"))
 }
 
-/// Compiler and instruction set, in one line.
+/// Compiler, instruction set and processor, in one line: the system's own functions, too, are
+/// chosen by the processor.
 fn circumstances(program: &PathBuf) -> Result<String> {
     let compiler = Command::new("rustc").arg("--version").output().context("rustc")?;
     let set = under_valgrind(program, &["set"])?.1;
-    Ok(format!("{}, {}", String::from_utf8_lossy(&compiler.stdout).trim(), set.trim()))
+    let compiler = String::from_utf8_lossy(&compiler.stdout);
+    let processors = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = processors.lines().find_map(|line| line.strip_prefix("model name"));
+    let model = model.map_or("processor unknown", |rest| rest.trim_start_matches([' ', '\t', ':']));
+    Ok(format!("{}, {}, {model}", compiler.trim(), set.trim()))
 }
 
 /// Instructions of a unit done so many times, and how often that is in its own count.
