@@ -5,6 +5,7 @@ use super::kernel::{LANES, sum};
 use super::patch::ContactPatch;
 use super::slip::Slip;
 use super::stress::RimPoint;
+use crate::elementary;
 use crate::soil::{Bulldozing, Soil};
 
 /// Resistance of a wall pushed through soil, per metre of wall: *R_b* [N/m].
@@ -28,10 +29,9 @@ impl WallResistance {
     /// * `unit_weight`: *γ* [N/m³]
     #[must_use]
     pub fn new(soil: &Soil, unit_weight: f64) -> Self {
-        let phi = soil.friction_angle;
-        let x_c = soil.destructive_angle();
-        let (cot, tan_phi) = (1.0 / x_c.tan(), phi.tan());
-        let (d_1, d_2) = (d1(cot, (x_c + phi).tan()), d2(cot, tan_phi));
+        let (cot, tan_phi) = (soil.destructive_cot(), soil.friction());
+        // X_c + φ is the complement of X_c.
+        let (d_1, d_2) = (d1(cot, cot), d2(cot, tan_phi));
         // The heap reaches cot X_c ahead of the wall and lies at the angle φ.
         let heaped = match soil.bulldozing {
             Bulldozing::SineSquared => 1.0 + tan_phi * cot,
@@ -125,12 +125,15 @@ pub fn flank_load(
 /// without that no integrator gets past a rover that rolls straight ahead.
 #[must_use]
 pub fn shares(law: Bulldozing, slip: &Slip) -> (f64, f64) {
-    let beta = slip.angle;
+    let sin_cos = || elementary::sin_cos(slip.angle);
     match law {
         Bulldozing::None => (0.0, 0.0),
         Bulldozing::Sign => (-slip.sideways, 0.0),
-        Bulldozing::Sine => (-beta.sin(), 0.0),
-        Bulldozing::SineSquared => (-beta.sin() * beta.sin().abs(), -beta.sin().abs() * beta.cos()),
+        Bulldozing::Sine => (-sin_cos().0, 0.0),
+        Bulldozing::SineSquared => {
+            let (sin, cos) = sin_cos();
+            (-sin * sin.abs(), -sin.abs() * cos)
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use super::slip::Slip;
 use crate::elementary;
 use crate::root;
 use crate::soil::extended::SinkageGrowth;
-use crate::soil::pressure_sinkage::Stiffness;
+use crate::soil::pressure_sinkage::ScaledPressure;
 use crate::soil::{Shear, Soil};
 
 /// Stress of the soil on the rim at one angle.
@@ -59,7 +59,11 @@ impl RimPoint {
 pub(super) struct StressLaw {
     radius: f64,
     slip: Slip,
-    stiffness: Stiffness,
+    /// Pressure at the depth of [`Self::scale`] [Pa].
+    pressure: f64,
+    /// Depth of the pressure-sinkage law [radii].
+    scale: f64,
+    exponent: f64,
     cohesion: f64,
     friction: f64,
     shear: MobilisedShear,
@@ -86,7 +90,7 @@ impl Response {
         Self {
             surface_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
-            friction: contact.soil.friction_angle.tan(),
+            friction: contact.soil.friction(),
         }
     }
 }
@@ -97,10 +101,15 @@ impl StressLaw {
         let Contact { wheel, soil, slip, gravity } = contact;
         let unit_weight = soil.unit_weight(*gravity);
         let law = soil.pressure_sinkage;
+        let ScaledPressure { at_scale, scale, exponent } =
+            law.scaled(wheel.width, soil.cohesion, unit_weight, slip.ratio);
+        let radius = wheel.shearing_radius();
         Self {
-            radius: wheel.shearing_radius(),
+            radius,
             slip: *slip,
-            stiffness: law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio),
+            pressure: at_scale,
+            scale: scale / radius,
+            exponent,
             cohesion: soil.cohesion,
             friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
@@ -122,17 +131,20 @@ impl StressLaw {
         let patch = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
         let ContactPatch { entry, max_stress, exit } = patch;
         let (ahead, behind) = (entry - max_stress, max_stress - exit);
-        let mut law = *self;
+        let mut scale = self.scale;
         if self.surface_growth != 1.0 {
-            // σ = K (z/ζ)ⁿ, written as a modulus of its own.
-            let growth = SinkageGrowth::at_depth(self.surface_growth, depth);
-            law.stiffness.modulus /= elementary::pow(growth, self.stiffness.exponent);
+            // σ = K (z/ζ)ⁿ
+            scale *= SinkageGrowth::at_depth(self.surface_growth, depth);
         }
+        // The height of the surface is the depth: no need to ask the angle.
+        let height = depth.clamp(0.0, 2.0);
         StressField {
             patch,
-            entry: RimPoint::new(entry, 0.0),
+            entry_sin: (height * (2.0 - height)).sqrt(),
+            entry_height: height,
+            per_scale: 1.0 / scale,
             squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
-            law,
+            law: *self,
         }
     }
 
@@ -145,13 +157,12 @@ impl StressLaw {
     ///
     /// with t = 1 − (1 − a) u and the integral by one node for the weight uⁿ, to a hundredth.
     pub(super) fn shallow(&self) -> (f64, f64) {
-        let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
+        let (n, front) = (self.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
-        let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
-        let growth =
-            if self.surface_growth == 1.0 { 1.0 } else { elementary::pow(self.surface_growth, n) };
+        let scale = self.scale * self.radius * self.surface_growth;
+        let profile = elementary::pow(front * (2.0 - front * node) / scale, n) / (n + 1.0);
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
-        (self.stiffness.modulus / growth * arc, n + 0.5)
+        (self.pressure * arc, n + 0.5)
     }
 }
 
@@ -240,8 +251,11 @@ pub struct StressField {
     /// The arc in contact.
     pub patch: ContactPatch,
     law: StressLaw,
-    /// The point at which the rim enters the soil.
-    entry: RimPoint,
+    /// Of the point at which the rim enters the soil: sin θ_f [-] and 1 − cos θ_f [-].
+    entry_sin: f64,
+    entry_height: f64,
+    /// 1 over the depth of the pressure-sinkage law [1/radii].
+    per_scale: f64,
     /// How much longer the arc before the stress peak is than the one behind it,
     /// (θ_f − θ_m)/(θ_m − θ_r) [-].
     squeeze: f64,
@@ -311,8 +325,8 @@ impl StressField {
     #[must_use]
     #[inline(always)]
     pub fn max_normal(&self) -> f64 {
-        let ContactPatch { entry, max_stress, .. } = self.patch;
-        self.normal(&RimPoint::new(max_stress, entry - max_stress))
+        let sin_half = elementary::sin(0.5 * self.patch.max_stress);
+        self.pressure_at(2.0 * sin_half * sin_half)
     }
 
     /// Normal stress, *σ* [Pa].
@@ -328,7 +342,14 @@ impl StressField {
         let sin_half = elementary::sin(0.5 * mirrored);
         let behind_peak = point.angle < max_stress;
         let height = if behind_peak { 2.0 * sin_half * sin_half } else { point.height };
-        self.law.stiffness.pressure(self.law.radius * (self.entry.height - height))
+        self.pressure_at(height)
+    }
+
+    /// σ [Pa] of a point of the front arc by its height over the rim's lowest point [radii].
+    #[inline(always)]
+    fn pressure_at(&self, height: f64) -> f64 {
+        let depth = (self.entry_height - height) * self.per_scale;
+        self.law.pressure * elementary::pow(depth, self.law.exponent)
     }
 
     /// Shear displacement of the soil against the rim since it entered [m], along and across.
@@ -343,7 +364,7 @@ impl StressField {
     #[inline(always)]
     fn displacement(&self, point: &RimPoint) -> (f64, f64) {
         let Slip { rim, forward, lateral, .. } = self.law.slip;
-        let rise = self.entry.sin - point.sin;
+        let rise = self.entry_sin - point.sin;
         let j_x = self.law.radius * (rim * point.behind_entry - forward * rise);
         let j_y = self.law.radius * lateral * point.behind_entry;
         (j_x, j_y)
