@@ -282,8 +282,8 @@ impl StressField {
         if angle > self.patch.exit && angle < self.patch.entry {
             let point = self.point(self.patch.entry - angle);
             match self.law.shear {
-                MobilisedShear::Anisotropic(law) => self.stress(&law, &point),
-                MobilisedShear::Isotropic(law) => self.stress(&law, &point),
+                MobilisedShear::Anisotropic(law) => self.stress(&law, self.normal(&point), &point),
+                MobilisedShear::Isotropic(law) => self.stress(&law, self.normal(&point), &point),
             }
         } else {
             RimStress::default()
@@ -306,16 +306,31 @@ impl StressField {
         self.law.slip.rim >= margin * self.law.slip.forward
     }
 
+    /// Whether the slip velocity of an arc of two pieces turns under the hub, if not sharply.
+    #[inline(always)]
+    pub(super) fn turns_under_hub(&self) -> bool {
+        const HARDLY: f64 = 1.6;
+        self.law.slip.rim < HARDLY * self.law.slip.forward
+    }
+
+    /// Whether the soil shears much faster along the arc than under a wheel that rolls freely: the
+    /// rim turns less than half as fast as the soil passes it.
+    #[inline(always)]
+    pub(super) fn shears_at_once(&self) -> bool {
+        let Slip { forward, lateral, .. } = self.law.slip;
+        const FAST: f64 = 2.0;
+        forward.abs() > FAST || lateral.abs() > FAST
+    }
+
     /// The point of the arc `behind_entry` [rad] away from its front end.
     #[inline(always)]
     pub(super) fn point(&self, behind_entry: f64) -> RimPoint {
         RimPoint::new(self.patch.entry - behind_entry, behind_entry)
     }
 
-    /// The stresses at a point of the arc.
+    /// The stresses at a point of the arc with a [`normal`](Self::normal) stress [Pa].
     #[inline(always)]
-    pub(super) fn stress(&self, shear: &impl ShearLaw, point: &RimPoint) -> RimStress {
-        let normal = self.normal(point);
+    pub(super) fn stress(&self, shear: &impl ShearLaw, normal: f64, point: &RimPoint) -> RimStress {
         let strength = self.law.cohesion + normal * self.law.friction;
         let (longitudinal, lateral) = shear.stresses(strength, point, self);
         RimStress { normal, longitudinal, lateral }
@@ -326,7 +341,7 @@ impl StressField {
     #[inline(always)]
     pub fn max_normal(&self) -> f64 {
         let sin_half = elementary::sin(0.5 * self.patch.max_stress);
-        self.pressure_at(2.0 * sin_half * sin_half)
+        self.front_normal(2.0 * sin_half * sin_half)
     }
 
     /// Normal stress, *σ* [Pa].
@@ -336,18 +351,18 @@ impl StressField {
     /// θ < θ_m   the same at θ_e = θ_f − (θ − θ_r)(θ_f − θ_m)/(θ_m − θ_r)
     /// ```
     #[inline(always)]
-    fn normal(&self, point: &RimPoint) -> f64 {
+    pub(super) fn normal(&self, point: &RimPoint) -> f64 {
         let ContactPatch { entry, max_stress, exit } = self.patch;
         let mirrored = entry - (point.angle - exit) * self.squeeze;
         let sin_half = elementary::sin(0.5 * mirrored);
         let behind_peak = point.angle < max_stress;
         let height = if behind_peak { 2.0 * sin_half * sin_half } else { point.height };
-        self.pressure_at(height)
+        self.front_normal(height)
     }
 
-    /// σ [Pa] of a point of the front arc by its height over the rim's lowest point [radii].
+    /// The same before the peak, by the height over the rim's lowest point [radii].
     #[inline(always)]
-    fn pressure_at(&self, height: f64) -> f64 {
+    pub(super) fn front_normal(&self, height: f64) -> f64 {
         let depth = (self.entry_height - height) * self.per_scale;
         self.law.pressure * elementary::pow(depth, self.law.exponent)
     }
