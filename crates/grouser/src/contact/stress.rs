@@ -421,15 +421,16 @@ impl StressField {
         if still > 0.0 && still < 1.0 {
             let still = still.acos();
             // Between these angles j_x is monotone.
-            self.displacement_zero(-still, still).map(&mut add);
-            self.displacement_zero(exit, -still).map(&mut add);
+            self.displacement_zero(-still, still, -1.0).map(&mut add);
+            self.displacement_zero(exit, -still, 1.0).map(&mut add);
         }
         breaks[..count].sort_by(|a, b| b.total_cmp(a));
         (count, breaks)
     }
 
-    /// The angle between two others at which *j_x* changes sign, if it does.
-    fn displacement_zero(&self, low: f64, high: f64) -> Option<f64> {
+    /// The angle between two others at which *j_x* changes sign, if it does: for the first time after
+    /// the entry (`which` −1) or the second (1).
+    fn displacement_zero(&self, low: f64, high: f64, which: f64) -> Option<f64> {
         let ContactPatch { entry, exit, .. } = self.patch;
         let (low, high) = (low.max(exit), high.min(entry));
         let displacement = |angle: f64| self.displacement(&self.point(entry - angle)).0;
@@ -438,6 +439,31 @@ impl StressField {
         }
         /// A corner this near to a piece's end [rad] no longer costs digits.
         const NEAR_ENOUGH: f64 = 1e-12;
-        Some(root::between(displacement, low, high, NEAR_ENOUGH))
+        let zero = self.newton_zero(which).filter(|angle| (low..high).contains(angle));
+        Some(zero.unwrap_or_else(|| root::between(displacement, low, high, NEAR_ENOUGH)))
+    }
+
+    /// A zero of *j_x* but the entry, by Newton's method from where a shallow arc has it.
+    ///
+    /// With d half the way from the entry, j_x = 0 reads cos(θ_f − d) sin d = d r_s ω/v_x, which to second
+    /// order is ⅔ d² − θ_f d + ½ θ_f² = 1 − r_s ω/v_x.
+    fn newton_zero(&self, which: f64) -> Option<f64> {
+        const MOST_STEPS: usize = 6;
+        /// The next step is the square of this one [rad].
+        const LAST_STEP: f64 = 1e-7;
+        let Slip { rim, forward, .. } = self.law.slip;
+        let entry = self.patch.entry;
+        let still = rim / forward;
+        let square = (8.0 * (1.0 - still) - entry * entry) / 3.0;
+        let mut behind = 1.5 * (entry + which * square.max(0.0).sqrt());
+        for _ in 0..MOST_STEPS {
+            let (sin, cos) = elementary::sin_cos(entry - behind);
+            let step = (still * behind - (self.entry_sin - sin)) / (still - cos);
+            behind -= step;
+            if step.abs() < LAST_STEP {
+                return Some(entry - behind);
+            }
+        }
+        None
     }
 }
