@@ -1,6 +1,6 @@
 //! Soil pushed aside by the flank of a wheel that moves sideways (Hegedus 1960, Bekker).
 
-use super::gauss::GAUSS_8;
+use super::kernel::rule::EVEN;
 use super::kernel::{LANES, sum};
 use super::patch::ContactPatch;
 use super::slip::Slip;
@@ -100,11 +100,11 @@ pub fn flank_load(
     let surface = RimPoint::new(patch.entry, 0.0).height;
     let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
-        let (node, weight) = GAUSS_8[lane];
-        let point = RimPoint::new(start + node * span, 0.0);
+        let (share, width) = (EVEN.share[lane], EVEN.width[lane]);
+        let point = RimPoint::new(start + share * span, 0.0);
         let (sin, cos) = (point.sin, point.cos());
         let depth = r * (surface - point.height);
-        let strip = weight * span * resistance.at(depth) * (r - depth * cos);
+        let strip = width * span * resistance.at(depth) * (r - depth * cos);
         force[lane] = strip;
         below[lane] = strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
         ahead[lane] = strip * r * sin;

@@ -179,7 +179,10 @@ impl Search<'_> {
         match self.last {
             Some((at, forces)) if at == log_sinkage => (sinkage, forces),
             _ => {
-                let forces = self.model.forces(self.contact, sinkage);
+                let forces = match self.bearing {
+                    Some(bearing) => self.model.forces_of(self.contact, bearing, sinkage),
+                    None => self.model.forces(self.contact, sinkage),
+                };
                 self.evaluations += 1;
                 self.last = Some((log_sinkage, forces));
                 (sinkage, forces)

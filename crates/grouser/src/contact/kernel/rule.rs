@@ -16,7 +16,7 @@ use crate::soil::{Shear, ShearModulus};
 /// A node lies its share of the span behind the span's front end (behind the peak: before its rear
 /// end), and stands for its width of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pack {
+pub(in crate::contact) struct Pack {
     pub share: Lanes,
     pub width: Lanes,
 }
@@ -61,7 +61,7 @@ impl ArcRule {
             }
             Shear::Isotropic { modulus } => (&COARSE_ISOTROPIC, smallest(modulus)),
         };
-        let peak = soil.stress_peak.share(0.0).max(soil.stress_peak.share(1.0));
+        let peak = soil.stress_peak.a0 + soil.stress_peak.a1.max(0.0);
         if peak <= PEAK_UP_TO && radius <= COARSE_UP_TO * softest { coarse } else { &FINE }
     }
 }
@@ -94,6 +94,9 @@ const fn piece<const PACKS: usize>(ends: Ends, rule: &Gauss) -> [Pack; PACKS] {
     }
     packs
 }
+
+/// Nodes for what is smooth at both ends.
+pub(in crate::contact) static EVEN: Pack = piece::<1>(Ends::Inner, &GAUSS_8)[0];
 
 static OPENING_8: [Pack; 1] = piece(Ends::Opening, &GAUSS_8);
 static INNER_8: [Pack; 1] = piece(Ends::Inner, &GAUSS_8);
