@@ -434,7 +434,8 @@ impl StressField {
         let ContactPatch { entry, exit, .. } = self.patch;
         let (low, high) = (low.max(exit), high.min(entry));
         let displacement = |angle: f64| self.displacement(&self.point(entry - angle)).0;
-        if low >= high || displacement(low) * displacement(high) >= 0.0 {
+        // From the entry on it grows until the rim is as fast as the soil.
+        if low >= high || high >= entry || displacement(low) * displacement(high) >= 0.0 {
             return None;
         }
         /// A corner this near to a piece's end [rad] no longer costs digits.
