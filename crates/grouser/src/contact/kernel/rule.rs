@@ -45,10 +45,10 @@ pub(super) struct PieceRule {
 impl ArcRule {
     /// The one with as few nodes as 1e-6 of the load allows.
     ///
-    /// For driving wheels it follows from the wheel and the soil alone, never from the motion or the
-    /// sinkage: a wheel that moves in one soil keeps its rule, and no force jumps. Shear that is
-    /// mobilised over a short length bends the stress near the entry; so does a peak that lies there;
-    /// and in the isotropic law the stress turns under a wheel that nearly rolls.
+    /// It follows from the wheel and the soil, never from the sinkage. Shear that is mobilised over a
+    /// short length bends the stress near the entry; so does a peak that lies there. The motion has a
+    /// say only under wheels that skid fast and, in the isotropic law, under wheels that slip little:
+    /// where it changes the rule, forces jump by no more than the error that is allowed.
     pub(in crate::contact) fn of(contact: &Contact) -> &'static Self {
         /// The largest r_s/K [-] and θ_m/θ_f [-]. Source: measured, `docs/models/ishigami.md`.
         const COARSE_UP_TO: f64 = 10.0;
