@@ -9,7 +9,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 
 use crate::workspace;
 
@@ -85,20 +85,13 @@ impl Counts {
 }
 
 fn count() -> Result<Counts> {
-    let program = build()?;
+    let program = workspace::build_work()?;
     let units = UNITS.iter().map(|key| {
         let (nothing, _) = instructions(&program, key, 0)?;
         let (once, done) = instructions(&program, key, 1)?;
         Ok(((*key).to_owned(), (once - nothing) as f64 / done as f64))
     });
     Ok(Counts { units: units.collect::<Result<_>>()?, circumstances: circumstances(&program)? })
-}
-
-fn build() -> Result<PathBuf> {
-    let arguments = ["build", "--release", "--package", "grouser-bench", "--bin", "work"];
-    let status = workspace::cargo().args(arguments).status().context("cargo did not start")?;
-    ensure!(status.success(), "the units of work do not build");
-    Ok(workspace::root().join("target/release/work"))
 }
 
 /// Compiler, instruction set and processor, in one line: the system's own functions, too, are
