@@ -1,15 +1,15 @@
 //! How many instructions the units of work take: unlike time, a count that repeats.
 //!
 //! `crates/grouser-bench/instructions.txt` keeps the counts, so that a slow-down shows as a
-//! difference. They belong to a compiler and an instruction set, which the file names; with others
-//! the counts are shown and not judged.
+//! difference. They belong to a compiler, an instruction set and a processor, which the file names;
+//! with others the counts are shown and not judged.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 
 use crate::workspace;
 
@@ -85,7 +85,7 @@ impl Counts {
 }
 
 fn count() -> Result<Counts> {
-    let program = build()?;
+    let program = workspace::build_work()?;
     let units = UNITS.iter().map(|key| {
         let (nothing, _) = instructions(&program, key, 0)?;
         let (once, done) = instructions(&program, key, 1)?;
@@ -94,18 +94,16 @@ fn count() -> Result<Counts> {
     Ok(Counts { units: units.collect::<Result<_>>()?, circumstances: circumstances(&program)? })
 }
 
-fn build() -> Result<PathBuf> {
-    let arguments = ["build", "--release", "--package", "grouser-bench", "--bin", "work"];
-    let status = workspace::cargo().args(arguments).status().context("cargo did not start")?;
-    ensure!(status.success(), "the units of work do not build");
-    Ok(workspace::root().join("target/release/work"))
-}
-
-/// Compiler and instruction set, in one line.
+/// Compiler, instruction set and processor, in one line: the system's own functions, too, are
+/// chosen by the processor.
 fn circumstances(program: &PathBuf) -> Result<String> {
     let compiler = Command::new("rustc").arg("--version").output().context("rustc")?;
     let set = under_valgrind(program, &["set"])?.1;
-    Ok(format!("{}, {}", String::from_utf8_lossy(&compiler.stdout).trim(), set.trim()))
+    let compiler = String::from_utf8_lossy(&compiler.stdout);
+    let processors = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = processors.lines().find_map(|line| line.strip_prefix("model name"));
+    let model = model.map_or("processor unknown", |rest| rest.trim_start_matches([' ', '\t', ':']));
+    Ok(format!("{}, {}, {model}", compiler.trim(), set.trim()))
 }
 
 /// Instructions of a unit done so many times, and how often that is in its own count.

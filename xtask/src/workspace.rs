@@ -73,12 +73,25 @@ pub(crate) fn texts_with_extension(extension: &str) -> Result<Vec<(String, Strin
 
 /// Builds the program `grouser`, optimised, and returns its path.
 pub(crate) fn build_program() -> Result<PathBuf> {
+    build(&format!("grouser{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// Builds the program that does one unit of work and returns its path.
+pub(crate) fn build_work() -> Result<PathBuf> {
+    build(&format!("work{}", std::env::consts::EXE_SUFFIX))
+}
+
+/// Builds all that is measured and shown, at once: alone, each would choose other features of the
+/// libraries that they share, and have those built again.
+fn build(program: &str) -> Result<PathBuf> {
+    let packages = ["--package", "grouser-cli", "--package", "grouser-bench"];
     let status = cargo()
-        .args(["build", "--release", "--package", "grouser-cli"])
+        .args(["build", "--release", "--bins"])
+        .args(packages)
         .status()
         .context("cargo did not start")?;
-    ensure!(status.success(), "the program `grouser` does not build");
-    Ok(target().join("release").join(format!("grouser{}", std::env::consts::EXE_SUFFIX)))
+    ensure!(status.success(), "`{program}` does not build");
+    Ok(target().join("release").join(program))
 }
 
 /// The folder that cargo builds into.

@@ -14,7 +14,7 @@ pub struct Fixtures {
     pub wheels: Vec<LoadedWheel>,
     /// The paper's rover on 10°, nose along the contour, for 20 s.
     pub scenario: Scenario,
-    /// The same rover under [`CAMPAIGN`] soils.
+    /// The same rover on 200 soils, a tenth more or less of everything.
     pub campaign: Vec<Scenario>,
 }
 

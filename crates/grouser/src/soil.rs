@@ -13,6 +13,7 @@ pub use extended::Extended;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 
+use crate::elementary;
 use crate::error::{ParameterError, finite, not_negative, positive};
 
 /// A homogeneous soil.
@@ -209,6 +210,20 @@ impl Soil {
     #[must_use]
     pub fn destructive_angle(&self) -> f64 {
         FRAC_PI_4 - self.friction_angle / 2.0
+    }
+
+    /// cot X_c = (1 + sin φ)/cos φ [-].
+    #[inline]
+    pub(crate) fn destructive_cot(&self) -> f64 {
+        let (sin, cos) = elementary::sin_cos(self.friction_angle);
+        (1.0 + sin) / cos
+    }
+
+    /// Coefficient of internal friction, tan φ [-].
+    #[inline]
+    pub(crate) fn friction(&self) -> f64 {
+        let (sin, cos) = elementary::sin_cos(self.friction_angle);
+        sin / cos
     }
 
     /// That the constants belong to a soil at all. (Documents have narrower ranges of their own.)

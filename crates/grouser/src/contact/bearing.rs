@@ -10,8 +10,9 @@ use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::kernel::integral::{self, StressSums};
 use super::kernel::rule::{self, ArcRule};
-use super::model::Contact;
-use super::stress::{Response, StressField, StressLaw};
+use super::model::{Contact, Side};
+use super::patch::ContactPatch;
+use super::stress::{Response, StressLaw};
 
 /// The vertical force of the soil on one wheel as a function of its sinkage.
 #[derive(Clone, Copy, Debug)]
@@ -60,14 +61,20 @@ impl Bearing {
         }
     }
 
+    /// The arc of the side that enters the soil, or of one of both.
+    pub(super) fn arc(&self, side: Side) -> &Arc {
+        match (&self.views, side) {
+            (Views::One(arc), _)
+            | (Views::Both { front: (arc, _), .. }, Side::Front)
+            | (Views::Both { back: (arc, _), .. }, Side::Back) => arc,
+        }
+    }
+
     /// F_z of a shallow wheel without shear: the factor [N/m^p] and the power p of its sinkage. A search
     /// starts there.
     #[must_use]
     pub fn shallow(&self) -> (f64, f64) {
-        let arc = match &self.views {
-            Views::One(arc) | Views::Both { front: (arc, _), .. } => arc,
-        };
-        let (factor, power) = arc.law.shallow();
+        let (factor, power) = self.arc(Side::Front).law.shallow();
         (self.area * factor, power)
     }
 }
@@ -82,7 +89,7 @@ pub(super) struct Arc {
 
 /// What the kernel computes of an arc at one sinkage.
 pub(super) struct Reaction {
-    pub field: StressField,
+    pub patch: ContactPatch,
     pub sums: StressSums,
     /// Of a wall that is not heaped up further.
     pub flank: FlankLoad,
@@ -152,7 +159,7 @@ impl Work for All<'_> {
             sums: integral::all(&field, self.arc.rule),
             flank: bulldozing::flank_load(self.wall, &field.patch, self.arc.law.radius()),
             max_normal_stress: field.max_normal(),
-            field,
+            patch: field.patch,
         }
     }
 }

@@ -28,7 +28,7 @@ impl WheelSoilModel for Bekker {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        from_both_sides(contact, |contact| entering_front(contact, sinkage))
+        from_both_sides(contact, |contact, _| entering_front(contact, sinkage))
     }
 }
 

@@ -1,10 +1,11 @@
 //! Soil pushed aside by the flank of a wheel that moves sideways (Hegedus 1960, Bekker).
 
-use super::gauss::GAUSS_8;
+use super::kernel::rule::EVEN;
 use super::kernel::{LANES, sum};
 use super::patch::ContactPatch;
 use super::slip::Slip;
 use super::stress::RimPoint;
+use crate::elementary;
 use crate::soil::{Bulldozing, Soil};
 
 /// Resistance of a wall pushed through soil, per metre of wall: *R_b* [N/m].
@@ -28,10 +29,9 @@ impl WallResistance {
     /// * `unit_weight`: *γ* [N/m³]
     #[must_use]
     pub fn new(soil: &Soil, unit_weight: f64) -> Self {
-        let phi = soil.friction_angle;
-        let x_c = soil.destructive_angle();
-        let (cot, tan_phi) = (1.0 / x_c.tan(), phi.tan());
-        let (d_1, d_2) = (d1(cot, (x_c + phi).tan()), d2(cot, tan_phi));
+        let (cot, tan_phi) = (soil.destructive_cot(), soil.friction());
+        // X_c + φ is the complement of X_c.
+        let (d_1, d_2) = (d1(cot, cot), d2(cot, tan_phi));
         // The heap reaches cot X_c ahead of the wall and lies at the angle φ.
         let heaped = match soil.bulldozing {
             Bulldozing::SineSquared => 1.0 + tan_phi * cot,
@@ -100,11 +100,11 @@ pub fn flank_load(
     let surface = RimPoint::new(patch.entry, 0.0).height;
     let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
-        let (node, weight) = GAUSS_8[lane];
-        let point = RimPoint::new(start + node * span, 0.0);
+        let (share, width) = (EVEN.share[lane], EVEN.width[lane]);
+        let point = RimPoint::new(start + share * span, 0.0);
         let (sin, cos) = (point.sin, point.cos());
         let depth = r * (surface - point.height);
-        let strip = weight * span * resistance.at(depth) * (r - depth * cos);
+        let strip = width * span * resistance.at(depth) * (r - depth * cos);
         force[lane] = strip;
         below[lane] = strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
         ahead[lane] = strip * r * sin;
@@ -125,12 +125,15 @@ pub fn flank_load(
 /// without that no integrator gets past a rover that rolls straight ahead.
 #[must_use]
 pub fn shares(law: Bulldozing, slip: &Slip) -> (f64, f64) {
-    let beta = slip.angle;
+    let sin_cos = || elementary::sin_cos(slip.angle);
     match law {
         Bulldozing::None => (0.0, 0.0),
         Bulldozing::Sign => (-slip.sideways, 0.0),
-        Bulldozing::Sine => (-beta.sin(), 0.0),
-        Bulldozing::SineSquared => (-beta.sin() * beta.sin().abs(), -beta.sin().abs() * beta.cos()),
+        Bulldozing::Sine => (-sin_cos().0, 0.0),
+        Bulldozing::SineSquared => {
+            let (sin, cos) = sin_cos();
+            (-sin * sin.abs(), -sin.abs() * cos)
+        }
     }
 }
 

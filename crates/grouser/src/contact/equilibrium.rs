@@ -104,7 +104,11 @@ fn settle_near(
         return Ok(Settled { sinkage: 0.0, forces, evaluations: 1 });
     }
     let bearing = model.bearing(contact);
-    let exponent = bearing.map_or_else(|| growth(contact), |bearing| bearing.shallow().1);
+    let bearing = bearing.as_ref();
+    let shallow = bearing.map(Bearing::shallow);
+    let exponent = shallow.map_or_else(|| growth(contact), |(_, power)| power);
+    let guess = guess
+        .or_else(|| shallow.map(|(factor, power)| elementary::pow(load / factor, 1.0 / power)));
     let axle = elementary::ln(contact.wheel.shearing_radius());
     let mut search =
         Search { model, contact, load, bearing, exponent, axle, evaluations: 0, last: None };
@@ -155,7 +159,7 @@ struct Search<'a> {
     model: &'a dyn WheelSoilModel,
     contact: &'a Contact,
     load: f64,
-    bearing: Option<Bearing>,
+    bearing: Option<&'a Bearing>,
     /// With which F_z grows for shallow sinkage: n + ½.
     exponent: f64,
     /// ln r_s.
@@ -175,7 +179,10 @@ impl Search<'_> {
         match self.last {
             Some((at, forces)) if at == log_sinkage => (sinkage, forces),
             _ => {
-                let forces = self.model.forces(self.contact, sinkage);
+                let forces = match self.bearing {
+                    Some(bearing) => self.model.forces_of(self.contact, bearing, sinkage),
+                    None => self.model.forces(self.contact, sinkage),
+                };
                 self.evaluations += 1;
                 self.last = Some((log_sinkage, forces));
                 (sinkage, forces)
@@ -208,15 +215,9 @@ impl Search<'_> {
         if share >= f64::MIN_POSITIVE { elementary::ln(share) } else { CARRIES_NOTHING }
     }
 
-    /// Where the search starts: at the guess, where a shallow wheel would settle, or at a tenth of
-    /// the radius.
+    /// Where the search starts: at the guess, or at a tenth of the radius.
     fn start(&mut self, guess: Option<f64>) -> Point {
         let axle = self.axle;
-        let shallow = |bearing: Bearing| {
-            let (factor, power) = bearing.shallow();
-            elementary::pow(self.load / factor, 1.0 / power)
-        };
-        let guess = guess.or_else(|| self.bearing.map(shallow));
         let start = match guess {
             Some(guess) if guess >= f64::MIN_POSITIVE => elementary::ln(guess).min(axle - MARGIN),
             _ => axle - LN_10,

@@ -67,7 +67,14 @@ impl WheelSoilModel for Extended {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        from_both_sides(contact, |contact| self.entering_front(contact, sinkage))
+        from_both_sides(contact, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
+    }
+
+    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
+        if sinkage <= 0.0 {
+            return WheelForces::default();
+        }
+        from_both_sides(contact, |contact, side| on_arc(contact, bearing.arc(side), sinkage))
     }
 
     fn bearing(&self, contact: &Contact) -> Option<Bearing> {
@@ -75,20 +82,18 @@ impl WheelSoilModel for Extended {
     }
 }
 
-impl Extended {
-    fn entering_front(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        let Contact { wheel, soil, gravity, .. } = contact;
-        let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
-        let reaction = self.arc(contact).reaction(&wall, sinkage);
-        let flank = heaped(contact, &reaction.flank);
-        let pushed = wheel.width * wall.at(sinkage);
+fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
+    let Contact { wheel, soil, gravity, .. } = contact;
+    let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
+    let reaction = arc.reaction(&wall, sinkage);
+    let flank = heaped(contact, &reaction.flank);
+    let pushed = wheel.width * wall.at(sinkage);
 
-        // Only the first of them carries.
-        ishigami::forces(contact, &reaction, &flank)
-            + face_friction(contact, &flank)
-            + soil_in_front(contact, pushed, sinkage)
-            + soil_behind(contact, pushed)
-    }
+    // Only the first of them carries.
+    ishigami::forces(contact, &reaction, &flank)
+        + face_friction(contact, &flank)
+        + soil_in_front(contact, pushed, sinkage)
+        + soil_behind(contact, pushed)
 }
 
 /// What the soil makes of a wheel's motion.

@@ -59,17 +59,25 @@ impl WheelSoilModel for Ishigami {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        from_both_sides(contact, |contact| {
-            let unit_weight = contact.soil.unit_weight(contact.gravity);
-            let wall = WallResistance::new(&contact.soil, unit_weight);
-            let reaction = self.arc(contact).reaction(&wall, sinkage);
-            forces(contact, &reaction, &reaction.flank)
-        })
+        from_both_sides(contact, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
+    }
+
+    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
+        if sinkage <= 0.0 {
+            return WheelForces::default();
+        }
+        from_both_sides(contact, |contact, side| on_arc(contact, bearing.arc(side), sinkage))
     }
 
     fn bearing(&self, contact: &Contact) -> Option<Bearing> {
         Some(Bearing::new(contact, |contact| self.arc(contact)))
     }
+}
+
+fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
+    let wall = WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
+    let reaction = arc.reaction(&wall, sinkage);
+    forces(contact, &reaction, &reaction.flank)
 }
 
 /// The stresses on the rim and the load on the flank, added up.
@@ -95,6 +103,6 @@ pub(super) fn forces(contact: &Contact, reaction: &Reaction, flank: &FlankLoad) 
         side_force_from_shear,
         bulldozing_load: flank.force,
         max_normal_stress: reaction.max_normal_stress,
-        patch: reaction.field.patch,
+        patch: reaction.patch,
     }
 }

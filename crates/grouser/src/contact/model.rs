@@ -35,6 +35,19 @@ pub trait WheelSoilModel: Sync {
         let _ = contact;
         None
     }
+
+    /// [`forces`](Self::forces) of a contact that was made ready before, with the same bits.
+    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
+        let _ = bearing;
+        self.forces(contact, sinkage)
+    }
+}
+
+/// An end of the wheel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Front,
+    Back,
 }
 
 /// The reaction for any motion, from a theory of a wheel that enters the soil with its front.
@@ -44,12 +57,12 @@ pub trait WheelSoilModel: Sync {
 /// switch between them would be a jump in force.
 pub(super) fn from_both_sides(
     contact: &Contact,
-    entering_front: impl Fn(&Contact) -> WheelForces,
+    entering_front: impl Fn(&Contact, Side) -> WheelForces,
 ) -> WheelForces {
-    let front = || entering_front(contact);
+    let front = || entering_front(contact, Side::Front);
     let back = || {
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
-        entering_front(&mirrored).front_to_back()
+        entering_front(&mirrored, Side::Back).front_to_back()
     };
     let (front_share, back_share) = contact.slip.shares_of_sides();
     if back_share <= 0.0 {

@@ -42,7 +42,9 @@ impl ContactPatch {
     #[inline(always)]
     pub(super) fn of_depth(depth: f64, peak_share: f64, exit_ratio: f64) -> Self {
         let entry = angle_at_depth(depth);
-        Self { entry, max_stress: peak_share * entry, exit: -angle_at_depth(exit_ratio * depth) }
+        // Most soils rise behind the wheel as high as before it.
+        let exit = if exit_ratio == 1.0 { entry } else { angle_at_depth(exit_ratio * depth) };
+        Self { entry, max_stress: peak_share * entry, exit: -exit }
     }
 }
 

@@ -5,13 +5,14 @@
     reason = "the kernel compiles these formulas for several instruction sets"
 )]
 
+mod breaks;
+
 use super::model::Contact;
 use super::patch::ContactPatch;
 use super::slip::Slip;
 use crate::elementary;
-use crate::root;
 use crate::soil::extended::SinkageGrowth;
-use crate::soil::pressure_sinkage::Stiffness;
+use crate::soil::pressure_sinkage::ScaledPressure;
 use crate::soil::{Shear, Soil};
 
 /// Stress of the soil on the rim at one angle.
@@ -59,7 +60,11 @@ impl RimPoint {
 pub(super) struct StressLaw {
     radius: f64,
     slip: Slip,
-    stiffness: Stiffness,
+    /// Pressure at the depth of [`Self::scale`] [Pa].
+    pressure: f64,
+    /// Depth of the pressure-sinkage law [radii].
+    scale: f64,
+    exponent: f64,
     cohesion: f64,
     friction: f64,
     shear: MobilisedShear,
@@ -86,7 +91,7 @@ impl Response {
         Self {
             surface_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
-            friction: contact.soil.friction_angle.tan(),
+            friction: contact.soil.friction(),
         }
     }
 }
@@ -97,10 +102,15 @@ impl StressLaw {
         let Contact { wheel, soil, slip, gravity } = contact;
         let unit_weight = soil.unit_weight(*gravity);
         let law = soil.pressure_sinkage;
+        let ScaledPressure { at_scale, scale, exponent } =
+            law.scaled(wheel.width, soil.cohesion, unit_weight, slip.ratio);
+        let radius = wheel.shearing_radius();
         Self {
-            radius: wheel.shearing_radius(),
+            radius,
             slip: *slip,
-            stiffness: law.stiffness(wheel.width, soil.cohesion, unit_weight, slip.ratio),
+            pressure: at_scale,
+            scale: scale / radius,
+            exponent,
             cohesion: soil.cohesion,
             friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
@@ -122,17 +132,20 @@ impl StressLaw {
         let patch = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
         let ContactPatch { entry, max_stress, exit } = patch;
         let (ahead, behind) = (entry - max_stress, max_stress - exit);
-        let mut law = *self;
+        let mut scale = self.scale;
         if self.surface_growth != 1.0 {
-            // σ = K (z/ζ)ⁿ, written as a modulus of its own.
-            let growth = SinkageGrowth::at_depth(self.surface_growth, depth);
-            law.stiffness.modulus /= elementary::pow(growth, self.stiffness.exponent);
+            // σ = K (z/ζ)ⁿ
+            scale *= SinkageGrowth::at_depth(self.surface_growth, depth);
         }
+        // The height of the surface is the depth: no need to ask the angle.
+        let height = depth.clamp(0.0, 2.0);
         StressField {
             patch,
-            entry: RimPoint::new(entry, 0.0),
+            entry_sin: (height * (2.0 - height)).sqrt(),
+            entry_height: height,
+            per_scale: 1.0 / scale,
             squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
-            law,
+            law: *self,
         }
     }
 
@@ -145,13 +158,12 @@ impl StressLaw {
     ///
     /// with t = 1 − (1 − a) u and the integral by one node for the weight uⁿ, to a hundredth.
     pub(super) fn shallow(&self) -> (f64, f64) {
-        let (n, front) = (self.stiffness.exponent, 1.0 - self.peak_share);
+        let (n, front) = (self.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
-        let profile = elementary::pow(front * (2.0 - front * node), n) / (n + 1.0);
-        let growth =
-            if self.surface_growth == 1.0 { 1.0 } else { elementary::pow(self.surface_growth, n) };
+        let scale = self.scale * self.radius * self.surface_growth;
+        let profile = elementary::pow(front * (2.0 - front * node) / scale, n) / (n + 1.0);
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
-        (self.stiffness.modulus / growth * arc, n + 0.5)
+        (self.pressure * arc, n + 0.5)
     }
 }
 
@@ -240,16 +252,15 @@ pub struct StressField {
     /// The arc in contact.
     pub patch: ContactPatch,
     law: StressLaw,
-    /// The point at which the rim enters the soil.
-    entry: RimPoint,
+    /// Of the point at which the rim enters the soil: sin θ_f [-] and 1 − cos θ_f [-].
+    entry_sin: f64,
+    entry_height: f64,
+    /// 1 over the depth of the pressure-sinkage law [1/radii].
+    per_scale: f64,
     /// How much longer the arc before the stress peak is than the one behind it,
     /// (θ_f − θ_m)/(θ_m − θ_r) [-].
     squeeze: f64,
 }
-
-/// At most this many points divide the arc into pieces on which the stresses are smooth: entry,
-/// exit, stress peak, two zeros of the shear displacement, two of the slip velocity.
-pub(super) const MOST_BREAKS: usize = 7;
 
 /// A rim slightly faster than its hub is never as fast as the soil, but nearly so under the hub, where
 /// the slip velocity then turns; up to here [-], in hub speeds, too sharply for the isotropic law's rule.
@@ -268,8 +279,8 @@ impl StressField {
         if angle > self.patch.exit && angle < self.patch.entry {
             let point = self.point(self.patch.entry - angle);
             match self.law.shear {
-                MobilisedShear::Anisotropic(law) => self.stress(&law, &point),
-                MobilisedShear::Isotropic(law) => self.stress(&law, &point),
+                MobilisedShear::Anisotropic(law) => self.stress(&law, self.normal(&point), &point),
+                MobilisedShear::Isotropic(law) => self.stress(&law, self.normal(&point), &point),
             }
         } else {
             RimStress::default()
@@ -292,16 +303,31 @@ impl StressField {
         self.law.slip.rim >= margin * self.law.slip.forward
     }
 
+    /// Whether the slip velocity of an arc of two pieces turns under the hub, if not sharply.
+    #[inline(always)]
+    pub(super) fn turns_under_hub(&self) -> bool {
+        const HARDLY: f64 = 1.6;
+        self.law.slip.rim < HARDLY * self.law.slip.forward
+    }
+
+    /// Whether the soil shears much faster along the arc than under a wheel that rolls freely: the
+    /// rim turns less than half as fast as the soil passes it.
+    #[inline(always)]
+    pub(super) fn shears_at_once(&self) -> bool {
+        let Slip { forward, lateral, .. } = self.law.slip;
+        const FAST: f64 = 2.0;
+        forward.abs() > FAST || lateral.abs() > FAST
+    }
+
     /// The point of the arc `behind_entry` [rad] away from its front end.
     #[inline(always)]
     pub(super) fn point(&self, behind_entry: f64) -> RimPoint {
         RimPoint::new(self.patch.entry - behind_entry, behind_entry)
     }
 
-    /// The stresses at a point of the arc.
+    /// The stresses at a point of the arc with a [`normal`](Self::normal) stress [Pa].
     #[inline(always)]
-    pub(super) fn stress(&self, shear: &impl ShearLaw, point: &RimPoint) -> RimStress {
-        let normal = self.normal(point);
+    pub(super) fn stress(&self, shear: &impl ShearLaw, normal: f64, point: &RimPoint) -> RimStress {
         let strength = self.law.cohesion + normal * self.law.friction;
         let (longitudinal, lateral) = shear.stresses(strength, point, self);
         RimStress { normal, longitudinal, lateral }
@@ -311,8 +337,8 @@ impl StressField {
     #[must_use]
     #[inline(always)]
     pub fn max_normal(&self) -> f64 {
-        let ContactPatch { entry, max_stress, .. } = self.patch;
-        self.normal(&RimPoint::new(max_stress, entry - max_stress))
+        let sin_half = elementary::sin(0.5 * self.patch.max_stress);
+        self.front_normal(2.0 * sin_half * sin_half)
     }
 
     /// Normal stress, *σ* [Pa].
@@ -322,13 +348,20 @@ impl StressField {
     /// θ < θ_m   the same at θ_e = θ_f − (θ − θ_r)(θ_f − θ_m)/(θ_m − θ_r)
     /// ```
     #[inline(always)]
-    fn normal(&self, point: &RimPoint) -> f64 {
+    pub(super) fn normal(&self, point: &RimPoint) -> f64 {
         let ContactPatch { entry, max_stress, exit } = self.patch;
         let mirrored = entry - (point.angle - exit) * self.squeeze;
         let sin_half = elementary::sin(0.5 * mirrored);
         let behind_peak = point.angle < max_stress;
         let height = if behind_peak { 2.0 * sin_half * sin_half } else { point.height };
-        self.law.stiffness.pressure(self.law.radius * (self.entry.height - height))
+        self.front_normal(height)
+    }
+
+    /// The same before the peak, by the height over the rim's lowest point [radii].
+    #[inline(always)]
+    pub(super) fn front_normal(&self, height: f64) -> f64 {
+        let depth = (self.entry_height - height) * self.per_scale;
+        self.law.pressure * elementary::pow(depth, self.law.exponent)
     }
 
     /// Shear displacement of the soil against the rim since it entered [m], along and across.
@@ -343,7 +376,7 @@ impl StressField {
     #[inline(always)]
     fn displacement(&self, point: &RimPoint) -> (f64, f64) {
         let Slip { rim, forward, lateral, .. } = self.law.slip;
-        let rise = self.entry.sin - point.sin;
+        let rise = self.entry_sin - point.sin;
         let j_x = self.law.radius * (rim * point.behind_entry - forward * rise);
         let j_y = self.law.radius * lateral * point.behind_entry;
         (j_x, j_y)
@@ -354,54 +387,5 @@ impl StressField {
     fn slip_velocity(&self, point: &RimPoint) -> (f64, f64) {
         let Slip { rim, forward, lateral, .. } = self.law.slip;
         (rim - forward * point.cos(), lateral)
-    }
-
-    /// The ends of the pieces of the arc on which the stresses are smooth, in falling order:
-    /// how many of the array's numbers count, and they.
-    ///
-    /// A driving wheel has two pieces, before and behind the stress peak. Where the rim skids,
-    /// the shear displacement (or, in the isotropic law, the slip velocity) changes sign within
-    /// the arc; a quadrature across that corner would lose most of its digits.
-    pub(super) fn breaks(&self) -> (usize, [f64; MOST_BREAKS]) {
-        let ContactPatch { entry, max_stress, exit } = self.patch;
-        let mut breaks = [entry, max_stress, exit, exit, exit, exit, exit];
-        let mut count = 3;
-        let mut add = |angle: f64| {
-            if angle > exit && angle < entry {
-                breaks[count] = angle;
-                count += 1;
-            }
-        };
-        // Where the rim is as fast as the soil under it: cos θ = r_s ω / v_x.
-        let still = self.law.slip.rim / self.law.slip.forward;
-        if matches!(self.law.shear, MobilisedShear::Isotropic(_)) {
-            if still > 0.0 && still < 1.0 {
-                add(still.acos());
-                add(-still.acos());
-            } else if (1.0..TURNS_UNDER_HUB).contains(&still) {
-                add(0.0);
-            }
-        }
-        if still > 0.0 && still < 1.0 {
-            let still = still.acos();
-            // Between these angles j_x is monotone.
-            self.displacement_zero(-still, still).map(&mut add);
-            self.displacement_zero(exit, -still).map(&mut add);
-        }
-        breaks[..count].sort_by(|a, b| b.total_cmp(a));
-        (count, breaks)
-    }
-
-    /// The angle between two others at which *j_x* changes sign, if it does.
-    fn displacement_zero(&self, low: f64, high: f64) -> Option<f64> {
-        let ContactPatch { entry, exit, .. } = self.patch;
-        let (low, high) = (low.max(exit), high.min(entry));
-        let displacement = |angle: f64| self.displacement(&self.point(entry - angle)).0;
-        if low >= high || displacement(low) * displacement(high) >= 0.0 {
-            return None;
-        }
-        /// A corner this near to a piece's end [rad] no longer costs digits.
-        const NEAR_ENOUGH: f64 = 1e-12;
-        Some(root::between(displacement, low, high, NEAR_ENOUGH))
     }
 }

@@ -74,6 +74,17 @@ impl Stiffness {
     }
 }
 
+/// σ = σ₀ (z/z₀)ⁿ: the law without a power of the width, which would be one more to compute.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ScaledPressure {
+    /// σ₀ [Pa].
+    pub(crate) at_scale: f64,
+    /// z₀ [m]: the width in Reece's law, a metre in Bekker's.
+    pub(crate) scale: f64,
+    /// *n* [-].
+    pub(crate) exponent: f64,
+}
+
 impl PressureSinkage {
     /// The law for a rim of a given width.
     ///
@@ -89,17 +100,28 @@ impl PressureSinkage {
         unit_weight: f64,
         slip_ratio: f64,
     ) -> Stiffness {
+        let ScaledPressure { at_scale, scale, exponent } =
+            self.scaled(width, cohesion, unit_weight, slip_ratio);
+        Stiffness { modulus: at_scale / scale.powf(exponent), exponent }
+    }
+
+    /// The same law on the length that it has of its own.
+    #[inline]
+    pub(crate) fn scaled(
+        &self,
+        width: f64,
+        cohesion: f64,
+        unit_weight: f64,
+        slip_ratio: f64,
+    ) -> ScaledPressure {
         let b = width;
-        match *self {
-            Self::Bekker { k_c, k_phi, exponent } => {
-                Stiffness { modulus: k_c / b + k_phi, exponent: exponent.at(slip_ratio) }
-            }
+        let (at_scale, scale, exponent) = match *self {
+            Self::Bekker { k_c, k_phi, exponent } => (k_c / b + k_phi, 1.0, exponent),
             Self::Reece { k_c, k_phi, exponent } => {
-                let n = exponent.at(slip_ratio);
-                let modulus = (cohesion * k_c + unit_weight * b * k_phi) / b.powf(n);
-                Stiffness { modulus, exponent: n }
+                (cohesion * k_c + unit_weight * b * k_phi, b, exponent)
             }
-        }
+        };
+        ScaledPressure { at_scale, scale, exponent: exponent.at(slip_ratio) }
     }
 
     pub(crate) fn check(&self, cohesion: f64) -> Result<(), ParameterError> {

@@ -3,7 +3,7 @@
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
 use super::super::patch::ContactPatch;
-use super::super::stress::{MobilisedShear, ShearLaw, StressField};
+use super::super::stress::{MobilisedShear, RimPoint, RimStress, ShearLaw, StressField};
 use super::rule::{ArcRule, Pack};
 use super::{LANES, Lanes, sum};
 
@@ -70,8 +70,7 @@ fn over_arc<const ALL: bool>(field: &StressField, rule: &ArcRule, sums: &mut Lan
     }
 }
 
-/// Piece by piece: each of them is smooth. Under a wheel that skids or is locked the soil shears at
-/// once, however soft it is: there every piece has the finest rule's nodes.
+/// Piece by piece: each of them is smooth.
 #[inline(always)]
 fn over_pieces<const ALL: bool>(
     field: &StressField,
@@ -80,56 +79,87 @@ fn over_pieces<const ALL: bool>(
     sums: &mut LaneSums,
 ) {
     if field.has_two_pieces() {
-        let ContactPatch { entry, max_stress, exit } = field.patch;
-        let spans = Spans { start: 0.0, front: entry - max_stress, rear: max_stress - exit };
-        return over_packs::<ALL>(field, law, rule.whole, &spans, sums);
+        let packs = if field.turns_under_hub() { rule.turning_whole } else { rule.whole };
+        for pack in packs {
+            over_both_sides::<ALL>(field, law, pack, sums);
+        }
+        return;
     }
     let (count, breaks) = field.breaks();
+    let pieces = if field.shears_at_once() { rule.hard_pieces } else { rule.pieces };
     for (number, ends) in breaks[..count].windows(2).enumerate() {
         let packs = match number {
-            0 => rule.opening,
-            _ if number == count - 2 => rule.closing,
-            _ => rule.inner,
+            0 => pieces.opening,
+            _ if number == count - 2 => pieces.closing,
+            _ => pieces.inner,
         };
-        let spans = Spans { start: breaks[0] - ends[0], front: ends[0] - ends[1], rear: 0.0 };
-        over_packs::<ALL>(field, law, packs, &spans, sums);
+        let (start, span) = (breaks[0] - ends[0], ends[0] - ends[1]);
+        for pack in packs {
+            over_piece::<ALL>(field, law, pack, start, span, sums);
+        }
     }
 }
 
-/// The pieces that nodes lie on [rad].
-struct Spans {
-    /// From the entry to the first piece.
-    start: f64,
-    front: f64,
-    rear: f64,
-}
-
+/// No branch, no call, and no order among the lanes: this loop becomes vectors.
+///
+/// The normal stress behind the peak mirrors that before it, so two nodes that mirror each other share
+/// it.
 #[inline(always)]
-fn over_packs<const ALL: bool>(
+fn over_both_sides<const ALL: bool>(
     field: &StressField,
     law: &impl ShearLaw,
-    packs: &[Pack],
-    spans: &Spans,
+    pack: &Pack,
     sums: &mut LaneSums,
 ) {
-    let Spans { start, front, rear } = *spans;
-    for pack in packs {
-        // No branch, no call, and no order among the lanes: this loop becomes vectors.
-        for lane in 0..LANES {
-            let behind_entry = start + (pack.front[lane] * front + pack.rear[lane] * rear);
-            let width = pack.front_width[lane] * front + pack.rear_width[lane] * rear;
-            let point = field.point(behind_entry);
-            let stress = field.stress(law, &point);
-            let (sin, cos) = (point.sin, point.cos());
-            sums.up[lane] += (stress.longitudinal * sin + stress.normal * cos) * width;
-            if ALL {
-                sums.shear_forward[lane] += stress.longitudinal * cos * width;
-                sums.normal_back[lane] += stress.normal * sin * width;
-                sums.shear[lane] += stress.longitudinal * width;
-                sums.lateral[lane] += stress.lateral * width;
-                sums.lateral_below[lane] += stress.lateral * cos * width;
-                sums.lateral_ahead[lane] += stress.lateral * sin * width;
-            }
+    let ContactPatch { entry, max_stress, exit } = field.patch;
+    let (front, rear) = (entry - max_stress, max_stress - exit);
+    for lane in 0..LANES {
+        let (share, width) = (pack.share[lane], pack.width[lane]);
+        let before = field.point(share * front);
+        let behind = field.point((front + rear) - share * rear);
+        let normal = field.front_normal(before.height);
+        sums.add::<ALL>(lane, &before, field.stress(law, normal, &before), width * front);
+        sums.add::<ALL>(lane, &behind, field.stress(law, normal, &behind), width * rear);
+    }
+}
+
+/// The same for one piece of the arc, which begins `start` [rad] behind the entry.
+#[inline(always)]
+fn over_piece<const ALL: bool>(
+    field: &StressField,
+    law: &impl ShearLaw,
+    pack: &Pack,
+    start: f64,
+    span: f64,
+    sums: &mut LaneSums,
+) {
+    for lane in 0..LANES {
+        let point = field.point(start + pack.share[lane] * span);
+        let stress = field.stress(law, field.normal(&point), &point);
+        sums.add::<ALL>(lane, &point, stress, pack.width[lane] * span);
+    }
+}
+
+impl LaneSums {
+    #[inline(always)]
+    fn add<const ALL: bool>(
+        &mut self,
+        lane: usize,
+        point: &RimPoint,
+        stress: RimStress,
+        width: f64,
+    ) {
+        let (sin, cos) = (point.sin, point.cos());
+        let (along, inward) = (stress.longitudinal * width, stress.normal * width);
+        self.up[lane] += along * sin + inward * cos;
+        if ALL {
+            let across = stress.lateral * width;
+            self.shear_forward[lane] += along * cos;
+            self.normal_back[lane] += inward * sin;
+            self.shear[lane] += along;
+            self.lateral[lane] += across;
+            self.lateral_below[lane] += across * cos;
+            self.lateral_ahead[lane] += across * sin;
         }
     }
 }

@@ -6,60 +6,63 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::super::gauss::{
-    GAUSS_7, GAUSS_9, GAUSS_10, GAUSS_14, GAUSS_16, GAUSS_64, Rule as Gauss,
-};
+use super::super::gauss::{GAUSS_8, GAUSS_16, GAUSS_64, Rule as Gauss};
 use super::super::model::Contact;
 use super::{LANES, Lanes};
 use crate::soil::{Shear, ShearModulus};
 
-/// A few nodes on two spans that follow each other: before the stress peak and behind it.
+/// Nodes on a span.
 ///
-/// A node lies `front` first spans and `rear` second spans behind the entry, and stands for as many
-/// of them as its widths.
+/// A node lies its share of the span behind the span's front end (behind the peak: before its rear
+/// end), and stands for its width of it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pack {
-    pub front: Lanes,
-    pub rear: Lanes,
-    pub front_width: Lanes,
-    pub rear_width: Lanes,
+pub(in crate::contact) struct Pack {
+    pub share: Lanes,
+    pub width: Lanes,
 }
 
 /// How an arc is integrated.
 #[derive(Debug)]
 pub(in crate::contact) struct ArcRule {
-    /// An arc of two pieces, as every driving wheel has.
+    /// Each half of an arc of two pieces, as every driving wheel has.
     pub(super) whole: &'static [Pack],
-    /// One piece (its nodes lie on the first span): at the entry, within the arc, at the exit.
-    pub(super) opening: &'static [Pack],
-    pub(super) inner: &'static [Pack],
-    pub(super) closing: &'static [Pack],
+    /// The same where the slip velocity turns under the hub.
+    pub(super) turning_whole: &'static [Pack],
+    /// The pieces of any other arc.
+    pub(super) pieces: &'static PieceRule,
+    /// The same under a wheel that is almost locked: the soil shears at once, however soft it is.
+    pub(super) hard_pieces: &'static PieceRule,
+}
+
+/// How a piece is integrated at the entry, within the arc, and at the exit.
+#[derive(Debug)]
+pub(super) struct PieceRule {
+    pub opening: &'static [Pack],
+    pub inner: &'static [Pack],
+    pub closing: &'static [Pack],
 }
 
 impl ArcRule {
     /// The one with as few nodes as 1e-6 of the load allows.
     ///
-    /// It follows from the wheel and the soil alone, never from the motion or the sinkage: a wheel
-    /// that moves in one soil keeps its rule, and no force jumps. Shear that is mobilised over a short
-    /// length bends the stress near the entry; so does a peak that lies there; and in the isotropic
-    /// law the stress turns under a wheel that nearly rolls.
+    /// It follows from the wheel and the soil, never from the sinkage. Shear that is mobilised over a
+    /// short length bends the stress near the entry; so does a peak that lies there. The motion has a
+    /// say only under wheels that skid fast and, in the isotropic law, under wheels that slip little:
+    /// where it changes the rule, forces jump by no more than the error that is allowed.
     pub(in crate::contact) fn of(contact: &Contact) -> &'static Self {
         /// The largest r_s/K [-] and θ_m/θ_f [-]. Source: measured, `docs/models/ishigami.md`.
         const COARSE_UP_TO: f64 = 10.0;
-        const MEDIUM_UP_TO: f64 = 40.0;
-        const PEAK_UP_TO: f64 = 0.7;
+        const PEAK_UP_TO: f64 = 0.56;
         let (soil, radius) = (&contact.soil, contact.wheel.shearing_radius());
-        let Shear::Anisotropic { longitudinal, lateral } = &soil.shear else { return &FINE };
         let smallest = |modulus: &ShearModulus| modulus.at(0.0).min(modulus.at(FRAC_PI_2));
-        let hardness = radius / smallest(longitudinal).min(smallest(lateral));
-        let peak = soil.stress_peak.share(0.0).max(soil.stress_peak.share(1.0));
-        if peak > PEAK_UP_TO || hardness > MEDIUM_UP_TO {
-            &FINE
-        } else if hardness > COARSE_UP_TO {
-            &MEDIUM
-        } else {
-            &COARSE
-        }
+        let (coarse, softest) = match &soil.shear {
+            Shear::Anisotropic { longitudinal, lateral } => {
+                (&COARSE, smallest(longitudinal).min(smallest(lateral)))
+            }
+            Shear::Isotropic { modulus } => (&COARSE_ISOTROPIC, smallest(modulus)),
+        };
+        let peak = soil.stress_peak.a0 + soil.stress_peak.a1.max(0.0);
+        if peak <= PEAK_UP_TO && radius <= COARSE_UP_TO * softest { coarse } else { &FINE }
     }
 }
 
@@ -79,68 +82,64 @@ const fn share(ends: Ends, (x, weight): (f64, f64)) -> (f64, f64) {
     }
 }
 
-impl Pack {
-    const EMPTY: Self = Self {
-        front: [0.0; LANES],
-        rear: [0.0; LANES],
-        front_width: [0.0; LANES],
-        rear_width: [0.0; LANES],
-    };
-}
-
-/// One piece, on the first span.
+/// One piece.
 const fn piece<const PACKS: usize>(ends: Ends, rule: &Gauss) -> [Pack; PACKS] {
     assert!(rule.len() == PACKS * LANES, "the nodes fill the lanes");
-    let mut packs = [Pack::EMPTY; PACKS];
+    let mut packs = [Pack { share: [0.0; LANES], width: [0.0; LANES] }; PACKS];
     let mut k = 0;
     while k < rule.len() {
         let (pack, lane) = (&mut packs[k / LANES], k % LANES);
-        (pack.front[lane], pack.front_width[lane]) = share(ends, rule[k]);
+        (pack.share[lane], pack.width[lane]) = share(ends, rule[k]);
         k += 1;
     }
     packs
 }
 
-/// Two pieces, from the entry to the exit.
-const fn arc<const PACKS: usize>(front: &Gauss, rear: &Gauss) -> [Pack; PACKS] {
-    assert!(front.len() + rear.len() == PACKS * LANES, "the nodes fill the lanes");
-    let mut packs = [Pack::EMPTY; PACKS];
-    let mut k = 0;
-    while k < PACKS * LANES {
-        let (pack, lane) = (&mut packs[k / LANES], k % LANES);
-        if k < front.len() {
-            (pack.front[lane], pack.front_width[lane]) = share(Ends::Opening, front[k]);
-        } else {
-            pack.front[lane] = 1.0;
-            let node = rear[k - front.len()];
-            (pack.rear[lane], pack.rear_width[lane]) = share(Ends::Closing, node);
-        }
-        k += 1;
-    }
-    packs
-}
+/// Nodes for what is smooth at both ends.
+pub(in crate::contact) static EVEN: Pack = piece::<1>(Ends::Inner, &GAUSS_8)[0];
 
+static OPENING_8: [Pack; 1] = piece(Ends::Opening, &GAUSS_8);
+static INNER_8: [Pack; 1] = piece(Ends::Inner, &GAUSS_8);
+static CLOSING_8: [Pack; 1] = piece(Ends::Closing, &GAUSS_8);
 static OPENING_16: [Pack; 2] = piece(Ends::Opening, &GAUSS_16);
 static INNER_16: [Pack; 2] = piece(Ends::Inner, &GAUSS_16);
 static CLOSING_16: [Pack; 2] = piece(Ends::Closing, &GAUSS_16);
-static ARC_16: [Pack; 2] = arc(&GAUSS_7, &GAUSS_9);
-static ARC_24: [Pack; 3] = arc(&GAUSS_10, &GAUSS_14);
-static ARC_32: [Pack; 4] = arc(&GAUSS_16, &GAUSS_16);
 static OPENING_64: [Pack; 8] = piece(Ends::Opening, &GAUSS_64);
 static INNER_64: [Pack; 8] = piece(Ends::Inner, &GAUSS_64);
 static CLOSING_64: [Pack; 8] = piece(Ends::Closing, &GAUSS_64);
-static ARC_128: [Pack; 16] = arc(&GAUSS_64, &GAUSS_64);
 
-const fn sixteen_each(whole: &'static [Pack]) -> ArcRule {
-    ArcRule { whole, opening: &OPENING_16, inner: &INNER_16, closing: &CLOSING_16 }
-}
+static PIECES_8: PieceRule =
+    PieceRule { opening: &OPENING_8, inner: &INNER_8, closing: &CLOSING_8 };
+static PIECES_16: PieceRule =
+    PieceRule { opening: &OPENING_16, inner: &INNER_16, closing: &CLOSING_16 };
+static PIECES_64: PieceRule =
+    PieceRule { opening: &OPENING_64, inner: &INNER_64, closing: &CLOSING_64 };
 
 /// For soils in which shear is mobilised over lengths like a tenth of the wheel's radius and more.
-pub(in crate::contact) static COARSE: ArcRule = sixteen_each(&ARC_16);
-/// For soils in which it is mobilised over a fortieth and more.
-pub(in crate::contact) static MEDIUM: ArcRule = sixteen_each(&ARC_24);
+pub(in crate::contact) static COARSE: ArcRule = ArcRule {
+    whole: &OPENING_8,
+    turning_whole: &OPENING_8,
+    pieces: &PIECES_8,
+    hard_pieces: &PIECES_16,
+};
+/// The same for the isotropic law, whose stress turns where the rim is nearly as fast as the soil.
+pub(in crate::contact) static COARSE_ISOTROPIC: ArcRule = ArcRule {
+    whole: &OPENING_8,
+    turning_whole: &OPENING_16,
+    pieces: &PIECES_16,
+    hard_pieces: &PIECES_16,
+};
 /// For all.
-pub(in crate::contact) static FINE: ArcRule = sixteen_each(&ARC_32);
+pub(in crate::contact) static FINE: ArcRule = ArcRule {
+    whole: &OPENING_16,
+    turning_whole: &OPENING_16,
+    pieces: &PIECES_16,
+    hard_pieces: &PIECES_16,
+};
 /// Four times as many as the finest, to measure the others' error.
-pub(in crate::contact) static REFERENCE: ArcRule =
-    ArcRule { whole: &ARC_128, opening: &OPENING_64, inner: &INNER_64, closing: &CLOSING_64 };
+pub(in crate::contact) static REFERENCE: ArcRule = ArcRule {
+    whole: &OPENING_64,
+    turning_whole: &OPENING_64,
+    pieces: &PIECES_64,
+    hard_pieces: &PIECES_64,
+};
