@@ -12,6 +12,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 pub struct Fixtures {
     /// Wheels in all kinds of motion, each with its load [N] and the sinkage [m] that carries it.
     pub wheels: Vec<LoadedWheel>,
+    /// The same wheels as a batch, each with its load [N].
+    pub batch: Vec<(Contact, f64)>,
     /// The paper's rover on 10°, nose along the contour, for 20 s.
     pub scenario: Scenario,
     /// The same rover on 200 soils, a tenth more or less of everything.
@@ -49,9 +51,11 @@ impl Fixtures {
         let soil = document::read_soil(&Source::find(Kind::Soil, "toyoura")?, &Overrides::none())?;
         let scenario = scenario.value;
         let mut draws = Draws::new();
-        let wheels = (0..WHEELS).map(|_| wheel(&scenario, soil.value, &mut draws)).collect();
+        let wheels: Vec<LoadedWheel> =
+            (0..WHEELS).map(|_| wheel(&scenario, soil.value, &mut draws)).collect();
+        let batch = wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
         let campaign = (0..CAMPAIGN).map(|_| varied(&scenario, &mut draws)).collect();
-        Ok(Self { wheels, scenario, campaign })
+        Ok(Self { wheels, batch, scenario, campaign })
     }
 }
 

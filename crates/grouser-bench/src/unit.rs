@@ -1,6 +1,6 @@
 //! The units of work.
 
-use grouser::contact::{Contact, settle, settle_many};
+use grouser::contact::{settle, settle_many};
 use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Scenario, Simulation};
 use grouser::studies::attitude::AttitudeStudy;
@@ -120,11 +120,9 @@ impl Fixtures {
     }
 
     fn settle_batched(&self) -> Done {
-        let wheels: Vec<(Contact, f64)> =
-            self.wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
-        let settled = settle_many(self.scenario.theory.model(), &wheels);
+        let settled = settle_many(self.scenario.theory.model(), &self.batch);
         let sinkages = settled.iter().map(|it| it.as_ref().expect("it is carried").sinkage);
-        Done { count: wheels.len(), checksum: sinkages.sum() }
+        Done { count: self.batch.len(), checksum: sinkages.sum() }
     }
 
     fn rover_rates(&self) -> Done {

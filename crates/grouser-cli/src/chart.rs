@@ -68,6 +68,8 @@ pub(crate) enum Style {
 const COLOURS: [&str; 7] =
     ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 
+const FONTS: &str = "Helvetica, Arial, sans-serif";
+
 impl Series {
     pub(crate) fn new(
         name: impl Into<String>,
@@ -183,19 +185,9 @@ impl HeatMap {
             .with_color_map(ColorMap::Custom(Arc::new(colours)));
         let places = |values: &[f64]| values.iter().map(|value| four_digits(*value)).collect();
         let plots = vec![Plot::Heatmap(map)];
-        let layout = Layout::auto_from_plots(&plots)
-            .with_title(self.title.as_str())
-            .with_x_label(self.x_label.as_str())
-            .with_y_label(self.y_label.as_str())
+        let layout = layout_of(&plots, [&self.title, &self.x_label, &self.y_label])
             .with_x_categories(places(&self.columns))
-            .with_y_categories(places(&self.rows))
-            .with_width(760.0)
-            .with_height(430.0)
-            .with_title_size(15)
-            .with_label_size(13)
-            .with_tick_size(12)
-            .with_body_size(12)
-            .with_font_family("Helvetica, Arial, sans-serif");
+            .with_y_categories(places(&self.rows));
         scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
 }
@@ -226,7 +218,7 @@ impl Grid {
                         .with_tick_size(8)
                         .with_ticks(4)
                         .with_tick_format(TickFormat::Custom(Arc::new(four_digits)))
-                        .with_font_family("Helvetica, Arial, sans-serif"),
+                        .with_font_family(FONTS),
                 );
                 plots.push(own);
                 structure.push(vec![row * columns + column]);
@@ -247,17 +239,7 @@ impl Chart {
     pub(crate) fn to_svg(&self) -> String {
         let parts = |series: &Series| series.area().into_iter().chain([series.to_plot()]);
         let plots: Vec<Plot> = self.series.iter().flat_map(parts).collect();
-        let mut layout = Layout::auto_from_plots(&plots)
-            .with_title(self.title.as_str())
-            .with_x_label(self.x_label.as_str())
-            .with_y_label(self.y_label.as_str())
-            .with_width(760.0)
-            .with_height(430.0)
-            .with_title_size(15)
-            .with_label_size(13)
-            .with_tick_size(12)
-            .with_body_size(12)
-            .with_font_family("Helvetica, Arial, sans-serif");
+        let mut layout = layout_of(&plots, [&self.title, &self.x_label, &self.y_label]);
         let heights = || self.series.iter().flat_map(|series| &series.points).map(|point| point.1);
         if heights().any(|y| y < 0.0) && heights().any(|y| y > 0.0) {
             layout =
@@ -265,6 +247,21 @@ impl Chart {
         }
         scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
+}
+
+/// The layout of a drawing as wide as a page.
+fn layout_of(plots: &[Plot], [title, x_label, y_label]: [&str; 3]) -> Layout {
+    Layout::auto_from_plots(plots)
+        .with_title(title)
+        .with_x_label(x_label)
+        .with_y_label(y_label)
+        .with_width(760.0)
+        .with_height(430.0)
+        .with_title_size(15)
+        .with_label_size(13)
+        .with_tick_size(12)
+        .with_body_size(12)
+        .with_font_family(FONTS)
 }
 
 /// A drawing that a page may make larger or smaller: the library names its size, but no view box.

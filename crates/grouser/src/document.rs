@@ -43,6 +43,7 @@ mod schema;
 pub mod simulated_test;
 mod soil;
 mod soil_family;
+mod soil_numbers;
 mod source;
 pub mod study;
 mod text;

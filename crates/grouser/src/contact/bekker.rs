@@ -25,10 +25,7 @@ pub struct Bekker;
 
 impl WheelSoilModel for Bekker {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        if sinkage <= 0.0 {
-            return WheelForces::default();
-        }
-        from_both_sides(contact, |contact, _| entering_front(contact, sinkage))
+        from_both_sides(contact, sinkage, |contact, _| entering_front(contact, sinkage))
     }
 }
 

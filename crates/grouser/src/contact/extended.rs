@@ -64,17 +64,13 @@ impl Extended {
 
 impl WheelSoilModel for Extended {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        if sinkage <= 0.0 {
-            return WheelForces::default();
-        }
-        from_both_sides(contact, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
+        from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
     }
 
     fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
-        if sinkage <= 0.0 {
-            return WheelForces::default();
-        }
-        from_both_sides(contact, |contact, side| on_arc(contact, bearing.arc(side), sinkage))
+        from_both_sides(contact, sinkage, |contact, side| {
+            on_arc(contact, bearing.arc(side), sinkage)
+        })
     }
 
     fn bearing(&self, contact: &Contact) -> Option<Bearing> {

@@ -50,15 +50,20 @@ pub(super) enum Side {
     Back,
 }
 
-/// The reaction for any motion, from a theory of a wheel that enters the soil with its front.
+/// The reaction for any motion, from a theory of a wheel that enters the soil with its front; none
+/// without sinkage.
 ///
 /// A wheel that rolls backward is seen in a mirror. Where rim and hub oppose each other both
 /// views count, in the proportion of [`Slip::entering_side`]: the theories know only one, and to
 /// switch between them would be a jump in force.
 pub(super) fn from_both_sides(
     contact: &Contact,
+    sinkage: f64,
     entering_front: impl Fn(&Contact, Side) -> WheelForces,
 ) -> WheelForces {
+    if sinkage <= 0.0 {
+        return WheelForces::default();
+    }
     let front = || entering_front(contact, Side::Front);
     let back = || {
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };

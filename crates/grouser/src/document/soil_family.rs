@@ -8,8 +8,9 @@ use super::Kind;
 use super::check::range_at;
 use super::schema::range;
 use super::soil::{SoilDocument, TheoryWord};
+use super::soil_numbers::SoilNumbers;
 use super::text::{Text, parse};
-use super::uncertainty::{UncertaintySection, lookup, meant, number_mut, numbers, template};
+use super::uncertainty::UncertaintySection;
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -19,7 +20,7 @@ use crate::studies::calibration::{Parameter, Scale};
 #[derive(Clone, Debug)]
 pub struct SoilFamily {
     base: SoilDocument,
-    template: toml::Value,
+    numbers: SoilNumbers,
     parameters: Vec<Parameter>,
 }
 
@@ -79,19 +80,19 @@ impl SoilFamily {
     /// outside its range or without the document's value.
     pub fn new(base: &SoilDocument, keys: &[FitKey]) -> Result<Self, String> {
         let base = SoilDocument { uncertainty: None, ..base.clone() };
-        let template = template(&base);
+        let numbers = SoilNumbers::of(&base);
         let mut parameters: Vec<Parameter> = Vec::new();
         for key in keys {
             let name = format!("soil.{}", key.path);
             if parameters.iter().any(|parameter| parameter.name == name) {
                 return Err(format!("{name} is named twice"));
             }
-            let start = lookup(&template, &key.path).and_then(toml::Value::as_float);
-            let start = start.ok_or_else(|| no_start(&template, &key.path))?;
+            let start = numbers.value(&key.path);
+            let start = start.ok_or_else(|| no_start(&numbers, &key.path))?;
             let allowed = allowed_range(&base, &key.path);
             parameters.push(parameter(name, start, &allowed, key.bounds)?);
         }
-        Ok(Self { base, template, parameters })
+        Ok(Self { base, numbers, parameters })
     }
 
     /// The family of a document whose keys are searched from other values than its own, within
@@ -129,8 +130,7 @@ impl SoilFamily {
     /// # Errors
     /// [`ParameterError`] if they are no soil together.
     pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
-        let document = self.filled(values);
-        let document: SoilDocument = document.try_into().map_err(|_| {
+        let document = self.filled(values).ok_or_else(|| {
             ParameterError::new("a key of the soil", values[0], "a number of its document")
         })?;
         document.meaning().map_err(|misfit| misfit.error)
@@ -139,11 +139,10 @@ impl SoilFamily {
     /// The document with these values of the keys, and otherwise as it was.
     ///
     /// # Panics
-    /// Never: the template is a document already.
+    /// Never: the keys are there, and any number is a document's.
     #[must_use]
     pub fn document(&self, values: &[f64]) -> SoilDocument {
-        let filled: SoilDocument =
-            self.filled(values).try_into().expect("the template is a document");
+        let filled = self.filled(values).expect("its numbers are a document's");
         SoilDocument {
             name: self.base.name.clone(),
             source: self.base.source.clone(),
@@ -185,28 +184,21 @@ impl SoilFamily {
         }
     }
 
-    fn filled(&self, values: &[f64]) -> toml::Value {
-        let mut tree = self.template.clone();
-        for (parameter, value) in self.parameters.iter().zip(values) {
-            if let Some(number) = number_mut(&mut tree, key_of(parameter)) {
-                *number = toml::Value::Float(*value);
-            }
-        }
-        tree
+    fn filled(&self, values: &[f64]) -> Option<SoilDocument> {
+        let pairs = self.parameters.iter().zip(values);
+        self.numbers.with(pairs.map(|(parameter, &value)| (key_of(parameter), value)))
     }
 }
 
 /// Why a key has no value to start from.
-fn no_start(template: &toml::Value, path: &str) -> String {
+fn no_start(numbers: &SoilNumbers, path: &str) -> String {
     if range(Kind::Soil, path).is_some() {
         return format!(
             "soil.{path} is not set by this soil: --set soil.{path}=VALUE gives it a value to \
              start from"
         );
     }
-    let known = numbers(template);
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    format!("soil.{path} is no number of this soil: {}", meant(path, &known))
+    format!("soil.{path} is no number of this soil: {}", numbers.meant(path))
 }
 
 /// The key in the document that a parameter stands for.

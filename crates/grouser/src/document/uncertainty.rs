@@ -12,11 +12,12 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::check::{nearest, range_at};
+use super::check::range_at;
 use super::error::{DocumentError, Problem};
 use super::samples::SampleTable;
 use super::schema::{json, paths_of, range};
 use super::soil::SoilDocument;
+use super::soil_numbers::{SoilNumbers, lookup, meant};
 use super::text::Node;
 use super::{Companion, Kind};
 use crate::error::ParameterError;
@@ -89,8 +90,7 @@ pub(super) struct Meaning {
 /// The soils that a document's numbers may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainSoil {
-    /// The document without its words.
-    template: toml::Value,
+    numbers: SoilNumbers,
     keys: Vec<UncertainKey>,
     distribution: Distribution,
 }
@@ -122,15 +122,12 @@ impl UncertainSoil {
 
     /// The soil with these values of its keys; `None` if one is outside its range.
     fn soil(&self, values: &[f64]) -> Option<Result<Soil, ParameterError>> {
-        let mut tree = self.template.clone();
-        for (key, value) in self.keys.iter().zip(values) {
-            // NaN is in no range.
-            if !key.range.contains(value) {
-                return None;
-            }
-            *number_mut(&mut tree, &key.path)? = toml::Value::Float(*value);
+        let pairs = self.keys.iter().zip(values);
+        // NaN is in no range.
+        if !pairs.clone().all(|(key, value)| key.range.contains(value)) {
+            return None;
         }
-        let document: SoilDocument = tree.try_into().ok()?;
+        let document = self.numbers.with(pairs.map(|(key, &value)| (&*key.path, value)))?;
         Some(document.meaning().map_err(|misfit| misfit.error))
     }
 }
@@ -161,7 +158,7 @@ impl UncertaintySection {
         soil: &SoilDocument,
         tree: &Node,
     ) -> Result<(), DocumentError> {
-        let reader = Reader { tree, template: template(soil) };
+        let reader = Reader { tree, numbers: SoilNumbers::of(soil) };
         let table = match &self.samples {
             Some(_) if !self.parameter.is_empty() || !self.correlation.is_empty() => {
                 let problem = Problem::Conflict(
@@ -183,7 +180,7 @@ impl UncertaintySection {
             Some(table) => reader.sampled(table)?,
             None => reader.stated(self)?,
         };
-        let soils = UncertainSoil { template: reader.template, keys, distribution };
+        let soils = UncertainSoil { numbers: reader.numbers, keys, distribution };
         match &table {
             Some(table) => check_rows(&soils, table)?,
             None => check_first_draw(&soils, tree)?,
@@ -222,7 +219,7 @@ fn check_rows(soils: &UncertainSoil, table: &SampleTable) -> Result<(), Document
 /// Reads an uncertainty beside the document it is of.
 struct Reader<'a> {
     tree: &'a Node,
-    template: toml::Value,
+    numbers: SoilNumbers,
 }
 
 impl Reader<'_> {
@@ -330,8 +327,7 @@ impl Reader<'_> {
 
     /// A number of the document, and its value.
     fn key(&self, path: &str) -> Result<(UncertainKey, f64), NoNumber> {
-        let value = lookup(&self.template, path);
-        if let Some(value) = value.and_then(toml::Value::as_float) {
+        if let Some(value) = self.numbers.value(path) {
             // A table that the document leaves out has its default, and the widest range will do.
             let range = range_at(Kind::Soil, self.tree, path).or_else(|| range(Kind::Soil, path));
             let range = range.unwrap_or(f64::MIN..=f64::MAX);
@@ -347,8 +343,7 @@ impl Reader<'_> {
             "the document gives this key no value: give it one first, if its law has the key"
                 .to_owned()
         } else {
-            let known = numbers(&self.template);
-            meant(path, &known.iter().map(String::as_str).collect::<Vec<_>>())
+            self.numbers.meant(path)
         };
         Err(NoNumber { problem: Problem::UnknownKey { key }, hint: Some(hint) })
     }
@@ -364,43 +359,4 @@ impl NoNumber {
     fn at(self, origin: &super::text::Origin) -> DocumentError {
         DocumentError::at(origin, self.problem).with_hint(self.hint)
     }
-}
-
-/// What a misspelt key was meant to be, or all that it could have been.
-pub(super) fn meant(name: &str, known: &[&str]) -> String {
-    let same_end = known.iter().copied().find(|key| key.rsplit('.').next() == Some(name));
-    match same_end.or_else(|| nearest(name, known.iter().copied())) {
-        Some(key) => format!("did you mean `{key}`?"),
-        None => format!("there are {}", known.join(", ")),
-    }
-}
-
-/// The numbers of a soil's document, without what it says in words.
-pub(super) fn template(soil: &SoilDocument) -> toml::Value {
-    let words = ["name", "source", "notes", "assumed", "uncertainty", "model"];
-    let mut tree = toml::Value::try_from(soil).unwrap_or(toml::Value::Table(toml::Table::new()));
-    if let Some(table) = tree.as_table_mut() {
-        table.retain(|key, _| !words.contains(&key));
-    }
-    tree
-}
-
-pub(super) fn lookup<'t>(tree: &'t toml::Value, path: &str) -> Option<&'t toml::Value> {
-    path.split('.').try_fold(tree, |node, step| node.as_table()?.get(step))
-}
-
-pub(super) fn number_mut<'t>(tree: &'t mut toml::Value, path: &str) -> Option<&'t mut toml::Value> {
-    path.split('.').try_fold(tree, |node, step| node.as_table_mut()?.get_mut(step))
-}
-
-/// The dotted keys of all numbers of a tree.
-pub(super) fn numbers(tree: &toml::Value) -> Vec<String> {
-    let mut found = Vec::new();
-    for (key, node) in tree.as_table().into_iter().flatten() {
-        match node {
-            toml::Value::Float(_) => found.push(key.clone()),
-            node => found.extend(numbers(node).into_iter().map(|inner| format!("{key}.{inner}"))),
-        }
-    }
-    found
 }

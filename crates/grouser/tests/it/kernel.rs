@@ -11,7 +11,7 @@ use grouser::soil::{
 use grouser::units::deg;
 use grouser::wheel::Wheel;
 
-use super::million::{Draw, any_case};
+use super::million::{Draw, any_case, numbers_of};
 
 /// Motions that a rover's wheel has, and those that need the most nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,25 +126,8 @@ fn most_other_wheels_are_integrated_to_a_few_millionths() {
 fn bits(model: &dyn WheelSoilModel, contact: &Contact, sinkage: f64) -> Vec<u64> {
     let forces = model.forces(contact, sinkage);
     let bearing = model.bearing(contact).expect("these theories have one");
-    [
-        forces.drawbar_pull,
-        forces.side_force,
-        forces.normal_force,
-        forces.torque,
-        forces.overturning_moment,
-        forces.aligning_moment,
-        forces.thrust,
-        forces.motion_resistance,
-        forces.side_force_from_shear,
-        forces.bulldozing_load,
-        forces.max_normal_stress,
-        forces.patch.entry,
-        forces.patch.max_stress,
-        forces.patch.exit,
-        bearing.normal_force(sinkage),
-    ]
-    .map(f64::to_bits)
-    .to_vec()
+    let all = numbers_of(&forces).into_iter().chain([bearing.normal_force(sinkage)]);
+    all.map(f64::to_bits).collect()
 }
 
 /// Terms of a small wheel's soil, so that the extended theory differs from the classical one.

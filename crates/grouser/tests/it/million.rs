@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, WheelForces, settle};
 use grouser::soil::{
     Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
 };
@@ -195,6 +195,26 @@ impl Tally {
     }
 }
 
+/// All numbers of a reaction.
+pub(crate) fn numbers_of(forces: &WheelForces) -> [f64; 14] {
+    [
+        forces.drawbar_pull,
+        forces.side_force,
+        forces.normal_force,
+        forces.torque,
+        forces.overturning_moment,
+        forces.aligning_moment,
+        forces.thrust,
+        forces.motion_resistance,
+        forces.side_force_from_shear,
+        forces.bulldozing_load,
+        forces.max_normal_stress,
+        forces.patch.entry,
+        forces.patch.max_stress,
+        forces.patch.exit,
+    ]
+}
+
 /// That a wheel either carries its load with finite forces, or is said to sink to its axle where
 /// no depth is known that carries it.
 fn check_case(theory: Theory, case: u64, tally: &mut Tally) {
@@ -207,28 +227,12 @@ fn check_case(theory: Theory, case: u64, tally: &mut Tally) {
             // load is a difference that is known to the rounding of its parts.
             let area = contact.wheel.shearing_radius() * contact.wheel.width;
             let rounding = 1e-13 * area * (forces.max_normal_stress + contact.soil.cohesion);
-            let numbers = [
-                settled.sinkage,
-                forces.drawbar_pull,
-                forces.side_force,
-                forces.normal_force,
-                forces.torque,
-                forces.overturning_moment,
-                forces.aligning_moment,
-                forces.thrust,
-                forces.motion_resistance,
-                forces.side_force_from_shear,
-                forces.bulldozing_load,
-                forces.max_normal_stress,
-                forces.patch.entry,
-                forces.patch.max_stress,
-                forces.patch.exit,
-            ];
             let radius = contact.wheel.shearing_radius();
             let inside = (0.0..=radius * (1.0 + 1e-12)).contains(&settled.sinkage);
             let good = error <= (1e-9 * load).max(rounding)
                 && inside
-                && numbers.iter().all(|x| x.is_finite());
+                && settled.sinkage.is_finite()
+                && numbers_of(forces).iter().all(|x| x.is_finite());
             assert!(good, "case {case}, {theory:?}: {settled:?} under {load} N: {contact:?}");
             tally.add(&settled);
         }

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::plates::PlateMeasurements;
-use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, key_of, plates};
+use grouser::document::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, plates};
 use grouser::studies::calibration::{
     Calibration, FitSettings, ParameterSpace, PlateCurve, PlateLaw, PlateTest,
 };
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::super::Answer;
 use super::checkpoint::{Checkpoint, open_folder};
@@ -19,12 +19,9 @@ use crate::args::{CalibrateArgs, PlateLawWord};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
-use crate::output::rows::{Rows, csv};
-use crate::output::{self, Format};
+use crate::output;
 use crate::report::page::Page;
 
-/// Samples that the soil's file keeps.
-const KEPT_SAMPLES: usize = 1000;
 /// The sum of the law's two terms is all that one width shows, and no sampler need find that out.
 const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_phi are not told \
                          apart by plates of one width: test a second one";
@@ -82,11 +79,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
         let theory = document.theory().unwrap_or_default();
         let fitted = family.fitted(&solved.fit.values, &source, theory, samples);
         folder.add("calibration.json", answer.to_text());
-        folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
-        folder.add("soil.toml", report::toml_of(&fitted));
-        if let Some(samples) = samples_csv(&family, &solved)? {
-            folder.add(SAMPLES_FILE, samples);
-        }
+        report::add_soil(&mut folder, &family, &solved, &fitted)?;
         let mut page = Page::new("Calibration on plate tests");
         page.heading("What was found");
         report::add_parameters(&mut page, &solved);
@@ -100,11 +93,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove()?;
     }
-    match args.output.format {
-        Format::Table => output::print(&text),
-        Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
-        Format::Json => output::print_json(&answer),
-    }
+    report::print(args, &text, &solved, &answer)
 }
 
 /// The soil with the law that is asked for, and that law.
@@ -192,15 +181,4 @@ fn chart(curves: &[PlateCurve], solved: &Solved) -> Chart {
         y_label: "pressure [kPa]".into(),
         series,
     }
-}
-
-fn samples_csv(family: &SoilFamily, solved: &Solved) -> Result<Option<String>, Failure> {
-    let Some(samples) = &solved.samples else { return Ok(None) };
-    let columns: Vec<String> =
-        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
-    let rows = samples
-        .thinned(KEPT_SAMPLES)
-        .into_iter()
-        .map(|row| columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect());
-    csv(&columns, rows.collect::<Vec<Map<String, Value>>>().iter()).map(Some)
 }

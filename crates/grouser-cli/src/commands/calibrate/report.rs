@@ -1,19 +1,26 @@
 //! What a calibration says: text, page, figures.
 
-use grouser::document::SoilDocument;
 use grouser::document::calibration::ParameterRecord;
 use grouser::document::validation::GroupRecord;
+use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of, to_toml};
 use grouser::studies::calibration::diagnostics::Samples;
 use grouser::studies::measurement::Quantity;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
 
+use super::super::{Answer, validate};
 use super::solve::Solved;
 use super::wheel::{Found, Problem};
+use crate::args::CalibrateArgs;
 use crate::chart::{Chart, Grid, Series, Style};
-use crate::commands::validate;
+use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{aligned, four_digits};
+use crate::output::rows::{Rows, aligned, csv, four_digits};
+use crate::output::{self, Format};
 use crate::report::page::Page;
 
+/// Samples that the soil's file keeps.
+const KEPT_SAMPLES: usize = 1000;
 /// Points of all scatters in a corner plot together, and of one.
 const ALL_POINTS: usize = 12_000;
 const POINTS: usize = 400;
@@ -22,9 +29,45 @@ const KEYS_ON_PAGE: usize = 7;
 /// Bars of each histogram.
 const BARS: usize = 24;
 
-/// A soil's document, as a file.
-pub(super) fn toml_of(soil: &SoilDocument) -> String {
-    grouser::document::to_toml(soil)
+/// Prints what was found.
+pub(super) fn print<R: Serialize>(
+    args: &CalibrateArgs,
+    text: &str,
+    solved: &Solved,
+    answer: &Answer<R>,
+) -> Result<(), Failure> {
+    match args.output.format {
+        Format::Table => output::print(text),
+        Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
+        Format::Json => output::print_json(answer),
+    }
+}
+
+/// The fitted soil with its samples, and the parameters.
+pub(super) fn add_soil(
+    folder: &mut OutputFolder,
+    family: &SoilFamily,
+    solved: &Solved,
+    soil: &SoilDocument,
+) -> Result<(), Failure> {
+    folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
+    folder.add("soil.toml", to_toml(soil));
+    if let Some(samples) = &solved.samples {
+        folder.add(SAMPLES_FILE, samples_csv(family, samples)?);
+    }
+    Ok(())
+}
+
+/// Samples of the fitted keys, in the keys' own units.
+fn samples_csv(family: &SoilFamily, samples: &Samples) -> Result<String, Failure> {
+    let columns: Vec<String> =
+        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
+    let row = |row: &[f64]| -> Map<String, Value> {
+        columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect()
+    };
+    let rows: Vec<Map<String, Value>> =
+        samples.thinned(KEPT_SAMPLES).into_iter().map(row).collect();
+    csv(&columns, rows.iter())
 }
 
 /// For people: blocks with an empty line between them.

@@ -6,7 +6,7 @@ use grouser::document::calibration::ProposalRecord;
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::measurements::{self, Choice, Measurements};
 use grouser::document::validation::GroupRecord;
-use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of};
+use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of, to_toml};
 use grouser::error::ParameterError;
 use grouser::soil::Soil;
 use grouser::studies::calibration::cross_validation::{leave_one_angle_out, slip_angles, without};
@@ -26,11 +26,7 @@ use super::solve::{self, Solved};
 use crate::args::CalibrateArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
-use crate::output::rows::{Rows, csv};
-use crate::output::{self, Format};
-
-/// Samples that the soil's file keeps.
-const KEPT_SAMPLES: usize = 1000;
+use crate::output;
 
 /// Everything that a calibration on wheel tests is made from.
 pub(super) struct Problem {
@@ -89,12 +85,8 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let text = report::text(&found);
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
-        folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
-        folder.add("soil.toml", report::toml_of(&found.soil));
-        if let Some(samples) = samples_csv(&problem.family, solved)? {
-            folder.add(SAMPLES_FILE, samples);
-        }
-        folder.add("start-soil.toml", report::toml_of(problem.family.base()));
+        report::add_soil(&mut folder, &problem.family, solved, &found.soil)?;
+        folder.add("start-soil.toml", to_toml(problem.family.base()));
         folder.add_document("wheel.toml", &problem.stand.wheel);
         report::add(&mut folder, &problem, &found);
         folder.finish()?;
@@ -102,11 +94,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove()?;
     }
-    match args.output.format {
-        Format::Table => output::print(&text),
-        Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
-        Format::Json => output::print_json(&answer),
-    }
+    report::print(args, &text, solved, &answer)
 }
 
 fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
@@ -269,16 +257,4 @@ fn left_out(
         records.extend(validation.groups.iter().map(GroupRecord::from));
     }
     Ok(records)
-}
-
-/// Samples of the fitted keys, in the keys' own units.
-fn samples_csv(family: &SoilFamily, solved: &Solved) -> Result<Option<String>, Failure> {
-    let Some(samples) = &solved.samples else { return Ok(None) };
-    let columns: Vec<String> =
-        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
-    let rows = samples
-        .thinned(KEPT_SAMPLES)
-        .into_iter()
-        .map(|row| columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect());
-    csv(&columns, rows.collect::<Vec<serde_json::Map<String, Value>>>().iter()).map(Some)
 }
