@@ -1,0 +1,69 @@
+"""How the documentation site is built: `cargo xtask site`. Its pages are the Markdown files of `docs/`."""
+
+import os
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))
+
+import grouser  # noqa: E402
+
+project = "Grouser"
+author = "The Grouser developers"
+copyright = author
+release = version = grouser.__version__
+
+extensions = [
+    "myst_nb",
+    "numpydoc",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx_design",
+    "sphinx_copybutton",
+    "grouser_site",
+]
+exclude_patterns = ["site"]
+# Beside this file; a relative one would be sought beside the pages.
+templates_path = [str(HERE / "templates")]
+
+# Links and headings as the code host has them.
+myst_enable_extensions = ["colon_fence", "deflist"]
+myst_heading_anchors = 6
+# What has no colours of its own is shown as it is.
+highlight_language = "text"
+
+# Every notebook is run at every build. An error of a cell is a warning with its traceback, and warnings fail the
+# build at its end, so that one build shows all that is wrong.
+nb_execution_mode = "force"
+nb_execution_show_tb = True
+nb_execution_timeout = 120
+nb_merge_streams = True
+os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
+
+# Types stand in the text of the docstrings, with shapes and units.
+autodoc_typehints = "none"
+autodoc_member_order = "bysource"
+autosummary_generate = True
+default_role = "py:obj"
+numpydoc_show_class_members = False
+numpydoc_class_members_toctree = False
+
+html_theme = "pydata_sphinx_theme"
+html_title = "Grouser"
+html_static_path = ["static"]
+html_css_files = ["grouser.css"]
+html_show_sourcelink = False
+html_copy_source = False
+html_theme_options = {
+    "navbar_end": ["theme-switcher"],
+    "navigation_with_keys": False,
+    "show_prev_next": False,
+    "show_toc_level": 2,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "pygments_light_style": "tango",
+    "pygments_dark_style": "monokai",
+}
+html_sidebars = {"index": [], "start": [], "trust": [], "validation": [], "performance": []}

@@ -1,0 +1,19 @@
+"""What Sphinx has to learn to make this site: pages made from the program and from the schemas, links that
+leave the site, docstrings of re-exported names, and a count at the end."""
+
+from pygments.lexers import TextLexer
+
+from . import count, documents, links, program, reexports
+
+
+def setup(app):
+    # What programs read needs no colours, and the name of no language may be unknown.
+    app.add_lexer("csv", TextLexer)
+    # Before autosummary makes its own pages.
+    app.connect("builder-inited", program.write_pages, priority=100)
+    app.connect("builder-inited", documents.write_pages, priority=100)
+    app.connect("builder-inited", reexports.gather, priority=100)
+    app.connect("source-read", links.lead_outside)
+    app.connect("doctree-read", count.cells)
+    app.connect("build-finished", count.tell)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
