@@ -8,6 +8,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import grouser  # noqa: E402
+from numpydoc import xref  # noqa: E402
 
 project = "Grouser"
 author = "The Grouser developers"
@@ -45,7 +46,13 @@ os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autosummary_generate = True
+toc_object_entries_show_parents = "hide"
 default_role = "py:obj"
+# Types in docstrings are words; those that are names of the package are links.
+numpydoc_xref_param_type = True
+numpydoc_xref_aliases = {name: f"grouser.{name}" for name in grouser.__all__}
+numpydoc_xref_ignore = "all"
+xref.DEFAULT_LINKS.clear()
 numpydoc_show_class_members = False
 numpydoc_class_members_toctree = False
 

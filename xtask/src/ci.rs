@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, instructions, measurements, python, rustdoc, schema, texts, workspace};
+use crate::{figures, instructions, measurements, python, rustdoc, schema, site, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +27,7 @@ struct Step {
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
-/// The quick steps come first. All but the last six share the build of the dev profile; the
+/// The quick steps come first. All but the last seven share the build of the dev profile; the
 /// program is built once, in the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
     let steps = [
@@ -57,6 +57,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
         step("python", python::check),
+        step("site", || site::build().map(Count::one)),
         step("instructions", || instructions::check().map(Count::one)),
     ];
     let mut total = Count::default();

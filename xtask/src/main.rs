@@ -14,6 +14,7 @@ mod measurements;
 mod python;
 mod rustdoc;
 mod schema;
+mod site;
 mod texts;
 mod workspace;
 
@@ -29,6 +30,7 @@ cargo xtask CHORE
   figures [--check]   write what the program makes inside the Markdown files, or only compare
   instructions        count the instructions of the units of work anew (valgrind)
   python              build the Python package's wheel and test it in an environment of its own
+  site                build the documentation site into target/site, and run its notebooks
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -61,6 +63,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             println!("{passed} passed, {failed} failed");
             failed == 0
         }
+        ["site"] => site::build()?,
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };

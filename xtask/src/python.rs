@@ -5,6 +5,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 use anyhow::{Context, Result, ensure};
 
@@ -29,11 +30,7 @@ const NEEDED: [&str; 8] = [
 /// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of its
 /// docstrings, and its types.
 pub(crate) fn check() -> Result<Count> {
-    let folder = workspace::target().join("python");
-    let python = environment(&folder.join("environment"))?;
-    let wheel = build_wheel(&python, &folder.join("wheels"))?;
-    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
-    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
+    let python = installed()?;
     let program = workspace::build_program()?;
     let mut count = pytest(&python, &program, &["tests"])?;
     count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
@@ -45,6 +42,20 @@ pub(crate) fn check() -> Result<Count> {
     Ok(count)
 }
 
+/// The Python of an environment that has the package as it is now, built once in a run.
+pub(crate) fn installed() -> Result<PathBuf> {
+    static PYTHON: OnceLock<PathBuf> = OnceLock::new();
+    if let Some(python) = PYTHON.get() {
+        return Ok(python.clone());
+    }
+    let folder = workspace::target().join("python");
+    let python = environment(&folder.join("environment"))?;
+    let wheel = build_wheel(&python, &folder.join("wheels"))?;
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
+    Ok(PYTHON.get_or_init(|| python).clone())
+}
+
 /// An environment with all that is needed, and its Python.
 fn environment(folder: &Path) -> Result<PathBuf> {
     let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
@@ -53,10 +64,15 @@ fn environment(folder: &Path) -> Result<PathBuf> {
         let make = ["-m", "venv", "--clear"];
         done(Command::new(system).args(make).arg(folder), "no virtual environment can be made")?;
     }
-    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    let command = &mut Command::new(&python);
-    done(command.args(install).args(NEEDED), "pip cannot install what is needed")?;
+    install(&python, &NEEDED)?;
     Ok(python)
+}
+
+/// Has pip fetch packages, by name.
+pub(crate) fn install(python: &Path, packages: &[&str]) -> Result<()> {
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    let command = &mut Command::new(python);
+    done(command.args(install).args(packages), "pip cannot install what is needed")
 }
 
 /// The wheel, optimised.

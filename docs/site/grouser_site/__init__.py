@@ -13,6 +13,8 @@ def setup(app):
     app.connect("builder-inited", program.write_pages, priority=100)
     app.connect("builder-inited", documents.write_pages, priority=100)
     app.connect("builder-inited", reexports.gather, priority=100)
+    app.connect("builder-inited", reexports.complete)
+    app.connect("autodoc-process-signature", reexports.signature)
     app.connect("source-read", links.lead_outside)
     app.connect("doctree-read", count.cells)
     app.connect("build-finished", count.tell)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -117,10 +118,15 @@ def limits(value: dict[str, Any]) -> str:
     whole = "whole number " if value["type"] == "integer" else ""
     low, high = value.get("minimum"), value.get("maximum")
     if low is None and "exclusiveMinimum" in value:
-        return f"{whole}above {value['exclusiveMinimum']:g}, to {high:g}"
+        return f"{whole}above {value['exclusiveMinimum']:g}, to {short(high)}"
     if low is None or high is None:
         return whole.strip() or "number"
-    return f"{whole}{low:g} to {high:g}"
+    return f"{whole}{short(low)} to {short(high)}"
+
+
+def short(number: float) -> str:
+    """Without the zeros of an exponent: 1e9."""
+    return re.sub(r"e([+-])0*", lambda match: "e" + match[1].strip("+"), f"{number:g}")
 
 
 def default_of(value: dict[str, Any]) -> str:

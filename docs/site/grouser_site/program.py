@@ -33,7 +33,7 @@ def page(name: str, text: str) -> str:
     """A command's help as Markdown: usage as it is, arguments and options as definitions."""
     about, _, rest = text.partition("Usage: ")
     usage, _, rest = rest.partition("\n\n")
-    lines = [f"# `grouser {name}`", "", paragraphs(about), ""]
+    lines = [f"# grouser {name}", "", paragraphs(about), ""]
     lines += ["```sh", re.sub(r"^\S+", "grouser", usage.strip()), "```", ""]
     # A section starts at the margin: `Options:`; what follows the last one may be closing words.
     for section in re.split(r"\n(?=\S)", "\n" + rest.strip("\n")):

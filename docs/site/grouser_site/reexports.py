@@ -1,14 +1,18 @@
-"""Docstrings of attributes.
+"""Docstrings of attributes, and signatures.
 
 The names of the package say that they live in `grouser`, where they are found; the lines below a field are in
 the file that defines it. This tells the one reader of such lines where they are."""
 
 from __future__ import annotations
 
+import dataclasses
 import pkgutil
+import re
+from pathlib import Path
 
 import grouser
 from sphinx.pycode import ModuleAnalyzer
+from sphinx.util import logging
 
 
 def gather(app) -> None:
@@ -21,3 +25,20 @@ def gather(app) -> None:
         part.analyze()
         for found in ("annotations", "attr_docs", "overloads", "tagorder"):
             getattr(whole, found).update(getattr(part, found))
+
+
+def signature(app, what, name, thing, options, arguments, returns):
+    """Nobody makes a result or an error by hand: how is not said."""
+    if arguments and what in ("class", "exception") and (
+        dataclasses.is_dataclass(thing) or issubclass(thing, Exception)
+    ):
+        return "", returns
+    return arguments, returns
+
+
+def complete(app) -> None:
+    """Warns of names of the package that the reference leaves out."""
+    page = Path(app.srcdir, "reference", "python.md").read_text(encoding="utf-8")
+    told = set(re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M))
+    for name in sorted(set(grouser.__all__) - {a or b for a, b in told}):
+        logging.getLogger(__name__).warning("reference/python.md leaves out %s", name)

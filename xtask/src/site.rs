@@ -1,0 +1,43 @@
+//! The documentation site, from the Markdown files of `docs/`: its reference is made from the installed
+//! package, the program and the schemas, and its notebooks are run.
+
+use std::fs;
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result};
+
+use crate::{python, workspace};
+
+/// What builds the site, besides what the package is tested with.
+const NEEDED: [&str; 6] = [
+    "sphinx>=8.1,<10",
+    "myst-nb>=1.3,<2",
+    "pydata-sphinx-theme>=0.16,<1",
+    "numpydoc>=1.8,<2",
+    "sphinx-design",
+    "sphinx-copybutton",
+];
+
+/// Builds the site into `target/site`; whether nothing was wrong.
+///
+/// A link or a name that leads nowhere, an error in a cell, anything else that Sphinx warns of: all
+/// are shown, and each fails the build.
+pub(crate) fn build() -> Result<bool> {
+    let python = python::installed()?;
+    python::install(&python, &NEEDED)?;
+    let program = workspace::build_program()?;
+    let (docs, site) = (workspace::root().join("docs"), workspace::target().join("site"));
+    if site.exists() {
+        fs::remove_dir_all(&site).context("the old site")?;
+    }
+    let mut sphinx = Command::new(python);
+    // A fresh start each time, so that every cell is run.
+    sphinx.args(["-m", "sphinx", "--builder", "html", "--quiet", "--fresh-env"]);
+    sphinx.args(["--fail-on-warning", "--keep-going", "--nitpicky"]);
+    sphinx.arg("--conf-dir").arg(docs.join("site"));
+    sphinx.arg("--doctree-dir").arg(workspace::target().join("site-doctrees"));
+    sphinx.arg(&docs).arg(&site).env("GROUSER_PROGRAM", program).stdin(Stdio::null());
+    let built = sphinx.status().context("Sphinx did not start")?.success();
+    println!("{}", site.join("index.html").display());
+    Ok(built)
+}
