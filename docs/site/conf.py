@@ -39,7 +39,7 @@ highlight_language = "text"
 nb_execution_mode = "force"
 nb_execution_show_tb = True
 nb_execution_timeout = 120
-nb_merge_streams = True
+nb_output_stderr = "warn"
 os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 
 # Types stand in the text of the docstrings, with shapes and units.
@@ -64,6 +64,7 @@ html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
     "navbar_end": ["theme-switcher"],
+    "header_links_before_dropdown": 7,
     "navigation_with_keys": False,
     "show_prev_next": False,
     "show_toc_level": 2,
