@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 import pkgutil
 import re
+import shutil
 from pathlib import Path
 
 import grouser
@@ -16,6 +17,8 @@ from sphinx.util import logging
 
 
 def gather(app) -> None:
+    # Pages of names that are gone would stay.
+    shutil.rmtree(Path(app.srcdir, "reference", "generated", "python"), ignore_errors=True)
     whole = ModuleAnalyzer.for_module("grouser")
     whole.analyze()
     for module in pkgutil.iter_modules(grouser.__path__):
