@@ -36,6 +36,7 @@ pub mod measurements;
 mod overrides;
 pub mod plates;
 mod presets;
+pub mod ranking;
 mod rover;
 mod samples;
 mod scenario;
