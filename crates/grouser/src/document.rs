@@ -51,6 +51,7 @@ mod text;
 pub mod trajectory;
 mod uncertainty;
 pub mod validation;
+pub mod variation;
 mod wheel;
 
 use std::fmt;
