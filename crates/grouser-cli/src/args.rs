@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use grouser::document::calibration::STEPS;
 use grouser::document::measurements::{Condition, Mapping};
 use grouser::document::{FitKey, Kind};
 
@@ -362,7 +363,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Steps of each walker of the posterior.
-    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(100..1_000_000))]
+    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(STEPS))]
     pub(crate) steps: u64,
     /// Only least squares, no posterior.
     #[arg(long)]
@@ -403,6 +404,16 @@ pub(crate) enum PlateLawWord {
     Bekker,
     /// p = (c k_c + density g b k_phi) (z/b)^n.
     Reece,
+}
+
+impl PlateLawWord {
+    /// The word in documents.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Bekker => "bekker",
+            Self::Reece => "reece",
+        }
+    }
 }
 
 #[derive(Debug, Args)]

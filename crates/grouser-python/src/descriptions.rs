@@ -1,10 +1,11 @@
 //! Documents for Python: read from presets, files, texts and tables, changed, and written back.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use grouser::document::{
-    self, DocumentError, Kind, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Overrides,
-    Source,
+    self, Companion, DocumentError, Kind, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel,
+    Overrides, Source,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -12,6 +13,7 @@ use pyo3::types::PyDict;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
+use crate::values::Change;
 use crate::{errors, values};
 
 /// A document that was read: what it says, and what that means.
@@ -65,6 +67,23 @@ impl Document {
         json.unwrap_or_default()
     }
 
+    /// Files that the document names.
+    pub(crate) fn companions(&self) -> &[Companion] {
+        match &self.read {
+            Read::Soil(it) => &it.companions,
+            Read::Wheel(it) => &it.companions,
+            Read::Rover(it) => &it.companions,
+            Read::Scenario(it) => &it.companions,
+        }
+    }
+
+    /// A soil that was made here, with the file of its samples.
+    pub(crate) fn of_soil(toml: String, companions: Vec<Companion>) -> PyResult<Self> {
+        let source = Source::text_with("a calibrated soil", toml, companions);
+        let read = Read::new(Kind::Soil, &source, &Overrides::none());
+        read.map(|read| Self { read }).map_err(|error| errors::of_document(&error, &[]))
+    }
+
     pub(crate) fn soil(&self) -> PyResult<&LoadedSoil> {
         match &self.read {
             Read::Soil(soil) => Ok(soil),
@@ -115,6 +134,13 @@ impl Document {
         }
     }
 
+    /// The files that the resolved document names: their names, and what is in them.
+    #[getter]
+    fn files(&self) -> BTreeMap<String, String> {
+        let pair = |it: &Companion| (it.name.clone(), it.content.clone());
+        self.companions().iter().map(pair).collect()
+    }
+
     /// The resolved document as TOML.
     fn to_toml(&self) -> String {
         match &self.read {
@@ -154,15 +180,21 @@ pub(crate) fn read_document_file(
     changed(kind_of(kind)?, &Source::file(path), changes, vec![])
 }
 
-/// A text, under a label for messages.
+/// A text, under a label for messages, and the files that it names.
 #[pyfunction]
 pub(crate) fn read_document_text(
     kind: &str,
     label: &str,
     text: &str,
     changes: &Bound<'_, PyDict>,
+    files: BTreeMap<String, String>,
 ) -> PyResult<Document> {
-    changed(kind_of(kind)?, &Source::text(label, text), changes, vec![])
+    let source = Source::text_with(label, text, companions(files));
+    changed(kind_of(kind)?, &source, changes, vec![])
+}
+
+fn companions(files: BTreeMap<String, String>) -> Vec<Companion> {
+    files.into_iter().map(|(name, content)| Companion { name, content }).collect()
 }
 
 /// A table of keys, under a label for messages; it need not say what it describes.
@@ -172,16 +204,18 @@ pub(crate) fn read_document_table(
     label: &str,
     table: &Bound<'_, PyDict>,
     changes: &Bound<'_, PyDict>,
+    files: BTreeMap<String, String>,
 ) -> PyResult<Document> {
     let kind = kind_of(kind)?;
-    let mut content = match values::to_toml(label, table.as_any())? {
+    let mut beside = companions(files);
+    let mut content = match values::to_toml(label, table.as_any(), &mut beside)? {
         Value::Table(table) => table,
         _ => Table::new(),
     };
     if !content.contains_key("schema") {
         content.insert("schema".to_owned(), Value::String(kind.tag().to_owned()));
     }
-    let source = Source::text(label, document::to_toml(&content));
+    let source = Source::text_with(label, document::to_toml(&content), beside);
     changed(kind, &source, changes, vec![label.to_owned()])
 }
 
@@ -194,9 +228,11 @@ fn changed(
     mut arguments: Vec<String>,
 ) -> PyResult<Document> {
     let mut overrides = Overrides::none();
-    for (key, value) in values::changes(kind.name(), changes)? {
+    for Change { key, value, companions } in values::changes(kind.name(), changes)? {
         arguments.push(Overrides::change_label(&key, &value));
-        overrides.change(&key, &value).map_err(|error| errors::of_document(&error, &arguments))?;
+        overrides
+            .change(&key, &value, companions)
+            .map_err(|error| errors::of_document(&error, &arguments))?;
     }
     let read = changes.py().detach(|| Read::new(kind, source, &overrides));
     read.map(|read| Document { read }).map_err(|error| errors::of_document(&error, &arguments))
@@ -223,5 +259,5 @@ pub(crate) fn presets(kind: &str) -> PyResult<Vec<(&'static str, String, String)
 /// A dictionary as TOML.
 #[pyfunction]
 pub(crate) fn to_toml(label: &str, table: &Bound<'_, PyDict>) -> PyResult<String> {
-    Ok(document::to_toml(&values::to_toml(label, table.as_any())?))
+    Ok(document::to_toml(&values::to_toml(label, table.as_any(), &mut Vec::new())?))
 }

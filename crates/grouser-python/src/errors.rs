@@ -1,9 +1,11 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
+use grouser::document::ranking::RankingError;
 use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
 use grouser::simulation::SimulationError;
+use grouser::studies::calibration::CalibrationError;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -16,6 +18,7 @@ mod classes {
     import_exception!(grouser._errors, DocumentNotFoundError);
     import_exception!(grouser._errors, DocumentUnreadableError);
     import_exception!(grouser._errors, SimulationError);
+    import_exception!(grouser._errors, CalibrationError);
 }
 
 /// What a document's problem says of a value.
@@ -131,6 +134,50 @@ pub(crate) fn of_simulation(error: &SimulationError) -> PyErr {
         SimulationError::Parameter(error) => of_parameter(error),
         SimulationError::Reaction { time, .. } | SimulationError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
+        }
+    }
+}
+
+/// A calibration without an answer: measurements and keys that do not go together are the caller's.
+pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
+    let (message, expected) = (error.to_string(), "keys that the measurements can tell");
+    match error {
+        CalibrationError::Parameter(error) => of_parameter(error),
+        CalibrationError::NoParameters | CalibrationError::TooFewObservations { .. } => {
+            parameter(format!("fit: {message}"), "fit", None, expected)
+        }
+        CalibrationError::OneSlipAngle | CalibrationError::LeavingOut { .. } => {
+            let message = format!("cross_validate: {message}");
+            parameter(message, "cross_validate", None, "trials at several slip angles")
+        }
+        CalibrationError::BadObservation { .. }
+        | CalibrationError::NoStart { .. }
+        | CalibrationError::Interrupted
+        | CalibrationError::ForeignState { .. } => classes::CalibrationError::new_err(message),
+    }
+}
+
+/// Theories that cannot be ranked.
+pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
+    let (message, none) = (error.to_string(), None::<String>);
+    match error {
+        RankingError::Document(error) => of_document(error, &[]),
+        RankingError::Measurements(error) => of_measurements(error, error.file()),
+        RankingError::NoSuchFolder(path) => {
+            let file = path.display().to_string();
+            classes::DocumentNotFoundError::new_err((message, file, none))
+        }
+        RankingError::Unreadable { folder, .. } => {
+            classes::DocumentUnreadableError::new_err((message, folder.display().to_string()))
+        }
+        RankingError::NoSuchFile { file, .. } => {
+            let file = file.display().to_string();
+            classes::DocumentNotFoundError::new_err((message, file, none))
+        }
+        RankingError::NoDataSet { folder, .. } => {
+            let hint = "docs/guide/data.md tells where public data sets are".to_owned();
+            let file = folder.display().to_string();
+            classes::DocumentNotFoundError::new_err((message, file, Some(hint)))
         }
     }
 }

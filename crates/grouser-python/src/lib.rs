@@ -2,13 +2,15 @@
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
+//! ([`studies`], [`rollouts`], [`validation`], [`calibration`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
 //! computes physics, and nothing below knows of Python.
 
+mod calibration;
 mod columns;
 mod descriptions;
 mod errors;
 mod interrupt;
+mod rollouts;
 mod studies;
 mod validation;
 mod values;
@@ -18,16 +20,20 @@ mod wheels;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
+    use super::calibration::{calibrate_plate_tests, calibrate_wheel_tests};
+    #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,
         read_document_text, to_toml,
     };
     #[pymodule_export]
-    use super::studies::{attitude, attitude_map, rollout, simulate};
+    use super::rollouts::{rollout, time_rollout};
     #[pymodule_export]
-    use super::validation::validate;
+    use super::studies::{attitude, attitude_band, attitude_map, simulate, simulated_wheel_test};
     #[pymodule_export]
-    use super::wheels::{not_carried, settle, wheel_forces};
+    use super::validation::{validate, validate_all};
+    #[pymodule_export]
+    use super::wheels::{not_carried, settle, time_settle, wheel_forces};
 
     /// Gravities by name [m/s²].
     #[pymodule_init]

@@ -1,27 +1,36 @@
 //! Runs and studies: each in a thread of its own, so that Ctrl-C is heard.
 
+use std::ops::{ControlFlow, RangeInclusive};
+
+use grouser::document::simulated_test::{NOISE, SimulatedTrialRecord, TRIALS};
 use grouser::document::study::{
-    AttitudeLimit, AttitudeMapRecord, AttitudeRecord, COURSE_DEG, MAP_SPEED_M_S,
+    self, AttitudeBandLimit, AttitudeBandRecord, AttitudeLimit, AttitudeMapRecord, AttitudeRecord,
+    COURSE_DEG, MAP_SPEED_M_S,
 };
 use grouser::document::trajectory::{SampleRecord, TrajectoryRecord, WheelSampleRecord};
-use grouser::document::{self, Kind};
+use grouser::document::{self, Kind, SoilDocument};
 use grouser::error::ParameterError;
 use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory};
+use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::attitude_band::AttitudeBand;
 use grouser::studies::attitude_map::AttitudeMap;
+use grouser::studies::measurement::PerQuantity;
+use grouser::studies::simulated_test::SimulatedTest;
+use grouser::studies::wheel_test::WheelTest;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
-use rayon::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::columns::{WHEEL_COLUMNS, columns, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::wheels::{check, column};
+use crate::validation::in_words;
+use crate::wheels::{check, column, theory_and_gravity};
 
 /// A field of a record, by name.
-type Field<R> = (&'static str, fn(&R) -> f64);
+pub(crate) type Field<R> = (&'static str, fn(&R) -> f64);
 
 macro_rules! fields {
     ($record:ty: $($name:ident),+ $(,)?) => {
@@ -29,7 +38,7 @@ macro_rules! fields {
     };
 }
 
-const SAMPLE_FIELDS: [Field<SampleRecord>; 12] = fields!(SampleRecord:
+pub(crate) const SAMPLE_FIELDS: [Field<SampleRecord>; 12] = fields!(SampleRecord:
     time_s, x_m, y_m, yaw_deg, forward_speed_m_s, lateral_speed_m_s, yaw_rate_deg_s, power_w,
     energy_j, soil_energy_j, kinetic_energy_j, potential_energy_j);
 
@@ -47,7 +56,7 @@ pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bo
     to_python(py, &record.map_err(|error| errors::of_simulation(&error))?, &names)
 }
 
-fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
+pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
     Simulation::new(scenario)?.run()
 }
 
@@ -101,50 +110,6 @@ fn each_wheel<'py>(
     Ok(dict)
 }
 
-/// What a campaign keeps of a run.
-struct End {
-    outcome: &'static str,
-    reason: Option<String>,
-    sample: Option<SampleRecord>,
-}
-
-impl End {
-    fn of(scenario: &Scenario) -> Self {
-        match run(scenario) {
-            Ok(run) => Self {
-                outcome: run.outcome.name(),
-                reason: run.outcome.reason(),
-                sample: Some(SampleRecord::new(run.last(), &scenario.rover)),
-            },
-            Err(error) => Self { outcome: "failed", reason: Some(error.to_string()), sample: None },
-        }
-    }
-}
-
-/// The ends of many runs, on all cores; in the order of the scenarios, whatever the threads did.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
-pub(crate) fn rollout<'py>(
-    py: Python<'py>,
-    scenarios: Vec<PyRef<'py, Document>>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let runs = scenarios.iter().map(|scenario| Ok(scenario.scenario()?.value.clone()));
-    let runs: Vec<Scenario> = runs.collect::<PyResult<_>>()?;
-    let ends = listening(py, move |cancelled| {
-        let end = |scenario: &Scenario| (!cancelled.is_set()).then(|| End::of(scenario));
-        runs.par_iter().map(end).collect::<Option<Vec<End>>>()
-    })?;
-    let ends = ends.unwrap_or_default();
-    let dict = PyDict::new(py);
-    dict.set_item("outcome", PyList::new(py, ends.iter().map(|end| end.outcome))?)?;
-    dict.set_item("reason", PyList::new(py, ends.iter().map(|end| end.reason.as_deref()))?)?;
-    for (name, get) in SAMPLE_FIELDS {
-        let value = |end: &End| end.sample.as_ref().map_or(f64::NAN, get);
-        dict.set_item(name, column(py, ends.iter().map(value)))?;
-    }
-    Ok(dict)
-}
-
 /// The level attitude on each slope, the steepest slope, and what ends the curve there.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -190,14 +155,133 @@ pub(crate) fn attitude_map<'py>(
         return Err(errors::parameter(message, "soil", None, "at least one soil"));
     };
     let studies: Vec<_> = all.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
-    let records = listening(py, move |_| {
+    let records = listening(py, move |cancelled| {
         let radians = |list: &[f64]| list.iter().map(|it| it.to_radians()).collect::<Vec<f64>>();
-        let map = AttitudeMap::of(&studies, &radians(&courses), &radians(&slopes))?;
-        Ok(AttitudeMapRecord::of(&map, &names, &rover, speed_m_s))
+        let (courses, slopes) = (radians(&courses), radians(&slopes));
+        let mut records = Vec::new();
+        for (study, name) in studies.iter().zip(&names) {
+            for courses in courses.chunks(COURSES) {
+                if cancelled.is_set() {
+                    return Ok(Vec::new());
+                }
+                let map = AttitudeMap::of(std::slice::from_ref(study), courses, &slopes)?;
+                let name = std::slice::from_ref(name);
+                records.extend(AttitudeMapRecord::of(&map, name, &rover, speed_m_s));
+            }
+        }
+        Ok(records)
     })?;
     let records = records.map_err(|error: ParameterError| errors::of_parameter(&error))?;
     columns(py, &records)
 }
+
+/// What the draws of the soil's uncertainty say on each slope, and of the steepest slope.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn attitude_band<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    slope_deg: PyReadonlyArray1<'py, f64>,
+    seed: u64,
+    samples: u32,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyAny>)> {
+    let slopes = slopes(&slope_deg)?;
+    check("samples", &[f64::from(samples)], &SAMPLES)?;
+    let scenario = scenario.scenario()?;
+    let soil = scenario.document.soil.inline();
+    let Some(uncertain) = soil.and_then(SoilDocument::uncertain).cloned() else {
+        let message = "the soil does not say how well its values are known".to_owned();
+        let expected = "a soil with an `uncertainty`, such as toyoura-uncertain";
+        return Err(errors::parameter(message, "uncertainty", None, expected));
+    };
+    let study = AttitudeStudy::of(&scenario.value);
+    let found = listening(py, move |cancelled| {
+        let draw = |index| uncertain.draw(seed, u64::from(index));
+        let soils: Vec<Soil> =
+            (0..samples).map(draw).collect::<Result<_, _>>().map_err(|error| {
+                let message = format!("the soil's uncertainty reaches too far: {error}");
+                Problem::Draws(message)
+            })?;
+        let slopes: Vec<f64> = slopes.iter().map(|slope| slope.to_radians()).collect();
+        let go_on = || {
+            if cancelled.is_set() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        AttitudeBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
+    })?;
+    let band = found.map_err(|problem| match problem {
+        Problem::Draws(message) => {
+            errors::parameter(message, "uncertainty", None, "smaller standard deviations")
+        }
+        Problem::Parameter(error) => errors::of_parameter(&error),
+    })?;
+    let records = band.iter().flat_map(|band| &band.slopes).map(AttitudeBandRecord::from);
+    let limit = band.as_ref().map(AttitudeBandLimit::from);
+    Ok((columns(py, &records.collect::<Vec<_>>())?, in_words(py, &limit)?))
+}
+
+/// Draws that may be asked for.
+const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
+
+/// Why there is no band.
+enum Problem {
+    Draws(String),
+    Parameter(ParameterError),
+}
+
+/// A wheel test on a simulated stand: a row for each run of each setting, runs fastest, then slip
+/// ratios, slip angles, loads.
+///
+/// * `noise`: standard deviations of forces [N], sinkage [mm] and torque [N·m]
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn simulated_wheel_test<'py>(
+    py: Python<'py>,
+    soil: &Document,
+    wheel: &Document,
+    setting: &Document,
+    load_n: PyReadonlyArray1<'py, f64>,
+    slip_angle_deg: PyReadonlyArray1<'py, f64>,
+    slip_ratio: PyReadonlyArray1<'py, f64>,
+    trials: usize,
+    noise: [f64; 3],
+    seed: u64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    check("load_n", load_n.as_slice()?, &study::LOAD_N)?;
+    check("slip_angle_deg", slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
+    check("slip_ratio", slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
+    check("trials", &[trials as f64], &TRIALS)?;
+    for (name, deviation) in ["noise_n", "noise_mm", "noise_nm"].into_iter().zip(noise) {
+        check(name, &[deviation], &NOISE)?;
+    }
+    let [forces, sinkage, torque] = noise;
+    let test = SimulatedTest {
+        plan: WheelTest {
+            wheel: wheel.wheel()?.value,
+            soil: soil.soil()?.value,
+            gravity,
+            theory,
+            loads: load_n.as_slice()?.to_vec(),
+            slip_angles: slip_angle_deg.as_slice()?.iter().map(|it| it.to_radians()).collect(),
+            slip_ratios: slip_ratio.as_slice()?.to_vec(),
+        },
+        trials,
+        noise: PerQuantity {
+            drawbar_pull: forces,
+            side_force: forces,
+            sinkage: sinkage * 1e-3,
+            torque,
+        },
+        seed,
+    };
+    let records: Vec<SimulatedTrialRecord> =
+        listening(py, move |_| test.run().iter().map(SimulatedTrialRecord::from).collect())?;
+    columns(py, &records)
+}
+
+/// Courses of a map between two looks for signals: a part of a second.
+const COURSES: usize = 64;
 
 /// Slopes in their range.
 fn slopes(slope_deg: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {

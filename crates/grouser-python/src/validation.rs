@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use grouser::document::measurements::{self, Choice, Condition};
+use grouser::document::measurements::{self, Choice, Condition, Measurements};
+use grouser::document::ranking::rank_all;
 use grouser::document::validation::{CellRecord, GroupRecord, trials};
-use grouser::studies::validation::ValidationStudy;
+use grouser::studies::validation::{Validation, ValidationStudy};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde::Serialize;
@@ -30,11 +31,7 @@ pub(crate) fn validate<'py>(
     wheel_label: Option<String>,
     conditions: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let condition = |text: &String| {
-        Condition::parse(text)
-            .map_err(|why| errors::parameter(why, "where", None, "column=value or column!=value"))
-    };
-    let conditions = conditions.iter().map(condition).collect::<PyResult<_>>()?;
+    let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, wheel: wheel_label };
     let (theory, gravity) = theory_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
@@ -46,21 +43,51 @@ pub(crate) fn validate<'py>(
         Ok((measured, validation))
     })?;
     let (measured, validation) = found.map_err(|error| errors::of_measurements(&error, &file))?;
+    validation_to_python(py, &measured, &validation)
+}
+
+/// Which rows of a file count.
+pub(crate) fn conditions_of(texts: &[String]) -> PyResult<Vec<Condition>> {
+    let condition = |text: &String| {
+        Condition::parse(text)
+            .map_err(|why| errors::parameter(why, "where", None, "column=value or column!=value"))
+    };
+    texts.iter().map(condition).collect()
+}
+
+/// Errors by groups, cells and trials.
+pub(crate) fn validation_to_python<'py>(
+    py: Python<'py>,
+    measured: &Measurements,
+    validation: &Validation,
+) -> PyResult<Bound<'py, PyDict>> {
     let cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
-    let groups = validation.groups.iter().map(|group| in_words(py, &GroupRecord::from(group)));
-    let dict = PyDict::new(py);
     let group = |group: &_| in_words(py, &GroupRecord::from(group));
+    let groups = validation.groups.iter().map(group);
+    let dict = PyDict::new(py);
+    dict.set_item("groups", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
     dict.set_item("overall", group(&validation.overall)?)?;
     dict.set_item("driven", validation.driven.as_ref().map(group).transpose()?)?;
     dict.set_item("skid", validation.skid.as_ref().map(group).transpose()?)?;
-    dict.set_item("groups", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
     dict.set_item("cells", columns(py, &cells)?)?;
-    dict.set_item("trials", columns(py, &trials(&measured, &validation))?)?;
+    dict.set_item("trials", columns(py, &trials(measured, validation))?)?;
     dict.set_item("notes", &measured.notes)?;
     Ok(dict)
 }
 
+/// Every theory on every data set in a folder, best first: a record for each.
+#[pyfunction]
+pub(crate) fn validate_all(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyList>> {
+    let ranked = listening(py, move |_| rank_all(&folder))?;
+    let ranked = ranked.map_err(|error| errors::of_ranking(&error))?;
+    let records = ranked.iter().map(|one| in_words(py, one));
+    PyList::new(py, records.collect::<PyResult<Vec<_>>>()?)
+}
+
 /// A record as a dictionary.
-fn in_words<'py>(py: Python<'py>, record: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn in_words<'py>(
+    py: Python<'py>,
+    record: &impl Serialize,
+) -> PyResult<Bound<'py, PyAny>> {
     values::to_python(py, &serde_json::to_value(record).unwrap_or_default())
 }

@@ -1,5 +1,6 @@
 //! Python's values as those of documents, and back.
 
+use grouser::document::Companion;
 use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
@@ -12,20 +13,39 @@ use crate::errors;
 /// Tables and lists may be nested this deep. Source: ours, as the reader of documents has it.
 const DEEPEST: usize = 16;
 
-/// A change of one key: its path, joined by dots, and the value as TOML.
-pub(crate) type Change = (String, String);
-
-/// A value for a document.
-pub(crate) fn to_toml(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
-    convert(key, value, 0)
+/// A change of one key.
+pub(crate) struct Change {
+    /// Its path, joined by dots.
+    pub(crate) key: String,
+    /// The value as TOML.
+    pub(crate) value: String,
+    /// Files that the value names.
+    pub(crate) companions: Vec<Companion>,
 }
 
-fn convert(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+/// A value for a document.
+///
+/// * `files`: those that descriptions in it name are added
+pub(crate) fn to_toml(
+    key: &str,
+    value: &Bound<'_, PyAny>,
+    files: &mut Vec<Companion>,
+) -> PyResult<Value> {
+    convert(key, value, files, 0)
+}
+
+fn convert(
+    key: &str,
+    value: &Bound<'_, PyAny>,
+    files: &mut Vec<Companion>,
+    depth: usize,
+) -> PyResult<Value> {
     if depth > DEEPEST {
         let message = format!("{key} is nested more than {DEEPEST} levels deep");
         return Err(PyRecursionError::new_err(message));
     }
     if let Some(document) = described(value)? {
+        files.extend_from_slice(document.get().companions());
         return Ok(Value::Table(document.get().table()));
     }
     if value.is_instance_of::<PyBool>() {
@@ -47,16 +67,21 @@ fn convert(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value>
         for item in mapping.items()?.iter() {
             let (name, child): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
             let name: String = name.extract().map_err(|_| errors::wrong_type(key, &name))?;
-            let child = convert(&format!("{key}.{name}"), &child, depth + 1)?;
+            let child = convert(&format!("{key}.{name}"), &child, files, depth + 1)?;
             table.insert(name, child);
         }
         return Ok(Value::Table(table));
     }
-    other(key, value, depth)
+    other(key, value, files, depth)
 }
 
 /// Paths, scalars and arrays of NumPy, and sequences.
-fn other(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
+fn other(
+    key: &str,
+    value: &Bound<'_, PyAny>,
+    files: &mut Vec<Companion>,
+    depth: usize,
+) -> PyResult<Value> {
     if value.hasattr("__fspath__")? {
         let path: String = value.call_method0("__fspath__")?.extract()?;
         return Ok(Value::String(path));
@@ -67,7 +92,7 @@ fn other(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         return if plain.hasattr("tolist")? {
             Err(errors::wrong_type(key, value))
         } else {
-            convert(key, &plain, depth + 1)
+            convert(key, &plain, files, depth + 1)
         };
     }
     let is_sequence = value.hasattr("__len__")? && value.hasattr("__getitem__")?;
@@ -75,7 +100,8 @@ fn other(key: &str, value: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         return Err(errors::wrong_type(key, value));
     }
     let items = value.try_iter()?.enumerate();
-    let list = items.map(|(place, item)| convert(&format!("{key}.{place}"), &item?, depth + 1));
+    let list =
+        items.map(|(place, item)| convert(&format!("{key}.{place}"), &item?, files, depth + 1));
     Ok(Value::Array(list.collect::<PyResult<_>>()?))
 }
 
@@ -95,7 +121,7 @@ pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec
         let name: String = name.extract().map_err(|_| errors::wrong_type(prefix, &name))?;
         collect(&format!("{prefix}.{name}"), &value, &mut all, 0)?;
     }
-    all.sort_by_key(|(path, _)| path.rsplit('.').next() != Some("law"));
+    all.sort_by_key(|change| change.key.rsplit('.').next() != Some("law"));
     Ok(all)
 }
 
@@ -117,8 +143,9 @@ fn collect(
             Ok(())
         }
         _ => {
-            let inline = to_toml(prefix, value)?.to_string();
-            all.push((prefix.to_owned(), inline));
+            let mut companions = Vec::new();
+            let value = to_toml(prefix, value, &mut companions)?.to_string();
+            all.push(Change { key: prefix.to_owned(), value, companions });
             Ok(())
         }
     }

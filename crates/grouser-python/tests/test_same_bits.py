@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from conftest import Program
 
 import grouser as gr
@@ -83,3 +84,62 @@ def test_validate(program: Program) -> None:
     assert list(found.groups) == told["rows"]
     for name in told["cells"][0].keys() - {"motion"}:
         assert same(found.cells[name], told["cells"], name), name
+
+
+def test_attitude_on_an_uncertain_soil(program: Program) -> None:
+    told = program(
+        "attitude", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
+        "--samples", "30", "--seed", "9",
+    )  # fmt: skip
+    level = gr.attitude(
+        soil="toyoura-uncertain", slope_deg=[5, 15, 40], uncertainty=True, samples=30, seed=9
+    )
+    table = level.to_pandas()
+    for name in told["rows"][0].keys() - {"status", "draws"}:
+        assert same(table[name], told["rows"], name), name
+    assert level.band is not None
+    for name in ("limit_slope_deg_p2_5", "limit_slope_deg_p97_5", "draws_mobile", "draws"):
+        assert getattr(level.band, name) == told[name]
+
+
+def test_simulated_stand(program: Program) -> None:
+    rows = program(
+        "wheel-test", "--soil", "toyoura", "--wheel", "hakuto", "--load-n", "10,60000",
+        "--slip-ratio", "0:0.4:0.2", "--slip-angle-deg", "0,15", "--trials", "3", "--seed", "5",
+        "--noise-mm", "0.1",
+    )["rows"]  # fmt: skip
+    ratios = [row["slip_ratio"] for row in rows[:9:3]]
+    test = gr.wheel_test(
+        load_n=[10, 60000], slip_ratio=ratios, slip_angle_deg=[0, 15], trials=3, seed=5, noise_mm=0.1
+    )
+    table = test.to_pandas()
+    assert table.status.tolist() == [row["status"] for row in rows]
+    for name in rows[0].keys() - {"status"}:
+        assert same(table[name], rows, name), name
+
+
+def test_ranking_of_all_theories(program: Program, tmp_path: Path) -> None:
+    data = (DATA / "simulated-wheel-test" / "toyoura-20n.csv").read_text()
+    (tmp_path / "stand.csv").write_text(data)
+    case = 'name = "all"\nwheel = "hakuto"\nsoils = ["toyoura", "lunar-nominal"]\n'
+    head = 'schema = "data-set/1"\nname = "A stand"\nsource = "simulated"\nfile = "stand.csv"\n'
+    (tmp_path / "stand.toml").write_text(f"{head}[[case]]\n{case}")
+    rows = program("validate", "--all", "--data-dir", str(tmp_path))["rows"]
+    ranking = gr.validate_all(tmp_path)
+    assert list(ranking.rows) == rows and len(ranking) == len(rows) > 2
+    assert [row["rank"] for row in ranking.rows] == list(range(1, len(rows) + 1))
+    assert ranking.to_pandas().drawbar_pull_n_rmse.tolist() == [
+        row["overall"]["drawbar_pull_n"]["rmse"] for row in rows
+    ]
+    assert ranking.plot().get_xlabel() and repr(ranking).startswith("<Ranking")
+
+
+def test_folders_without_data_sets(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("GROUSER_DATA_DIR", raising=False)
+    with pytest.raises(gr.ParameterError, match="GROUSER_DATA_DIR"):
+        gr.validate_all()
+    with pytest.raises(FileNotFoundError, match="no such folder"):
+        gr.validate_all(tmp_path / "none")
+    monkeypatch.setenv("GROUSER_DATA_DIR", str(tmp_path))
+    with pytest.raises(gr.DocumentNotFoundError, match="no known data set"):
+        gr.validate_all()

@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -42,6 +43,79 @@ def test_a_rollout_ends_where_its_runs_end() -> None:
         assert getattr(ends, name).tolist() == [getattr(run, name)[-1] for run in runs]
     assert ends.to_pandas().shape[0] == 3 and ends.to_xarray().x_m.attrs["units"] == "m"
     assert len(gr.rollout([])) == 0
+
+
+def test_what_varies_needs_no_scenario_of_its_own() -> None:
+    """Numbers in arrays and soils in a list give the bits of a scenario for each."""
+    slopes, yaws = np.array([[0.0], [12.0]]), np.array([-5.0, 3.5])
+    soils = np.array(["toyoura", "cmu-direct90-smooth"], dtype=object)
+    start = gr.Scenario(duration_s=2.0, drive={"law": "eq18"})
+    ends = gr.rollout(
+        start, soil=soils, slope_deg=slopes, yaw_deg=yaws, speed_m_s=0.05,
+        gravity_m_s2=gr.MOON_GRAVITY, duration_s=[1.0, 1.5], trajectories=True,
+    )  # fmt: skip
+    assert ends.shape == (2, 2) and len(ends) == 4 and ends.samples is not None
+    assert ends.samples["y_m"].shape == (2, 2, 16)
+    for i, j in np.ndindex(2, 2):
+        alone = gr.simulate(
+            start, soil=soils[j], slope_deg=slopes[i, 0], start={"yaw_deg": yaws[j]},
+            drive={"speed_m_s": 0.05}, gravity_m_s2=gr.MOON_GRAVITY, duration_s=[1.0, 1.5][j],
+        )  # fmt: skip
+        count = len(alone.y_m)
+        assert ends.outcome[i, j] == alone.outcome
+        assert ends.y_m[i, j] == alone.y_m[-1] and ends.energy_j[i, j] == alone.energy_j[-1]
+        assert ends.samples["y_m"][i, j, :count].tolist() == alone.y_m.tolist()
+        assert np.isnan(ends.samples["y_m"][i, j, count:]).all()
+    data = ends.to_xarray(dims=["slope", "yaw"])
+    assert data.sample_x_m.dims == ("slope", "yaw", "sample")
+    assert gr.rollout().shape == () and gr.rollout(slope_deg=[]).shape == (0,)
+    named = gr.rollout([start.replace(model="bekker")], soil="cmu-direct90-smooth", slope_deg=5.0)
+    alone = gr.simulate(start, model="bekker", soil="cmu-direct90-smooth", slope_deg=5.0)
+    assert named.y_m[0] == alone.y_m[-1]
+
+
+def test_threads_share_a_scenario() -> None:
+    run, soil = gr.Scenario(duration_s=1.0), gr.Soil("lunar-nominal")
+
+    def bits(_: int) -> bytes:
+        path = gr.simulate(run, soil=soil).y_m.tobytes()
+        return path + gr.rollout(run, soil=soil, slope_deg=[3.0, 9.0]).y_m.tobytes()
+
+    with ThreadPoolExecutor(8) as pool:
+        assert len(set(pool.map(bits, range(16)))) == 1
+
+
+def test_an_uncertain_soil_has_a_band() -> None:
+    slopes = [5.0, 15.0, 40.0]
+    level = gr.attitude(
+        soil="toyoura-uncertain", slope_deg=slopes, uncertainty=True, samples=40, seed=3
+    )
+    band = level.band
+    assert band is not None and band.draws == 40
+    assert (band.yaw_deg_p2_5[:2] <= band.yaw_deg_p50[:2]).all()
+    assert band.probability_level.tolist()[::2] == [1.0, 0.0]
+    assert np.isnan(band.yaw_deg_p50).tolist() == [False, False, True]
+    assert band.limit_slope_deg_p2_5 is not None and band.limit_slope_deg_p97_5 is not None
+    assert band.limit_slope_deg_p2_5 < band.limit_slope_deg_p97_5
+    data = level.to_xarray()
+    assert data.yaw_deg_p97_5.attrs["units"] == "°" and data.probability_level.attrs["units"] == "1"
+    assert level.to_pandas().shape[0] == 3 and level.plot().get_legend_handles_labels()[1]
+    empty = gr.attitude(soil="toyoura-uncertain", slope_deg=[], uncertainty=True, samples=2)
+    assert empty.band is not None and empty.band.yaw_deg_p50.shape == (0,)
+
+
+def test_a_simulated_stand_scatters_about_the_theory() -> None:
+    """The mean of 400 readings is within five standard errors of the theory."""
+    settings = {"load_n": [10, 20], "slip_ratio": [0.2, 0.4], "slip_angle_deg": [0, 15]}
+    exact = gr.wheel_test(**settings)  # type: ignore[call-overload]
+    test = gr.wheel_test(**settings, trials=400)  # type: ignore[call-overload]
+    assert test.drawbar_pull_n.shape == (2, 2, 2, 400)
+    mean = test.drawbar_pull_n.mean(axis=-1)
+    assert np.abs(mean - exact.wheels.drawbar_pull_n).max() < 5 * 0.3 / np.sqrt(400)
+    assert test.to_xarray().sinkage_mm.sel(trial=1, load_n=10).shape == (2, 2)
+    assert test.to_pandas().shape[0] == 3200
+    sunk = gr.wheel_test(load_n=60000, slip_ratio=0.1, trials=2)
+    assert np.isnan(sunk.sinkage_mm).all() and "down to axle depth" in sunk.status[0, 0, 0, 0]
 
 
 def test_the_level_attitude_is_level() -> None:
@@ -91,6 +165,8 @@ def test_pictures_take_axes_and_return_them() -> None:
         gr.attitude(slope_deg=[5.0, 10.0]),
         gr.attitude_map(slope_deg=[0, 10], course_deg=[0, 20]),
         gr.wheel_test(load_n=10, slip_ratio=[0.0, 0.2]),
+        gr.wheel_test(load_n=10, slip_ratio=[0.0, 0.2], trials=3),
+        gr.rollout(slope_deg=[3.0, 5.0], duration_s=1.0, trajectories=True),
     ]
     for result in results:
         axes = plt.subplots()[1]
@@ -107,8 +183,22 @@ def test_what_cannot_be_asked_says_what_can() -> None:
         gr.attitude(slope_deg=[[1.0]])
     with pytest.raises(gr.ParameterError, match="course_deg"):
         gr.attitude_map(course_deg=[91.0])
-    with pytest.raises(gr.ParameterError, match="several"):
-        gr.rollout(gr.Scenario())  # type: ignore[arg-type]
+    with pytest.raises(gr.ParameterError, match="scenario or several"):
+        gr.rollout(3)  # type: ignore[arg-type]
+    with pytest.raises(gr.ParameterError, match=r"slope_deg is 70 \(entry 1\)"):
+        gr.rollout(slope_deg=[10.0, 70.0])
+    with pytest.raises(gr.ParameterError, match="duration"):
+        gr.rollout(duration_s=0.0)
+    with pytest.raises(gr.ParameterError, match=r"do not broadcast: slope_deg \(2,\)"):
+        gr.rollout(slope_deg=[1.0, 2.0], yaw_deg=[1.0, 2.0, 3.0])
+    with pytest.raises(gr.ParameterError, match="how well its values are known"):
+        gr.attitude(uncertainty=True)
+    with pytest.raises(gr.ParameterError, match="samples is 1, it must be"):
+        gr.attitude(soil="toyoura-uncertain", uncertainty=True, samples=1)
+    with pytest.raises(gr.ParameterError, match="trials is 0"):
+        gr.wheel_test(load_n=10, slip_ratio=0.1, trials=0)
+    with pytest.raises(gr.ParameterError, match="noise_mm"):
+        gr.wheel_test(load_n=10, slip_ratio=0.1, trials=2, noise_mm=-1.0)
     with pytest.raises(gr.ParameterError, match="unknown key"):
         gr.simulate(slop_deg=10.0)
 

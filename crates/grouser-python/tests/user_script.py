@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,11 +22,24 @@ def drift(slope_deg: float) -> float:
     return float(y_m[-1]) if run.outcome == "completed" else float("nan")
 
 
+def fitted(file: Path) -> gr.Soil:
+    found: gr.Calibration = gr.calibrate(
+        file, "toyoura", "hakuto", fit={"shear.longitudinal_m": (0.01, 0.1), "cohesion_kpa": None}
+    )
+    best: dict[str, float] = found.best
+    samples: NDArray[np.float64] | None = found.samples
+    print(best, None if samples is None else samples.shape, found.outcome, found.message)
+    return found.soil
+
+
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
     level: gr.Attitudes = gr.attitude(slope_deg=[5.0, 10.0])
-    ends: gr.Rollout = gr.rollout([gr.Scenario(site=site)])
+    ends: gr.Rollout = gr.rollout([gr.Scenario(site=site)], slope_deg=[[5.0], [10.0]])
+    test: gr.SimulatedWheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4], trials=3)
+    exact: gr.WheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4])
+    print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
     try:
         print(deepest([soil], 17.0), drift(10.0), limit, ends.outcome[0])

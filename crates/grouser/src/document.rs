@@ -36,6 +36,7 @@ pub mod measurements;
 mod overrides;
 pub mod plates;
 mod presets;
+pub mod ranking;
 mod rover;
 mod samples;
 mod scenario;
@@ -50,6 +51,7 @@ mod text;
 pub mod trajectory;
 mod uncertainty;
 pub mod validation;
+pub mod variation;
 mod wheel;
 
 use std::fmt;

@@ -1,5 +1,7 @@
 //! `grouser attitude --uncertainty`: what the draws of an uncertain soil add to the attitude.
 
+use std::ops::ControlFlow;
+
 use grouser::document::study::{AttitudeBandLimit, AttitudeBandRecord};
 use grouser::document::{LoadedScenario, UncertainSoil};
 use grouser::soil::Soil;
@@ -50,9 +52,13 @@ pub(crate) fn draw(
     let bar = output::progress_bar(soils.len() as u64);
     bar.set_message("soils");
     let study = AttitudeStudy::of(&scenario.value);
-    let band = AttitudeBand::of(&study, &soils, &slopes, &|| bar.inc(1));
+    let band = AttitudeBand::of(&study, &soils, &slopes, &|| {
+        bar.inc(1);
+        ControlFlow::Continue(())
+    });
     bar.finish_and_clear();
-    let band = band?;
+    // Nobody breaks it off: Ctrl-C ends the program.
+    let band = band?.unwrap_or_else(|| unreachable!("it was not broken off"));
     let (asked, along) = band.slopes.split_at(asked.len());
     Ok(Bands {
         records: asked.iter().map(AttitudeBandRecord::from).collect(),

@@ -3,8 +3,8 @@
 mod checkpoint;
 mod next_runs;
 mod plates;
+mod progress;
 mod report;
-mod solve;
 mod wheel;
 
 use crate::args::CalibrateArgs;

@@ -3,7 +3,7 @@
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`).
+(`wheel_test`, `validate`, `calibrate`).
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -21,8 +21,11 @@ Examples
 """
 
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
+from ._attitude_band import AttitudeBand
+from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
+    CalibrationError,
     DocumentError,
     DocumentNotFoundError,
     DocumentUnreadableError,
@@ -30,36 +33,32 @@ from ._errors import (
     ParameterError,
     SimulationError,
 )
-from ._studies import (
-    Attitudes,
-    AttitudeMap,
-    Rollout,
-    Trajectory,
-    WheelTest,
-    attitude,
-    attitude_map,
-    rollout,
-    simulate,
-    wheel_test,
-)
-from ._validation import Validation, validate
+from ._rollouts import Rollout, rollout
+from ._studies import AttitudeMap, Attitudes, Trajectory, attitude, attitude_map, simulate
+from ._validation import Ranking, Validation, validate, validate_all
+from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 
 __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
+    "AttitudeBand",
     "AttitudeMap",
     "Attitudes",
+    "Calibration",
+    "CalibrationError",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
     "GrouserError",
     "ParameterError",
+    "Ranking",
     "Rollout",
     "Rover",
     "Scenario",
     "Settled",
+    "SimulatedWheelTest",
     "SimulationError",
     "Site",
     "Soil",
@@ -71,10 +70,13 @@ __all__ = [
     "__version__",
     "attitude",
     "attitude_map",
+    "calibrate",
+    "calibrate_plates",
     "rollout",
     "settle",
     "simulate",
     "validate",
+    "validate_all",
     "wheel_forces",
     "wheel_test",
 ]

@@ -14,7 +14,10 @@ __all__ = [
     "MOON_GRAVITY",
     "__version__",
     "attitude",
+    "attitude_band",
     "attitude_map",
+    "calibrate_plate_tests",
+    "calibrate_wheel_tests",
     "find_document",
     "not_carried",
     "presets",
@@ -24,8 +27,12 @@ __all__ = [
     "rollout",
     "settle",
     "simulate",
+    "simulated_wheel_test",
+    "time_rollout",
+    "time_settle",
     "to_toml",
     "validate",
+    "validate_all",
     "wheel_forces",
 ]
 
@@ -42,6 +49,8 @@ class Document:
     def kind(self) -> str: ...
     @property
     def assumptions(self) -> list[str]: ...
+    @property
+    def files(self) -> dict[str, str]: ...
     def to_toml(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
 
@@ -49,9 +58,11 @@ def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ..
 def read_document_file(
     kind: str, path: str | os.PathLike[str], changes: dict[str, Any]
 ) -> Document: ...
-def read_document_text(kind: str, label: str, text: str, changes: dict[str, Any]) -> Document: ...
+def read_document_text(
+    kind: str, label: str, text: str, changes: dict[str, Any], files: dict[str, str]
+) -> Document: ...
 def read_document_table(
-    kind: str, label: str, table: dict[str, Any], changes: dict[str, Any]
+    kind: str, label: str, table: dict[str, Any], changes: dict[str, Any], files: dict[str, str]
 ) -> Document: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
@@ -75,10 +86,41 @@ def wheel_forces(
 ) -> tuple[_Floats, list[str]]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
-def rollout(scenarios: Sequence[Document]) -> dict[str, Any]: ...
+def rollout(
+    scenarios: Sequence[Document],
+    scenario_index: NDArray[np.int64] | None,
+    soils: Sequence[Document],
+    soil_index: NDArray[np.int64] | None,
+    varied: dict[str, Any],
+    count: int,
+    keep: bool,
+) -> dict[str, Any]: ...
+def time_rollout(scenarios: Sequence[Document], varied: dict[str, Any], count: int) -> float: ...
+def time_settle(
+    soil: Document,
+    wheel: Document,
+    setting: Document,
+    load_n: _Floats,
+    slip_ratio: _Floats,
+    slip_angle_deg: _Floats,
+) -> float: ...
 def attitude(
     scenario: Document, slope_deg: _Floats
 ) -> tuple[dict[str, Any], float | None, str]: ...
+def attitude_band(
+    scenario: Document, slope_deg: _Floats, seed: int, samples: int
+) -> tuple[dict[str, Any], dict[str, Any]]: ...
+def simulated_wheel_test(
+    soil: Document,
+    wheel: Document,
+    setting: Document,
+    load_n: _Floats,
+    slip_angle_deg: _Floats,
+    slip_ratio: _Floats,
+    trials: int,
+    noise: Sequence[float],
+    seed: int,
+) -> dict[str, Any]: ...
 def attitude_map(
     scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, speed_m_s: float
 ) -> dict[str, Any]: ...
@@ -89,4 +131,26 @@ def validate(
     setting: Document,
     wheel_label: str | None,
     conditions: Sequence[str],
+) -> dict[str, Any]: ...
+def validate_all(folder: str | os.PathLike[str]) -> list[dict[str, Any]]: ...
+def calibrate_wheel_tests(
+    data: str | os.PathLike[str],
+    soil: Document,
+    wheel: Document,
+    setting: Document,
+    wheel_label: str | None,
+    conditions: Sequence[str],
+    keys: Sequence[tuple[str, tuple[float, float] | None]],
+    aim: tuple[str, int, Sequence[float] | None, Sequence[float], Sequence[float]],
+    seed: int,
+    steps: int | None,
+    cross_validate: bool,
+) -> dict[str, Any]: ...
+def calibrate_plate_tests(
+    data: str | os.PathLike[str],
+    soil: Document,
+    setting: Document,
+    law: str | None,
+    seed: int,
+    steps: int | None,
 ) -> dict[str, Any]: ...

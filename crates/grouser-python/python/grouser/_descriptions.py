@@ -19,9 +19,10 @@ Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 class _Description:
     """A value with named keys. Frozen; equal to another with the same keys and values."""
 
-    __slots__ = ("_document", "_items", "_toml")
+    __slots__ = ("_document", "_files", "_items", "_toml")
     _kind: ClassVar[str]
     _document: _core.Document
+    _files: dict[str, str]
     _items: dict[str, Any]
     _toml: str
 
@@ -31,7 +32,7 @@ class _Description:
     def _read(self, source: object, changes: dict[str, Any]) -> _core.Document:
         kind, label = self._kind, f"{type(self).__name__}(…)"
         if isinstance(source, type(self)):
-            return _core.read_document_text(kind, label, source._toml, changes)
+            return _core.read_document_text(kind, label, source._toml, changes, source._files)
         if source is None:
             return self._from_keys(label, changes)
         if isinstance(source, str):
@@ -39,7 +40,7 @@ class _Description:
         if isinstance(source, os.PathLike):
             return _core.read_document_file(kind, os.fspath(source), changes)
         if isinstance(source, Mapping):
-            return _core.read_document_table(kind, label, dict(source), changes)
+            return _core.read_document_table(kind, label, dict(source), changes, {})
         given = type(source).__name__
         raise TypeError(
             f"{type(self).__name__} is made from a preset's name, a path, a mapping or keywords, "
@@ -47,24 +48,42 @@ class _Description:
         )
 
     def _from_keys(self, label: str, keys: dict[str, Any]) -> _core.Document:
-        return _core.read_document_table(self._kind, label, keys, {})
+        return _core.read_document_table(self._kind, label, keys, {}, {})
 
     def _take(self, document: _core.Document) -> None:
         object.__setattr__(self, "_document", document)
+        object.__setattr__(self, "_files", document.files)
         object.__setattr__(self, "_items", document.to_dict())
         object.__setattr__(self, "_toml", document.to_toml())
 
     @classmethod
-    def from_toml(cls: type[_Self], text: str) -> _Self:
+    def from_toml(cls: type[_Self], text: str, files: Mapping[str, str] | None = None) -> _Self:
         """The description that a TOML text gives.
+
+        Parameters
+        ----------
+        text : str
+            The document.
+        files : mapping of str to str, optional
+            What is in the files that it names, as `files` has it.
 
         Raises
         ------
         DocumentError
             With line and column, if the text is none.
+        DocumentNotFoundError
+            If a file that it names is neither among ``files`` nor in the current folder.
         """
         made = cls.__new__(cls)
-        made._take(_core.read_document_text(cls._kind, "TOML", text, {}))
+        made._take(_core.read_document_text(cls._kind, "TOML", text, {}, dict(files or {})))
+        return made
+
+    @classmethod
+    def _of(cls: type[_Self], items: Mapping[str, Any], files: Mapping[str, str]) -> _Self:
+        """A part of another description, with the files of that."""
+        label = f"{cls.__name__}(…)"
+        made = cls.__new__(cls)
+        made._take(_core.read_document_table(cls._kind, label, dict(items), {}, dict(files)))
         return made
 
     @classmethod
@@ -86,8 +105,15 @@ class _Description:
         return type(self)(self, **changes)
 
     def to_toml(self) -> str:
-        """The resolved document: read again, it gives an equal description."""
+        """The resolved document: read again, with its `files` beside it, it gives an equal
+        description."""
         return self._toml
+
+    @property
+    def files(self) -> dict[str, str]:
+        """Files that the document names, by name, with what is in them; a copy. A soil whose
+        uncertainty is samples has one."""
+        return dict(self._files)
 
     def to_dict(self) -> dict[str, Any]:
         """Its keys and values, as the document has them; a copy."""
@@ -122,13 +148,13 @@ class _Description:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return self._toml == other._toml
+        return self._toml == other._toml and self._files == other._files
 
     def __hash__(self) -> int:
         return hash((type(self), self._toml))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self).from_toml, (self._toml,)
+        return type(self).from_toml, (self._toml, self._files)
 
     def __copy__(self: _Self) -> _Self:
         return self
@@ -263,7 +289,7 @@ class Scenario(_Description):
     @property
     def soil(self) -> Soil:
         """The soil."""
-        return Soil(self._items["soil"])
+        return Soil._of(self._items["soil"], self._files)
 
     @property
     def site(self) -> Site:
@@ -304,12 +330,13 @@ class Site(_Description):
     ) -> None:
         soil = soil if isinstance(soil, Soil) else Soil(soil)
         keys = {"soil": soil, "slope_deg": slope_deg, "gravity_m_s2": gravity_m_s2}
-        self._take(_core.read_document_table("scenario", "Site(…)", keys, {}))
+        self._take(_core.read_document_table("scenario", "Site(…)", keys, {}, {}))
 
     def _take(self, document: _core.Document) -> None:
         items = document.to_dict()
         kept = {key: items[key] for key in self._KEYS}
         object.__setattr__(self, "_document", document)
+        object.__setattr__(self, "_files", document.files)
         object.__setattr__(self, "_items", kept)
         object.__setattr__(self, "_toml", _core.to_toml("site", kept))
 
@@ -319,15 +346,15 @@ class Site(_Description):
     @property
     def soil(self) -> Soil:
         """The soil."""
-        return Soil(self._items["soil"])
+        return Soil._of(self._items["soil"], self._files)
 
     @classmethod
-    def from_toml(cls, text: str) -> Site:
+    def from_toml(cls, text: str, files: Mapping[str, str] | None = None) -> Site:
         """The site of a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or of a
         scenario's."""
         if "schema" not in text.split("[", 1)[0]:
             text = 'schema = "scenario/1"\n' + text
-        return Scenario.from_toml(text).site
+        return Scenario.from_toml(text, files).site
 
     @classmethod
     def presets(cls) -> dict[str, str]:

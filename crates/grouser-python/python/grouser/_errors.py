@@ -126,3 +126,8 @@ class SimulationError(GrouserError, ArithmeticError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.time_s)
+
+
+class CalibrationError(GrouserError, ArithmeticError):
+    """A calibration that cannot be computed: no start gives finite predictions, for instance. That
+    data leave a key open is a result."""

@@ -1,4 +1,4 @@
-"""Studies: what a rover does, which yaw keeps it level, what a test stand shows."""
+"""What a rover does, and which yaw keeps it level."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
-from ._descriptions import Scenario, Soil, Source, Wheel
+from ._attitude_band import AttitudeBand
+from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
-from ._wheels import Floats, Settled, number, numbers, settle
+from ._wheels import Floats, number, numbers, whole_number
 
 if TYPE_CHECKING:
     import pandas
@@ -20,12 +21,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def _columns(result: Any, names: Iterable[str]) -> dict[str, Any]:
+def columns_of(result: Any, names: Iterable[str]) -> dict[str, Any]:
     return {name: getattr(result, name) for name in names}
 
 
 #: Fields of a `Trajectory` over time, and of a `Rollout` over runs.
-_SAMPLE = (
+SAMPLE = (
     "time_s",
     "x_m",
     "y_m",
@@ -97,7 +98,7 @@ class Trajectory:
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each sample; columns of a wheel start with its name, as in
         ``front-left.slip_ratio``, as the program's CSV has them."""
-        columns = _columns(self, _SAMPLE)
+        columns = columns_of(self, SAMPLE)
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
         return _tables.frame(columns)
@@ -105,7 +106,7 @@ class Trajectory:
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for what each wheel has; the
         latter's names start with ``wheel_``. Units stand in the attributes."""
-        rover = _columns(self, _SAMPLE[1:])
+        rover = columns_of(self, SAMPLE[1:])
         data = _tables.dataset(("time_s",), rover, {"time_s": self.time_s})
         for name, values in self.wheel.items():
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
@@ -168,7 +169,7 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
     >>> run.outcome, bool(run.y_m[-1] < 0.0)
     ('completed', True)
     """
-    run = _scenario(scenario, changes)
+    run = scenario_of(scenario, changes)
     found = _core.simulate(run._document)
     return Trajectory(
         scenario=run,
@@ -181,96 +182,6 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
         wheel=found["each_wheel"],
         **found["rover"],
     )
-
-
-@dataclass(frozen=True, eq=False)
-class Rollout:
-    """The ends of many runs: arrays of shape (runs,), in the scenarios' order; NaN where a run could
-    not be computed. Frames are those of a `Trajectory`."""
-
-    outcome: NDArray[np.str_]
-    """Each run's outcome; ``failed`` where it could not be computed."""
-    message: NDArray[np.object_]
-    """What that means; None for a completed run."""
-    time_s: Floats
-    """Time [s]."""
-    x_m: Floats
-    """Along the contour [m], of the body's centre of mass."""
-    y_m: Floats
-    """Uphill [m]."""
-    yaw_deg: Floats
-    """Yaw [°], positive where the nose points uphill."""
-    forward_speed_m_s: Floats
-    """Speed along the body [m/s]."""
-    lateral_speed_m_s: Floats
-    """Speed across the body [m/s], positive to the left."""
-    yaw_rate_deg_s: Floats
-    """Yaw rate [°/s]."""
-    power_w: Floats
-    """Power of all motors [W]."""
-    energy_j: Floats
-    """Work of the motors so far [J]."""
-    soil_energy_j: Floats
-    """Work done on the soil so far [J]."""
-    kinetic_energy_j: Floats
-    """Kinetic energy [J]."""
-    potential_energy_j: Floats
-    """Potential energy, zero at the start's height [J]."""
-
-    def __len__(self) -> int:
-        return len(self.outcome)
-
-    def _columns(self) -> dict[str, Any]:
-        return {"outcome": self.outcome, "message": self.message, **_columns(self, _SAMPLE)}
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each run."""
-        return _tables.frame(self._columns())
-
-    def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``run`` with units in the attributes."""
-        return _tables.dataset(("run",), self._columns(), {"run": np.arange(len(self))})
-
-    def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws where the runs ended, seen from above."""
-        axes = _tables.axes_or_new(axes)
-        axes.plot(self.x_m, self.y_m, **{"ls": "", "marker": ".", **style})
-        axes.set_xlabel("along the contour, x [m]")
-        axes.set_ylabel("uphill, y [m]")
-        return axes
-
-    def __repr__(self) -> str:
-        words, counts = np.unique(self.outcome, return_counts=True)
-        told = ", ".join(f"{count} {word}" for word, count in zip(words, counts))
-        return f"<Rollout of {len(self)} runs: {told}>"
-
-
-def rollout(scenarios: Iterable[Scenario | Source]) -> Rollout:
-    """Runs many scenarios at once, on all cores, without Python's lock.
-
-    Results keep the order of the scenarios and have the same bits for any number of cores.
-
-    Parameters
-    ----------
-    scenarios : iterable of Scenario, names, paths or mappings
-        What to run.
-
-    Returns
-    -------
-    Rollout
-
-    Raises
-    ------
-    ParameterError, DocumentError, DocumentNotFoundError
-        As `Scenario`. A run that cannot be computed is told as ``failed``, and the others go on.
-    """
-    if isinstance(scenarios, (str, Scenario)):
-        raise ParameterError("scenarios is one scenario, it must be several", "scenarios")
-    runs = [_scenario(one, {}) for one in scenarios]
-    found = _core.rollout([run._document for run in runs])
-    outcome = np.array(found.pop("outcome"), dtype=np.str_)
-    message = np.array(found.pop("reason"), dtype=object)
-    return Rollout(outcome=outcome, message=message, **found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,9 +208,12 @@ class Attitudes:
     """Work of the wheels per metre along the course [J/m]."""
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
+    band: AttitudeBand | None = None
+    """What the draws of an uncertain soil say, where they were asked for."""
 
     def _columns(self) -> dict[str, Any]:
-        return {**_columns(self, ("slope_deg", *_ATTITUDE)), "status": self.status}
+        band = {} if self.band is None else self.band._columns()
+        return {**columns_of(self, ("slope_deg", *_ATTITUDE)), "status": self.status, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -312,8 +226,11 @@ class Attitudes:
         return _tables.dataset(("slope_deg",), columns, coords)
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws the yaw over the slope."""
+        """Draws the yaw over the slope, and the band of an uncertain soil where there is one."""
         axes = _tables.axes_or_new(axes)
+        if self.band is not None:
+            ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
+            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the draws")
         axes.plot(self.slope_deg, self.yaw_deg, **style)
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("yaw, positive uphill [°]")
@@ -328,6 +245,9 @@ def attitude(
     /,
     *,
     slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
+    uncertainty: bool = False,
+    samples: int = 500,
+    seed: int = 1,
     **changes: Any,
 ) -> Attitudes:
     """The yaw that keeps a traverse level, on each slope ([FourWheel], Fig. 10).
@@ -338,6 +258,12 @@ def attitude(
         Its rover, soil, gravity, model, loads and moments count; not its slope, drive or start.
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
+    uncertainty : bool
+        Whether to draw soils as the soil's ``uncertainty`` says, and add `Attitudes.band`.
+    samples : int
+        Number of draws, 2 to 100000.
+    seed : int
+        Of the draws: the same seed, the same soils.
     **changes
         Keys of the scenario with other values.
 
@@ -355,13 +281,22 @@ def attitude(
     >>> import grouser as gr
     >>> round(float(gr.attitude(slope_deg=[10.0]).yaw_deg[0]), 1)
     5.0
+    >>> level = gr.attitude(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
+    >>> bool(level.band.yaw_deg_p2_5[0] < level.band.yaw_deg_p97_5[0])
+    True
     """
-    slopes, run = _line("slope_deg", slope_deg), _scenario(scenario, changes)
+    slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
     found, limit, reason = _core.attitude(run._document, slopes)
+    band = None
+    if uncertainty:
+        draws = whole_number("samples", samples, most=2**32 - 1)
+        band = AttitudeBand._of(run, slopes, whole_number("seed", seed), draws)
     status = np.array(found.pop("status", []), dtype=object)
     # Without slopes there are no rows to tell the columns.
     columns = {name: found.get(name, np.empty(0)) for name in ("slope_deg", *_ATTITUDE)}
-    return Attitudes(limit_slope_deg=limit, limit_message=reason, status=status, **columns)
+    return Attitudes(
+        limit_slope_deg=limit, limit_message=reason, status=status, band=band, **columns
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -396,7 +331,7 @@ class AttitudeMap:
 
     def _columns(self) -> dict[str, Any]:
         names = (*_ATTITUDE, "power_w", "limit_slope_deg")
-        return {**_columns(self, names), "status": self.status}
+        return {**columns_of(self, names), "status": self.status}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each soil, course and slope, as the program has it."""
@@ -464,13 +399,13 @@ def attitude_map(
     ParameterError, DocumentError, DocumentNotFoundError
         As `attitude`.
     """
-    one = _scenario(scenario, changes)
+    one = scenario_of(scenario, changes)
     several = isinstance(soil, Sequence) and not isinstance(soil, str)
     soils: list[Any] = list(soil) if several else [soil]  # type: ignore[arg-type]
     if not soils:
         raise ParameterError("soil is empty, it must be at least one", "soil")
-    runs = [one if it is None else one.replace(soil=_soil(it)) for it in soils]
-    slopes, courses = _line("slope_deg", slope_deg), _line("course_deg", course_deg)
+    runs = [one if it is None else one.replace(soil=soil_of(it)) for it in soils]
+    slopes, courses = line("slope_deg", slope_deg), line("course_deg", course_deg)
     speed = number("speed_m_s", speed_m_s)
     found = _core.attitude_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
@@ -484,106 +419,17 @@ def attitude_map(
     return AttitudeMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)
 
 
-@dataclass(frozen=True, eq=False)
-class WheelTest:
-    """A wheel test: every load with every slip angle and every slip ratio."""
-
-    load_n: Floats
-    """Loads [N], shape (loads,)."""
-    slip_angle_deg: Floats
-    """Slip angles [°], shape (angles,)."""
-    slip_ratio: Floats
-    """Slip ratios [-], shape (ratios,)."""
-    wheels: Settled
-    """What the wheel did; fields of shape (loads, angles, ratios)."""
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each setting, slip ratios fastest, as the program has it."""
-        table = _tables.frame(self.wheels._columns())
-        return table.assign(status=self.wheels.messages.ravel())
-
-    def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
-        coords = {name: getattr(self, name) for name in ("load_n", "slip_angle_deg", "slip_ratio")}
-        columns = {k: v for k, v in self.wheels._columns().items() if k not in coords}
-        return _tables.dataset(tuple(coords), columns, coords)
-
-    def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Draws a quantity over the slip ratio, a line for each load and slip angle."""
-        axes = _tables.axes_or_new(axes)
-        values = getattr(self.wheels, name)
-        for i, load in enumerate(self.load_n):
-            for j, angle in enumerate(self.slip_angle_deg):
-                axes.plot(
-                    self.slip_ratio, values[i, j], **{"label": f"{load:g} N, {angle:g}°", **style}
-                )
-        axes.set_xlabel("slip ratio")
-        axes.set_ylabel(_tables.label(name))
-        axes.legend()
-        return axes
-
-    def __repr__(self) -> str:
-        return f"<WheelTest of {' × '.join(map(str, self.wheels.shape))} loads, angles, ratios>"
-
-
-def wheel_test(
-    soil: Soil | Source = "toyoura",
-    wheel: Wheel | Source = "hakuto",
-    *,
-    load_n: ArrayLike,
-    slip_ratio: ArrayLike,
-    slip_angle_deg: ArrayLike = 0.0,
-    gravity_m_s2: float = _core.EARTH_GRAVITY,
-    model: str | None = None,
-) -> WheelTest:
-    """A wheel on a test stand: every load with every slip angle and every slip ratio
-    ([FourWheel], section 4 and Fig. 7).
-
-    Parameters
-    ----------
-    soil, wheel, gravity_m_s2, model
-        As for `settle`; one soil.
-    load_n : array_like, shape (loads,)
-        Loads [N], 0 to 1e5.
-    slip_ratio : array_like, shape (ratios,)
-        Slip ratios [-], −2 to 2.
-    slip_angle_deg : array_like, shape (angles,)
-        Slip angles [°], −90 to 90.
-
-    Returns
-    -------
-    WheelTest
-
-    Raises
-    ------
-    ParameterError, DocumentError, DocumentNotFoundError
-        As `settle`.
-    """
-    loads, angles = _line("load_n", load_n), _line("slip_angle_deg", slip_angle_deg)
-    ratios = _line("slip_ratio", slip_ratio)
-    wheels = settle(
-        _soil(soil),
-        wheel,
-        load_n=loads[:, None, None],
-        slip_angle_deg=angles[:, None],
-        slip_ratio=ratios,
-        gravity_m_s2=gravity_m_s2,
-        model=model,
-    )
-    return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
-
-
-def _scenario(scenario: Any, changes: dict[str, Any]) -> Scenario:
+def scenario_of(scenario: Any, changes: dict[str, Any]) -> Scenario:
     if isinstance(scenario, Scenario) and not changes:
         return scenario
     return Scenario(scenario, **changes)
 
 
-def _soil(soil: Any) -> Soil:
+def soil_of(soil: Any) -> Soil:
     return soil if isinstance(soil, Soil) else Soil(soil)
 
 
-def _line(name: str, values: ArrayLike) -> Floats:
+def line(name: str, values: ArrayLike) -> Floats:
     """Numbers in a row; one number is a row of one."""
     array = numbers(name, values)
     if array.ndim > 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -31,8 +32,13 @@ _UNITS = {
 }
 
 
+#: What a quantile of a quantity ends with: ``yaw_deg_p2_5``.
+_QUANTILE = re.compile(r"_p\d+(_\d)?$")
+
+
 def unit_of(name: str) -> str:
     """The unit in a name; 1 for ratios."""
+    name = _QUANTILE.sub("", name)
     for ending, unit in _UNITS.items():
         if name.endswith(ending):
             return unit

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core, _tables
 from ._descriptions import Soil, Source, Wheel
+from ._errors import ParameterError
 from ._wheels import setting
 
 if TYPE_CHECKING:
@@ -104,5 +105,87 @@ def validate(
     conditions = [where] if isinstance(where, str) else list(where)
     documents = (soil._document, wheel._document, stand._document)
     found = _core.validate(os.fspath(data), *documents, wheel_label, conditions)
+    return validation_of(found)
+
+
+def validation_of(found: dict[str, Any]) -> Validation:
+    """What the native half found."""
     found["groups"], found["notes"] = tuple(found["groups"]), tuple(found["notes"])
     return Validation(**found)
+
+
+@dataclass(frozen=True, eq=False)
+class Ranking:
+    """Theories beside measurements, in the words of ``grouser validate --all``: a mapping for each
+    theory with a soil on a part of a data set, best first.
+
+    It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``score`` (root mean square error
+    over the standard deviation of what was measured, averaged over the measured quantities [-]: 0 is
+    perfect, 1 no better than a constant), ``unsettled_trials``, and the groups ``driven`` and
+    ``overall`` of a `Validation`.
+    """
+
+    rows: tuple[Mapping[str, Any], ...]
+    """Data set by data set and part by part."""
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each, and the root mean square errors over all cells as
+        ``drawbar_pull_n_rmse`` …"""
+        import pandas
+
+        plain = ("data_set", "case", "rank", "model", "soil", "score", "unsettled_trials")
+        quantities = ("drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm")
+
+        def row(one: Mapping[str, Any]) -> dict[str, Any]:
+            errors = {name: one["overall"][name] for name in quantities}
+            rmse = {f"{k}_rmse": np.nan if it is None else it["rmse"] for k, it in errors.items()}
+            return {**{name: one[name] for name in plain}, **rmse}
+
+        return pandas.DataFrame([row(one) for one in self.rows])
+
+    def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
+        """Draws the scores as bars, the best at the top of each part."""
+        axes = _tables.axes_or_new(axes)
+        rows = self.rows[::-1]
+        scores = [np.nan if row["score"] is None else row["score"] for row in rows]
+        axes.barh(range(len(rows)), scores, **style)
+        names = [f"{row['case']}: {row['model']}, {row['soil']}" for row in rows]
+        axes.set_yticks(range(len(rows)), names)
+        axes.set_xlabel("score: 0 is perfect, 1 no better than a constant")
+        return axes
+
+    def __repr__(self) -> str:
+        return f"<Ranking of {len(self)} theories with soils>"
+
+
+def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
+    """Ranks every theory, with its own soils, on every data set in a folder.
+
+    Parameters
+    ----------
+    folder : str or path, optional
+        Where the files are; without it the folder of the environment variable ``GROUSER_DATA_DIR``.
+        ``docs/guide/data.md`` tells where public data sets are, and how to describe your own.
+
+    Returns
+    -------
+    Ranking
+
+    Raises
+    ------
+    ParameterError
+        If neither says which folder.
+    DocumentNotFoundError
+        If the folder is not there, or no known data set in it.
+    DocumentError
+        For a document or a file of measurements that cannot be used.
+    """
+    place = os.environ.get("GROUSER_DATA_DIR") if folder is None else os.fspath(folder)
+    if place is None:
+        raise ParameterError(
+            "folder is needed, or the environment variable GROUSER_DATA_DIR", "folder"
+        )
+    return Ranking(tuple(_core.validate_all(place)))

@@ -237,7 +237,7 @@ class _Stand:
     ) -> None:
         wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
         stand = setting(gravity_m_s2, model)
-        self._soils, places = _soils(soil)
+        self._soils, places = soils_of(soil)
         self._places = places
         self.index: NDArray[np.int64] | None = None
         self.documents = (
@@ -284,6 +284,18 @@ def number(name: str, value: Any) -> float:
     return float(array)
 
 
+def whole_number(name: str, value: Any, *, most: int = 2**64 - 1) -> int:
+    """One whole number that is not negative."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        given = type(value).__name__
+        raise ParameterError(f"{name} is of type {given}, it must be a whole number", name)
+    if not 0 <= value <= most:
+        raise ParameterError(
+            f"{name} is {value}, it must be from 0 to {most}", name, None, f"from 0 to {most}"
+        )
+    return int(value)
+
+
 def numbers(name: str, values: ArrayLike) -> Floats:
     """Real numbers as an array; anything else says what was expected."""
     try:
@@ -298,7 +310,7 @@ def numbers(name: str, values: ArrayLike) -> Floats:
     return array.astype(np.float64)
 
 
-def _soils(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
+def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
     """The different soils, and for each place which of them is there."""
     is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
     cells: NDArray[np.object_] = np.empty((), dtype=object)

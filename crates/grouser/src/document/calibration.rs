@@ -1,6 +1,18 @@
 //! What a calibration found, in the words of tables, JSON and CSV.
 
+mod aim;
+mod plates;
+mod solved;
+mod wheel;
+
 use serde::Serialize;
+
+pub use aim::{AimError, AimWords, MOST_CANDIDATES};
+pub use plates::{PlateFound, PlateProblem, PlateRecord, PlateResults};
+pub use solved::{
+    DiscrepancyRecord, STEPS, SamplerRecord, Solved, fit_notes, samples_csv, sampling,
+};
+pub use wheel::{WheelFound, WheelProblem, WheelResults};
 
 use super::validation::column_of;
 use crate::studies::calibration::design::{Proposal, Setting};

@@ -356,7 +356,6 @@ impl std::error::Error for DocumentError {}
 
 #[cfg(test)]
 mod tests {
-    use std::path::PathBuf;
     use std::sync::Arc;
 
     use super::*;
@@ -366,8 +365,7 @@ mod tests {
         let text = Arc::new(Text {
             label: "a.toml".to_owned(),
             content: content.to_owned(),
-            folder: PathBuf::new(),
-            is_argument: false,
+            ..Text::default()
         });
         let origin = Origin { text, span: start..start + marked.len() };
         DocumentError::at(&origin, Problem::Empty).to_string()

@@ -1,12 +1,11 @@
 //! Single values set from outside, on the command line: `--set soil.cohesion_kpa=0.5`.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::Kind;
 use super::check::{keys_at, nearest};
 use super::error::{DocumentError, Problem};
 use super::text::{Entry, Node, Origin, Text, Value, parse};
+use super::{Companion, Kind};
 
 /// Values that replace those of documents, applied in order before anything is checked.
 #[derive(Clone, Debug, Default)]
@@ -66,11 +65,17 @@ impl Overrides {
     /// [`change_label`](Self::change_label) writes it.
     ///
     /// * `value`: as TOML
+    /// * `companions`: files that it names
     ///
     /// # Errors
     /// [`DocumentError`] if there is no such document, or the value is not TOML.
-    pub fn change(&mut self, key: &str, value: &str) -> Result<(), DocumentError> {
-        let text = argument(Self::change_label(key, value));
+    pub fn change(
+        &mut self,
+        key: &str,
+        value: &str,
+        companions: Vec<Companion>,
+    ) -> Result<(), DocumentError> {
+        let text = argument_with(Self::change_label(key, value), companions);
         let value = parse_value(&text, text.content.len() - value.len())?;
         self.add(&text, key, value, true)
     }
@@ -298,8 +303,12 @@ fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
 }
 
 fn argument(content: String) -> Arc<Text> {
-    let folder = PathBuf::new();
-    Arc::new(Text { label: content.clone(), content, folder, is_argument: true })
+    argument_with(content, Vec::new())
+}
+
+fn argument_with(content: String, companions: Vec<Companion>) -> Arc<Text> {
+    let label = content.clone();
+    Arc::new(Text { label, content, is_argument: true, companions, ..Text::default() })
 }
 
 /// The value that a text ends with, from a byte on.
@@ -313,8 +322,8 @@ fn parse_value(text: &Arc<Text>, start: usize) -> Result<Node, DocumentError> {
     let assignment = Arc::new(Text {
         label: text.label.clone(),
         content: format!("{KEY}{written}"),
-        folder: PathBuf::new(),
         is_argument: true,
+        ..Text::default()
     });
     match parse(&assignment) {
         Ok(Node { value: Value::Table(mut entries), .. }) if entries.len() == 1 => {

@@ -25,6 +25,10 @@ impl SampleTable {
     ///
     /// * `origin`: where it does
     pub(super) fn read(name: &str, origin: &Origin) -> Result<Self, DocumentError> {
+        if let Some(beside) = origin.text.companions.iter().find(|it| it.name == name) {
+            let (label, content) = (name.to_owned(), beside.content.clone());
+            return Self::parse(Arc::new(Text { label, content, ..Text::default() }));
+        }
         let path = origin.text.folder.join(name);
         let label = path.display().to_string();
         let content = read_file(&path, LARGEST_TABLE).map_err(|problem| {
@@ -39,7 +43,7 @@ impl SampleTable {
             }
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        Self::parse(Arc::new(Text { label, content, folder, is_argument: false }))
+        Self::parse(Arc::new(Text { label, content, folder, ..Text::default() }))
     }
 
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {

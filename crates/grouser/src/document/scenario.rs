@@ -20,7 +20,7 @@ use crate::vehicle::drive::SlipTarget;
 use crate::vehicle::{DriveLaw, LoadSharing, OwnMoments};
 
 /// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
-const FASTEST: f64 = 10.0;
+pub(super) const FASTEST: f64 = 10.0;
 
 /// One run of one rover on one plane of soil.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -373,7 +373,7 @@ impl Document for ScenarioDocument {
 /// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
 const MOST_SAMPLES: f64 = 1e6;
 
-fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
+pub(super) fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
     let count = (duration / interval).ceil();
     if count <= MOST_SAMPLES {
         return Ok(());

@@ -1,7 +1,6 @@
 //! Soils that differ in a few numbers of one document: what a calibration chooses among.
 
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::Kind;
@@ -211,7 +210,7 @@ pub fn key_of(parameter: &Parameter) -> &str {
 fn allowed_range(base: &SoilDocument, path: &str) -> RangeInclusive<f64> {
     let content = toml::to_string(base).unwrap_or_default();
     let label = base.name.clone();
-    let text = Text { label, content, folder: PathBuf::new(), is_argument: false };
+    let text = Text { label, content, ..Text::default() };
     let tree = parse(&Arc::new(text)).ok();
     let chosen = tree.and_then(|tree| range_at(Kind::Soil, &tree, path));
     chosen.or_else(|| range(Kind::Soil, path)).unwrap_or(f64::MIN..=f64::MAX)

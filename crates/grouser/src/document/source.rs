@@ -5,11 +5,11 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::Kind;
 use super::check::nearest;
 use super::error::{DocumentError, Problem};
 use super::presets::{self, Preset};
 use super::text::Text;
+use super::{Companion, Kind};
 
 /// Where a document comes from.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub enum Source {
         label: String,
         /// The document.
         content: String,
+        /// Files that it may name, before those of the current folder.
+        companions: Vec<Companion>,
     },
 }
 
@@ -50,7 +52,17 @@ impl Source {
     /// A text in memory.
     #[must_use]
     pub fn text(label: impl Into<String>, content: impl Into<String>) -> Self {
-        Self::Text { label: label.into(), content: content.into() }
+        Self::text_with(label, content, Vec::new())
+    }
+
+    /// A text in memory, and the files beside it.
+    #[must_use]
+    pub fn text_with(
+        label: impl Into<String>,
+        content: impl Into<String>,
+        companions: Vec<Companion>,
+    ) -> Self {
+        Self::Text { label: label.into(), content: content.into(), companions }
     }
 
     /// The scenario that says nothing: every value is the default of its key.
@@ -79,11 +91,15 @@ impl Source {
     }
 
     pub(super) fn read(&self) -> Result<Arc<Text>, DocumentError> {
+        let mut beside = Vec::new();
         let (label, content, folder) = match self {
             Self::Preset(preset) => {
                 (format!("preset {}", preset.name), preset.text.to_owned(), PathBuf::new())
             }
-            Self::Text { label, content } => (label.clone(), content.clone(), PathBuf::new()),
+            Self::Text { label, content, companions } => {
+                beside.clone_from(companions);
+                (label.clone(), content.clone(), PathBuf::new())
+            }
             Self::File(path) => {
                 let label = path.display().to_string();
                 let content = read_file(path, LARGEST_FILE)
@@ -91,7 +107,7 @@ impl Source {
                 (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
             }
         };
-        Ok(Arc::new(Text { label, content, folder, is_argument: false }))
+        Ok(Arc::new(Text { label, content, folder, is_argument: false, companions: beside }))
     }
 }
 

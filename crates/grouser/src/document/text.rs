@@ -8,10 +8,11 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::Companion;
 use super::error::{DocumentError, Problem, number};
 
 /// A text that values come from.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Text {
     /// Its name in messages.
     pub label: String,
@@ -21,6 +22,8 @@ pub(super) struct Text {
     pub folder: PathBuf,
     /// Whether it is an argument: short, without lines, and quoted whole by its label.
     pub is_argument: bool,
+    /// Files beside it that it may name, before those of its folder.
+    pub companions: Vec<Companion>,
 }
 
 impl Text {
@@ -259,12 +262,8 @@ mod tests {
     use super::*;
 
     fn tree(content: &str) -> Node {
-        let text = Text {
-            label: "test".to_owned(),
-            content: content.to_owned(),
-            folder: PathBuf::new(),
-            is_argument: false,
-        };
+        let text =
+            Text { label: "test".to_owned(), content: content.to_owned(), ..Text::default() };
         parse(&Arc::new(text)).expect("it is TOML")
     }
 

@@ -100,8 +100,15 @@ impl SampleRecord {
     /// The record of a rover at one time.
     #[must_use]
     pub fn new(sample: &Sample, rover: &Rover) -> Self {
-        let (state, energy) = (&sample.state, &sample.energy);
         let wheels = sample.wheels.iter().zip(rover.mounts());
+        let wheels = wheels.map(|(wheel, mount)| WheelSampleRecord::new(wheel, &mount.name));
+        Self { wheels: wheels.collect(), ..Self::of_body(sample) }
+    }
+
+    /// The same, without what each wheel does.
+    #[must_use]
+    pub fn of_body(sample: &Sample) -> Self {
+        let (state, energy) = (&sample.state, &sample.energy);
         Self {
             time_s: sample.time,
             x_m: state.position.x,
@@ -115,9 +122,7 @@ impl SampleRecord {
             soil_energy_j: energy.soil,
             kinetic_energy_j: energy.kinetic,
             potential_energy_j: energy.potential,
-            wheels: wheels
-                .map(|(wheel, mount)| WheelSampleRecord::new(wheel, &mount.name))
-                .collect(),
+            wheels: Vec::new(),
         }
     }
 }

@@ -23,6 +23,8 @@
 //! 5. [`design`]: which run to make next;
 //! 6. [`cross_validation`]: the same fit with some measurements left out.
 //!
+//! [`solution`] takes the first four at once, and [`WheelCalibration`] all of them.
+//!
 //! Everything has the same bits for any number of threads.
 
 pub mod cross_validation;
@@ -37,6 +39,8 @@ pub mod parameter;
 pub mod plate_test;
 pub mod posterior;
 pub mod scatter;
+pub mod solution;
+pub mod wheel_calibration;
 pub mod wheel_test;
 
 pub use experiment::{Channel, Experiment, Observation, Regime};
@@ -44,6 +48,8 @@ pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
 pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
 pub use posterior::{Advanced, PosteriorState, SamplerSettings};
+pub use solution::{Observer, Posterior, Sampling, Solution, Work};
+pub use wheel_calibration::{WheelCalibration, WheelFindings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
 
 use crate::error::ParameterError;
@@ -90,6 +96,17 @@ pub enum CalibrationError {
         starts: usize,
         /// What the given start fails with.
         reason: String,
+    },
+    /// A slip angle cannot be left out where there is no other.
+    #[error("each slip angle is left out in turn, and all trials are at one")]
+    OneSlipAngle,
+    /// Without a slip angle there is nothing to fit. (Rounded as people wrote it.)
+    #[error("without the trials at {}°, {error}", (slip_angle.to_degrees() * 1e9).round() / 1e9)]
+    LeavingOut {
+        /// The slip angle that is left out [rad].
+        slip_angle: f64,
+        /// What is wrong with the others.
+        error: Box<CalibrationError>,
     },
     /// The observer asked to stop.
     #[error("interrupted")]

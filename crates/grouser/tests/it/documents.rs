@@ -317,6 +317,35 @@ fn flags_are_named_in_messages() {
     assert!(error.starts_with("--soil 1e5: there is no soil preset and no file"), "{error}");
 }
 
+/// What callers in other languages set: a key, and its value as TOML.
+#[test]
+fn changes_are_set_as_flags_are_and_quoted_whole() {
+    let changed = |key: &str, value: &str| {
+        let mut overrides = Overrides::none();
+        overrides.change(key, value, Vec::new())?;
+        document::read_scenario(&Source::default_scenario(), &overrides)
+    };
+    let run = changed("scenario.soil.shear.longitudinal_m", "0.02").expect("allowed");
+    let Shear::Anisotropic { longitudinal: ShearModulus::Linear { at_zero, .. }, .. } =
+        run.value.site.soil.shear
+    else {
+        panic!("Toyoura's law")
+    };
+    assert_eq!(at_zero, 0.02);
+    assert!(run.assumptions.iter().any(|it| it.contains("shear.longitudinal_m: set to 0.02")));
+    for (key, value, message) in [
+        ("scenario.slope_deg", "80", "`slope_deg` is 80, it must be 0 to 60"),
+        ("scenario.slope_deg", "[1", "not TOML"),
+        ("scenario.slop_deg", "8", "did you mean `slope_deg`?"),
+        ("scen.slope_deg", "8", "does not start with the name of a document"),
+    ] {
+        let error = changed(key, value).expect_err(key);
+        assert_eq!(error.place().document, Overrides::change_label(key, value));
+        assert!(error.to_string().starts_with(&format!("{key} = {value}: ")), "{error}");
+        assert!(error.to_string().contains(message), "{error}");
+    }
+}
+
 #[test]
 fn wrong_overrides_say_so() {
     for (setting, message) in [

@@ -234,6 +234,25 @@ fn each_draw_is_a_row_of_the_samples() {
     assert_eq!(seen, [true; 3]);
 }
 
+/// What a caller without files has: the text, and what stands beside it.
+#[test]
+fn a_text_and_its_companions_are_as_good_as_files() {
+    let from_files = read_sampled("beside", SAMPLES).expect("it is right");
+    let (text, files) = (from_files.to_toml(), from_files.companions.clone());
+    let source = Source::text_with("sand", text.clone(), files.clone());
+    let again = document::read_soil(&source, &Overrides::none()).expect("its files are there");
+    assert_eq!(again.companions, files);
+    assert_eq!(draw(&again, 5), draw(&from_files, 5));
+    assert!(read(&text).is_err(), "without its companions it has no samples");
+
+    let mut changes = Overrides::none();
+    let key = "{ samples = \"soil-samples.csv\" }";
+    changes.change("soil.uncertainty", key, files).expect("it is a table");
+    let plain = Source::find(Kind::Soil, "toyoura").expect("a preset");
+    let changed = document::read_soil(&plain, &changes).expect("its file is there");
+    assert_eq!(draw(&changed, 5), draw(&from_files, 5));
+}
+
 #[test]
 fn samples_are_written_in_several_ways() {
     let plain = read_sampled("plain", SAMPLES).expect("it is right");

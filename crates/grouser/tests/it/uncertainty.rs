@@ -1,5 +1,6 @@
 //! Uncertain soils: draws, bands, probabilities, and the attitude on soils that are drawn.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use grouser::document::{self, LoadedScenario, Overrides, Source};
@@ -280,7 +281,8 @@ fn soils(count: u64) -> Vec<Soil> {
 
 fn band(soils: &[Soil], slopes: &[f64]) -> AttitudeBand {
     let study = AttitudeStudy::of(&scenario().value);
-    AttitudeBand::of(&study, soils, slopes, &|| ()).expect("they are soils")
+    let band = AttitudeBand::of(&study, soils, slopes, &|| ControlFlow::Continue(()));
+    band.expect("they are soils").expect("nobody broke it off")
 }
 
 const SLOPES: [f64; 3] = [5.0, 15.0, 21.0];
@@ -347,10 +349,18 @@ fn every_draw_is_told_when_it_is_done() {
     let done = AtomicUsize::new(0);
     let count = || {
         done.fetch_add(1, Ordering::Relaxed);
+        ControlFlow::Continue(())
     };
     let study = AttitudeStudy::of(&scenario().value);
     AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &count).expect("they are soils");
     assert_eq!(done.into_inner(), 7);
+}
+
+#[test]
+fn a_study_that_is_broken_off_has_no_result() {
+    let study = AttitudeStudy::of(&scenario().value);
+    let broken_off = AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &|| ControlFlow::Break(()));
+    assert_eq!(broken_off.expect("they are soils"), None);
 }
 
 /// A soil that cannot move the rover has no attitude and no steepest slope; it still counts.
@@ -383,6 +393,7 @@ fn the_first_soil_that_is_none_is_the_error() {
     let bad = |density| Soil { density, ..good };
     let study = AttitudeStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];
-    let error = AttitudeBand::of(&study, &soils, &[deg(5.0)], &|| ()).expect_err("density");
+    let error = AttitudeBand::of(&study, &soils, &[deg(5.0)], &|| ControlFlow::Continue(()));
+    let error = error.expect_err("density");
     assert_eq!(error.value, -1.0);
 }

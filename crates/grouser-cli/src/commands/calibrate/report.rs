@@ -1,26 +1,23 @@
 //! What a calibration says: text, page, figures.
 
-use grouser::document::calibration::ParameterRecord;
+use grouser::document::calibration::{ParameterRecord, Solved, WheelFound, samples_csv};
 use grouser::document::validation::GroupRecord;
-use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of, to_toml};
-use grouser::studies::calibration::diagnostics::Samples;
+use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, to_toml};
+use grouser::studies::calibration::Posterior;
+use grouser::studies::calibration::diagnostics::{Samples, correlations_of};
 use grouser::studies::measurement::Quantity;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
 
 use super::super::{Answer, validate};
-use super::solve::Solved;
-use super::wheel::{Found, Problem};
+use super::wheel::Problem;
 use crate::args::CalibrateArgs;
 use crate::chart::{Chart, Grid, Series, Style};
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, aligned, csv, four_digits};
+use crate::output::rows::{Rows, aligned, four_digits};
 use crate::output::{self, Format};
 use crate::report::page::Page;
 
-/// Samples that the soil's file keeps.
-const KEPT_SAMPLES: usize = 1000;
 /// Points of all scatters in a corner plot together, and of one.
 const ALL_POINTS: usize = 12_000;
 const POINTS: usize = 400;
@@ -52,47 +49,42 @@ pub(super) fn add_soil(
 ) -> Result<(), Failure> {
     folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
     folder.add("soil.toml", to_toml(soil));
-    if let Some(samples) = &solved.samples {
-        folder.add(SAMPLES_FILE, samples_csv(family, samples)?);
+    if let Some(posterior) = &solved.solution.posterior {
+        folder.add(SAMPLES_FILE, samples_csv(family, posterior));
     }
     Ok(())
 }
 
-/// Samples of the fitted keys, in the keys' own units.
-fn samples_csv(family: &SoilFamily, samples: &Samples) -> Result<String, Failure> {
-    let columns: Vec<String> =
-        family.parameters().iter().map(|parameter| key_of(parameter).to_owned()).collect();
-    let row = |row: &[f64]| -> Map<String, Value> {
-        columns.iter().cloned().zip(row.iter().map(|value| json!(value))).collect()
-    };
-    let rows: Vec<Map<String, Value>> =
-        samples.thinned(KEPT_SAMPLES).into_iter().map(row).collect();
-    csv(&columns, rows.iter())
+/// Says what should be known of how the posterior was sampled.
+pub(super) fn tell_note(solved: &Solved) {
+    if let Some(note) = solved.note() {
+        output::tell(&format!("note: {note}"));
+    }
 }
 
 /// For people: blocks with an empty line between them.
-pub(super) fn text(found: &Found) -> String {
+pub(super) fn text(found: &WheelFound, target: &str) -> String {
     let solved = &found.solved;
     let mut blocks = vec![parameters(&solved.records)];
     blocks.extend(said(solved));
-    blocks.extend(judgement(found));
+    blocks.extend(judgement(found, target));
     blocks.join("\n")
 }
 
 /// How good the fit is, with the fit and without an angle, and what to measure next.
-fn judgement(found: &Found) -> Vec<String> {
+fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
     let overall = GroupRecord::from(&found.validation.overall);
     let mut blocks = vec![errors("with the fit", &[overall])];
     if !found.left_out.is_empty() {
         blocks.push(errors("with the angle left out of the fit", &found.left_out));
     }
     if !found.proposals.is_empty() {
-        blocks.push(format!("next runs, to make sure of {}\n{}", found.target, next_runs(found)));
+        blocks.push(format!("next runs, to make sure of {target}\n{}", next_runs(found)));
     }
     blocks
 }
 
-fn next_runs(found: &Found) -> String {
+fn next_runs(found: &WheelFound) -> String {
     let header = ["load_n", "slip_ratio", "slip_angle_deg", "std_before", "std_after"];
     let rows = found.proposals.iter().map(|it| {
         [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
@@ -169,7 +161,7 @@ fn errors(what: &str, groups: &[GroupRecord]) -> String {
 }
 
 /// The page, and the figures as files.
-pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found) {
+pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFound, target: &str) {
     let mut page = Page::new("Calibration");
     let soil = &problem.stand.soil.document.name;
     let wheel = &problem.stand.wheel.document.name;
@@ -177,7 +169,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &Found) {
     page.answer(&format!("{}: theory {theory}, from {soil}, {wheel}", problem.file));
     page.heading("What was found");
     add_parameters(&mut page, &found.solved);
-    for block in judgement(found) {
+    for block in judgement(found, target) {
         page.code(&block);
     }
     page.heading("Measured and predicted with the fit");
@@ -220,7 +212,7 @@ pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
 
 /// Corner plot and traces, if there is a posterior.
 pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: &Solved) {
-    let Some(samples) = &solved.samples else { return };
+    let Some(Posterior { samples, .. }) = &solved.solution.posterior else { return };
     let shown = least_known(&solved.records);
     let which = if shown.len() < solved.records.len() {
         " Here the keys that are known least; figures/corner.svg has all."
@@ -330,9 +322,10 @@ fn traces(records: &[ParameterRecord], samples: &Samples) -> Chart {
 /// Correlations of the fitted keys, two digits, under numbers for names.
 fn correlations(solved: &Solved) -> String {
     let count = solved.records.len();
-    let matrix = match &solved.samples {
-        Some(samples) => samples.correlations(),
-        None => grouser::studies::calibration::diagnostics::correlations_of(&solved.fit.covariance),
+    let solution = &solved.solution;
+    let matrix = match &solution.posterior {
+        Some(posterior) => posterior.samples.correlations(),
+        None => correlations_of(&solution.fit.covariance),
     };
     let mut header = vec!["key".to_owned()];
     header.extend((1..=count).map(|number| number.to_string()));

@@ -1,15 +1,10 @@
 //! `grouser validate --all`: every theory on every data set that is there, best first.
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use grouser::contact::Theory;
-use grouser::document::measurements::{self, Choice};
-use grouser::document::validation::GroupRecord;
-use grouser::document::{self, DataSetCase, Kind, LoadedDataSet, Overrides, Source};
-use grouser::soil::Extended;
+use grouser::document::ranking::{RankedTheory, RankingError, rank_all};
+use grouser::document::validation::{ErrorsRecord, GroupRecord};
 use grouser::studies::measurement::Quantity;
-use grouser::studies::validation::{Validation, ValidationStudy};
 use serde::Serialize;
 use serde_json::json;
 
@@ -24,38 +19,14 @@ use crate::output::{self, Format};
 /// Where measurements are, if no flag says it.
 const VARIABLE: &str = "GROUSER_DATA_DIR";
 
-/// A theory with a soil on a part of a data set.
-#[derive(Serialize)]
-struct Entry {
-    data_set: String,
-    case: String,
-    rank: usize,
-    model: &'static str,
-    soil: String,
-    /// Root mean square error over the standard deviation of what was measured, averaged over
-    /// the measured quantities [-]: 0 is perfect, 1 no better than a constant.
-    score: Option<f64>,
-    unsettled_trials: usize,
-    driven: Option<GroupRecord>,
-    overall: GroupRecord,
-    #[serde(skip)]
-    validation: Validation,
-}
-
 #[derive(Serialize)]
 struct Results<'a> {
-    rows: &'a [Entry],
+    rows: &'a [RankedTheory],
 }
 
 pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let place = data_folder(args)?;
-    let mut entries = Vec::new();
-    for (set, file) in data_sets(&place)? {
-        for case in &set.value {
-            entries.extend(rank(&set, case, &file)?);
-        }
-    }
+    let entries = rank_all(&data_folder(args)?)?;
     let inputs = json!({ "data_sets": entries.iter().map(|it| &it.data_set).collect::<std::collections::BTreeSet<_>>() });
     let answer = Answer::new("validate", inputs, Results { rows: &entries });
     let text = text_of(&entries);
@@ -86,113 +57,35 @@ fn slug(name: &str) -> String {
 
 fn data_folder(args: &ValidateArgs) -> Result<PathBuf, Failure> {
     let place = args.data_dir.clone().or_else(|| std::env::var_os(VARIABLE).map(PathBuf::from));
-    let place = place.ok_or_else(|| {
+    place.ok_or_else(|| {
         Failure::Usage(format!(
             "--all needs a folder of measurements: --data-dir DIR, or the environment variable \
              {VARIABLE}\nhint: docs/guide/data.md tells where public data sets are"
         ))
-    })?;
-    if place.is_dir() {
-        Ok(place)
-    } else {
-        Err(Failure::Usage(format!("{}: there is no such folder", place.display())))
-    }
+    })
 }
 
-/// The data sets whose files are in a folder: those that are presets, and those that documents in
-/// the folder describe.
-fn data_sets(place: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, Failure> {
-    let mut sources: Vec<Source> = document::presets(Kind::DataSet).map(Source::Preset).collect();
-    let entries = std::fs::read_dir(place).map_err(Failure::at("cannot look into", place))?;
-    let mut files: Vec<PathBuf> = entries
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<Result<_, _>>()
-        .map_err(Failure::at("cannot look into", place))?;
-    files.sort();
-    let documents = files.into_iter().filter(|path| path.extension() == Some(OsStr::new("toml")));
-    let is_data_set =
-        |path: &PathBuf| matches!(document::check(&Source::file(path)), Ok(Kind::DataSet) | Err(_));
-    sources.extend(documents.filter(is_data_set).map(Source::File));
-    let mut sets = Vec::new();
-    for source in sources {
-        let set = document::read_data_set(&source, &Overrides::none())?;
-        let file = place.join(&set.document.file);
-        if file.exists() {
-            sets.push((set, file));
-        } else if let Source::File(path) = source {
-            let (path, file) = (path.display(), file.display());
-            return Err(Failure::Usage(format!("{path} names a file that is not there: {file}")));
-        }
-    }
-    if sets.is_empty() {
-        let known = document::presets(Kind::DataSet).map(|preset| preset.name);
-        return Err(Failure::Usage(format!(
-            "no known data set in {} (known: {})\nhint: docs/guide/data.md tells how to lay them \
-             out; `grouser validate --data FILE` judges any other file",
-            place.display(),
-            known.collect::<Vec<_>>().join(", ")
-        )));
-    }
-    Ok(sets)
-}
-
-/// Every theory with the soils of a case, best first.
-fn rank(set: &LoadedDataSet, case: &DataSetCase, file: &Path) -> Result<Vec<Entry>, Failure> {
-    let choice = Choice { conditions: case.conditions.clone(), wheel: None };
-    let measured = measurements::read(file, &choice)?;
-    let mut entries = Vec::new();
-    for (name, soil) in &case.soils {
-        for theory in Theory::ALL {
-            let for_another = soil.document.theory().is_some_and(|own| own != theory);
-            // Without its terms the extended theory is the classical one.
-            let same = theory == Theory::Extended && soil.value.extended == Extended::OFF;
-            if for_another || same {
-                continue;
+impl From<RankingError> for Failure {
+    fn from(error: RankingError) -> Self {
+        match error {
+            RankingError::Document(error) => error.into(),
+            RankingError::Measurements(error) => error.into(),
+            RankingError::Unreadable { folder, error } => {
+                Self::at("cannot look into", &folder)(error)
             }
-            let study = ValidationStudy {
-                tests: &measured.tests,
-                wheel: case.wheel.value,
-                soil: soil.value,
-                theory,
-                gravity: set.document.gravity_m_s2,
-            };
-            let validation = study.run();
-            entries.push(Entry {
-                data_set: set.document.name.clone(),
-                case: case.name.clone(),
-                rank: 0,
-                model: theory.name(),
-                soil: name.clone(),
-                score: score(&validation),
-                unsettled_trials: validation.overall.unsettled,
-                driven: validation.driven.as_ref().map(GroupRecord::from),
-                overall: GroupRecord::from(&validation.overall),
-                validation,
-            });
+            RankingError::NoDataSet { .. } => Self::Usage(format!(
+                "{error}\nhint: docs/guide/data.md tells how to lay them out; `grouser validate \
+                 --data FILE` judges any other file"
+            )),
+            RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {
+                Self::Usage(error.to_string())
+            }
         }
     }
-    // What has no prediction for a trial ranks below whatever has one for each.
-    let key = |entry: &Entry| (entry.unsettled_trials, entry.score.unwrap_or(f64::INFINITY));
-    entries.sort_by(|one, other| {
-        let ((unsettled, score), (others, other_score)) = (key(one), key(other));
-        unsettled.cmp(&others).then(score.total_cmp(&other_score))
-    });
-    for (place, entry) in entries.iter_mut().enumerate() {
-        entry.rank = place + 1;
-    }
-    Ok(entries)
-}
-
-/// √(1 − R²), averaged over the measured quantities.
-fn score(validation: &Validation) -> Option<f64> {
-    let of = |quantity| validation.overall.errors[quantity]?.r2;
-    let shares: Vec<f64> =
-        Quantity::ALL.into_iter().filter_map(of).map(|r2| (1.0 - r2).max(0.0).sqrt()).collect();
-    (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
 }
 
 /// For people: a block for each part of each data set.
-fn text_of(entries: &[Entry]) -> String {
+fn text_of(entries: &[RankedTheory]) -> String {
     let mut blocks = vec![
         "Root mean square errors over cells: drawbar pull [N] / side force [N] / sinkage [mm]\n\
          score: 0 is perfect, 1 no better than the mean of what was measured\n"
@@ -212,7 +105,7 @@ fn text_of(entries: &[Entry]) -> String {
     blocks.join("\n")
 }
 
-fn row(entry: &Entry) -> Vec<String> {
+fn row(entry: &RankedTheory) -> Vec<String> {
     let rmse = |group: &GroupRecord| errors(group, |it| Some(it.rmse));
     vec![
         entry.rank.to_string(),
@@ -226,10 +119,7 @@ fn row(entry: &Entry) -> Vec<String> {
 }
 
 /// Three numbers as one cell; torque is named where it was measured.
-fn errors(
-    group: &GroupRecord,
-    of: fn(&document::validation::ErrorsRecord) -> Option<f64>,
-) -> Option<String> {
+fn errors(group: &GroupRecord, of: fn(&ErrorsRecord) -> Option<f64>) -> Option<String> {
     let number = |quantity| {
         let value = group.errors(quantity).and_then(of);
         value.map_or("-".to_owned(), |value| format!("{value:.2}"))

@@ -191,6 +191,12 @@ impl MeasurementError {
         Self { line, ..Self::whole(file, problem) }.with_hint(hint)
     }
 
+    /// What messages call the file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
     /// The line where the trouble is, if it is in one.
     #[must_use]
     pub fn line(&self) -> Option<u64> {

@@ -13,7 +13,9 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
+use super::Experiment as _;
 use super::diagnostics::covariance_of;
+use super::solution::Solution;
 use super::wheel_test::WheelTestExperiment;
 use crate::contact::Slip;
 use crate::studies::measurement::{PerQuantity, Quantity};
@@ -36,6 +38,48 @@ pub struct Target {
     pub quantity: Quantity,
     /// Where.
     pub setting: Setting,
+}
+
+/// What the next runs should make sure of, and the settings that the stand can run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Aim {
+    /// The prediction that should get surer.
+    pub target: Target,
+    /// What the stand can run.
+    pub candidates: Vec<Setting>,
+    /// How many runs to propose.
+    pub count: usize,
+}
+
+/// Samples that the design of the next runs looks at.
+const DESIGN_SAMPLES: usize = 200;
+
+impl Aim {
+    /// The runs to make next, the best first; none without samples.
+    #[must_use]
+    pub fn proposals(
+        &self,
+        experiment: &WheelTestExperiment,
+        solution: &Solution,
+    ) -> Vec<Proposal> {
+        let Some(posterior) = &solution.posterior else { return Vec::new() };
+        let noise = noise(experiment, &solution.fit.discrepancies);
+        let rows = posterior.samples.thinned(DESIGN_SAMPLES);
+        let (target, candidates) = (&self.target, &self.candidates);
+        Outlook::of_wheel_test(experiment, &rows, target, candidates, &noise).propose(self.count)
+    }
+}
+
+/// How far a reading of a new run may be from the theory: mean scatter and model discrepancy.
+fn noise(experiment: &WheelTestExperiment, discrepancies: &[f64]) -> PerQuantity<Option<f64>> {
+    PerQuantity::from_fn(|quantity| {
+        let own = experiment.sources().iter().zip(experiment.observations());
+        let own = own.filter(|((source, _), _)| *source == quantity);
+        let variances: Vec<f64> =
+            own.map(|(_, it)| it.scatter.powi(2) + discrepancies[it.channel].powi(2)).collect();
+        let mean = variances.iter().sum::<f64>() / variances.len().max(1) as f64;
+        (!variances.is_empty()).then(|| mean.sqrt())
+    })
 }
 
 /// A run worth making.

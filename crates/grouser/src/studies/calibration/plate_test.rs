@@ -54,7 +54,38 @@ impl PlateLaw {
             Self::Reece { .. } => PressureSinkage::Reece { k_c, k_phi, exponent },
         }
     }
+
+    /// k_c, k_φ and n near some curves, to search from: the slope of log pressure over log sinkage
+    /// of the widest plate, with hardly a cohesive part.
+    #[must_use]
+    pub fn first_guess(&self, curves: &[PlateCurve]) -> [f64; 3] {
+        let widest = curves.iter().max_by(|one, other| one.width.total_cmp(&other.width));
+        let points = widest.map_or(&[][..], |curve| curve.points.as_slice());
+        let positive = points.iter().filter(|point| point.sinkage > 0.0 && point.pressure > 0.0);
+        let logs: Vec<(f64, f64)> =
+            positive.map(|point| (point.sinkage.ln(), point.pressure.ln())).collect();
+        let count = logs.len().max(1) as f64;
+        let (x, y) = logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
+        let (x, y) = (x / count, y / count);
+        let (above, below) = logs.iter().fold((0.0, 0.0), |sum, log| {
+            (sum.0 + (log.0 - x) * (log.1 - y), sum.1 + (log.0 - x).powi(2))
+        });
+        let slope = if below > 0.0 { above / below } else { 1.0 };
+        let n = slope.clamp(LEAST_EXPONENT, MOST_EXPONENT);
+        let width = widest.map_or(1.0, |curve| curve.width);
+        let stiffness = (y - n * x).exp();
+        match self {
+            Self::Bekker => [0.1 * stiffness * width, stiffness, n],
+            Self::Reece { unit_weight, .. } => {
+                [1.0, stiffness * width.powf(n) / (unit_weight * width), n]
+            }
+        }
+    }
 }
+
+/// A search starts from an exponent between these [-]. Source: ours; published soils lie within.
+const LEAST_EXPONENT: f64 = 0.4;
+const MOST_EXPONENT: f64 = 2.5;
 
 /// Curves of one soil.
 #[derive(Clone, Debug, PartialEq)]

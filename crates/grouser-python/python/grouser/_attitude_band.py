@@ -1,0 +1,81 @@
+"""What an uncertain soil makes of the level attitude."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._descriptions import Scenario
+from ._wheels import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class AttitudeBand:
+    """What draws of an uncertain soil say of the level attitude: arrays of shape (slopes,).
+
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the draws that have a level attitude on
+    that slope: 95 % of them lie between the first and the last. NaN where none has.
+    """
+
+    yaw_deg_p2_5: Floats
+    """Yaw [°], positive uphill."""
+    yaw_deg_p50: Floats
+    """Its median [°]."""
+    yaw_deg_p97_5: Floats
+    """Its upper end [°]."""
+    slip_ratio_p2_5: Floats
+    """Slip ratio [-]."""
+    slip_ratio_p50: Floats
+    """Its median [-]."""
+    slip_ratio_p97_5: Floats
+    """Its upper end [-]."""
+    sinkage_mm_p2_5: Floats
+    """Mean sinkage of the wheels [mm]."""
+    sinkage_mm_p50: Floats
+    """Its median [mm]."""
+    sinkage_mm_p97_5: Floats
+    """Its upper end [mm]."""
+    energy_j_per_m_p2_5: Floats
+    """Work of the wheels per metre along the course [J/m]."""
+    energy_j_per_m_p50: Floats
+    """Its median [J/m]."""
+    energy_j_per_m_p97_5: Floats
+    """Its upper end [J/m]."""
+    probability_level: Floats
+    """Probability that a level attitude exists [-]: the share of the draws that have one."""
+    probability_level_low: Floats
+    """Lower end of its 95 % confidence interval, for the number of draws [-]."""
+    probability_level_high: Floats
+    """Upper end of that interval [-]."""
+    draws_level: Floats
+    """Draws with a level attitude."""
+    draws: int
+    """All draws."""
+    draws_mobile: int
+    """Draws on which the rover can move on level ground."""
+    limit_slope_deg_p2_5: float | None
+    """The steepest slope [°], over the draws on which the rover can move; None where it never can."""
+    limit_slope_deg_p50: float | None
+    """Its median [°]."""
+    limit_slope_deg_p97_5: float | None
+    """Its upper end [°]."""
+
+    @classmethod
+    def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> AttitudeBand:
+        found, limit = _core.attitude_band(run._document, slopes, seed, samples)
+        found.pop("draws", None)
+        # Without slopes there are no rows to tell the columns.
+        names = [field.name for field in fields(cls) if field.name not in (*limit, "draws")]
+        columns = {name: found.get(name, np.empty(0)) for name in names}
+        return cls(**columns, **limit)
+
+    def _columns(self) -> dict[str, Any]:
+        arrays = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: values for name, values in arrays.items() if isinstance(values, np.ndarray)}
+
+    def __repr__(self) -> str:
+        ends = f"{self.limit_slope_deg_p2_5}° to {self.limit_slope_deg_p97_5}°"
+        return f"<AttitudeBand over {self.draws} draws, the steepest slope is {ends}>"

@@ -1,0 +1,427 @@
+"""Which soil measurements speak for, and how surely."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _tables
+from ._descriptions import Soil, Source, Wheel
+from ._errors import ParameterError
+from ._studies import columns_of, line, soil_of
+from ._validation import Validation, validation_of
+from ._wheels import Floats, number, setting, whole_number
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+#: Keys to fit: names, or names with bounds (None for the usual ones).
+Fit = Union[str, Sequence[str], Mapping[str, Union[tuple[float, float], None]]]
+
+#: Fields of a `Calibration` over keys.
+_PARAMETERS = (
+    "start",
+    "lower",
+    "upper",
+    "fit",
+    "fit_std",
+    "mean",
+    "std",
+    "p2_5",
+    "p50",
+    "p97_5",
+    "r_hat",
+    "effective_samples",
+    "narrowing",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """A soil fitted to measurements: arrays of shape (keys,) in each key's own unit. What was sampled
+    is NaN or None for a ``point_fit``."""
+
+    key: tuple[str, ...]
+    """The fitted keys, as ``soil.pressure_sinkage.k_phi``."""
+    start: Floats
+    """The document's values."""
+    lower: Floats
+    """Lower bounds of the search."""
+    upper: Floats
+    """Upper bounds of the search."""
+    fit: Floats
+    """Least squares."""
+    fit_std: Floats
+    """Their standard errors, to first order."""
+    mean: Floats
+    """Mean of the posterior."""
+    std: Floats
+    """Its standard deviation."""
+    p2_5: Floats
+    """2.5 % of the samples lie below."""
+    p50: Floats
+    """Median of the posterior."""
+    p97_5: Floats
+    """2.5 % of the samples lie above."""
+    r_hat: Floats
+    """Agreement of the chains [-]: 1 is perfect."""
+    effective_samples: Floats
+    """Independent samples that would tell as much [-]."""
+    narrowing: Floats
+    """Standard deviation over the one before any data [-]: near 1 the data say nothing."""
+    samples: Floats | None
+    """Samples of the posterior, shape (samples, keys), chain by chain."""
+    correlations: Floats
+    """Correlation of each key with each other [-], shape (keys, keys)."""
+    discrepancies: Mapping[str, Any]
+    """How far the theory is from the measurements beyond the scatter of trials: columns ``channel``,
+    ``fit``, ``mean``, ``std`` over what was measured, in its unit."""
+    outcome: str
+    """``determined``; ``open``, if the data leave something open; ``not_mixed``, if the samples do not
+    suffice; ``not_settled``, if least squares did not come to its end."""
+    message: str | None
+    """What that means here; None for ``determined``."""
+    cannot_tell_apart: tuple[str, ...]
+    """What the data leave open, a sentence for each."""
+    notes: tuple[str, ...]
+    """What was noticed in the file and of the search."""
+    searches: int
+    """Searches of least squares, from different starts."""
+    searches_that_agree: int
+    """Those that came as low as the best."""
+    sampler: Mapping[str, Any] | None
+    """How the posterior was sampled: ``seed``, ``ensembles``, ``walkers``, ``steps``, ``acceptance``,
+    ``worst_r_hat``, ``least_effective_samples``."""
+    soil: Soil
+    """The soil of the fit, with its samples as uncertainty: for `attitude` with ``uncertainty=True``."""
+    validation: Validation | None = None
+    """The errors with the fit; None for plate tests."""
+    cross_validation: tuple[Mapping[str, Any], ...] = ()
+    """With ``cross_validate=True`` the errors at each slip angle of the fit without it, groups as a
+    `Validation` has them."""
+    target: str | None = None
+    """What the next runs are to make sure of."""
+    proposals: Mapping[str, Any] | None = None
+    """The runs to make next, the best first: columns ``load_n``, ``slip_ratio``, ``slip_angle_deg``,
+    and the standard deviations of the target ``std_before`` and ``std_after``."""
+    curves: Mapping[str, Floats] | None = None
+    """Of plate tests, columns over points: ``plate_width_mm``, ``sinkage_mm``,
+    ``measured_pressure_kpa``, ``pressure_kpa``."""
+
+    @property
+    def best(self) -> dict[str, float]:
+        """Least squares by key."""
+        return dict(zip(self.key, self.fit.tolist()))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each key, as the program's CSV has it."""
+        return _tables.frame({"key": np.array(self.key, dtype=object), **self._parameters()})
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``key`` (with its ``unit``), and over ``sample`` and ``key``."""
+        data = _tables.dataset(("key",), self._parameters(), {"key": list(self.key)})
+        for name in data.data_vars:
+            # Their units differ from key to key.
+            data[name].attrs.clear()
+        names = [key.removeprefix("soil.") for key in self.key]
+        data = data.assign_coords(unit=("key", [_tables.unit_of(name) for name in names]))
+        data["correlations"] = (("key", "other_key"), self.correlations)
+        if self.samples is not None:
+            data["samples"] = (("sample", "key"), self.samples)
+        attrs = {"outcome": self.outcome, "soil": self.soil.to_toml()}
+        return data.assign_attrs(
+            attrs if self.message is None else {**attrs, "message": self.message}
+        )
+
+    def _parameters(self) -> dict[str, Any]:
+        return columns_of(self, _PARAMETERS)
+
+    def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
+        """Draws a quantity predicted with the fit over its measurements, a dot for each cell; of plate
+        tests pressure over sinkage, a line for each plate."""
+        if self.validation is not None:
+            return self.validation.plot(axes, name=name, **style)
+        axes, curves = _tables.axes_or_new(axes), self.curves or {}
+        for width in dict.fromkeys(curves["plate_width_mm"].tolist()):
+            own = np.flatnonzero(curves["plate_width_mm"] == width)
+            own = own[np.argsort(curves["sinkage_mm"][own], kind="stable")]
+            line = axes.plot(
+                curves["sinkage_mm"][own],
+                curves["pressure_kpa"][own],
+                **{"label": f"{width:g} mm", **style},
+            )[0]
+            measured = curves["measured_pressure_kpa"][own]
+            axes.plot(curves["sinkage_mm"][own], measured, ".", color=line.get_color())
+        axes.set_xlabel("sinkage [mm]")
+        axes.set_ylabel("pressure [kPa]")
+        axes.legend()
+        return axes
+
+    def plot_corner(self, axes: NDArray[np.object_] | None = None) -> NDArray[np.object_]:
+        """Draws each key's samples alone (how often) and with each other key's.
+
+        Parameters
+        ----------
+        axes : array of matplotlib axes, shape (keys, keys), optional
+            Where; those of a new figure without.
+
+        Returns
+        -------
+        array of matplotlib axes
+
+        Raises
+        ------
+        ParameterError
+            If there are no samples, or not as many axes.
+        """
+        if self.samples is None:
+            raise ParameterError("a point fit has no samples to draw")
+        count = len(self.key)
+        if axes is None:
+            import matplotlib.pyplot as plt
+
+            axes = plt.subplots(count, count, squeeze=False, figsize=(2.2 * count, 2.2 * count))[1]
+        if np.shape(axes) != (count, count):
+            raise ParameterError(f"axes has shape {np.shape(axes)}, it must be ({count}, {count})")
+        for i in range(count):
+            for j in range(count):
+                _corner_cell(axes[i, j], self.samples[:, i], self.samples[:, j], (i, j))
+        for k, key in enumerate(self.key):
+            axes[-1, k].set_xlabel(key.rsplit(".", 1)[-1])
+            if k > 0:
+                axes[k, 0].set_ylabel(key.rsplit(".", 1)[-1])
+        return axes
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{key}={value:.4g}" for key, value in self.best.items())
+        return f"<Calibration {self.outcome}: {values}>"
+
+
+def _corner_cell(axes: Axes, y: Floats, x: Floats, place: tuple[int, int]) -> None:
+    if place[0] < place[1]:
+        axes.set_visible(False)
+    elif place[0] == place[1]:
+        axes.hist(x, bins=24, histtype="step")
+        axes.set_yticks([])
+    else:
+        stride = max(1, len(x) // 1000)
+        axes.plot(x[::stride], y[::stride], ls="", marker=".", ms=2)
+
+
+def calibrate(
+    data: str | os.PathLike[str],
+    soil: Soil | Source,
+    wheel: Wheel | Source,
+    *,
+    fit: Fit,
+    where: Sequence[str] | str = (),
+    wheel_label: str | None = None,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    model: str | None = None,
+    point_fit: bool = False,
+    steps: int = 400,
+    seed: int = 1,
+    cross_validate: bool = False,
+    target: str = "drawbar_pull_n:slip_ratio=0.2",
+    propose: int = 3,
+    candidate_load_n: ArrayLike | None = None,
+    candidate_slip_ratio: ArrayLike = (-0.6, -0.3, 0.0, 0.3, 0.6, 0.9),
+    candidate_slip_angle_deg: ArrayLike = (0.0, 15.0, 30.0, 45.0),
+) -> Calibration:
+    """Fits numbers of a soil to a file of measured wheel tests: bounded least squares from several
+    starts, then an affine-invariant ensemble sampler. The same bits as ``grouser calibrate``.
+
+    Parameters
+    ----------
+    data, where, wheel_label
+        As for `validate`.
+    soil : Soil, name, path or mapping
+        The soil to start from, for all values that are not fitted.
+    wheel, gravity_m_s2, model
+        As for `settle`.
+    fit : str, sequence of str, or mapping of str to (float, float) or None
+        Keys of the soil, such as ``"pressure_sinkage.k_phi"``; a mapping gives bounds, None the usual.
+    point_fit : bool
+        Least squares alone, no posterior.
+    steps : int
+        Steps of each walker of the posterior, 100 to 999999, rounded up to whole blocks of 25.
+    seed : int
+        Of all random numbers.
+    cross_validate : bool
+        Whether also to fit without each slip angle in turn, and judge there.
+    target : str
+        The prediction that the next runs should make sure of, such as
+        ``"side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15"``.
+    propose : int
+        How many runs to propose.
+    candidate_load_n, candidate_slip_ratio, candidate_slip_angle_deg : array_like
+        What the stand can run: loads [N] (without them half, once and twice the tests' own), slip
+        ratios [-], slip angles [°].
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    ParameterError
+        For keys that are no numbers of the soil, or that these measurements cannot determine.
+    DocumentError, DocumentNotFoundError
+        As `validate`.
+    CalibrationError
+        If no start gives finite predictions.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import grouser as gr
+    >>> test = gr.wheel_test(load_n=20, slip_ratio=[0.0, 0.2, 0.4, 0.6], trials=3)
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> file = os.path.join(folder.name, "test.csv")
+    >>> test.to_pandas().to_csv(file, index=False)
+    >>> start = gr.Soil("toyoura", shear={"longitudinal_m": 0.1})
+    >>> found = gr.calibrate(file, start, "hakuto", fit="shear.longitudinal_m", point_fit=True)
+    >>> found.outcome, bool(abs(found.fit[0] - 0.036) < 4 * found.fit_std[0])
+    ('determined', True)
+    >>> folder.cleanup()
+    """
+    if wheel_label is None and isinstance(wheel, (str, os.PathLike)):
+        wheel_label = os.fspath(wheel)
+    wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+    loads = None if candidate_load_n is None else line("candidate_load_n", candidate_load_n)
+    if not isinstance(target, str):
+        raise ParameterError(f"target is of type {type(target).__name__}, it must be text", "target")
+    aim = (
+        target,
+        whole_number("propose", propose, most=1000),
+        None if loads is None else loads.tolist(),
+        line("candidate_slip_ratio", candidate_slip_ratio).tolist(),
+        line("candidate_slip_angle_deg", candidate_slip_angle_deg).tolist(),
+    )
+    found = _core.calibrate_wheel_tests(
+        os.fspath(data),
+        soil_of(soil)._document,
+        wheel._document,
+        setting(gravity_m_s2, model)._document,
+        wheel_label,
+        [where] if isinstance(where, str) else list(where),
+        _keys(fit),
+        aim,
+        whole_number("seed", seed),
+        None if point_fit else whole_number("steps", steps),
+        bool(cross_validate),
+    )
+    return Calibration(
+        **_common(found),
+        validation=validation_of(found["validation"]),
+        cross_validation=tuple(found["cross_validation"]),
+        target=found["target"],
+        proposals=found["proposals"],
+    )
+
+
+def calibrate_plates(
+    data: str | os.PathLike[str],
+    soil: Soil | Source,
+    *,
+    plate_law: str | None = None,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    point_fit: bool = False,
+    steps: int = 400,
+    seed: int = 1,
+) -> Calibration:
+    """Fits the moduli of a pressure-sinkage law to curves of a plate test. The same bits as
+    ``grouser calibrate --plates``.
+
+    Parameters
+    ----------
+    data : str or path
+        A CSV file with ``plate_width_mm``, ``sinkage_mm`` and ``pressure_kpa``.
+    soil : Soil, name, path or mapping
+        The soil, for all other values.
+    plate_law : {"bekker", "reece"}, optional
+        The law; the soil's own without.
+    gravity_m_s2 : float
+        Gravity [m/s²].
+    point_fit, steps, seed
+        As for `calibrate`.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError, CalibrationError
+        As `calibrate`.
+    """
+    if not isinstance(plate_law, (str, type(None))):
+        given = type(plate_law).__name__
+        raise ParameterError(f"plate_law is of type {given}, it must be a name", "plate_law")
+    found = _core.calibrate_plate_tests(
+        os.fspath(data),
+        soil_of(soil)._document,
+        setting(gravity_m_s2, None)._document,
+        plate_law,
+        whole_number("seed", seed),
+        None if point_fit else whole_number("steps", steps),
+    )
+    return Calibration(**_common(found), curves=found["curves"])
+
+
+def _common(found: dict[str, Any]) -> dict[str, Any]:
+    """The fields that every calibration has."""
+    parameters = found["parameters"]
+    sentences = [*found["notes"], *found["cannot_tell_apart"]]
+    is_determined = found["outcome"] == "determined"
+    names = ("samples", "correlations", "discrepancies", "searches", "searches_that_agree")
+    soil = Soil.__new__(Soil)
+    soil._take(found["soil"])
+    return {
+        "key": tuple(parameters["key"]),
+        **{name: parameters[name] for name in _PARAMETERS},
+        **{name: found[name] for name in names},
+        "outcome": found["outcome"],
+        "message": None if is_determined else "; ".join(sentences),
+        "cannot_tell_apart": tuple(found["cannot_tell_apart"]),
+        "notes": tuple(found["notes"]),
+        "sampler": found["sampler"],
+        "soil": soil,
+    }
+
+
+def _keys(fit: Any) -> list[tuple[str, tuple[float, float] | None]]:
+    """Keys with their bounds; ``soil.`` may stand before them."""
+    if isinstance(fit, str):
+        fit = [fit]
+    if isinstance(fit, Mapping):
+        pairs: list[tuple[Any, Any]] = list(fit.items())
+    elif isinstance(fit, Iterable):
+        pairs = [(key, None) for key in fit]
+    else:
+        given = type(fit).__name__
+        raise ParameterError(f"fit is of type {given}, it must be names of keys", "fit")
+    return [(_name(key), _bounds(key, bounds)) for key, bounds in pairs]
+
+
+def _name(key: Any) -> str:
+    if not isinstance(key, str):
+        raise ParameterError(f"fit has a key of type {type(key).__name__}, it must be text", "fit")
+    return key.removeprefix("soil.")
+
+
+def _bounds(key: str, bounds: Any) -> tuple[float, float] | None:
+    if bounds is None:
+        return None
+    try:
+        lower, upper = bounds
+    except (TypeError, ValueError):
+        raise ParameterError(f"the bounds of {key} must be two numbers", "fit") from None
+    return number(f"lower bound of {key}", lower), number(f"upper bound of {key}", upper)

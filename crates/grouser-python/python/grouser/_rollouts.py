@@ -1,0 +1,227 @@
+"""Many runs at once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _tables
+from ._descriptions import Scenario, Source
+from ._errors import ParameterError
+from ._studies import SAMPLE, columns_of, scenario_of
+from ._wheels import Floats, Soils, numbers, soils_of
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False)
+class Rollout:
+    """The ends of many runs: arrays of the shape to which the arguments broadcast, (runs,) for a
+    sequence of scenarios; NaN where a run could not be computed. Frames are those of a `Trajectory`.
+    """
+
+    outcome: NDArray[np.str_]
+    """Each run's outcome; ``failed`` where it could not be computed."""
+    message: NDArray[np.object_]
+    """What that means; None for a completed run."""
+    time_s: Floats
+    """Time [s]."""
+    x_m: Floats
+    """Along the contour [m], of the body's centre of mass."""
+    y_m: Floats
+    """Uphill [m]."""
+    yaw_deg: Floats
+    """Yaw [°], positive where the nose points uphill."""
+    forward_speed_m_s: Floats
+    """Speed along the body [m/s]."""
+    lateral_speed_m_s: Floats
+    """Speed across the body [m/s], positive to the left."""
+    yaw_rate_deg_s: Floats
+    """Yaw rate [°/s]."""
+    power_w: Floats
+    """Power of all motors [W]."""
+    energy_j: Floats
+    """Work of the motors so far [J]."""
+    soil_energy_j: Floats
+    """Work done on the soil so far [J]."""
+    kinetic_energy_j: Floats
+    """Kinetic energy [J]."""
+    potential_energy_j: Floats
+    """Potential energy, zero at the start's height [J]."""
+
+    samples: Mapping[str, Floats] | None = None
+    """With ``trajectories=True``, all samples of each run by name (``time_s`` and the fields after
+    it): arrays with one dimension more, NaN after a run's end."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of every field."""
+        return self.outcome.shape
+
+    def __len__(self) -> int:
+        return self.outcome.size
+
+    def _columns(self) -> dict[str, Any]:
+        return {"outcome": self.outcome, "message": self.message, **columns_of(self, SAMPLE)}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each run: where it ended."""
+        return _tables.frame(self._columns())
+
+    def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
+        """A dataset with units in the attributes; samples have names that start with ``sample_``.
+
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the dimensions; without, ``run``, or ``dim_0``, ``dim_1`` … for several.
+        """
+        count = len(self.shape)
+        usual = ("run",) if count == 1 else tuple(f"dim_{k}" for k in range(count))
+        names = usual if dims is None else tuple(dims)
+        if len(names) != count:
+            raise ParameterError(
+                f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
+            )
+        data = _tables.dataset(names, self._columns())
+        for name, values in (self.samples or {}).items():
+            data[f"sample_{name}"] = _tables.variable((*names, "sample"), name, values)
+        return data
+
+    def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
+        """Draws where the runs ended, seen from above, and their paths if they were kept."""
+        axes = _tables.axes_or_new(axes)
+        if self.samples is not None:
+            count = self.samples["x_m"].shape[-1]
+            paths = (self.samples[name].reshape(-1, count).T for name in ("x_m", "y_m"))
+            axes.plot(*paths, color="grey", lw=0.5)
+        axes.plot(self.x_m.ravel(), self.y_m.ravel(), **{"ls": "", "marker": ".", **style})
+        axes.set_xlabel("along the contour, x [m]")
+        axes.set_ylabel("uphill, y [m]")
+        return axes
+
+    def __repr__(self) -> str:
+        words, counts = np.unique(self.outcome, return_counts=True)
+        told = ", ".join(f"{count} {word}" for word, count in zip(words, counts))
+        return f"<Rollout of {len(self)} runs: {told}>"
+
+
+def rollout(
+    scenarios: Scenario | Source | Iterable[Scenario | Source] | None = None,
+    /,
+    *,
+    soil: Soils | None = None,
+    slope_deg: ArrayLike | None = None,
+    yaw_deg: ArrayLike | None = None,
+    speed_m_s: ArrayLike | None = None,
+    gravity_m_s2: ArrayLike | None = None,
+    duration_s: ArrayLike | None = None,
+    trajectories: bool = False,
+) -> Rollout:
+    """Runs many scenarios at once, on all cores, without Python's lock.
+
+    The arguments broadcast against each other as those of NumPy's ufuncs do; what is not given is the
+    scenario's own. Runs that differ in these keys alone need no description each, which is far
+    cheaper. They keep their order, and each has the bits that it has alone, for any number of cores.
+
+    Parameters
+    ----------
+    scenarios : Scenario, name, path, mapping, or a sequence of them, optional
+        What to run; the source paper's traverse without. A sequence broadcasts as an array of shape
+        (runs,).
+    soil : Soil, name, path, mapping, or a sequence of them, optional
+        Instead of the scenarios' own, with its own theory where they name none.
+    slope_deg : array_like, optional
+        Slopes [°], 0 to 60.
+    yaw_deg : array_like, optional
+        Yaws at the start [°], −180 to 180, positive where the nose points uphill.
+    speed_m_s : array_like, optional
+        Speeds of all rims [m/s], −10 to 10; under Eq. 18 those that it wants.
+    gravity_m_s2 : array_like, optional
+        Gravities [m/s²], 0.01 to 30.
+    duration_s : array_like, optional
+        How long the runs last [s], above 0, to 86400.
+    trajectories : bool
+        Whether to keep all samples, as `Rollout.samples`.
+
+    Returns
+    -------
+    Rollout
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `Scenario`, and for shapes that do not broadcast. A run that cannot be computed is told as
+        ``failed``, and the others go on.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import grouser as gr
+    >>> ends = gr.rollout(slope_deg=[[5.0], [15.0]], yaw_deg=np.linspace(0, 10, 3), duration_s=5.0)
+    >>> ends.y_m.shape, set(ends.outcome.ravel().tolist())
+    ((2, 3), {'completed'})
+    """
+    runs, places = _scenarios(scenarios)
+    soils, soil_places = ([], np.zeros((), dtype=np.int64)) if soil is None else soils_of(soil)
+    given = {
+        "slope_deg": slope_deg,
+        "yaw_deg": yaw_deg,
+        "speed_m_s": speed_m_s,
+        "gravity_m_s2": gravity_m_s2,
+        "duration_s": duration_s,
+    }
+    arrays = {name: numbers(name, it) for name, it in given.items() if it is not None}
+    try:
+        index, soil_index, *whole = np.broadcast_arrays(places, soil_places, *arrays.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ParameterError(
+            f"shapes do not broadcast: {shapes}, scenarios {places.shape}, soil {soil_places.shape}"
+        ) from None
+
+    def flat(array: Any) -> Any:
+        return np.ascontiguousarray(array).ravel()
+
+    found = _core.rollout(
+        [run._document for run in runs],
+        flat(index) if len(runs) > 1 else None,
+        [one._document for one in soils],
+        flat(soil_index) if len(soils) > 1 else None,
+        {name: flat(array) for name, array in zip(arrays, whole)},
+        index.size,
+        trajectories,
+    )
+    shape = index.shape
+    outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
+    message = np.array(found.pop("reason"), dtype=object).reshape(shape)
+    samples = found.pop("samples", None)
+    if samples is not None:
+        samples = {name: it.reshape(*shape, it.shape[-1]) for name, it in samples.items()}
+    ends = {name: values.reshape(shape) for name, values in found.items()}
+    return Rollout(outcome=outcome, message=message, **ends, samples=samples)
+
+
+def _scenarios(scenarios: Any) -> tuple[list[Scenario], NDArray[np.int64]]:
+    """The scenarios, and for each place which of them is there."""
+    kinds = (Scenario, str, os.PathLike, Mapping, type(None))
+    if isinstance(scenarios, kinds):
+        return [scenario_of(scenarios, {})], np.zeros((), dtype=np.int64)
+    try:
+        several = list(scenarios)
+    except TypeError:
+        raise ParameterError(
+            f"scenarios is of type {type(scenarios).__name__}, it must be a scenario or several",
+            "scenarios",
+        ) from None
+    made = [scenario_of(one, {}) for one in several]
+    # No runs at all have no scenario to be in.
+    return made or [Scenario()], np.arange(len(made), dtype=np.int64)

@@ -1,0 +1,233 @@
+"""What a test stand shows: exactly, or as a stand that does not read exactly would."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _tables
+from ._descriptions import Soil, Source, Wheel
+from ._studies import line, soil_of
+from ._wheels import Floats, Settled, number, setting, settle, whole_number
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False)
+class WheelTest:
+    """A wheel test: every load with every slip angle and every slip ratio."""
+
+    load_n: Floats
+    """Loads [N], shape (loads,)."""
+    slip_angle_deg: Floats
+    """Slip angles [°], shape (angles,)."""
+    slip_ratio: Floats
+    """Slip ratios [-], shape (ratios,)."""
+    wheels: Settled
+    """What the wheel did; fields of shape (loads, angles, ratios)."""
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each setting, slip ratios fastest, as the program has it."""
+        table = _tables.frame(self.wheels._columns())
+        return table.assign(status=self.wheels.messages.ravel())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
+        coords = {name: getattr(self, name) for name in ("load_n", "slip_angle_deg", "slip_ratio")}
+        columns = {k: v for k, v in self.wheels._columns().items() if k not in coords}
+        return _tables.dataset(tuple(coords), columns, coords)
+
+    def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
+        """Draws a quantity over the slip ratio, a line for each load and slip angle."""
+        axes = _tables.axes_or_new(axes)
+        values = getattr(self.wheels, name)
+        for i, load in enumerate(self.load_n):
+            for j, angle in enumerate(self.slip_angle_deg):
+                axes.plot(
+                    self.slip_ratio, values[i, j], **{"label": f"{load:g} N, {angle:g}°", **style}
+                )
+        axes.set_xlabel("slip ratio")
+        axes.set_ylabel(_tables.label(name))
+        axes.legend()
+        return axes
+
+    def __repr__(self) -> str:
+        return f"<WheelTest of {' × '.join(map(str, self.wheels.shape))} loads, angles, ratios>"
+
+
+@dataclass(frozen=True, eq=False)
+class SimulatedWheelTest:
+    """A wheel test on a stand that does not read exactly: arrays of shape (loads, angles, ratios,
+    trials), NaN where the soil does not carry the wheel. Readings are rounded to a ten-thousandth of
+    their unit."""
+
+    load_n: Floats
+    """Loads [N], shape (loads,)."""
+    slip_angle_deg: Floats
+    """Slip angles [°], shape (angles,)."""
+    slip_ratio: Floats
+    """Slip ratios [-], shape (ratios,)."""
+    status: NDArray[np.object_]
+    """``ok``, or why there are no readings."""
+    sinkage_mm: Floats
+    """Sinkage [mm]."""
+    drawbar_pull_n: Floats
+    """Force along the wheel [N]."""
+    side_force_n: Floats
+    """Force across the wheel [N], positive to the left."""
+    torque_nm: Floats
+    """Torque of the drive [N·m]."""
+
+    def _readings(self) -> dict[str, Any]:
+        names = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
+        return {"status": self.status, **{name: getattr(self, name) for name in names}}
+
+    def _coords(self) -> dict[str, Any]:
+        trial = np.arange(1, self.status.shape[-1] + 1)
+        return {
+            "load_n": self.load_n,
+            "slip_angle_deg": self.slip_angle_deg,
+            "slip_ratio": self.slip_ratio,
+            "trial": trial,
+        }
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each run of each setting, as the program has it. Its CSV
+        (``.to_csv(file, index=False)``) is a file of measurements, for `calibrate` and `validate`."""
+        coords = self._coords()
+        mesh = np.meshgrid(*coords.values(), indexing="ij")
+        return _tables.frame({**dict(zip(coords, mesh)), **self._readings()})
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``load_n``, ``slip_angle_deg``, ``slip_ratio`` and ``trial``; units in the
+        attributes."""
+        coords = self._coords()
+        return _tables.dataset(tuple(coords), self._readings(), coords)
+
+    def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
+        """Draws a reading over the slip ratio, a dot for each run."""
+        axes = _tables.axes_or_new(axes)
+        values = getattr(self, name)
+        for i, load in enumerate(self.load_n):
+            for j, angle in enumerate(self.slip_angle_deg):
+                ratios = np.repeat(self.slip_ratio, values.shape[-1])
+                own = {"ls": "", "marker": ".", "label": f"{load:g} N, {angle:g}°", **style}
+                axes.plot(ratios, values[i, j].ravel(), **own)
+        axes.set_xlabel("slip ratio")
+        axes.set_ylabel(_tables.label(name))
+        axes.legend()
+        return axes
+
+    def __repr__(self) -> str:
+        shape = " × ".join(map(str, self.status.shape))
+        return f"<SimulatedWheelTest of {shape} loads, angles, ratios, trials>"
+
+
+@overload
+def wheel_test(
+    soil: Soil | Source = ...,
+    wheel: Wheel | Source = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: str | None = ...,
+    trials: None = ...,
+    noise_n: float = ...,
+    noise_mm: float = ...,
+    noise_nm: float = ...,
+    seed: int = ...,
+) -> WheelTest: ...
+
+
+@overload
+def wheel_test(
+    soil: Soil | Source = ...,
+    wheel: Wheel | Source = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: str | None = ...,
+    trials: int,
+    noise_n: float = ...,
+    noise_mm: float = ...,
+    noise_nm: float = ...,
+    seed: int = ...,
+) -> SimulatedWheelTest: ...
+
+
+def wheel_test(
+    soil: Soil | Source = "toyoura",
+    wheel: Wheel | Source = "hakuto",
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = 0.0,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    model: str | None = None,
+    trials: int | None = None,
+    noise_n: float = 0.3,
+    noise_mm: float = 0.5,
+    noise_nm: float = 0.02,
+    seed: int = 1,
+) -> WheelTest | SimulatedWheelTest:
+    """A wheel on a test stand: every load with every slip angle and every slip ratio
+    ([FourWheel], section 4 and Fig. 7).
+
+    Parameters
+    ----------
+    soil, wheel, gravity_m_s2, model
+        As for `settle`; one soil.
+    load_n : array_like, shape (loads,)
+        Loads [N], 0 to 1e5.
+    slip_ratio : array_like, shape (ratios,)
+        Slip ratios [-], −2 to 2.
+    slip_angle_deg : array_like, shape (angles,)
+        Slip angles [°], −90 to 90.
+    trials : int, optional
+        Simulate a stand: run each setting so often, 1 to 1000, with normal noise on what it reads.
+    noise_n, noise_mm, noise_nm : float
+        Standard deviations of the simulated forces [N], sinkage [mm] and torque [N·m].
+    seed : int
+        What the noise is drawn from: the same seed makes the same test.
+
+    Returns
+    -------
+    WheelTest
+        Or `SimulatedWheelTest`, with ``trials``.
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `settle`.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> test = gr.wheel_test(load_n=[10, 20], slip_ratio=[0.1, 0.3, 0.5], trials=4)
+    >>> test.drawbar_pull_n.shape
+    (2, 1, 3, 4)
+    """
+    loads, angles = _line("load_n", load_n), _line("slip_angle_deg", slip_angle_deg)
+    ratios = _line("slip_ratio", slip_ratio)
+    wheels = settle(
+        _soil(soil),
+        wheel,
+        load_n=loads[:, None, None],
+        slip_angle_deg=angles[:, None],
+        slip_ratio=ratios,
+        gravity_m_s2=gravity_m_s2,
+        model=model,
+    )
+    return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
+
+

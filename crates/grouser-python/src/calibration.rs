@@ -1,0 +1,269 @@
+//! Calibration: the soil that measurements speak for, and how surely.
+
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use grouser::document::calibration::{
+    AimError, AimWords, PlateProblem, STEPS, Solved, WheelProblem, fit_notes, samples_csv, sampling,
+};
+use grouser::document::measurements::{self, Choice, MeasurementError};
+use grouser::document::validation::GroupRecord;
+use grouser::document::{
+    Companion, FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, plates, to_toml,
+};
+use grouser::studies::calibration::diagnostics::correlations_of;
+use grouser::studies::calibration::{CalibrationError, Fit, Observer, PosteriorState, Sampling};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::columns::columns;
+use crate::descriptions::Document;
+use crate::errors;
+use crate::interrupt::{Cancelled, listening};
+use crate::validation::{conditions_of, in_words, validation_to_python};
+use crate::wheels::theory_and_gravity;
+
+/// A key to fit: its path in the soil's document, and bounds.
+type Key = (String, Option<(f64, f64)>);
+
+/// Hears of a signal, and keeps what should be known of the fits.
+struct Listener {
+    cancelled: Cancelled,
+    notes: Mutex<Vec<String>>,
+}
+
+impl Listener {
+    fn new(cancelled: &Cancelled) -> Self {
+        Self { cancelled: cancelled.clone(), notes: Mutex::default() }
+    }
+
+    fn go_on(&self) -> ControlFlow<()> {
+        if self.cancelled.is_set() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn notes(self) -> Vec<String> {
+        self.notes.into_inner().unwrap_or_default()
+    }
+}
+
+impl Observer for Listener {
+    fn searched(&self) -> ControlFlow<()> {
+        self.go_on()
+    }
+
+    fn fitted(&self, fit: &Fit) {
+        if let Ok(mut notes) = self.notes.lock() {
+            notes.extend(fit_notes(fit));
+        }
+    }
+
+    fn walked(&self, _: &PosteriorState) -> ControlFlow<()> {
+        self.go_on()
+    }
+}
+
+/// Why there is no answer.
+enum Failure {
+    Measurements(MeasurementError),
+    Calibration(CalibrationError),
+    Fit(String),
+    Aim(AimError),
+}
+
+impl From<MeasurementError> for Failure {
+    fn from(error: MeasurementError) -> Self {
+        Self::Measurements(error)
+    }
+}
+
+impl From<CalibrationError> for Failure {
+    fn from(error: CalibrationError) -> Self {
+        Self::Calibration(error)
+    }
+}
+
+impl Failure {
+    /// * `file`: of the measurements
+    fn to_python(&self, file: &str) -> PyErr {
+        match self {
+            Self::Measurements(error) => errors::of_measurements(error, file),
+            Self::Calibration(error) => errors::of_calibration(error),
+            Self::Fit(what) => {
+                errors::parameter(format!("fit: {what}"), "fit", None, "numbers of the soil")
+            }
+            Self::Aim(AimError::Target { what }) => {
+                let expected = "such as drawbar_pull_n:load_n=17,slip_ratio=0.2";
+                errors::parameter(format!("target: {what}"), "target", None, expected)
+            }
+            Self::Aim(AimError::Candidate { key, value, least, most }) => {
+                let name = format!("candidate_{key}");
+                let message = format!("{name} is {value}, it must be from {least} to {most}");
+                errors::parameter(message, &name, Some(*value), format!("from {least} to {most}"))
+            }
+            Self::Aim(error @ AimError::TooManyCandidates { .. }) => {
+                let message = format!("the arguments candidate_… make {error}");
+                errors::parameter(message, "candidate_load_n", None, "fewer settings")
+            }
+        }
+    }
+}
+
+/// The posterior's sampling; none if least squares will do.
+fn sampling_of(seed: u64, steps: Option<u64>) -> PyResult<Option<Sampling>> {
+    match steps {
+        Some(steps) if !STEPS.contains(&steps) => {
+            let expected = format!("from {} to {}", STEPS.start, STEPS.end - 1);
+            let message = format!("steps is {steps}, it must be {expected}");
+            Err(errors::parameter(message, "steps", Some(steps as f64), expected))
+        }
+        steps => Ok(steps.map(|steps| sampling(seed, steps, None))),
+    }
+}
+
+fn keys_of(keys: Vec<Key>) -> Result<Vec<FitKey>, Failure> {
+    let key = |(path, bounds): Key| match bounds {
+        Some(_) => Ok(FitKey { path, bounds }),
+        None => FitKey::parse(&format!("soil.{path}")).map_err(Failure::Fit),
+    };
+    keys.into_iter().map(key).collect()
+}
+
+/// Fits keys of a soil to wheel tests.
+///
+/// * `aim`: target, how many runs to propose, loads [N], slip ratios, slip angles [°]
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "words, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+pub(crate) fn calibrate_wheel_tests<'py>(
+    py: Python<'py>,
+    data: PathBuf,
+    soil: &Document,
+    wheel: &Document,
+    setting: &Document,
+    wheel_label: Option<String>,
+    conditions: Vec<String>,
+    keys: Vec<Key>,
+    aim: (String, usize, Option<Vec<f64>>, Vec<f64>, Vec<f64>),
+    seed: u64,
+    steps: Option<u64>,
+    cross_validate: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let choice = Choice { conditions: conditions_of(&conditions)?, wheel: wheel_label };
+    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    let (soil, wheel) = (soil.soil()?.document.clone(), wheel.wheel()?.value);
+    let sampling = sampling_of(seed, steps)?;
+    let (target, propose, load_n, slip_ratio, slip_angle_deg) = aim;
+    let words = AimWords { target: target.clone(), propose, load_n, slip_ratio, slip_angle_deg };
+    let (label, file) = (data.display().to_string(), name_of(&data));
+    let found = listening(py, move |cancelled| {
+        let measured = measurements::read(&data, &choice)?;
+        let family = SoilFamily::new(&soil, &keys_of(keys)?).map_err(Failure::Fit)?;
+        let aim = words.aim(&measured.tests.trials).map_err(Failure::Aim)?;
+        let listener = Listener::new(cancelled);
+        let problem = WheelProblem {
+            family: &family,
+            measured: &measured,
+            file: &file,
+            wheel,
+            theory,
+            gravity,
+            sampling,
+            aim,
+            cross_validate,
+        };
+        let found = problem.solve(&listener)?;
+        Ok((found, listener.notes(), measured, family))
+    })?;
+    let (found, notes, measured, family) =
+        found.map_err(|failure: Failure| failure.to_python(&label))?;
+    let notes = [measured.notes.clone(), notes].concat();
+    let dict = solved_to_python(py, &found.solved, &found.soil, &family, notes)?;
+    dict.set_item("validation", validation_to_python(py, &measured, &found.validation)?)?;
+    let groups = found.left_out.iter().map(|group: &GroupRecord| in_words(py, group));
+    dict.set_item("cross_validation", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
+    dict.set_item("target", target)?;
+    dict.set_item("proposals", columns(py, &found.proposals)?)?;
+    Ok(dict)
+}
+
+/// Fits a pressure-sinkage law to plate tests.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "words, as they come from Python")]
+pub(crate) fn calibrate_plate_tests<'py>(
+    py: Python<'py>,
+    data: PathBuf,
+    soil: &Document,
+    setting: &Document,
+    law: Option<String>,
+    seed: u64,
+    steps: Option<u64>,
+) -> PyResult<Bound<'py, PyDict>> {
+    if let Some(law) = law.as_deref().filter(|law| !["bekker", "reece"].contains(law)) {
+        let message = format!("plate_law is {law:?}, it must be \"bekker\" or \"reece\"");
+        return Err(errors::parameter(message, "plate_law", None, "bekker or reece"));
+    }
+    let gravity = setting.scenario()?.value.site.gravity;
+    let soil = soil.soil()?.document.clone();
+    let sampling = sampling_of(seed, steps)?;
+    let (label, file) = (data.display().to_string(), name_of(&data));
+    let found = listening(py, move |cancelled| {
+        let measured = plates::read(&data)?;
+        let problem = PlateProblem::new(&soil, law.as_deref(), gravity, measured.curves)
+            .map_err(Failure::Fit)?;
+        let listener = Listener::new(cancelled);
+        let found = problem.solve(&file, sampling, &listener)?;
+        let notes = [measured.notes, listener.notes()].concat();
+        Ok((found, notes, problem))
+    })?;
+    let (found, notes, problem) = found.map_err(|failure: Failure| failure.to_python(&label))?;
+    let dict = solved_to_python(py, &found.solved, &found.soil, problem.family(), notes)?;
+    dict.set_item("curves", columns(py, &problem.records(&found))?)?;
+    Ok(dict)
+}
+
+fn name_of(path: &std::path::Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// What every calibration says.
+fn solved_to_python<'py>(
+    py: Python<'py>,
+    solved: &Solved,
+    soil: &SoilDocument,
+    family: &SoilFamily,
+    mut notes: Vec<String>,
+) -> PyResult<Bound<'py, PyDict>> {
+    notes.extend(solved.note());
+    let solution = &solved.solution;
+    let dict = PyDict::new(py);
+    dict.set_item("parameters", columns(py, &solved.records)?)?;
+    dict.set_item("discrepancies", columns(py, &solved.discrepancies)?)?;
+    dict.set_item("cannot_tell_apart", &solved.questions)?;
+    dict.set_item("sampler", solved.sampler.as_ref().map(|it| in_words(py, it)).transpose()?)?;
+    dict.set_item("outcome", solved.outcome())?;
+    dict.set_item("notes", notes)?;
+    let searches = &solution.fit.searches;
+    dict.set_item("searches", searches.len())?;
+    let agreeing = searches.iter().filter(|search| search.agrees).count();
+    dict.set_item("searches_that_agree", agreeing)?;
+    let mut companions = Vec::new();
+    let (samples, correlations) = match &solution.posterior {
+        Some(posterior) => {
+            let content = samples_csv(family, posterior);
+            companions.push(Companion { name: SAMPLES_FILE.to_owned(), content });
+            let rows: Vec<Vec<f64>> =
+                posterior.samples.rows().map(|row| row[..solved.records.len()].to_vec()).collect();
+            (Some(PyArray2::from_vec2(py, &rows)?), posterior.samples.correlations())
+        }
+        None => (None, correlations_of(&solution.fit.covariance)),
+    };
+    dict.set_item("samples", samples)?;
+    let count = solved.records.len();
+    let row = |i: usize| (0..count).map(|j| correlations[(i, j)]).collect::<Vec<f64>>();
+    let rows: Vec<Vec<f64>> = (0..count).map(row).collect();
+    dict.set_item("correlations", PyArray2::from_vec2(py, &rows)?)?;
+    dict.set_item("soil", Document::of_soil(to_toml(soil), companions)?)?;
+    Ok(dict)
+}

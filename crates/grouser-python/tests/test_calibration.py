@@ -1,0 +1,200 @@
+"""Calibration: a known truth is found, the program finds the same bits, and its soil goes on."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import Program
+from test_same_bits import same
+
+import grouser as gr
+
+#: Toyoura sand with two keys searched from elsewhere, and what they are.
+START = {"shear": {"longitudinal_m": 0.1}, "pressure_sinkage": {"k_phi": 60.0}}
+FIT = ["pressure_sinkage.k_phi", "soil.shear.longitudinal_m"]
+TRUTH = np.array([122.727, 0.036])
+
+
+@pytest.fixture(scope="module")
+def stand_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A stand that reads the HAKUTO wheel on Toyoura sand: 8 settings three times each."""
+    test = gr.wheel_test(
+        load_n=20, slip_ratio=[0.0, 0.2, 0.4, 0.6], slip_angle_deg=[0, 15], trials=3
+    )
+    path = tmp_path_factory.mktemp("stand") / "test.csv"
+    test.to_pandas().to_csv(path, index=False)
+    return path
+
+
+@pytest.fixture(scope="module")
+def found(stand_file: Path) -> gr.Calibration:
+    soil = gr.Soil("toyoura", **START)
+    return gr.calibrate(stand_file, soil, "hakuto", fit=FIT, steps=100, cross_validate=True)
+
+
+@pytest.fixture(scope="module")
+def plates_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Bekker's law with k_c = 1000, k_phi = 5e5, n = 1.1, read to a hundredth of a kilopascal."""
+    path = tmp_path_factory.mktemp("plates") / "plates.csv"
+    lines = ["plate_width_mm,sinkage_mm,pressure_kpa"]
+    for width in (50, 100):
+        for sinkage in range(5, 45, 5):
+            kpa = (1000.0 / (width * 1e-3) + 5e5) * (sinkage * 1e-3) ** 1.1 * 1e-3
+            lines.append(f"{width},{sinkage},{kpa:.2f}")
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_the_truth_is_found_within_its_uncertainty(found: gr.Calibration) -> None:
+    """Four standard errors: one try in ten thousand misses by more, and the noise is seeded."""
+    assert found.key == ("soil.pressure_sinkage.k_phi", "soil.shear.longitudinal_m")
+    assert (np.abs(found.fit - TRUTH) < 4 * found.fit_std).all()
+    assert found.best == dict(zip(found.key, found.fit.tolist()))
+    assert found.cannot_tell_apart == () and found.searches_that_agree >= 2
+    assert found.samples is not None and found.samples.shape[1] == 2
+    np.testing.assert_allclose(found.samples.mean(axis=0), found.mean, rtol=1e-12)
+    np.testing.assert_allclose(np.corrcoef(found.samples.T), found.correlations, atol=1e-12)
+    assert found.proposals is not None
+    assert (found.proposals["std_after"] < found.proposals["std_before"]).all()
+    assert len(found.cross_validation) == 2 and found.validation is not None
+    assert found.outcome in ("determined", "not_mixed")
+    assert (found.message is None) == (found.outcome == "determined")
+
+
+def check_same_as_program(found: gr.Calibration, told: dict[str, Any]) -> None:
+    assert list(found.key) == [row["key"] for row in told["rows"]]
+    for name in told["rows"][0].keys() - {"key"}:
+        assert same(getattr(found, name), told["rows"], name), name
+    assert found.sampler == told["sampler"]
+    assert list(found.cannot_tell_apart) == told["cannot_tell_apart"]
+    assert same(found.discrepancies["std"], told["discrepancies"], "std")
+
+
+def test_wheel_tests_as_the_program_has_them(
+    program: Program, found: gr.Calibration, stand_file: Path, tmp_path: Path
+) -> None:
+    told = program(
+        "calibrate", "--data", str(stand_file), "--wheel", "hakuto", "--soil", "toyoura",
+        "--set", "soil.shear.longitudinal_m=0.1", "--set", "soil.pressure_sinkage.k_phi=60",
+        "--fit", "soil.pressure_sinkage.k_phi,soil.shear.longitudinal_m", "--steps", "100",
+        "--cross-validate", "--out", str(tmp_path / "fit"),
+    )  # fmt: skip
+    check_same_as_program(found, told)
+    assert found.validation is not None and found.validation.overall == told["overall"]
+    assert list(found.cross_validation) == told["cross_validation"]
+    assert found.proposals is not None and found.target == told["target"]
+    for name in told["proposals"][0]:
+        assert same(found.proposals[name], told["proposals"], name), name
+    folder = tmp_path / "fit"
+    assert found.soil.files == {
+        "soil-samples.csv": (folder / "soil-samples.csv").read_text(encoding="utf-8")
+    }
+    assert gr.Soil(folder / "soil.toml") == found.soil
+    table = found.to_pandas()
+    assert table.columns.tolist() == list(told["rows"][0])
+
+
+def test_plate_tests_as_the_program_has_them(program: Program, plates_file: Path) -> None:
+    told = program(
+        "calibrate", "--plates", str(plates_file), "--plate-law", "bekker", "--soil", "dry-sand",
+        "--steps", "100", "--seed", "7",
+    )  # fmt: skip
+    found = gr.calibrate_plates(plates_file, "dry-sand", plate_law="bekker", steps=100, seed=7)
+    check_same_as_program(found, told)
+    assert found.curves is not None
+    measured, fitted = found.curves["measured_pressure_kpa"], found.curves["pressure_kpa"]
+    # The readings are rounded to 0.01 kPa, and there is no other noise.
+    assert np.abs(measured - fitted).max() < 0.02
+
+
+def test_a_point_fit_has_no_samples(stand_file: Path) -> None:
+    soil = gr.Soil("toyoura", **START)
+    bounds = {"shear.longitudinal_m": (0.001, 0.2), "pressure_sinkage.k_phi": None}
+    fit = gr.calibrate(stand_file, soil, "hakuto", fit=bounds, point_fit=True)
+    assert fit.samples is None and fit.sampler is None and np.isnan(fit.r_hat).all()
+    assert (fit.lower[0], fit.upper[0]) == (0.001, 0.2)
+    assert not fit.soil.files and "fitted by Grouser" in fit.soil.source
+    with pytest.raises(gr.ParameterError, match="no samples"):
+        fit.plot_corner()
+
+
+def test_its_soil_is_a_description_with_uncertainty(found: gr.Calibration) -> None:
+    soil = found.soil
+    assert soil.uncertainty["samples"] in soil.files
+    assert soil.shear["longitudinal_m"] == found.fit[1]
+    level = gr.attitude(soil=soil, slope_deg=10.0, uncertainty=True, samples=20)
+    assert level.band is not None and level.band.draws == 20
+    run = gr.Scenario(soil=soil)
+    for one in (soil, run, run.site):
+        again = pickle.loads(pickle.dumps(one))
+        assert again == one and hash(again) == hash(one) and again.files == soil.files
+        assert type(one).from_toml(one.to_toml(), one.files) == one
+        assert one.replace() == one
+    assert run.soil == soil == run.site.soil == gr.Scenario(site=gr.Site(soil)).soil
+    assert gr.Scenario().replace(soil=soil) != gr.Scenario()
+    assert gr.Scenario().replace(soil=soil).soil.files == soil.files
+    firm = soil.replace(density_kg_m3=1600.0)
+    assert firm.files == soil.files and firm != soil
+    # A text alone does not have the samples, and says so.
+    for alone in (lambda: gr.Soil(soil.to_dict()), lambda: gr.Soil.from_toml(soil.to_toml())):
+        with pytest.raises(gr.DocumentNotFoundError, match=r"soil-samples\.csv"):
+            alone()
+
+
+def test_tables_and_pictures(found: gr.Calibration, plates_file: Path) -> None:
+    import matplotlib.pyplot as plt
+
+    data = found.to_xarray()
+    assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["1", "m"]
+    assert data.fit.sel(key="soil.shear.longitudinal_m") == found.fit[1]
+    plates = gr.calibrate_plates(plates_file, "dry-sand", plate_law="bekker", point_fit=True)
+    for result in (found, plates):
+        axes = plt.subplots()[1]
+        assert result.plot(axes) is axes and axes.get_xlabel()
+        assert result.plot() is not axes
+        assert repr(result).startswith("<Calibration")
+    cells = found.plot_corner()
+    assert cells.shape == (2, 2) and found.plot_corner(cells) is cells
+    with pytest.raises(gr.ParameterError, match="axes"):
+        found.plot_corner(cells[:1])
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"fit": "shear.longitud_m"}, "did you mean"),
+        ({"fit": {"shear.longitudinal_m": (0.05, 0.01)}}, "bounds must rise"),
+        ({"fit": {"shear.longitudinal_m": 3}}, "two numbers"),
+        ({"fit": []}, "no parameter"),
+        ({"fit": 3}, "names of keys"),
+        ({"steps": 10}, "steps is 10, it must be from 100"),
+        ({"steps": 200.0}, "whole number"),
+        ({"seed": -1}, "seed is -1"),
+        ({"target": "nothing"}, "target: 'nothing' is none of drawbar_pull_n"),
+        ({"candidate_slip_ratio": [3.0]}, "candidate_slip_ratio is 3, it must be from -2 to 2"),
+        ({"candidate_load_n": np.arange(1.0, 1000.0)}, "settings"),
+        ({"where": "slip_angle_deg=0", "cross_validate": True}, "all trials are at one"),
+        ({"where": "nothing"}, "where|column"),
+    ],
+)
+def test_what_cannot_be_asked_says_what_can(
+    stand_file: Path, arguments: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(gr.ParameterError, match=said):
+        gr.calibrate(stand_file, "toyoura", "hakuto", **{"fit": FIT, "steps": 100, **arguments})
+
+
+def stand_files_that_cannot_be_used(tmp_path: Path, plates_file: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        gr.calibrate(tmp_path / "none.csv", "toyoura", "hakuto", fit=FIT)
+    with pytest.raises(FileNotFoundError):
+        gr.calibrate_plates(tmp_path / "none.csv", "toyoura")
+    with pytest.raises(gr.DocumentError):
+        gr.calibrate(plates_file, "toyoura", "hakuto", fit=FIT)
+    with pytest.raises(gr.ParameterError, match="plate_law"):
+        gr.calibrate_plates(plates_file, "toyoura", plate_law="mohr")

@@ -1,0 +1,135 @@
+//! What the next runs are to make sure of, and what the stand can run, as people write it.
+
+use std::ops::RangeInclusive;
+
+use super::super::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO};
+use super::super::validation::column_of;
+use crate::studies::calibration::design::{Aim, Setting, Target};
+use crate::studies::measurement::{Quantity, Trial};
+
+/// Settings that are compared: their covariances fill a table with this number squared.
+pub const MOST_CANDIDATES: usize = 1000;
+
+/// What is asked of the design of the next runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AimWords {
+    /// The prediction to make sure of: `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
+    pub target: String,
+    /// How many runs to propose.
+    pub propose: usize,
+    /// Loads that the stand can run [N]; without them half, once and twice the tests' own.
+    pub load_n: Option<Vec<f64>>,
+    /// Slip ratios that it can run [-].
+    pub slip_ratio: Vec<f64>,
+    /// Slip angles that it can run [°].
+    pub slip_angle_deg: Vec<f64>,
+}
+
+/// Why there is no such aim.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum AimError {
+    /// No target is written so.
+    #[error("{what}")]
+    Target {
+        /// What is wrong.
+        what: String,
+    },
+    /// A setting that no stand runs.
+    #[error("{value}: it must be from {least} to {most}")]
+    Candidate {
+        /// The key: `load_n`, `slip_ratio` or `slip_angle_deg`.
+        key: &'static str,
+        /// What was asked for.
+        value: f64,
+        /// The least that can be.
+        least: f64,
+        /// The most that can be.
+        most: f64,
+    },
+    /// More settings than can be compared.
+    #[error("{count} settings, it may be {MOST_CANDIDATES} at most")]
+    TooManyCandidates {
+        /// How many.
+        count: usize,
+    },
+}
+
+impl AimWords {
+    /// What is meant.
+    ///
+    /// * `trials`: where the words say no load, theirs is meant; at least one
+    ///
+    /// # Errors
+    /// [`AimError`] for words that mean nothing.
+    pub fn aim(&self, trials: &[Trial]) -> Result<Aim, AimError> {
+        let median = median_load(trials);
+        let (target, candidates) = (self.target(median)?, self.candidates(median)?);
+        Ok(Aim { target, candidates, count: self.propose })
+    }
+
+    fn target(&self, median_load: f64) -> Result<Target, AimError> {
+        let wrong = |what: String| AimError::Target { what };
+        let (name, settings) = self.target.split_once(':').unwrap_or((&self.target, ""));
+        let quantity = Quantity::ALL.into_iter().find(|one| column_of(*one) == name);
+        let quantity = quantity.ok_or_else(|| {
+            let names = Quantity::ALL.map(column_of).join(", ");
+            wrong(format!("'{name}' is none of {names}"))
+        })?;
+        let mut setting = Setting { load: median_load, slip_ratio: 0.2, slip_angle: 0.0 };
+        for part in settings.split(',').filter(|part| !part.is_empty()) {
+            let (key, value) = part.split_once('=').ok_or_else(|| wrong(format!("'{part}'")))?;
+            let value: f64 = value
+                .trim()
+                .parse()
+                .ok()
+                .filter(|value: &f64| value.is_finite())
+                .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
+            match key.trim() {
+                "load_n" if value > 0.0 => setting.load = value,
+                "slip_ratio" if SLIP_RATIO.contains(&value) => setting.slip_ratio = value,
+                "slip_angle_deg" if SLIP_ANGLE_DEG.contains(&value) => {
+                    setting.slip_angle = value.to_radians();
+                }
+                _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
+            }
+        }
+        Ok(Target { quantity, setting })
+    }
+
+    fn candidates(&self, median_load: f64) -> Result<Vec<Setting>, AimError> {
+        let loads = match &self.load_n {
+            Some(loads) => loads.clone(),
+            None => vec![0.5 * median_load, median_load, 2.0 * median_load],
+        };
+        check("load_n", &loads, &LOAD_N)?;
+        check("slip_ratio", &self.slip_ratio, &SLIP_RATIO)?;
+        check("slip_angle_deg", &self.slip_angle_deg, &SLIP_ANGLE_DEG)?;
+        let count = loads.len() * self.slip_ratio.len() * self.slip_angle_deg.len();
+        if count > MOST_CANDIDATES {
+            return Err(AimError::TooManyCandidates { count });
+        }
+        let mut candidates = Vec::with_capacity(count);
+        for &load in &loads {
+            for &slip_ratio in &self.slip_ratio {
+                for &angle in &self.slip_angle_deg {
+                    candidates.push(Setting { load, slip_ratio, slip_angle: angle.to_radians() });
+                }
+            }
+        }
+        Ok(candidates)
+    }
+}
+
+fn check(key: &'static str, values: &[f64], allowed: &RangeInclusive<f64>) -> Result<(), AimError> {
+    let (least, most) = (*allowed.start(), *allowed.end());
+    match values.iter().find(|value| !allowed.contains(value)) {
+        Some(&value) => Err(AimError::Candidate { key, value, least, most }),
+        None => Ok(()),
+    }
+}
+
+fn median_load(trials: &[Trial]) -> f64 {
+    let mut loads: Vec<f64> = trials.iter().map(|trial| trial.load).collect();
+    loads.sort_by(f64::total_cmp);
+    loads[loads.len() / 2]
+}

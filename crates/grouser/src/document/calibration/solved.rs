@@ -1,0 +1,177 @@
+//! What every calibration says: parameters, discrepancies, the sampler, what stays open, and the
+//! samples as a table.
+
+use serde::Serialize;
+
+use super::super::{SoilFamily, key_of};
+use super::{ParameterRecord, channel_name, channel_unit, open_questions};
+use crate::studies::calibration::solution::GOOD_R_HAT;
+use crate::studies::calibration::{
+    Fit, Parameter, Posterior, PosteriorState, SamplerSettings, Sampling, Solution,
+};
+
+/// Samples that the soil's file keeps.
+const KEPT_SAMPLES: usize = 1000;
+
+/// How far a theory is from measurements of one kind, beyond their scatter.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DiscrepancyRecord {
+    /// What was measured: a quantity, and driven or skid.
+    pub channel: String,
+    /// With the fit, in the unit of the quantity.
+    pub fit: f64,
+    /// Mean of the posterior.
+    pub mean: Option<f64>,
+    /// Its standard deviation.
+    pub std: Option<f64>,
+}
+
+/// How the posterior was sampled.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SamplerRecord {
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Ensembles that know nothing of each other.
+    pub ensembles: usize,
+    /// Walkers of each.
+    pub walkers: usize,
+    /// Steps of each walker.
+    pub steps: u64,
+    /// Share of the proposed moves that were made [-].
+    pub acceptance: f64,
+    /// The largest R-hat [-].
+    pub worst_r_hat: f64,
+    /// The smallest effective sample size [-].
+    pub least_effective_samples: f64,
+}
+
+impl From<&Posterior> for SamplerRecord {
+    fn from(posterior: &Posterior) -> Self {
+        let settings = &posterior.settings;
+        Self {
+            seed: settings.seed,
+            ensembles: settings.ensembles,
+            walkers: posterior.walkers,
+            steps: settings.blocks * settings.steps_per_block as u64,
+            acceptance: posterior.acceptance,
+            worst_r_hat: posterior.worst_r_hat(),
+            least_effective_samples: posterior.least_effective_samples(),
+        }
+    }
+}
+
+/// A solution in words.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// The solution itself.
+    pub solution: Solution,
+    /// A record for each parameter.
+    pub records: Vec<ParameterRecord>,
+    /// And for each channel.
+    pub discrepancies: Vec<DiscrepancyRecord>,
+    /// What the data cannot tell, a sentence for each.
+    pub questions: Vec<String>,
+    /// How the posterior was sampled, if it was.
+    pub sampler: Option<SamplerRecord>,
+}
+
+impl Solved {
+    /// * `parameters`: with the values from which the search set out
+    #[must_use]
+    pub fn new(parameters: &[Parameter], solution: Solution) -> Self {
+        let summary = |place: usize| solution.posterior.as_ref()?.summaries.get(place);
+        let fit = &solution.fit;
+        let record = |(place, parameter)| {
+            let deviation = solution.deviations[place];
+            let found = &solution.identifiability;
+            ParameterRecord::new(parameter, place, fit, deviation, summary(place), found)
+        };
+        let discrepancy = |(place, channel)| {
+            let (unit, summary) = (channel_unit(channel), summary(parameters.len() + place));
+            DiscrepancyRecord {
+                channel: channel_name(channel),
+                fit: fit.discrepancies[place] * unit,
+                mean: summary.map(|it| it.mean * unit),
+                std: summary.map(|it| it.deviation * unit),
+            }
+        };
+        Self {
+            records: parameters.iter().enumerate().map(record).collect(),
+            discrepancies: solution.channels.iter().enumerate().map(discrepancy).collect(),
+            questions: open_questions(parameters, &solution.identifiability),
+            sampler: solution.posterior.as_ref().map(SamplerRecord::from),
+            solution,
+        }
+    }
+
+    /// How it ended: `determined`; `open`, if the data leave something open; `not_mixed`, if the
+    /// samples do not suffice; `not_settled`, if least squares did not come to its end.
+    #[must_use]
+    pub fn outcome(&self) -> &'static str {
+        let worst = self.sampler.as_ref().map_or(1.0, |sampler| sampler.worst_r_hat);
+        if !self.solution.fit.converged {
+            "not_settled"
+        } else if worst > GOOD_R_HAT {
+            "not_mixed"
+        } else if self.questions.is_empty() {
+            "determined"
+        } else {
+            "open"
+        }
+    }
+
+    /// What should be known of how the posterior was sampled.
+    #[must_use]
+    pub fn note(&self) -> Option<String> {
+        let worst = self.sampler.as_ref()?.worst_r_hat;
+        (worst > GOOD_R_HAT).then(|| {
+            format!(
+                "R-hat is {worst:.3} at worst, above {GOOD_R_HAT}: walk more steps, or fit \
+                 fewer keys"
+            )
+        })
+    }
+}
+
+/// What should be known of how a fit was found.
+#[must_use]
+pub fn fit_notes(fit: &Fit) -> Vec<String> {
+    let mut notes = Vec::new();
+    if !fit.converged {
+        let text = "the best search had not settled when its evaluations were used up";
+        notes.push(text.to_owned());
+    }
+    let agreeing = fit.searches.iter().filter(|search| search.agrees).count();
+    if fit.searches.len() > 1 && agreeing < 2 {
+        notes.push(format!(
+            "of {} searches from different starts none agrees with the best: there may be a \
+             better fit; narrow the bounds, or fit fewer keys",
+            fit.searches.len()
+        ));
+    }
+    notes
+}
+
+/// Steps of each walker that may be asked for.
+pub const STEPS: std::ops::Range<u64> = 100..1_000_000;
+
+/// How a posterior is sampled with a seed and a number of steps, rounded up to whole blocks.
+#[must_use]
+pub fn sampling(seed: u64, steps: u64, kept: Option<PosteriorState>) -> Sampling {
+    let usual = SamplerSettings { seed, ..SamplerSettings::default() };
+    let blocks = steps.div_ceil(usual.steps_per_block as u64);
+    Sampling { settings: SamplerSettings { blocks, ..usual }, kept }
+}
+
+/// Samples of the fitted keys as CSV, in the keys' own units: the file of a soil's uncertainty.
+#[must_use]
+pub fn samples_csv(family: &SoilFamily, posterior: &Posterior) -> String {
+    let keys: Vec<&str> = family.parameters().iter().map(key_of).collect();
+    let mut text = keys.join(",") + "\n";
+    for row in posterior.samples.thinned(KEPT_SAMPLES) {
+        let cells = keys.iter().zip(row).map(|(_, value)| serde_json::json!(value).to_string());
+        text += &cells.collect::<Vec<String>>().join(",");
+        text.push('\n');
+    }
+    text
+}

@@ -1,0 +1,149 @@
+//! A calibration on wheel tests, from documents to documents.
+
+use serde::Serialize;
+
+use super::super::measurements::Measurements;
+use super::super::validation::GroupRecord;
+use super::super::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of};
+use super::{DiscrepancyRecord, ParameterRecord, ProposalRecord, SamplerRecord, Solved};
+use crate::contact::Theory;
+use crate::error::ParameterError;
+use crate::soil::Soil;
+use crate::studies::calibration::design::Aim;
+use crate::studies::calibration::wheel_test::{Discrepancies, Setup};
+use crate::studies::calibration::{
+    CalibrationError, Observer, ParameterSpace, Resolution, Sampling, WheelCalibration,
+};
+use crate::studies::measurement::Quantity;
+use crate::studies::validation::Validation;
+use crate::wheel::Wheel;
+
+/// Everything that a calibration on wheel tests is made from.
+pub struct WheelProblem<'a> {
+    /// The soils among which it chooses.
+    pub family: &'a SoilFamily,
+    /// What was measured.
+    pub measured: &'a Measurements,
+    /// Name of the file, for the soil's source.
+    pub file: &'a str,
+    /// The wheel.
+    pub wheel: Wheel,
+    /// The theory.
+    pub theory: Theory,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// How the posterior is sampled; least squares alone without.
+    pub sampling: Option<Sampling>,
+    /// What the next runs are to make sure of.
+    pub aim: Aim,
+    /// Whether each slip angle is left out in turn.
+    pub cross_validate: bool,
+}
+
+/// What it found.
+#[derive(Clone, Debug)]
+pub struct WheelFound {
+    /// Parameters, samples, what stays open.
+    pub solved: Solved,
+    /// The errors with the fit.
+    pub validation: Validation,
+    /// The errors at each slip angle of the fit without it.
+    pub left_out: Vec<GroupRecord>,
+    /// The runs to make next, the best first.
+    pub proposals: Vec<ProposalRecord>,
+    /// The soil of the fit.
+    pub soil: SoilDocument,
+}
+
+/// The same in the words of JSON.
+#[derive(Clone, Debug, Serialize)]
+pub struct WheelResults<'a> {
+    rows: &'a [ParameterRecord],
+    discrepancies: &'a [DiscrepancyRecord],
+    cannot_tell_apart: &'a [String],
+    target: &'a str,
+    proposals: &'a [ProposalRecord],
+    overall: GroupRecord,
+    driven: Option<GroupRecord>,
+    cross_validation: &'a [GroupRecord],
+    searches_that_agree: usize,
+    searches: usize,
+    sampler: &'a Option<SamplerRecord>,
+}
+
+impl WheelProblem<'_> {
+    /// Calibrates.
+    ///
+    /// # Errors
+    /// [`CalibrationError`] for measurements and keys that do not go together, and if the observer
+    /// broke off.
+    pub fn solve(&self, observer: &dyn Observer) -> Result<WheelFound, CalibrationError> {
+        let family = self.family;
+        let soil_of = |values: &[f64]| -> Result<Soil, ParameterError> { family.soil(values) };
+        let calibration = WheelCalibration {
+            tests: &self.measured.tests,
+            setup: Setup {
+                wheel: self.wheel,
+                theory: self.theory,
+                gravity: self.gravity,
+                soil_of: &soil_of,
+                resolution: Resolution::Cells,
+                discrepancies: Discrepancies::PerRegime,
+            },
+            space: ParameterSpace::new(family.parameters().to_vec())?,
+            sampling: self.sampling.clone(),
+            aim: self.aim.clone(),
+            cross_validate: self.cross_validate,
+        };
+        let found = calibration.run(observer)?;
+        let unit = if self.aim.target.quantity == Quantity::Sinkage { 1e3 } else { 1.0 };
+        let candidates = &self.aim.candidates;
+        let proposals = found.proposals.iter();
+        let solved = Solved::new(family.parameters(), found.solution);
+        Ok(WheelFound {
+            soil: self.soil(&solved),
+            validation: found.validation,
+            left_out: found.left_out.iter().map(GroupRecord::from).collect(),
+            proposals: proposals.map(|it| ProposalRecord::new(it, candidates, unit)).collect(),
+            solved,
+        })
+    }
+
+    /// The soil of the fit, with where its values come from.
+    fn soil(&self, solved: &Solved) -> SoilDocument {
+        let keys: Vec<&str> = self.family.parameters().iter().map(key_of).collect();
+        let source = format!(
+            "{} fitted by Grouser {} to {} ({} trials in {} cells)",
+            keys.join(", "),
+            env!("CARGO_PKG_VERSION"),
+            self.file,
+            self.measured.tests.trials.len(),
+            self.measured.tests.cells.len(),
+        );
+        let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
+        self.family.fitted(&solved.solution.fit.values, &source, self.theory, samples)
+    }
+}
+
+impl WheelFound {
+    /// In words.
+    ///
+    /// * `target`: what the next runs are to make sure of, as it was asked for
+    #[must_use]
+    pub fn results<'a>(&'a self, target: &'a str) -> WheelResults<'a> {
+        let searches = &self.solved.solution.fit.searches;
+        WheelResults {
+            rows: &self.solved.records,
+            discrepancies: &self.solved.discrepancies,
+            cannot_tell_apart: &self.solved.questions,
+            target,
+            proposals: &self.proposals,
+            overall: GroupRecord::from(&self.validation.overall),
+            driven: self.validation.driven.as_ref().map(GroupRecord::from),
+            cross_validation: &self.left_out,
+            searches_that_agree: searches.iter().filter(|search| search.agrees).count(),
+            searches: searches.len(),
+            sampler: &self.solved.sampler,
+        }
+    }
+}

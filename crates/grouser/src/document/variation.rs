@@ -1,0 +1,154 @@
+//! Many runs that differ in a few numbers of one scenario, without a document for each.
+//!
+//! A number that varies has the key of the documents, and the range; what only several values
+//! together can show is checked by [`Scenario::check`], as it is for a document.
+
+use std::ops::RangeInclusive;
+use std::sync::OnceLock;
+
+use super::scenario::{FASTEST, check_sample_count};
+use super::{Kind, range};
+use crate::error::ParameterError;
+use crate::simulation::Scenario;
+use crate::vehicle::DriveLaw;
+
+/// A number of a scenario that may vary from run to run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Varied {
+    /// Inclination of the plane [°].
+    SlopeDeg,
+    /// Yaw at the start [°].
+    YawDeg,
+    /// Speed of every rim, or the speed that Eq. 18 wants [m/s].
+    SpeedMS,
+    /// Gravity [m/s²].
+    GravityMS2,
+    /// How long the run lasts [s].
+    DurationS,
+}
+
+impl Varied {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::SlopeDeg, Self::YawDeg, Self::SpeedMS, Self::GravityMS2, Self::DurationS];
+
+    /// Its word.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SlopeDeg => "slope_deg",
+            Self::YawDeg => "yaw_deg",
+            Self::SpeedMS => "speed_m_s",
+            Self::GravityMS2 => "gravity_m_s2",
+            Self::DurationS => "duration_s",
+        }
+    }
+
+    /// The key in a scenario's document.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::SlopeDeg => "slope_deg",
+            Self::YawDeg => "start.yaw_deg",
+            Self::SpeedMS => "drive.speed_m_s",
+            Self::GravityMS2 => "gravity_m_s2",
+            Self::DurationS => "duration_s",
+        }
+    }
+
+    /// Where its values may lie, ends included.
+    #[must_use]
+    pub fn range(self) -> RangeInclusive<f64> {
+        static RANGES: OnceLock<[RangeInclusive<f64>; Varied::ALL.len()]> = OnceLock::new();
+        let of = |varied: Self| match varied {
+            // What it may be depends on the law of the drive, which checks it.
+            Self::SpeedMS => -FASTEST..=FASTEST,
+            _ => range(Kind::Scenario, varied.key()).unwrap_or(f64::MIN..=f64::MAX),
+        };
+        RANGES.get_or_init(|| Self::ALL.map(of))[self as usize].clone()
+    }
+
+    /// Puts a value in its place.
+    ///
+    /// # Errors
+    /// [`VariationError`] for a value out of its range, or that the drive cannot have.
+    pub fn put(self, scenario: &mut Scenario, value: f64) -> Result<(), VariationError> {
+        let range = self.range();
+        if !range.contains(&value) {
+            let expected = format!("{} to {}", range.start(), range.end());
+            return Err(VariationError { name: self.name().to_owned(), value, expected });
+        }
+        match self {
+            Self::SlopeDeg => scenario.site.slope = value.to_radians(),
+            Self::YawDeg => scenario.start.yaw = value.to_radians(),
+            Self::GravityMS2 => scenario.site.gravity = value,
+            Self::SpeedMS => match &mut scenario.drive {
+                DriveLaw::Eq18(target) | DriveLaw::Eq18AsPrinted(target) => target.speed = value,
+                drive => *drive = DriveLaw::Constant(value),
+            },
+            Self::DurationS => {
+                scenario.duration = value;
+                check_sample_count(value, scenario.numerics.sample_interval)?;
+            }
+        }
+        Ok(scenario.check()?)
+    }
+}
+
+/// A value that a scenario cannot have.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} is {value}, it must be {expected}")]
+pub struct VariationError {
+    /// What varies, or what it made of the run.
+    pub name: String,
+    /// The value that was given.
+    pub value: f64,
+    /// What would have been allowed.
+    pub expected: String,
+}
+
+impl From<ParameterError> for VariationError {
+    fn from(error: ParameterError) -> Self {
+        let ParameterError { name, value, expected } = error;
+        Self { name, value, expected: expected.to_owned() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Overrides, Source, read_scenario};
+    use super::*;
+
+    fn with(settings: &[&str]) -> Scenario {
+        let overrides = Overrides::parse(settings).unwrap();
+        read_scenario(&Source::default_scenario(), &overrides).unwrap().value
+    }
+
+    /// The key in a document and the number put in its place mean the same, for each drive.
+    #[test]
+    fn what_is_put_is_what_a_document_says() {
+        for law in ["constant", "eq18"] {
+            let law = format!("scenario.drive.law={law}");
+            for (varied, value) in Varied::ALL.into_iter().zip([21.5, -7.25, 0.045, 1.62, 12.5]) {
+                let mut put = with(&[&law]);
+                varied.put(&mut put, value).unwrap();
+                assert_eq!(put, with(&[&law, &format!("scenario.{}={value}", varied.key())]));
+            }
+        }
+    }
+
+    #[test]
+    fn ranges_are_those_of_the_document() {
+        for (varied, value) in [
+            (Varied::SlopeDeg, 60.1),
+            (Varied::YawDeg, f64::NAN),
+            (Varied::SpeedMS, 11.0),
+            (Varied::GravityMS2, 0.0),
+            (Varied::DurationS, 0.0),
+            (Varied::DurationS, 1e6),
+        ] {
+            let error = varied.put(&mut with(&[]), value).unwrap_err();
+            assert!(error.to_string().contains(varied.name()) || value == 0.0, "{error}");
+        }
+    }
+}
