@@ -1,8 +1,8 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), runs studies
+//! ([`studies`]) and lends the reaction to other engines ([`time_step`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
 //! computes physics, and nothing below knows of Python.
 
 mod columns;
@@ -10,6 +10,7 @@ mod descriptions;
 mod errors;
 mod interrupt;
 mod studies;
+mod time_step;
 mod validation;
 mod values;
 mod wheels;
@@ -25,16 +26,21 @@ mod _core {
     #[pymodule_export]
     use super::studies::{attitude, attitude_map, rollout, simulate};
     #[pymodule_export]
+    use super::time_step::SteppingWheels;
+    #[pymodule_export]
     use super::validation::validate;
     #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 
-    /// Gravities by name [m/s²].
+    /// Gravities by name [m/s²], defaults, and the version.
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
         use pyo3::types::PyModuleMethods;
         for (name, value) in grouser::document::GRAVITIES {
             module.add(format!("{}_GRAVITY", name.to_uppercase()), value)?;
+        }
+        for (name, value) in super::time_step::DEFAULTS {
+            module.add(name, value)?;
         }
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
