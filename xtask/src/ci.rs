@@ -1,7 +1,7 @@
 //! Everything that is checked, in one run: every step is taken, and the end shows all failures.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
@@ -101,19 +101,35 @@ fn tools() -> bool {
         println!("{component}: {}", if found { "found" } else { "missing" });
         complete &= found;
     }
-    complete & valgrind()
+    complete & valgrind() & renderer()
 }
 
 /// Whether instructions can be counted, after fetching what counts them.
 fn valgrind() -> bool {
-    let present = || {
+    from_system("valgrind", &["valgrind"], || {
         let mut probe = Command::new("valgrind");
         probe.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
         probe.status().is_ok_and(|status| status.success())
-    };
+    })
+}
+
+/// Whether MuJoCo can draw without a display, after fetching what draws. Elsewhere than on Linux the
+/// system does.
+fn renderer() -> bool {
+    from_system("renderer (Mesa's EGL)", &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"], || {
+        let libraries = Command::new("ldconfig").arg("-p").output();
+        let listed = |output: Output| {
+            String::from_utf8_lossy(&output.stdout).contains("libEGL_mesa.so")
+        };
+        !cfg!(target_os = "linux") || libraries.is_ok_and(listed)
+    })
+}
+
+/// Whether something of the system's is there, after trying to install its packages.
+fn from_system(what: &str, packages: &[&str], present: impl Fn() -> bool) -> bool {
     if !present() {
-        println!("valgrind is missing, trying to install it");
-        for arguments in [&["update"][..], &["install", "--yes", "valgrind"]] {
+        println!("{what} is missing, trying to install it");
+        for arguments in [&["update"][..], &[&["install", "--yes"], packages].concat()] {
             let mut install = Command::new("apt-get");
             install.args(["--quiet=2"]).args(arguments).stdout(Stdio::null());
             // Where it fails, the second look says so.
@@ -121,7 +137,7 @@ fn valgrind() -> bool {
         }
     }
     let found = present();
-    println!("valgrind: {}", if found { "found" } else { "missing: install it" });
+    println!("{what}: {}", if found { "found" } else { "missing: install it" });
     found
 }
 

@@ -1,8 +1,9 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`], [`rollouts`], [`validation`], [`calibration`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), runs studies ([`studies`],
+//! [`rollouts`], [`validation`], [`calibration`]) and lends the reaction to other engines
+//! ([`time_step`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
 //! computes physics, and nothing below knows of Python.
 
 mod calibration;
@@ -12,6 +13,7 @@ mod errors;
 mod interrupt;
 mod rollouts;
 mod studies;
+mod time_step;
 mod validation;
 mod values;
 mod wheels;
@@ -31,16 +33,21 @@ mod _core {
     #[pymodule_export]
     use super::studies::{attitude, attitude_band, attitude_map, simulate, simulated_wheel_test};
     #[pymodule_export]
+    use super::time_step::SteppingWheels;
+    #[pymodule_export]
     use super::validation::{validate, validate_all};
     #[pymodule_export]
     use super::wheels::{not_carried, settle, time_settle, wheel_forces};
 
-    /// Gravities by name [m/s²].
+    /// Gravities by name [m/s²], defaults, and the version.
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
         use pyo3::types::PyModuleMethods;
         for (name, value) in grouser::document::GRAVITIES {
             module.add(format!("{}_GRAVITY", name.to_uppercase()), value)?;
+        }
+        for (name, value) in super::time_step::DEFAULTS {
+            module.add(name, value)?;
         }
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }

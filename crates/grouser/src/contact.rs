@@ -6,7 +6,7 @@
 //! out. A theory puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is the
 //! source paper's, [`extended`] adds what small wheels need, [`bekker`] is a closed form to check
 //! them against, and [`rft`] shares nothing with any of them. [`equilibrium`] finds the sinkage at
-//! which a wheel carries its load.
+//! which a wheel carries its load; [`time_step`] lends the reaction to engines of rigid bodies.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
@@ -26,6 +26,7 @@ pub mod rft;
 pub mod slip;
 pub mod stress;
 mod theory;
+pub mod time_step;
 
 pub use bearing::Bearing;
 pub use bekker::Bekker;
@@ -39,3 +40,4 @@ pub use patch::ContactPatch;
 pub use rft::Rft;
 pub use slip::Slip;
 pub use theory::Theory;
+pub use time_step::{Stepped, SteppedWheel, SteppingWheel, TimeStep};

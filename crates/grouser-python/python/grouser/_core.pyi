@@ -12,6 +12,9 @@ __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
+    "REST_SPEED_M_S",
+    "SINKAGE_DAMPING_S_M",
+    "SteppingWheels",
     "__version__",
     "attitude",
     "attitude_band",
@@ -40,6 +43,8 @@ __version__: str
 EARTH_GRAVITY: float
 MOON_GRAVITY: float
 MARS_GRAVITY: float
+SINKAGE_DAMPING_S_M: float
+REST_SPEED_M_S: float
 
 _Floats = NDArray[np.float64]
 
@@ -53,6 +58,24 @@ class Document:
     def files(self) -> dict[str, str]: ...
     def to_toml(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
+
+@final
+class SteppingWheels:
+    def __new__(
+        cls,
+        soils: Sequence[Document],
+        wheels: Sequence[Document],
+        setting: Document,
+        sinkage_damping_s_m: float,
+        rest_speed_m_s: float,
+    ) -> SteppingWheels: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def shearing_radius_m(self) -> _Floats: ...
+    def reaction(
+        self, duration_s: float, sinkage: _Floats, free: _Floats, mobility: _Floats
+    ) -> tuple[_Floats, float]: ...
 
 def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ...
 def read_document_file(

@@ -1,0 +1,120 @@
+"""A rover's description as a MuJoCo model."""
+
+from __future__ import annotations
+
+import math
+from xml.etree import ElementTree as Xml
+
+from .. import _core
+from .._descriptions import Rover, Source
+
+#: Gain of the motors' speed control over what would hold a wheel at its speed within a step [-]:
+#: the rim then differs from its command by less than a thousandth.
+_GAIN = 1e4
+
+
+def rover_xml(
+    rover: Rover | Source,
+    *,
+    slope_deg: float = 0.0,
+    yaw_deg: float = 0.0,
+    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    timestep_s: float = 0.002,
+) -> str:
+    """A MuJoCo model (MJCF) of a rover on a plane, as `grouser.simulate` has it.
+
+    The body is rigid and carries the wheels on hinges, each with a motor under speed control, whose
+    command is the wheel's speed [rad/s]. The world is the slope frame: x along the contour, y
+    uphill, z out of the ground, with gravity inclined by the slope. The rover stands on the
+    grousers' tips at the origin, and sinks from there.
+
+    Names: the geom ``ground``, the body ``body`` with its joint ``free``, bodies and hinges of the
+    wheels by their mounts' names, motors ``NAME-motor``.
+
+    Parameters
+    ----------
+    rover : Rover, name, path or mapping
+        The rover.
+    slope_deg : float
+        Inclination of the plane [°].
+    yaw_deg : float
+        Yaw [°], positive uphill.
+    gravity_m_s2 : float
+        Gravity [m/s²].
+    timestep_s : float
+        Step of the integrator [s], which is ``implicitfast``.
+
+    Returns
+    -------
+    str
+        The text of an MJCF file.
+
+    Examples
+    --------
+    >>> from grouser.mujoco import rover_xml
+    >>> rover_xml("hakuto").count('<joint type="hinge"')
+    4
+    """
+    rover = rover if isinstance(rover, Rover) else Rover(rover)
+    slope, yaw = math.radians(slope_deg), math.radians(yaw_deg)
+    down = (0.0, -gravity_m_s2 * math.sin(slope), -gravity_m_s2 * math.cos(slope))
+    root = Xml.Element("mujoco", model=str(rover.name))
+    _add(root, "option", timestep=timestep_s, gravity=down, integrator="implicitfast")
+    world = _add(root, "worldbody")
+    _add(world, "light", pos=(0, 0, 5), dir=(0, 0, -1))
+    _add(world, "geom", name="ground", type="plane", size=(50, 50, 0.1), rgba=(0.76, 0.66, 0.5, 1))
+    wheel, unit = rover.wheel, rover.wheel_unit
+    radius = wheel.radius_m + (wheel.grousers["height_m"] if wheel.to_dict().get("grousers") else 0)
+    hubs = [mount["position_m"] for mount in rover.mount]
+    body = _add(
+        world,
+        "body",
+        name="body",
+        pos=(0, 0, radius - hubs[0][2]),
+        quat=(math.cos(yaw / 2), 0, 0, math.sin(yaw / 2)),
+    )
+    _add(body, "freejoint", name="free")
+    _add(body, "inertial", pos=(0, 0, 0), **_mass(rover.body))
+    half = [max(abs(hub[axis]) for hub in hubs) for axis in (0, 1)]
+    inner = half[1] - 0.5 * wheel.width_m
+    box = (0.8 * half[0], 0.8 * inner, 0.3 * radius)
+    _add(body, "geom", type="box", size=box, mass=0, contype=0, conaffinity=0)
+    motors = _add(root, "actuator")
+    gain = _GAIN * unit["inertia_kg_m2"]["yy"] / timestep_s
+    for mount in rover.mount:
+        name = mount["name"]
+        hub = _add(body, "body", name=name, pos=mount["position_m"])
+        _add(hub, "joint", type="hinge", name=name, axis=(0, 1, 0))
+        _add(hub, "inertial", pos=(0, 0, 0), **_mass(unit))
+        _add(
+            hub,
+            "geom",
+            type="cylinder",
+            size=(radius, 0.5 * wheel.width_m),
+            euler=(90, 0, 0),
+            mass=0,
+            contype=0,
+            conaffinity=0,
+            rgba=(0.25, 0.25, 0.28, 1),
+        )
+        _add(motors, "velocity", name=f"{name}-motor", joint=name, kv=gain)
+    Xml.indent(root)
+    return Xml.tostring(root, encoding="unicode")
+
+
+def _mass(part: object) -> dict[str, object]:
+    """Mass and moments of inertia of a part about its own centre."""
+    inertia = part["inertia_kg_m2"]  # type: ignore[index]
+    moments = tuple(inertia[axis] for axis in ("xx", "yy", "zz"))
+    return {"mass": part["mass_kg"], "diaginertia": moments}  # type: ignore[index]
+
+
+def _add(parent: Xml.Element, tag: str, **attributes: object) -> Xml.Element:
+    """An element whose attributes are texts, numbers, or rows of numbers."""
+    return Xml.SubElement(parent, tag, {key: _text(value) for key, value in attributes.items()})
+
+
+def _text(value: object) -> str:
+    if isinstance(value, (tuple, list)):
+        return " ".join(_text(item) for item in value)
+    return value if isinstance(value, str) else repr(float(value))  # type: ignore[arg-type]
