@@ -38,8 +38,10 @@ highlight_language = "text"
 # build at its end, so that one build shows all that is wrong.
 nb_execution_mode = "force"
 nb_execution_show_tb = True
-nb_execution_timeout = 120
+nb_execution_timeout = 300
 nb_output_stderr = "warn"
+# MuJoCo draws without a display.
+os.environ.setdefault("MUJOCO_GL", "egl")
 os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 
 # Types stand in the text of the docstrings, with shapes and units.
