@@ -29,6 +29,7 @@ cargo xtask CHORE
   figures [--check]   write what the program makes inside the Markdown files, or only compare
   instructions        count the instructions of the units of work anew (valgrind)
   python              build the Python package's wheel and test it in an environment of its own
+  python-times        measure what Python costs, and write it into docs/performance.md
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -60,6 +61,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             let libtest::Count { passed, failed } = python::check()?;
             println!("{passed} passed, {failed} failed");
             failed == 0
+        }
+        ["python-times"] => {
+            python::write_times()?;
+            true
         }
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),

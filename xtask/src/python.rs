@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, ensure};
 
 use crate::libtest::Count;
-use crate::workspace;
+use crate::{markers, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
@@ -29,11 +29,7 @@ const NEEDED: [&str; 8] = [
 /// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of its
 /// docstrings, and its types.
 pub(crate) fn check() -> Result<Count> {
-    let folder = workspace::target().join("python");
-    let python = environment(&folder.join("environment"))?;
-    let wheel = build_wheel(&python, &folder.join("wheels"))?;
-    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
-    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
+    let python = installed()?;
     let program = workspace::build_program()?;
     let mut count = pytest(&python, &program, &["tests"])?;
     count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
@@ -43,6 +39,32 @@ pub(crate) fn check() -> Result<Count> {
     let own = ["-m", "mypy", "--strict", "--ignore-missing-imports", "--package", "grouser"];
     count += types(&python, &own)?;
     Ok(count)
+}
+
+/// The file that says what Python costs.
+const PERFORMANCE: &str = "docs/performance.md";
+
+/// Measures what Python costs beside the native half alone, and writes it into its document.
+pub(crate) fn write_times() -> Result<()> {
+    let mut command = Command::new(installed()?);
+    command.arg(workspace::root().join(PACKAGE).join("benches/ratios.py"));
+    let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
+    ensure!(output.status.success(), "the times cannot be measured");
+    let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
+    let text = fs::read_to_string(&path).context(PERFORMANCE)?;
+    let text = markers::with_measured(&text, "python-times", &told).context(PERFORMANCE)?;
+    print!("{told}");
+    fs::write(&path, text).context(PERFORMANCE)
+}
+
+/// The Python of an environment that has the package, built anew.
+fn installed() -> Result<PathBuf> {
+    let folder = workspace::target().join("python");
+    let python = environment(&folder.join("environment"))?;
+    let wheel = build_wheel(&python, &folder.join("wheels"))?;
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
+    Ok(python)
 }
 
 /// An environment with all that is needed, and its Python.
