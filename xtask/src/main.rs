@@ -31,6 +31,7 @@ cargo xtask CHORE
   instructions        count the instructions of the units of work anew (valgrind)
   python              build the Python package's wheel and test it in an environment of its own
   site                build the documentation site into target/site, and run its notebooks
+  python-times        measure what Python costs, and write it into docs/performance.md
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -64,6 +65,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             failed == 0
         }
         ["site"] => site::build()?,
+        ["python-times"] => {
+            python::write_times()?;
+            true
+        }
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };

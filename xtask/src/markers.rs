@@ -1,7 +1,8 @@
 //! Blocks of Markdown files that a command makes. `CONTRIBUTING.md` shows how they look.
 //!
 //! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or `picture
-//! by`, or `measured by`) and ends with a line `<!-- end -->`. Markers in fenced code are examples and do not count.
+//! by`, or `measured by`) and ends with a line `<!-- end -->`. `<!-- measured by: cargo xtask CHORE -->` is that
+//! chore's to write. Markers in fenced code are examples and do not count.
 
 use anyhow::{Context, Result, bail};
 
@@ -62,6 +63,7 @@ pub(crate) enum Piece {
 
 const END: &str = "<!-- end -->";
 const COMMAND: &str = "cargo run --release -- ";
+const CHORE: &str = "cargo xtask ";
 
 /// The pieces of a Markdown file, in their order; put together they are the file again.
 pub(crate) fn pieces(markdown: &str) -> Result<Vec<Piece>> {
@@ -103,6 +105,10 @@ fn start_of(line: &str, number: usize) -> Result<Option<Block>> {
         Some(("measured by", command)) => (Kind::Measurement, command),
         _ => return Ok(None),
     };
+    if kind == Kind::Measurement && command.trim().starts_with(CHORE) {
+        // What a chore measured, it wrote itself.
+        return Ok(None);
+    }
     let Some(arguments) = command.trim().strip_prefix(COMMAND) else {
         bail!("a block is made by `{COMMAND}…`, not by `{}`", command.trim());
     };
@@ -162,6 +168,15 @@ pub(crate) fn picture_of(content: &str) -> Result<&str> {
         [target] => Ok(target),
         _ => bail!("a picture's block holds one image link, not {}", targets.len()),
     }
+}
+
+/// A text with another content in the block that a chore measures.
+pub(crate) fn with_measured(markdown: &str, chore: &str, content: &str) -> Result<String> {
+    let start = format!("<!-- measured by: {CHORE}{chore} -->\n");
+    let (before, rest) = markdown.split_once(&start).context("the block of the chore")?;
+    let (_, after) = rest.split_once(END).context("the block's end")?;
+    let content = as_markdown(content, &[]);
+    Ok(format!("{before}{start}{content}{END}{after}"))
 }
 
 #[cfg(test)]
@@ -231,6 +246,15 @@ between
     fn a_block_without_end_and_another_command_are_refused() {
         assert!(pieces("<!-- made by: cargo run --release -- presets -->\n").is_err());
         assert!(pieces("<!-- made by: rm -rf . -->\n<!-- end -->\n").is_err());
+    }
+
+    #[test]
+    fn what_a_chore_measured_is_left_to_it() {
+        let markdown = "a\n<!-- measured by: cargo xtask python-times -->\nold\n<!-- end -->\nb\n";
+        assert!(blocks(markdown).is_empty());
+        let written = with_measured(markdown, "python-times", "1 s\n").expect("its block");
+        assert!(written.contains("```text\n1 s\n```\n<!-- end -->\nb\n"), "{written}");
+        assert!(!written.contains("old") && with_measured("a", "python-times", "1").is_err());
     }
 
     #[test]

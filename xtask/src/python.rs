@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use anyhow::{Context, Result, ensure};
 
 use crate::libtest::Count;
-use crate::workspace;
+use crate::{markers, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
@@ -41,6 +41,22 @@ pub(crate) fn check() -> Result<Count> {
     let own = ["-m", "mypy", "--strict", "--ignore-missing-imports", "--package", "grouser"];
     count += types(&python, &own)?;
     Ok(count)
+}
+
+/// The file that says what Python costs.
+const PERFORMANCE: &str = "docs/performance.md";
+
+/// Measures what Python costs beside the native half alone, and writes it into its document.
+pub(crate) fn write_times() -> Result<()> {
+    let mut command = Command::new(installed()?);
+    command.arg(workspace::root().join(PACKAGE).join("benches/ratios.py"));
+    let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
+    ensure!(output.status.success(), "the times cannot be measured");
+    let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
+    let text = fs::read_to_string(&path).context(PERFORMANCE)?;
+    let text = markers::with_measured(&text, "python-times", &told).context(PERFORMANCE)?;
+    print!("{told}");
+    fs::write(&path, text).context(PERFORMANCE)
 }
 
 /// The Python of an environment that has the package as it is now, built once in a run.

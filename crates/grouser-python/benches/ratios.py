@@ -15,7 +15,7 @@ import grouser as gr
 from grouser import _core
 from grouser._wheels import setting
 
-ROUNDS = 7
+ROUNDS = 5
 
 
 def measure(name: str, native: Callable[[], float], python: Callable[[], object]) -> str:

@@ -1,6 +1,7 @@
 //! Arrays of wheels: each settles by itself, and has the bits that it has alone.
 
 use std::ops::RangeInclusive;
+use std::time::{Duration, Instant};
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
 use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO, WheelRecord};
@@ -14,11 +15,16 @@ use crate::columns::{WHEEL_COLUMNS, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
 
-/// Wheels between two looks for signals: a small part of a second for the slowest theory.
-const BATCH: usize = 1 << 13;
+/// Wheels between two looks for signals, to begin with: a part of a second for the slowest theory.
+const FIRST_BATCH: usize = 64;
+/// As many at most: their rows stay in the processor's memory.
+const LARGEST_BATCH: usize = 1 << 13;
+/// How long a batch should take, at least and at most.
+const BATCH_TIME: RangeInclusive<Duration> = Duration::from_millis(50)..=Duration::from_millis(200);
 
-/// Wheels that a thread takes at once.
+/// Wheels that a thread takes at once, at most; of a batch at least this many shares are made.
 const SHARE: usize = 256;
+const SHARES: usize = 32;
 
 /// What all wheels share.
 struct Stand {
@@ -117,11 +123,18 @@ fn evaluate(
     {
         let mut results = results.readwrite();
         let cells = results.as_slice_mut()?;
-        let mut start = 0;
+        let (mut start, mut batch) = (0, FIRST_BATCH);
         while start < count {
-            let end = (start + BATCH).min(count);
+            let end = (start + batch).min(count);
+            let share = (batch / SHARES).clamp(1, SHARE);
+            let begun = Instant::now();
             let rows: Vec<Row> =
-                py.detach(|| (start..end).into_par_iter().with_min_len(SHARE).map(&one).collect());
+                py.detach(|| (start..end).into_par_iter().with_min_len(share).map(&one).collect());
+            if begun.elapsed() < *BATCH_TIME.start() {
+                batch = (2 * batch).min(LARGEST_BATCH);
+            } else if begun.elapsed() > *BATCH_TIME.end() {
+                batch = (batch / 2).max(SHARES);
+            }
             for (offset, row) in rows.iter().enumerate() {
                 for (column, value) in row.iter().enumerate() {
                     cells[column * count + start + offset] = *value;

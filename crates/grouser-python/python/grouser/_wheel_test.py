@@ -217,10 +217,29 @@ def wheel_test(
     >>> test.drawbar_pull_n.shape
     (2, 1, 3, 4)
     """
-    loads, angles = _line("load_n", load_n), _line("slip_angle_deg", slip_angle_deg)
-    ratios = _line("slip_ratio", slip_ratio)
+    loads, angles = line("load_n", load_n), line("slip_angle_deg", slip_angle_deg)
+    ratios = line("slip_ratio", slip_ratio)
+    if trials is not None:
+        deviations = {"noise_n": noise_n, "noise_mm": noise_mm, "noise_nm": noise_nm}
+        noise = [number(name, value) for name, value in deviations.items()]
+        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+        stand = setting(gravity_m_s2, model)
+        documents = (soil_of(soil)._document, wheel._document, stand._document)
+        count = whole_number("trials", trials, most=2**53)
+        found = _core.simulated_wheel_test(
+            *documents, loads, angles, ratios, count, noise, whole_number("seed", seed)
+        )
+        shape = (len(loads), len(angles), len(ratios), count)
+        # Without settings there are no rows to tell the columns.
+        readings = {
+            name: np.asarray(found.get(name, np.empty(0))).reshape(shape)
+            for name in ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
+        }
+        status = np.array(found.get("status", []), dtype=object).reshape(shape)
+        settings = {"load_n": loads, "slip_angle_deg": angles, "slip_ratio": ratios}
+        return SimulatedWheelTest(**settings, status=status, **readings)
     wheels = settle(
-        _soil(soil),
+        soil_of(soil),
         wheel,
         load_n=loads[:, None, None],
         slip_angle_deg=angles[:, None],
