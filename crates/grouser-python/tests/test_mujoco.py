@@ -112,14 +112,25 @@ def test_contact_of_mujocos_own_is_refused() -> None:
 # ---- forces ----
 
 
+def fastest_hub(plane: Plane) -> float:
+    """Speed of the fastest hub [m/s]."""
+    speeds = []
+    for mount in plane.rover.mount:
+        velocity = np.zeros(6)
+        body = plane.model.body(mount["name"]).id
+        kind = mujoco.mjtObj.mjOBJ_BODY
+        mujoco.mj_objectVelocity(plane.model, plane.data, kind, body, velocity, 0)
+        speeds.append(float(np.linalg.norm(velocity[3:])))
+    return max(speeds)
+
+
 def test_at_rest_the_soil_carries_the_weight() -> None:
-    """After 2 s, to the motion that is left; and each wheel is as deep as one settled under its
-    load, but for its slip: a rover at rest creeps at any."""
+    """After 2 s, but for the motion that is left: below the rest speed at every hub."""
     plane = Plane()
     plane.soil.step(plane.data, plane.steps(2.0))
     forces = plane.soil.forces
     assert forces.normal_force_n.sum() == pytest.approx(plane.weight_n, rel=1e-4)
-    assert abs(plane.data.qvel).max() < 1e-4
+    assert fastest_hub(plane) < 1e-4
     assert abs(forces.drawbar_pull_n.sum()) < 1e-3 * plane.weight_n
 
 
@@ -143,7 +154,8 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
     model = mujoco.MjModel.from_xml_string(STAND)
     data = mujoco.MjData(model)
     soil = SoilContact(
-        model, soil="toyoura", wheels={"wheel": "hakuto"}, ground="ground", moments="neglected"
+        model, soil="toyoura", wheels={"wheel": "hakuto"}, ground="ground", moments="neglected",
+        rest_speed_m_s=1e-6
     )
     forward = 0.05
     rim = forward / (1.0 - slip_ratio) if slip_ratio > 0 else forward * (1.0 + slip_ratio)
@@ -218,9 +230,9 @@ def heavier(factor: float) -> gr.Rover:
 @pytest.mark.parametrize("timestep_s", [0.001, 0.002, 0.005])
 @pytest.mark.parametrize("factor", [0.2, 1.0, 4.0])
 def test_it_drives_brakes_and_stands_without_trembling(factor: float, timestep_s: float) -> None:
-    """Dropped, driven, braked and parked on 10°, light and heavy. A parked rover creeps below
-    twice the rest speed; one that trembled would do so at a force times a step over a mass, some
-    centimetres a second."""
+    """Dropped, driven, braked and parked on 10°, light and heavy. A parked rover creeps below the
+    rest speed, 1e-4 m/s; one that trembled would do so by a force times a step over a mass, which
+    is millimetres a second and more."""
     plane = Plane(rover=heavier(factor), slope_deg=10.0, timestep_s=timestep_s)
     plane.data.qpos[2] += 0.01
     plane.soil.step(plane.data, plane.steps(0.8))
@@ -233,9 +245,9 @@ def test_it_drives_brakes_and_stands_without_trembling(factor: float, timestep_s
     fastest, worst = 0.0, 0.0
     for _ in range(plane.steps(0.2)):
         plane.soil.step(plane.data)
-        fastest = max(fastest, float(abs(plane.data.qvel).max()))
+        fastest = max(fastest, fastest_hub(plane))
         worst = max(worst, plane.soil.residual_m_s)
-    assert fastest < 2e-4 and worst < 1e-9
+    assert fastest < 1e-4 and worst < 1e-9
     carried = plane.soil.forces.normal_force_n.sum() / plane.weight_n
     assert carried == pytest.approx(np.cos(np.radians(10.0)), rel=1e-3)
 
@@ -260,9 +272,10 @@ def test_shorter_steps_converge() -> None:
     ("slope_deg", "yaw_deg"), [(0.0, 0.0), (5.0, 0.0), (10.0, 0.0), (10.0, 6.0), (12.0, 25.0)]
 )
 def test_it_agrees_with_our_own_rover_on_a_plane(slope_deg: float, yaw_deg: float) -> None:
-    """Mean slip over wheels and time, and drift over distance, within 2 % (a drift that the
-    hundredth, 2e-4). DIFFERENCE: ours takes the centre of mass at its height without sinkage, stays
-    parallel to the plane, and has no inertia in heave, pitch and roll."""
+    """Mean slip over wheels and time, and drift over distance, within 2 %; where a yaw uphill
+    cancels most of the drift, the rest of it to a thousandth of the distance. DIFFERENCE: ours takes
+    the centre of mass at its height without sinkage, stays parallel to the plane, and has no inertia
+    in heave, pitch and roll."""
     duration = 6.0
     plane = Plane(slope_deg=slope_deg, yaw_deg=yaw_deg)
     plane.roll(yaw_deg)

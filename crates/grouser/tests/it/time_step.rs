@@ -14,9 +14,13 @@ const MASS: f64 = 1.7;
 
 /// A lone wheel of mass [`MASS`] whose hub moves freely and whose rim is driven.
 fn lone_wheel() -> DMatrix<f64> {
-    DMatrix::from_fn(MOTIONS, FORCES, |motion, force| {
-        if motion == force && motion < 3 { 1.0 / MASS } else { 0.0 }
-    })
+    DMatrix::from_fn(
+        MOTIONS,
+        FORCES,
+        |motion, force| {
+            if motion == force && motion < 3 { 1.0 / MASS } else { 0.0 }
+        },
+    )
 }
 
 fn reaction(mobility: &DMatrix<f64>, duration: f64, sinkage: f64, free: [f64; MOTIONS]) -> Stepped {
@@ -37,8 +41,7 @@ fn where_nothing_yields_the_reaction_is_the_theorys() {
     let stepped = reaction(&DMatrix::zeros(4, 6), 0.002, mm(12.0), [0.05, -0.01, 0.0, 0.06]);
     let measure = CREEP_SPEED / REST_SPEED;
     let slip = Slip::of_motion(0.06 * measure, Vec2::new(0.05, -0.01) * measure);
-    let contact =
-        Contact { wheel: hakuto_wheel(), soil: toyoura(), slip, gravity: EARTH_GRAVITY };
+    let contact = Contact { wheel: hakuto_wheel(), soil: toyoura(), slip, gravity: EARTH_GRAVITY };
     let theory = Theory::Ishigami.model().forces(&contact, mm(12.0));
     assert_eq!(stepped.wheels[0].forces, theory);
     assert_eq!((stepped.residual, stepped.rounds), (0.0, 0));
