@@ -117,10 +117,9 @@ fn valgrind() -> bool {
 /// system does.
 fn renderer() -> bool {
     from_system("renderer (Mesa's EGL)", &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"], || {
-        let libraries = Command::new("ldconfig").arg("-p").output();
-        let listed = |output: Output| {
-            String::from_utf8_lossy(&output.stdout).contains("libEGL_mesa.so")
-        };
+        let libraries = Command::new("/sbin/ldconfig").arg("-p").output();
+        let listed =
+            |output: Output| String::from_utf8_lossy(&output.stdout).contains("libEGL_mesa.so");
         !cfg!(target_os = "linux") || libraries.is_ok_and(listed)
     })
 }

@@ -44,9 +44,8 @@ CORNERS = {
 HALF_BASE, HALF_TRACK = 0.30, 0.29
 
 
-def sand() -> Floats:
-    """Heights of the ground over its grid [m]: a slope with dunes, hollows and ripples."""
-    x, y = np.meshgrid(np.linspace(-HALF, HALF, POINTS), np.linspace(-HALF, HALF, POINTS))
+def height(x: Floats, y: Floats) -> Floats:
+    """Height of the ground [m]: a slope with dunes, hollows and ripples."""
     slope = np.tan(np.radians(SLOPE_DEG)) * (y + HALF)
     dunes = 0.045 * np.sin(2.0 * np.pi * (x + 0.35 * y) / 1.5) + 0.03 * np.cos(
         2.0 * np.pi * (0.4 * x - y) / 1.1
@@ -54,6 +53,11 @@ def sand() -> Floats:
     ripples = 0.004 * np.sin(2.0 * np.pi * (y + 0.1 * np.sin(3.0 * x)) / 0.16)
     heights: Floats = slope + dunes + ripples + 0.12
     return heights
+
+
+def sand() -> Floats:
+    """Heights over the ground's grid [m]."""
+    return height(*np.meshgrid(*2 * [np.linspace(-HALF, HALF, POINTS)]))
 
 
 def corner(name: str) -> str:
@@ -175,12 +179,10 @@ class Traverse:
 
     def _place(self) -> None:
         """Onto the ground, nose uphill, and then down into it."""
-        heights, step = sand(), 2.0 * HALF / (POINTS - 1)
-        row, column = (round((place + HALF) / step) for place in START[::-1])
         up = np.radians(SLOPE_DEG)
         turned = np.zeros(4)
         mujoco.mju_mulQuat(turned, _turn([0, 0, 1], np.pi / 2), _turn([0, 1, 0], -up))
-        z = heights[row, column] + (RADIUS + 0.21) / np.cos(up) + 0.03
+        z = float(height(*map(np.asarray, START))) + (RADIUS + 0.21) / np.cos(up) + 0.03
         self.data.qpos[:7] = [*START, z, *turned]
         self.soil.step(self.data, round(1.0 / self.model.opt.timestep))
 
@@ -234,9 +236,9 @@ def _turn(axis: list[float], angle: float) -> Floats:
 class Painter:
     """Pictures of a traverse."""
 
-    def __init__(self, traverse: Traverse, width: int = 1600, height: int = 1000) -> None:
+    def __init__(self, traverse: Traverse, width: int = 1600, tall: int = 1000) -> None:
         self._traverse = traverse
-        self._renderer = mujoco.Renderer(traverse.model, height, width)
+        self._renderer = mujoco.Renderer(traverse.model, tall, width, max_geom=20_000)
 
     def picture(
         self, run: Run, lookat: tuple[float, float, float], distance: float, azimuth: float,
@@ -256,7 +258,8 @@ class Painter:
         scene = self._renderer.scene
         tracks = np.array(run.tracks_m)
         for wheel in range(tracks.shape[1]):
-            path = tracks[::4, wheel]
+            path = tracks[::3, wheel]
+            path[:, 2] = height(path[:, 0], path[:, 1])
             for before, after in zip(path, path[1:]):
                 if scene.ngeom >= scene.maxgeom:
                     return
@@ -264,12 +267,15 @@ class Painter:
                 length = float(np.linalg.norm(way))
                 if length < 1e-6:
                     continue
-                along = way / length
-                aside = np.cross([0.0, 0.0, 1.0], along)
-                aside /= np.linalg.norm(aside)
-                axes = np.stack([along, aside, np.cross(along, aside)], axis=1)
-                middle = 0.5 * (before + after) - axes[:, 2] * (RADIUS - 0.018)
-                size = np.array([0.55 * length, 0.42 * WHEEL.width_m, 0.004])
+                middle = 0.5 * (before + after)
+                # Flat on the ground: across the way, and level with the ground there.
+                aside = 0.02 * np.array([-way[1], way[0], 0.0]) / length
+                left, right = middle + aside, middle - aside
+                aside[2] = 0.5 * float(height(left[0], left[1]) - height(right[0], right[1]))
+                up = np.cross(way, aside)
+                axes = np.stack([way, np.cross(up, way), up], axis=1)
+                axes /= np.linalg.norm(axes, axis=0)
+                size = np.array([0.52 * length, 0.42 * WHEEL.width_m, 0.003])
                 geom = scene.geoms[scene.ngeom]
                 color = np.array([0.50, 0.41, 0.29, 1.0], dtype=np.float32)
                 mujoco.mjv_initGeom(
@@ -298,15 +304,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=Path("pictures"), help="folder of the pictures")
     parser.add_argument("--duration-s", type=float, default=62.0)
+    parser.add_argument("--timestep-s", type=float, default=0.002)
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
 
     import matplotlib.pyplot as plt
 
-    traverse = Traverse()
+    traverse = Traverse(timestep_s=arguments.timestep_s)
     painter = Painter(traverse)
     shown = {
-        "climb.png": (9.0, 1.9, 128.0, -16.0),
+        "climb.png": (13.0, 1.9, 128.0, -16.0),
         "turn.png": (30.0, 2.2, 155.0, -22.0),
         "cross.png": (52.0, 1.9, 115.0, -14.0),
     }

@@ -117,4 +117,4 @@ def _add(parent: Xml.Element, tag: str, **attributes: object) -> Xml.Element:
 def _text(value: object) -> str:
     if isinstance(value, (tuple, list)):
         return " ".join(_text(item) for item in value)
-    return value if isinstance(value, str) else repr(float(value))  # type: ignore[arg-type]
+    return str(value)
