@@ -1,14 +1,16 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
+//! ([`simulators`]), runs studies ([`studies`]) and hands tables on ([`arrow`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
 //! computes physics, and nothing below knows of Python.
 
+mod arrow;
 mod columns;
 mod descriptions;
 mod errors;
 mod interrupt;
+mod simulators;
 mod studies;
 mod validation;
 mod values;
@@ -18,10 +20,14 @@ mod wheels;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
+    use super::arrow::arrow_stream;
+    #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,
         read_document_text, to_toml,
     };
+    #[pymodule_export]
+    use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
     use super::studies::{attitude, attitude_map, rollout, simulate};
     #[pymodule_export]
