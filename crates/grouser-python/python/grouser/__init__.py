@@ -3,7 +3,8 @@
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`).
+(`wheel_test`, `validate`). A `Simulator` leads a rover step by step; ``grouser.gym``, imported by
+itself, has environments for Gymnasium.
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -30,6 +31,7 @@ from ._errors import (
     ParameterError,
     SimulationError,
 )
+from ._simulator import Simulator, SimulatorBatch
 from ._studies import (
     Attitudes,
     AttitudeMap,
@@ -61,6 +63,8 @@ __all__ = [
     "Scenario",
     "Settled",
     "SimulationError",
+    "Simulator",
+    "SimulatorBatch",
     "Site",
     "Soil",
     "Trajectory",

@@ -44,7 +44,7 @@ _ATTITUDE = ("yaw_deg", "slip_ratio", "sinkage_mm", "torque_nm", "energy_j_per_m
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(_tables.Tabular):
     """A run: what became of the rover, and its samples: arrays of shape (samples,). Positions are in
     the slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
 
@@ -94,13 +94,20 @@ class Trajectory:
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each sample; columns of a wheel start with its name, as in
-        ``front-left.slip_ratio``, as the program's CSV has them."""
+    def _table(self) -> dict[str, Any]:
         columns = _columns(self, _SAMPLE)
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
-        return _tables.frame(columns)
+        return columns
+
+    def _notes(self) -> dict[str, str]:
+        notes = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
+        return notes if self.message is None else {**notes, "message": self.message}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each sample; columns of a wheel start with its name, as in
+        ``front-left.slip_ratio``, as the program's CSV has them."""
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for what each wheel has; the
@@ -111,10 +118,7 @@ class Trajectory:
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
             data[longer] = _tables.variable(("time_s", "wheel"), name, values)
         data = data.assign_coords(wheel=list(self.wheel_names))
-        attrs = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
-        return data.assign_attrs(
-            attrs if self.message is None else {**attrs, "message": self.message}
-        )
+        return data.assign_attrs(self._notes())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the path on the slope, seen from above.
@@ -184,7 +188,7 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
 
 
 @dataclass(frozen=True, eq=False)
-class Rollout:
+class Rollout(_tables.Tabular):
     """The ends of many runs: arrays of shape (runs,), in the scenarios' order; NaN where a run could
     not be computed. Frames are those of a `Trajectory`."""
 
@@ -220,16 +224,16 @@ class Rollout:
     def __len__(self) -> int:
         return len(self.outcome)
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         return {"outcome": self.outcome, "message": self.message, **_columns(self, _SAMPLE)}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run."""
-        return _tables.frame(self._columns())
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``run`` with units in the attributes."""
-        return _tables.dataset(("run",), self._columns(), {"run": np.arange(len(self))})
+        return _tables.dataset(("run",), self._table(), {"run": np.arange(len(self))})
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws where the runs ended, seen from above."""
@@ -274,7 +278,7 @@ def rollout(scenarios: Iterable[Scenario | Source]) -> Rollout:
 
 
 @dataclass(frozen=True, eq=False)
-class Attitudes:
+class Attitudes(_tables.Tabular):
     """Level attitudes: arrays of shape (slopes,), NaN where there is none."""
 
     limit_slope_deg: float | None
@@ -298,16 +302,16 @@ class Attitudes:
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         return {**_columns(self, ("slope_deg", *_ATTITUDE)), "status": self.status}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
-        return _tables.frame(self._columns())
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``slope_deg`` with units in the attributes."""
-        columns = self._columns()
+        columns = self._table()
         coords = {"slope_deg": columns.pop("slope_deg")}
         return _tables.dataset(("slope_deg",), columns, coords)
 
@@ -365,7 +369,7 @@ def attitude(
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeMap:
+class AttitudeMap(_tables.Tabular):
     """Attitudes over soil, course and slope: arrays of shape (soils, courses, slopes), NaN where
     there is none."""
 
@@ -398,14 +402,15 @@ class AttitudeMap:
         names = (*_ATTITUDE, "power_w", "limit_slope_deg")
         return {**_columns(self, names), "status": self.status}
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each soil, course and slope, as the program has it."""
+    def _table(self) -> dict[str, Any]:
         soil, course, slope = np.meshgrid(
             np.array(self.soil, dtype=object), self.course_deg, self.slope_deg, indexing="ij"
         )
-        return _tables.frame(
-            {"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()}
-        )
+        return {"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each soil, course and slope, as the program has it."""
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``soil``, ``course_deg`` and ``slope_deg``, units in the attributes."""
@@ -485,7 +490,7 @@ def attitude_map(
 
 
 @dataclass(frozen=True, eq=False)
-class WheelTest:
+class WheelTest(_tables.Tabular):
     """A wheel test: every load with every slip angle and every slip ratio."""
 
     load_n: Floats
@@ -497,15 +502,17 @@ class WheelTest:
     wheels: Settled
     """What the wheel did; fields of shape (loads, angles, ratios)."""
 
+    def _table(self) -> dict[str, Any]:
+        return {**self.wheels._table(), "status": self.wheels.messages}
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each setting, slip ratios fastest, as the program has it."""
-        table = _tables.frame(self.wheels._columns())
-        return table.assign(status=self.wheels.messages.ravel())
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
         coords = {name: getattr(self, name) for name in ("load_n", "slip_angle_deg", "slip_ratio")}
-        columns = {k: v for k, v in self.wheels._columns().items() if k not in coords}
+        columns = {k: v for k, v in self.wheels._table().items() if k not in coords}
         return _tables.dataset(tuple(coords), columns, coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Validation:
+class Validation(_tables.Tabular):
     """A theory's errors against measurements, in the words of ``grouser validate``.
 
     A group of cells is a mapping: ``slip_angle_deg``, ``motion``, ``cells``, ``trials``,
@@ -43,9 +43,12 @@ class Validation:
     notes: tuple[str, ...]
     """What was noticed in the file and left."""
 
+    def _table(self) -> Mapping[str, Any]:
+        return self.trials
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each trial."""
-        return _tables.frame(self.trials)
+        return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
         """Draws the predictions of a quantity over its measurements, a dot for each cell."""
