@@ -63,8 +63,9 @@ pub(crate) fn arrow_stream<'py>(
     for (name, unit, cells) in columns {
         let array = cells.to_array()?;
         let field = Field::new(name, array.data_type().clone(), true);
-        let units = unit.map(|unit| ("units".to_owned(), unit));
-        fields.push(field.with_metadata(units.into_iter().collect()));
+        let units: HashMap<String, String> =
+            unit.map(|unit| ("units".to_owned(), unit)).into_iter().collect();
+        fields.push(field.with_metadata(units));
         arrays.push(array);
     }
     let schema = Arc::new(Schema::new_with_metadata(fields, notes));
