@@ -3,7 +3,8 @@
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`, `calibrate`).
+(`wheel_test`, `validate`, `calibrate`). A `Simulator` leads a rover step by step; ``grouser.gym``,
+imported by itself, has environments for Gymnasium.
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -34,6 +35,7 @@ from ._errors import (
     SimulationError,
 )
 from ._rollouts import Rollout, rollout
+from ._simulator import Simulator, SimulatorBatch
 from ._studies import AttitudeMap, Attitudes, Trajectory, attitude, attitude_map, simulate
 from ._validation import Ranking, Validation, validate, validate_all
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
@@ -60,6 +62,8 @@ __all__ = [
     "Settled",
     "SimulatedWheelTest",
     "SimulationError",
+    "Simulator",
+    "SimulatorBatch",
     "Site",
     "Soil",
     "Trajectory",

@@ -44,7 +44,7 @@ _PARAMETERS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class Calibration(_tables.Tabular):
     """A soil fitted to measurements: arrays of shape (keys,) in each key's own unit. What was sampled
     is NaN or None for a ``point_fit``."""
 
@@ -122,7 +122,14 @@ class Calibration:
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each key, as the program's CSV has it."""
-        return _tables.frame({"key": np.array(self.key, dtype=object), **self._parameters()})
+        return _tables.frame(self._table())
+
+    def _table(self) -> dict[str, Any]:
+        return {"key": np.array(self.key, dtype=object), **self._parameters()}
+
+    def _notes(self) -> dict[str, str]:
+        notes = {"outcome": self.outcome, "soil": self.soil.to_toml()}
+        return notes if self.message is None else {**notes, "message": self.message}
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``key`` (with its ``unit``), and over ``sample`` and ``key``."""
@@ -135,10 +142,7 @@ class Calibration:
         data["correlations"] = (("key", "other_key"), self.correlations)
         if self.samples is not None:
             data["samples"] = (("sample", "key"), self.samples)
-        attrs = {"outcome": self.outcome, "soil": self.soil.to_toml()}
-        return data.assign_attrs(
-            attrs if self.message is None else {**attrs, "message": self.message}
-        )
+        return data.assign_attrs(self._notes())
 
     def _parameters(self) -> dict[str, Any]:
         return columns_of(self, _PARAMETERS)

@@ -45,7 +45,7 @@ _ATTITUDE = ("yaw_deg", "slip_ratio", "sinkage_mm", "torque_nm", "energy_j_per_m
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(_tables.Tabular):
     """A run: what became of the rover, and its samples: arrays of shape (samples,). Positions are in
     the slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
 
@@ -95,13 +95,20 @@ class Trajectory:
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each sample; columns of a wheel start with its name, as in
-        ``front-left.slip_ratio``, as the program's CSV has them."""
+    def _table(self) -> dict[str, Any]:
         columns = columns_of(self, SAMPLE)
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
-        return _tables.frame(columns)
+        return columns
+
+    def _notes(self) -> dict[str, str]:
+        notes = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
+        return notes if self.message is None else {**notes, "message": self.message}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each sample; columns of a wheel start with its name, as in
+        ``front-left.slip_ratio``, as the program's CSV has them."""
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for what each wheel has; the
@@ -112,10 +119,7 @@ class Trajectory:
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
             data[longer] = _tables.variable(("time_s", "wheel"), name, values)
         data = data.assign_coords(wheel=list(self.wheel_names))
-        attrs = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
-        return data.assign_attrs(
-            attrs if self.message is None else {**attrs, "message": self.message}
-        )
+        return data.assign_attrs(self._notes())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the path on the slope, seen from above.
@@ -185,7 +189,7 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
 
 
 @dataclass(frozen=True, eq=False)
-class Attitudes:
+class Attitudes(_tables.Tabular):
     """Level attitudes: arrays of shape (slopes,), NaN where there is none."""
 
     limit_slope_deg: float | None
@@ -211,17 +215,17 @@ class Attitudes:
     band: AttitudeBand | None = None
     """What the draws of an uncertain soil say, where they were asked for."""
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._columns()
         return {**columns_of(self, ("slope_deg", *_ATTITUDE)), "status": self.status, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
-        return _tables.frame(self._columns())
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``slope_deg`` with units in the attributes."""
-        columns = self._columns()
+        columns = self._table()
         coords = {"slope_deg": columns.pop("slope_deg")}
         return _tables.dataset(("slope_deg",), columns, coords)
 
@@ -300,7 +304,7 @@ def attitude(
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeMap:
+class AttitudeMap(_tables.Tabular):
     """Attitudes over soil, course and slope: arrays of shape (soils, courses, slopes), NaN where
     there is none."""
 
@@ -333,14 +337,15 @@ class AttitudeMap:
         names = (*_ATTITUDE, "power_w", "limit_slope_deg")
         return {**columns_of(self, names), "status": self.status}
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each soil, course and slope, as the program has it."""
+    def _table(self) -> dict[str, Any]:
         soil, course, slope = np.meshgrid(
             np.array(self.soil, dtype=object), self.course_deg, self.slope_deg, indexing="ij"
         )
-        return _tables.frame(
-            {"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()}
-        )
+        return {"soil": soil, "course_deg": course, "slope_deg": slope, **self._columns()}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each soil, course and slope, as the program has it."""
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``soil``, ``course_deg`` and ``slope_deg``, units in the attributes."""

@@ -17,6 +17,7 @@ mod rft;
 mod rover;
 mod runs;
 mod simulated;
+mod stepping;
 mod time_step;
 mod uncertain_documents;
 mod uncertainty;
