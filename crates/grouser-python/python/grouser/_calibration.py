@@ -127,6 +127,10 @@ class Calibration(_tables.Tabular):
     def _table(self) -> dict[str, Any]:
         return {"key": np.array(self.key, dtype=object), **self._parameters()}
 
+    def _unit_of(self, name: str) -> str | None:
+        # They differ from key to key.
+        return None
+
     def _notes(self) -> dict[str, str]:
         notes = {"outcome": self.outcome, "soil": self.soil.to_toml()}
         return notes if self.message is None else {**notes, "message": self.message}

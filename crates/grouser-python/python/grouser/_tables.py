@@ -91,6 +91,10 @@ class Tabular:
         """Columns of the table that ``to_pandas`` gives."""
         raise NotImplementedError
 
+    def _unit_of(self, name: str) -> str | None:
+        """The unit of a column of numbers."""
+        return unit_of(name)
+
     def _notes(self) -> Mapping[str, str]:
         """What is to be said of the whole table."""
         return {}
@@ -100,7 +104,7 @@ class Tabular:
         consumer calls. The schema is always the table's own. Each number's unit is in its field's
         metadata as ``units``; a result that there is not is null."""
         columns = [
-            (name, *_arrow_column(name, np.ravel(np.asarray(values))))
+            (name, *_arrow_column(self._unit_of(name), np.ravel(np.asarray(values))))
             for name, values in self._table().items()
         ]
         return _core.arrow_stream(columns, dict(self._notes()))
@@ -113,10 +117,10 @@ class Tabular:
         return pyarrow.table(self)
 
 
-def _arrow_column(name: str, cells: Any) -> tuple[str | None, Any]:
-    """The unit of a column and its cells, as the native half takes them."""
+def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
+    """The unit of a column, if it has numbers, and its cells, as the native half takes them."""
     if cells.dtype.kind == "f":
-        return unit_of(name), np.ascontiguousarray(cells, dtype=np.float64)
+        return unit, np.ascontiguousarray(cells, dtype=np.float64)
     if cells.dtype.kind in "iu":
         return None, np.ascontiguousarray(cells, dtype=np.int64)
     if cells.dtype.kind == "b":
