@@ -11,7 +11,8 @@ import re
 import shutil
 from pathlib import Path
 
-import grouser
+import grouser.gym
+import grouser.mujoco
 from sphinx.pycode import ModuleAnalyzer
 from sphinx.util import logging
 
@@ -43,5 +44,6 @@ def complete(app) -> None:
     """Warns of names of the package that the reference leaves out."""
     page = Path(app.srcdir, "reference", "python.md").read_text(encoding="utf-8")
     told = set(re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M))
-    for name in sorted(set(grouser.__all__) - {a or b for a, b in told}):
+    names = {*grouser.__all__, *grouser.gym.__all__, *grouser.mujoco.__all__}
+    for name in sorted(names - {a or b for a, b in told}):
         logging.getLogger(__name__).warning("reference/python.md leaves out %s", name)
