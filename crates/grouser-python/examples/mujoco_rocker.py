@@ -119,7 +119,7 @@ def model_xml() -> str:
     <global offwidth="1600" offheight="1000" fovy="38"/>
     <quality shadowsize="8192" offsamples="8"/>
     <headlight ambient="0.30 0.29 0.28" diffuse="0.15 0.15 0.15" specular="0 0 0"/>
-    <map zfar="60" shadowclip="4"/>
+    <map zfar="60" shadowclip="1"/>
   </visual>
   <default>
     <default class="shown"><geom contype="0" conaffinity="0" mass="0"/></default>
