@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import textwrap
+from collections.abc import Iterator
 
 from sphinx.errors import ExtensionError
 
@@ -16,9 +17,17 @@ def write_pages(app) -> None:
     program = os.environ.get("GROUSER_PROGRAM")
     if not program:
         raise ExtensionError("GROUSER_PROGRAM must name the built program `grouser`")
-    commands = re.findall(r"^  ([a-z-]+) {2,}\S", help_of(program), flags=re.M)
-    pages = {name: page(name, help_of(program, name)) for name in commands if name != "help"}
-    write(app, "program", pages)
+    write(app, "program", dict(pages(program)))
+
+
+def pages(program: str, *above: str) -> Iterator[tuple[str, str]]:
+    """Names and texts of the pages of a command's own commands."""
+    listed = help_of(program, *above).partition("\nCommands:\n")[2].partition("\n\n")[0]
+    for name in re.findall(r"^  ([a-z-]+)", listed, flags=re.M):
+        if name != "help":
+            command = (*above, name)
+            yield "-".join(command), page(" ".join(command), help_of(program, *command))
+            yield from pages(program, *command)
 
 
 def help_of(program: str, *command: str) -> str:
