@@ -28,7 +28,9 @@ class Kind:
         self.lines: list[str] = []
 
     def page(self) -> str:
-        self.say(f"# {self.schema['title']}: {article(self.name)}", escaped(self.schema["description"]))
+        self.say(
+            f"# {self.schema['title']}: {article(self.name)}", escaped(self.schema["description"])
+        )
         self.say(
             f"`grouser check FILE` checks one, `schema/{self.name}.json` lets an editor complete and check the keys. "
             "Keys in **bold** are needed."
@@ -65,7 +67,7 @@ class Kind:
             law = self.words(variant["properties"].get("law", {}))
             if law:
                 said = escaped(variant.get("description", ""))
-                self.say(f"**`law = \"{law[0][0]}\"`** {said}".rstrip())
+                self.say(f'**`law = "{law[0][0]}"`** {said}'.rstrip())
             self.table(variant, f"{path}.")
 
     def resolved(self, value: dict[str, Any]) -> tuple[bool, dict[str, Any]]:
@@ -101,7 +103,7 @@ class Kind:
         value = self.followed(value)
         words = self.words(value)
         if words:
-            return " or ".join(f"`\"{word}\"`" for word, _ in words)
+            return " or ".join(f'`"{word}"`' for word, _ in words)
         if "anyOf" in value and not self.is_table(value):
             return ", or ".join(self.takes(one) for one in value["anyOf"])
         if value.get("type") == "array":

@@ -25,6 +25,4 @@ def write(app, folder: str, pages: dict[str, str]) -> None:
 def escaped(text: str) -> str:
     """Plain words as Markdown; what stands between backticks stays code."""
     parts = text.split("`")
-    return "`".join(
-        part if k % 2 else _SPECIAL.sub(r"\\\1", part) for k, part in enumerate(parts)
-    )
+    return "`".join(part if k % 2 else _SPECIAL.sub(r"\\\1", part) for k, part in enumerate(parts))

@@ -33,8 +33,10 @@ def gather(app) -> None:
 
 def signature(app, what, name, thing, options, arguments, returns):
     """Nobody makes a result or an error by hand: how is not said."""
-    if arguments and what in ("class", "exception") and (
-        dataclasses.is_dataclass(thing) or issubclass(thing, Exception)
+    if (
+        arguments
+        and what in ("class", "exception")
+        and (dataclasses.is_dataclass(thing) or issubclass(thing, Exception))
     ):
         return "", returns
     return arguments, returns
@@ -43,7 +45,9 @@ def signature(app, what, name, thing, options, arguments, returns):
 def complete(app) -> None:
     """Warns of names of the package that the reference leaves out."""
     page = Path(app.srcdir, "reference", "python.md").read_text(encoding="utf-8")
-    told = set(re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M))
+    told = set(
+        re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M)
+    )
     names = {*grouser.__all__, *grouser.gym.__all__, *grouser.mujoco.__all__}
     for name in sorted(names - {a or b for a, b in told}):
         logging.getLogger(__name__).warning("reference/python.md leaves out %s", name)
