@@ -15,12 +15,14 @@ use crate::{markers, workspace};
 const PACKAGE: &str = "crates/grouser-python";
 
 /// What builds and tests the package, by name: where from is for pip's own settings to say.
-const NEEDED: [&str; 8] = [
+const NEEDED: [&str; 10] = [
     "maturin>=1.16,<2",
     "numpy",
     "pandas",
     "xarray",
     "matplotlib",
+    "pyarrow",
+    "gymnasium>=1.1",
     "pytest>=8",
     "hypothesis>=6",
     "mypy>=1.10",

@@ -1,16 +1,19 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`], [`rollouts`], [`validation`], [`calibration`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
-//! computes physics, and nothing below knows of Python.
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
+//! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
+//! hands tables on ([`arrow`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]).
+//! Nothing here computes physics, and nothing below knows of Python.
 
+mod arrow;
 mod calibration;
 mod columns;
 mod descriptions;
 mod errors;
 mod interrupt;
 mod rollouts;
+mod simulators;
 mod studies;
 mod validation;
 mod values;
@@ -20,6 +23,8 @@ mod wheels;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
+    use super::arrow::arrow_stream;
+    #[pymodule_export]
     use super::calibration::{calibrate_plate_tests, calibrate_wheel_tests};
     #[pymodule_export]
     use super::descriptions::{
@@ -28,6 +33,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::rollouts::{rollout, time_rollout};
+    #[pymodule_export]
+    use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
     use super::studies::{attitude, attitude_band, attitude_map, simulate, simulated_wheel_test};
     #[pymodule_export]

@@ -42,7 +42,7 @@ pub(crate) const SAMPLE_FIELDS: [Field<SampleRecord>; 12] = fields!(SampleRecord
     time_s, x_m, y_m, yaw_deg, forward_speed_m_s, lateral_speed_m_s, yaw_rate_deg_s, power_w,
     energy_j, soil_energy_j, kinetic_energy_j, potential_energy_j);
 
-const WHEEL_FIELDS: [Field<WheelSampleRecord>; 5] = fields!(WheelSampleRecord:
+pub(crate) const WHEEL_FIELDS: [Field<WheelSampleRecord>; 5] = fields!(WheelSampleRecord:
     wheel_speed_rad_s, slip_ratio, slip_angle_deg, load_n, power_w);
 
 /// A run from its start to its end.
@@ -60,7 +60,7 @@ pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
     Simulation::new(scenario)?.run()
 }
 
-fn wheel_names(scenario: &Scenario) -> Vec<String> {
+pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
     scenario.rover.mounts().iter().map(|mount| mount.name.clone()).collect()
 }
 

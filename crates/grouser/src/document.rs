@@ -69,8 +69,8 @@ pub use rover::{
     BodySection, InertiaSection, MountSection, RoverDocument, RoverSchema, WheelUnitSection,
 };
 pub use scenario::{
-    DriveSection, LoadsWord, MomentsWord, MotionWord, ScenarioDocument, ScenarioSchema, Speeds,
-    StartSection,
+    DriveSection, LoadsWord, MomentsWord, MotionWord, RIM_SPEED_M_S, ScenarioDocument,
+    ScenarioSchema, Speeds, StartSection,
 };
 pub use schema::{range, schema};
 pub use soil::{

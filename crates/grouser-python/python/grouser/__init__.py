@@ -3,7 +3,8 @@
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`, `calibrate`).
+(`wheel_test`, `validate`, `calibrate`). A `Simulator` leads a rover step by step; ``grouser.gym``,
+imported by itself, has environments for Gymnasium.
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -22,6 +23,7 @@ Examples
 
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._attitude_band import AttitudeBand
+from ._attitudes import AttitudeMap, Attitudes, attitude, attitude_map
 from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
@@ -34,7 +36,8 @@ from ._errors import (
     SimulationError,
 )
 from ._rollouts import Rollout, rollout
-from ._studies import AttitudeMap, Attitudes, Trajectory, attitude, attitude_map, simulate
+from ._simulator import Simulator, SimulatorBatch
+from ._studies import Trajectory, simulate
 from ._validation import Ranking, Validation, validate, validate_all
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
@@ -60,6 +63,8 @@ __all__ = [
     "Settled",
     "SimulatedWheelTest",
     "SimulationError",
+    "Simulator",
+    "SimulatorBatch",
     "Site",
     "Soil",
     "Trajectory",

@@ -12,7 +12,9 @@ __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
+    "Simulators",
     "__version__",
+    "arrow_stream",
     "attitude",
     "attitude_band",
     "attitude_map",
@@ -28,6 +30,7 @@ __all__ = [
     "settle",
     "simulate",
     "simulated_wheel_test",
+    "simulator_columns",
     "time_rollout",
     "time_settle",
     "to_toml",
@@ -54,6 +57,31 @@ class Document:
     def to_toml(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
 
+@final
+class Simulators:
+    def __new__(cls, scenarios: Sequence[Document]) -> Simulators: ...
+    def __len__(self) -> int: ...
+    def copy(self) -> Simulators: ...
+    @property
+    def wheel_names(self) -> list[str]: ...
+    def reset(
+        self,
+        places: Sequence[int],
+        seeds: Sequence[int | None],
+        slope_deg: Sequence[float | None],
+        yaw_deg: Sequence[float | None],
+    ) -> None: ...
+    def step(
+        self, commands: _Floats, are_rim_speeds: bool, dt_s: float, active: NDArray[np.bool_]
+    ) -> None: ...
+    def samples(self) -> _Floats: ...
+    def wheel_samples(self) -> _Floats: ...
+    def words(self) -> list[tuple[str | None, str | None, str]]: ...
+
+def simulator_columns() -> tuple[list[str], list[str]]: ...
+def arrow_stream(
+    columns: Sequence[tuple[str, str | None, Any]], notes: dict[str, str]
+) -> object: ...
 def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ...
 def read_document_file(
     kind: str, path: str | os.PathLike[str], changes: dict[str, Any]

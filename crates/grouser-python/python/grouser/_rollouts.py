@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Rollout:
+class Rollout(_tables.Tabular):
     """The ends of many runs: arrays of the shape to which the arguments broadcast, (runs,) for a
     sequence of scenarios; NaN where a run could not be computed. Frames are those of a `Trajectory`.
     """
@@ -69,12 +69,12 @@ class Rollout:
     def __len__(self) -> int:
         return self.outcome.size
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         return {"outcome": self.outcome, "message": self.message, **columns_of(self, SAMPLE)}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run: where it ended."""
-        return _tables.frame(self._columns())
+        return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
         """A dataset with units in the attributes; samples have names that start with ``sample_``.
@@ -91,7 +91,7 @@ class Rollout:
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
             )
-        data = _tables.dataset(names, self._columns())
+        data = _tables.dataset(names, self._table())
         for name, values in (self.samples or {}).items():
             data[f"sample_{name}"] = _tables.variable((*names, "sample"), name, values)
         return data

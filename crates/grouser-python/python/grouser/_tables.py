@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
+
 if TYPE_CHECKING:
     import pandas
+    import pyarrow
     import xarray
     from matplotlib.axes import Axes
 
@@ -76,6 +79,53 @@ def frame(columns: Mapping[str, Any]) -> pandas.DataFrame:
     return pandas.DataFrame(
         {name: np.ravel(np.asarray(values)) for name, values in columns.items()}
     )
+
+
+class Tabular:
+    """A result that is a table, for whatever reads Arrow's C interface: ``pyarrow.table(result)``,
+    ``polars.DataFrame(result)``, DuckDB."""
+
+    __slots__ = ()
+
+    def _table(self) -> Mapping[str, Any]:
+        """Columns of the table that ``to_pandas`` gives."""
+        raise NotImplementedError
+
+    def _notes(self) -> Mapping[str, str]:
+        """What is to be said of the whole table."""
+        return {}
+
+    def _unit_of(self, name: str) -> str | None:
+        """The unit of a column of numbers; None where it differs from row to row."""
+        return unit_of(name)
+
+    def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
+        """The table as an Arrow stream of one batch, by the Arrow PyCapsule interface: what a
+        consumer calls. The schema is always the table's own. Each number's unit is in its field's
+        metadata as ``units``; a result that there is not is null."""
+        columns = [
+            (name, *_arrow_column(self._unit_of(name), np.ravel(np.asarray(values))))
+            for name, values in self._table().items()
+        ]
+        return _core.arrow_stream(columns, dict(self._notes()))
+
+    def to_arrow(self) -> pyarrow.Table:
+        """The rows of ``to_pandas`` as a table of Arrow, with units in the fields' metadata and null
+        where there is no result."""
+        import pyarrow
+
+        return pyarrow.table(self)
+
+
+def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
+    """The unit of a column and its cells, as the native half takes them."""
+    if cells.dtype.kind == "f":
+        return unit, np.ascontiguousarray(cells, dtype=np.float64)
+    if cells.dtype.kind in "iu":
+        return None, np.ascontiguousarray(cells, dtype=np.int64)
+    if cells.dtype.kind == "b":
+        return None, np.ascontiguousarray(cells)
+    return None, [None if cell is None else str(cell) for cell in cells]
 
 
 def axes_or_new(axes: Axes | None) -> Axes:

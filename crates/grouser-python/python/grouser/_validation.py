@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Validation:
+class Validation(_tables.Tabular):
     """A theory's errors against measurements, in the words of ``grouser validate``.
 
     A group of cells is a mapping: ``slip_angle_deg``, ``motion``, ``cells``, ``trials``,
@@ -44,9 +44,12 @@ class Validation:
     notes: tuple[str, ...]
     """What was noticed in the file and left."""
 
+    def _table(self) -> Mapping[str, Any]:
+        return self.trials
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each trial."""
-        return _tables.frame(self.trials)
+        return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
         """Draws the predictions of a quantity over its measurements, a dot for each cell."""
@@ -115,7 +118,7 @@ def validation_of(found: dict[str, Any]) -> Validation:
 
 
 @dataclass(frozen=True, eq=False)
-class Ranking:
+class Ranking(_tables.Tabular):
     """Theories beside measurements, in the words of ``grouser validate --all``: a mapping for each
     theory with a soil on a part of a data set, best first.
 
@@ -131,20 +134,27 @@ class Ranking:
     def __len__(self) -> int:
         return len(self.rows)
 
+    def _table(self) -> dict[str, Any]:
+        def column(name: str, dtype: type) -> Any:
+            return np.array([row[name] for row in self.rows], dtype=dtype)
+
+        def rmse(quantity: str) -> Any:
+            errors = (row["overall"][quantity] for row in self.rows)
+            return np.array([np.nan if it is None else it["rmse"] for it in errors])
+
+        quantities = ("drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm")
+        return {
+            **{name: column(name, object) for name in ("data_set", "case", "model", "soil")},
+            **{name: column(name, int) for name in ("rank", "unsettled_trials")},
+            # None is NaN among numbers.
+            "score": column("score", float),
+            **{f"{quantity}_rmse": rmse(quantity) for quantity in quantities},
+        }
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each, and the root mean square errors over all cells as
         ``drawbar_pull_n_rmse`` …"""
-        import pandas
-
-        plain = ("data_set", "case", "rank", "model", "soil", "score", "unsettled_trials")
-        quantities = ("drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm")
-
-        def row(one: Mapping[str, Any]) -> dict[str, Any]:
-            errors = {name: one["overall"][name] for name in quantities}
-            rmse = {f"{k}_rmse": np.nan if it is None else it["rmse"] for k, it in errors.items()}
-            return {**{name: one[name] for name in plain}, **rmse}
-
-        return pandas.DataFrame([row(one) for one in self.rows])
+        return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the scores as bars, the best at the top of each part."""

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class WheelTest:
+class WheelTest(_tables.Tabular):
     """A wheel test: every load with every slip angle and every slip ratio."""
 
     load_n: Floats
@@ -32,15 +32,17 @@ class WheelTest:
     wheels: Settled
     """What the wheel did; fields of shape (loads, angles, ratios)."""
 
+    def _table(self) -> dict[str, Any]:
+        return {**self.wheels._table(), "status": self.wheels.messages}
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each setting, slip ratios fastest, as the program has it."""
-        table = _tables.frame(self.wheels._columns())
-        return table.assign(status=self.wheels.messages.ravel())
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
         coords = {name: getattr(self, name) for name in ("load_n", "slip_angle_deg", "slip_ratio")}
-        columns = {k: v for k, v in self.wheels._columns().items() if k not in coords}
+        columns = {k: v for k, v in self.wheels._table().items() if k not in coords}
         return _tables.dataset(tuple(coords), columns, coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
@@ -62,7 +64,7 @@ class WheelTest:
 
 
 @dataclass(frozen=True, eq=False)
-class SimulatedWheelTest:
+class SimulatedWheelTest(_tables.Tabular):
     """A wheel test on a stand that does not read exactly: arrays of shape (loads, angles, ratios,
     trials), NaN where the soil does not carry the wheel. Readings are rounded to a ten-thousandth of
     their unit."""
@@ -97,12 +99,15 @@ class SimulatedWheelTest:
             "trial": trial,
         }
 
+    def _table(self) -> dict[str, Any]:
+        coords = self._coords()
+        mesh = np.meshgrid(*coords.values(), indexing="ij")
+        return {**dict(zip(coords, mesh)), **self._readings()}
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run of each setting, as the program has it. Its CSV
         (``.to_csv(file, index=False)``) is a file of measurements, for `calibrate` and `validate`."""
-        coords = self._coords()
-        mesh = np.meshgrid(*coords.values(), indexing="ij")
-        return _tables.frame({**dict(zip(coords, mesh)), **self._readings()})
+        return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``load_n``, ``slip_angle_deg``, ``slip_ratio`` and ``trial``; units in the
@@ -248,5 +253,3 @@ def wheel_test(
         model=model,
     )
     return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
-
-

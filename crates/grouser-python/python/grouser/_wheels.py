@@ -29,7 +29,7 @@ SUNK_TO_AXLE = 1
 
 
 @dataclass(frozen=True, eq=False)
-class WheelForces:
+class WheelForces(_tables.Tabular):
     """The soil's reaction on wheels, about the hub, in the wheel frame (x forward, y left, z up).
 
     Every field is an array of the shape to which the arguments broadcast; of no dimensions if all
@@ -77,12 +77,12 @@ class WheelForces:
         """The shape of every field."""
         return self.slip_ratio.shape
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each wheel, in the order of the flattened fields."""
-        return _tables.frame(self._columns())
+        return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
         """A dataset with units in the attributes.
@@ -99,7 +99,7 @@ class WheelForces:
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {len(self.shape)} dimensions", "dims"
             )
-        return _tables.dataset(names, self._columns())
+        return _tables.dataset(names, self._table())
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} of shape {self.shape}>"

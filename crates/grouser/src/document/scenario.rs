@@ -1,6 +1,8 @@
 //! `scenario/1`: a run. Every key has a default, and together the defaults are the source paper's
 //! experiment on a slope of 10° without compensation.
 
+use std::ops::RangeInclusive;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +23,9 @@ use crate::vehicle::{DriveLaw, LoadSharing, OwnMoments};
 
 /// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
 pub(super) const FASTEST: f64 = 10.0;
+
+/// Allowed speeds of a rim, ω r_s [m/s].
+pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 
 /// One run of one rover on one plane of soil.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

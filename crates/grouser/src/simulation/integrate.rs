@@ -81,7 +81,7 @@ const SMALL: [f64; SIZE] = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-2, 1e-2];
 
 /// What an implicit integration knows at its end: step size, order and the points behind it. One
 /// that goes on from there with other rim speeds need not feel its way from a tiny step again.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct History(Option<BdfState<NalgebraVec<f64>, NalgebraMat<f64>>>);
 
 impl History {

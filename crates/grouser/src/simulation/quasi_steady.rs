@@ -44,6 +44,7 @@ const RESOLVED: f64 = 1e-5;
 const STEP_SHARE: f64 = 0.1;
 
 /// Balances over a stretch of yaw, evenly spaced: one, two or five.
+#[derive(Clone)]
 pub(super) struct Stretch {
     nodes: Vec<Balance>,
     /// From the first to the last [rad], with its sign.
@@ -51,7 +52,7 @@ pub(super) struct Stretch {
 }
 
 /// What one run hands on from one advance to the next.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Carried {
     memory: Memory,
     stretch: Option<Stretch>,

@@ -16,6 +16,12 @@ pub(super) fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f6
     times
 }
 
+/// A time, or the multiple of an interval that it is but for rounding: so that many steps do not add
+/// up their rounding.
+pub(super) fn snapped(time: f64, interval: f64) -> f64 {
+    if is_multiple(time, interval) { (time / interval).round() * interval } else { time }
+}
+
 /// Whether two times are one, but for rounding.
 pub(super) fn is_same_time(one: f64, other: f64) -> bool {
     /// Far below any step, far above the rounding of a day in seconds [s].

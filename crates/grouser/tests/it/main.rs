@@ -17,5 +17,6 @@ mod rft;
 mod rover;
 mod runs;
 mod simulated;
+mod stepping;
 mod uncertain_documents;
 mod uncertainty;

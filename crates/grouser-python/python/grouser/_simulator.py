@@ -1,0 +1,509 @@
+"""Rovers led step by step, for controllers and for learning."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core
+from ._descriptions import Scenario, Source
+from ._errors import ParameterError, SimulationError
+from ._wheels import Floats, number, numbers
+
+#: What commands may be: speeds of wheels or of their rims.
+Commands = Literal["wheel_speed_rad_s", "speed_m_s"]
+
+_SAMPLES, _WHEELS = _core.simulator_columns()
+_STATE = ("x_m", "y_m", "yaw_deg", "forward_speed_m_s", "lateral_speed_m_s", "yaw_rate_deg_s")
+_STATE_PLACES = [_SAMPLES.index(name) for name in _STATE]
+
+
+class SimulatorBatch:
+    """Many rovers led step by step at once, on all cores and without Python's lock.
+
+    Each moves as a `Simulator` of its own would, bit for bit, whatever the number of cores. One whose
+    run has ended stays as it is until it is reset.
+
+    Parameters
+    ----------
+    scenarios : sequence of Scenario, names, paths or mappings
+        Where each rover starts, and with which soil; all rovers have the same number of wheels.
+    commands : {"wheel_speed_rad_s", "speed_m_s"}
+        What `step` is told: speeds of the wheels [rad/s], or of their rims, ω (r + h_g) [m/s].
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `Scenario`.
+    SimulationError
+        If a rover's start cannot be computed.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> slopes = [5.0, 10.0, 15.0]
+    >>> rovers = gr.SimulatorBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="speed_m_s")
+    >>> state = rovers.step(0.06, 1.0)
+    >>> state.shape, bool((np.diff(state[:, 1]) < 0.0).all())   # steeper slopes, more drift
+    ((3, 6), True)
+    """
+
+    STATE: ClassVar[tuple[str, ...]] = _STATE
+    """What the columns of `state` are, with their units: position in the slope frame [m], yaw [°],
+    speeds in the body frame [m/s], yaw rate [°/s]."""
+
+    def __init__(
+        self,
+        scenarios: Sequence[Scenario | Source],
+        *,
+        commands: Commands = "wheel_speed_rad_s",
+    ) -> None:
+        if isinstance(scenarios, (str, Scenario)):
+            raise ParameterError("scenarios is one scenario, it must be several", "scenarios")
+        if commands not in ("wheel_speed_rad_s", "speed_m_s"):
+            raise ParameterError(
+                f"commands is {commands!r}, it must be 'wheel_speed_rad_s' or 'speed_m_s'",
+                "commands",
+            )
+        runs = [one if isinstance(one, Scenario) else Scenario(one) for one in scenarios]
+        if not runs:
+            raise ParameterError("scenarios is empty, it must be at least one", "scenarios")
+        self._scenarios = tuple(runs)
+        self._commands: Commands = commands
+        self._native = _core.Simulators([run._document for run in runs])
+        self._look()
+
+    def _look(self) -> None:
+        """Reads where the rovers are."""
+        self._rows: Floats = self._native.samples()
+        self._of_wheels: Floats | None = None
+        self._words: list[tuple[str | None, str | None, str]] | None = None
+
+    def __len__(self) -> int:
+        return len(self._native)
+
+    def reset(
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        slope_deg: ArrayLike | None = None,
+        yaw_deg: ArrayLike | None = None,
+        mask: ArrayLike | None = None,
+    ) -> Floats:
+        """Puts rovers at their start again.
+
+        Parameters
+        ----------
+        seed : int or sequence of int, optional
+            Draws each soil from its ``[uncertainty]``, if it has one; rover k of a single seed has
+            ``seed + k``. Without it soils are as their documents say.
+        slope_deg, yaw_deg : array_like, shape () or (rovers,), optional
+            Another slope [°] and yaw at the start [°] than the scenario's.
+        mask : array_like of bool, shape (rovers,), optional
+            Which rovers; all without.
+
+        Returns
+        -------
+        ndarray, shape (rovers, 6)
+            The `state`.
+
+        Raises
+        ------
+        ParameterError
+            For values out of range; then nothing has changed.
+        """
+        count = len(self)
+        chosen = np.flatnonzero(self._mask(mask))
+        seeds = _seeds(seed, count)
+        slopes, yaws = (
+            _each(name, values, count)
+            for name, values in (("slope_deg", slope_deg), ("yaw_deg", yaw_deg))
+        )
+        self._native.reset(
+            chosen.tolist(),
+            [seeds[k] for k in chosen],
+            [slopes[k] for k in chosen],
+            [yaws[k] for k in chosen],
+        )
+        self._look()
+        return self.state
+
+    def step(self, commands: ArrayLike, dt_s: float, *, mask: ArrayLike | None = None) -> Floats:
+        """Turns the wheels at the given speeds for a while; every wheel takes its speed at once and
+        keeps it.
+
+        Parameters
+        ----------
+        commands : array_like, shape (), (wheels,) or (rovers, wheels)
+            Speeds as ``commands`` of the constructor says [rad/s or m/s]; rims at most 10 m/s.
+        dt_s : float
+            How long [s], from 1e-6 to 86400.
+        mask : array_like of bool, shape (rovers,), optional
+            Which rovers go on; all without.
+
+        Returns
+        -------
+        ndarray, shape (rovers, 6)
+            The `state` afterwards.
+
+        Raises
+        ------
+        ParameterError
+            For commands and times that nothing can have; then nothing has changed. A motion that
+            cannot be computed is told in `outcome` as ``failed``, and the others go on.
+        """
+        shape = (len(self), len(self.wheel_names))
+        array = numbers("commands", commands)
+        try:
+            whole = np.ascontiguousarray(np.broadcast_to(array, shape))
+        except ValueError:
+            raise ParameterError(
+                f"commands has shape {array.shape}, it must broadcast to {shape}, rovers and wheels",
+                "commands",
+            ) from None
+        span = number("dt_s", dt_s)
+        try:
+            are_rims = self._commands == "speed_m_s"
+            self._native.step(whole, are_rims, span, self._mask(mask))
+        finally:
+            # Ctrl-C may come when some have had their step.
+            self._look()
+        return self.state
+
+    def _mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
+        if mask is None:
+            return np.ones(len(self), dtype=np.bool_)
+        array = np.asarray(mask)
+        if array.dtype != np.bool_ or array.shape != (len(self),):
+            raise ParameterError(
+                f"mask is of dtype {array.dtype} and shape {array.shape}, it must be bool and "
+                f"({len(self)},)",
+                "mask",
+            )
+        return np.ascontiguousarray(array)
+
+    def _column(self, name: str) -> Floats:
+        return self._rows[:, _SAMPLES.index(name)].copy()
+
+    @property
+    def state(self) -> Floats:
+        """Pose and velocities in the order of `STATE`; a copy of shape (rovers, 6)."""
+        return np.ascontiguousarray(self._rows[:, _STATE_PLACES])
+
+    @property
+    def time_s(self) -> Floats:
+        """Time since the start [s], shape (rovers,)."""
+        return self._column("time_s")
+
+    @property
+    def power_w(self) -> Floats:
+        """Power of all motors now [W], shape (rovers,)."""
+        return self._column("power_w")
+
+    @property
+    def energy_j(self) -> Floats:
+        """Work of the motors so far [J], shape (rovers,)."""
+        return self._column("energy_j")
+
+    @property
+    def wheel_names(self) -> tuple[str, ...]:
+        """The wheels of the first rover, in the order of their mounts."""
+        return tuple(self._native.wheel_names)
+
+    @property
+    def wheel(self) -> Mapping[str, Floats]:
+        """What each wheel has, by name, with the names of `Trajectory.wheel`: arrays of shape
+        (rovers, wheels); NaN where a rover has just tipped over or sunk."""
+        if self._of_wheels is None:
+            self._of_wheels = self._native.wheel_samples()
+        return MappingProxyType(dict(zip(_WHEELS, self._of_wheels.copy())))
+
+    def _told(self) -> list[tuple[str | None, str | None, str]]:
+        if self._words is None:
+            self._words = self._native.words()
+        return self._words
+
+    @property
+    def outcome(self) -> NDArray[np.object_]:
+        """What became of each rover: None while it is under way, then ``immobilised``, ``sliding``,
+        ``tipped_over``, or ``failed`` where the motion cannot be computed."""
+        return _objects(words[0] for words in self._told())
+
+    @property
+    def message(self) -> NDArray[np.object_]:
+        """What that means, or None."""
+        return _objects(words[1] for words in self._told())
+
+    @property
+    def simulation(self) -> NDArray[np.object_]:
+        """How each was computed so far: ``dynamic``, ``quasi-steady`` where its scenario says so, or
+        ``fell-back`` from the second to the first."""
+        return _objects(words[2] for words in self._told())
+
+    @property
+    def scenarios(self) -> tuple[Scenario, ...]:
+        """What the rovers start from."""
+        return self._scenarios
+
+    def __copy__(self) -> SimulatorBatch:
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        twin._native = self._native.copy()
+        return twin
+
+    def __deepcopy__(self, memo: object) -> SimulatorBatch:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            f"a {type(self).__name__} on its way cannot be pickled; pickle its scenarios and "
+            "commands, or use copy.copy"
+        )
+
+    def __repr__(self) -> str:
+        ended = sum(outcome is not None for outcome in self.outcome)
+        return f"<SimulatorBatch of {len(self)} rovers, {ended} ended>"
+
+
+class Simulator:
+    """A rover led step by step: commands in, the rover after a while out.
+
+    It is the motion of `simulate`, by the same equations and the same integrator, cut into steps; as
+    long as the commands are those of the scenario's drive it goes where the run goes. ``copy.copy``
+    makes another that goes on as this one would, bit for bit. The scenario's duration and sample
+    interval do not matter; its drive turns the wheels until the first step.
+
+    Parameters
+    ----------
+    scenario : Scenario, name, path or mapping, optional
+        Where it starts; the source paper's traverse without.
+    commands : {"wheel_speed_rad_s", "speed_m_s"}
+        What `step` is told: speeds of the wheels [rad/s], or of their rims, ω (r + h_g) [m/s].
+    **changes
+        Keys of the scenario with other values: ``slope_deg=15.0``. With
+        ``simulation="quasi-steady"`` velocities are those in balance, at a tenth of the time: see
+        `Scenario`.
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `Scenario`.
+    SimulationError
+        If its start cannot be computed.
+
+    Examples
+    --------
+    Turning the nose uphill for two seconds, then straight on:
+
+    >>> import grouser as gr
+    >>> rover = gr.Simulator(slope_deg=10.0, commands="speed_m_s")
+    >>> rover.wheel_names
+    ('front-left', 'rear-left', 'rear-right', 'front-right')
+    >>> for _ in range(20):
+    ...     state = rover.step([0.03, 0.03, 0.09, 0.09], 0.1)
+    >>> state = rover.step(0.06, 3.0)
+    >>> dict(zip(rover.STATE, state.round(3)))["yaw_deg"] > 0.0
+    True
+    >>> rover.wheel["slip_ratio"].shape, rover.outcome
+    ((4,), None)
+    """
+
+    STATE: ClassVar[tuple[str, ...]] = _STATE
+    """What `state` holds, with units: position in the slope frame [m], yaw [°], speeds in the body
+    frame [m/s], yaw rate [°/s]."""
+
+    def __init__(
+        self,
+        scenario: Scenario | Source | None = None,
+        /,
+        *,
+        commands: Commands = "wheel_speed_rad_s",
+        **changes: Any,
+    ) -> None:
+        unchanged = isinstance(scenario, Scenario) and not changes
+        run: Any = scenario if unchanged else Scenario(scenario, **changes)
+        self._batch = SimulatorBatch([run], commands=commands)
+
+    def reset(
+        self,
+        *,
+        seed: int | None = None,
+        slope_deg: float | None = None,
+        yaw_deg: float | None = None,
+    ) -> Floats:
+        """Puts the rover at its start again.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Draws the soil from its ``[uncertainty]``, if it has one: the same seed, the same soil.
+            Without it the soil is as its document says.
+        slope_deg, yaw_deg : float, optional
+            Another slope [°] and yaw at the start [°] than the scenario's.
+
+        Returns
+        -------
+        ndarray, shape (6,)
+            The `state`.
+
+        Raises
+        ------
+        ParameterError
+            For values out of range.
+        """
+        slope = None if slope_deg is None else number("slope_deg", slope_deg)
+        yaw = None if yaw_deg is None else number("yaw_deg", yaw_deg)
+        state: Floats = self._batch.reset(seed=seed, slope_deg=slope, yaw_deg=yaw)[0]
+        return state
+
+    def step(self, commands: ArrayLike, dt_s: float) -> Floats:
+        """Turns the wheels at the given speeds for a while; every wheel takes its speed at once and
+        keeps it. A rover whose run has ended stays as it is.
+
+        Parameters
+        ----------
+        commands : array_like, shape () or (wheels,)
+            Speeds as ``commands`` of the constructor says [rad/s or m/s]; rims at most 10 m/s.
+        dt_s : float
+            How long [s], from 1e-6 to 86400.
+
+        Returns
+        -------
+        ndarray, shape (6,)
+            The `state` afterwards.
+
+        Raises
+        ------
+        ParameterError
+            For commands and times that nothing can have; then nothing has changed.
+        SimulationError
+            If the motion cannot be computed.
+        """
+        wheels = len(self.wheel_names)
+        array = numbers("commands", commands)
+        if array.shape not in ((), (wheels,)):
+            raise ParameterError(
+                f"commands has shape {array.shape}, it must be one speed or ({wheels},), one for "
+                "each wheel",
+                "commands",
+            )
+        failed_before = self.outcome == "failed"
+        state: Floats = self._batch.step(array, dt_s)[0]
+        if self.outcome == "failed" and not failed_before:
+            raise SimulationError(str(self.message), self.time_s)
+        return state
+
+    @property
+    def state(self) -> Floats:
+        """Pose and velocities in the order of `STATE`; a copy of shape (6,)."""
+        state: Floats = self._batch.state[0]
+        return state
+
+    @property
+    def time_s(self) -> float:
+        """Time since the start [s]."""
+        return float(self._batch.time_s[0])
+
+    @property
+    def power_w(self) -> float:
+        """Power of all motors now [W]."""
+        return float(self._batch.power_w[0])
+
+    @property
+    def energy_j(self) -> float:
+        """Work of the motors so far [J]."""
+        return float(self._batch.energy_j[0])
+
+    @property
+    def wheel_names(self) -> tuple[str, ...]:
+        """The wheels, in the order of their mounts."""
+        return self._batch.wheel_names
+
+    @property
+    def wheel(self) -> Mapping[str, Floats]:
+        """What each wheel has, by name, with the names of `Trajectory.wheel`: arrays of shape
+        (wheels,); NaN where the rover has just tipped over or sunk."""
+        rows = self._batch.wheel
+        return MappingProxyType({name: values[0] for name, values in rows.items()})
+
+    @property
+    def outcome(self) -> str | None:
+        """What became of the rover: None while it is under way, then ``immobilised``, ``sliding``,
+        ``tipped_over``, or ``failed`` where the motion could not be computed."""
+        outcome: str | None = self._batch.outcome[0]
+        return outcome
+
+    @property
+    def message(self) -> str | None:
+        """What that means."""
+        message: str | None = self._batch.message[0]
+        return message
+
+    @property
+    def simulation(self) -> str:
+        """How it was computed so far: ``dynamic``, ``quasi-steady`` or ``fell-back``."""
+        return str(self._batch.simulation[0])
+
+    @property
+    def scenario(self) -> Scenario:
+        """What it starts from."""
+        return self._batch.scenarios[0]
+
+    def __copy__(self) -> Simulator:
+        twin = object.__new__(type(self))
+        twin._batch = self._batch.__copy__()
+        return twin
+
+    def __deepcopy__(self, memo: object) -> Simulator:
+        return self.__copy__()
+
+    def __reduce__(self) -> Any:
+        return self._batch.__reduce__()
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name}={value:.4g}" for name, value in zip(_STATE, self.state))
+        return f"<Simulator at {self.time_s:.4g} s, {self.outcome or 'under way'}: {told}>"
+
+
+def _objects(items: Any) -> NDArray[np.object_]:
+    listed = list(items)
+    array: NDArray[np.object_] = np.empty(len(listed), dtype=object)
+    array[:] = listed
+    return array
+
+
+def _seeds(seed: int | Sequence[int | None] | None, count: int) -> list[int | None]:
+    """A seed for each rover."""
+    if seed is None:
+        return [None] * count
+    if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
+        given: list[int | None] = [int(seed) + k for k in range(count)]
+    elif isinstance(seed, (str, bytes)) or not hasattr(seed, "__len__"):
+        raise ParameterError(f"seed is {seed!r}, it must be a whole number", "seed")
+    else:
+        given = list(seed)
+    if len(given) != count:
+        raise ParameterError(f"there are {len(given)} seeds for {count} rovers", "seed")
+    for one in given:
+        whole = isinstance(one, (int, np.integer)) and not isinstance(one, bool)
+        if one is not None and not (whole and 0 <= one < 2**64):
+            raise ParameterError(
+                f"seed is {one!r}, it must be a whole number from 0 to below 2**64", "seed"
+            )
+    return [None if one is None else int(one) for one in given]
+
+
+def _each(name: str, values: ArrayLike | None, count: int) -> list[float | None]:
+    """A number for each rover, or none for any."""
+    if values is None:
+        return [None] * count
+    array = numbers(name, values)
+    if array.shape not in ((), (count,)):
+        raise ParameterError(
+            f"{name} has shape {array.shape}, it must be one number or ({count},)", name
+        )
+    return [float(value) for value in np.broadcast_to(array, (count,))]

@@ -1,0 +1,363 @@
+"""Gymnasium environments: hold a level line on a slope of unknown soil.
+
+Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that leads all its
+rovers at once on all cores. It needs Gymnasium: ``pip install grouser[gym]``.
+
+Examples
+--------
+>>> import gymnasium
+>>> import grouser.gym
+>>> env = gymnasium.make("grouser/LevelTraverse-v0")
+>>> observation, info = env.reset(seed=1)
+>>> observation, reward, terminated, truncated, info = env.step([0.6, 0.0])
+>>> observation.shape, terminated
+((17,), False)
+>>> envs = gymnasium.make_vec("grouser/LevelTraverse-v0", num_envs=8)
+>>> observations, infos = envs.reset(seed=1)
+>>> bool((observations[0] == env.reset(seed=1)[0]).all())
+True
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+try:
+    import gymnasium
+    from gymnasium.utils import seeding
+    from gymnasium.vector import AutoresetMode, VectorEnv
+    from gymnasium.vector.utils import batch_space
+except ImportError as error:
+    raise ImportError(
+        "grouser.gym needs Gymnasium: pip install grouser[gym]", name="gymnasium"
+    ) from error
+
+from ._descriptions import Scenario, Soil, Source
+from ._errors import ParameterError
+from ._simulator import SimulatorBatch
+from ._wheels import Floats, number, numbers
+
+__all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv"]
+
+#: The environment's name for ``gymnasium.make``.
+ENV_ID = "grouser/LevelTraverse-v0"
+#: Steps after which ``gymnasium.make`` truncates an episode: a minute at the usual period.
+MAX_EPISODE_STEPS = 120
+
+#: What a reset draws the start's yaw from [°].
+START_YAW_DEG = (-10.0, 10.0)
+#: An offset from the line that costs as much as the fastest progress earns [m]: about a wheel's
+#: radius.
+LINE_M = 0.1
+#: An offset at which the line is lost, and the episode ends [m]: about the rover's length.
+LOST_M = 0.5
+#: The reward of an episode's end that is none of the rover's merits.
+PENALTY = -50.0
+
+#: Names of what is observed of the rover, with units.
+_ROVER = ("y_m", "yaw_deg", "forward_speed_m_s", "lateral_speed_m_s", "yaw_rate_deg_s")
+#: Bounds of the same; what is beyond is clipped, far from where an episode goes on.
+_ROVER_BOUNDS = (1.0, 180.0, 1.0, 1.0, 180.0)
+#: Names of what is observed of each wheel, with units, and bounds of the same.
+_WHEEL = ("wheel_speed_rad_s", "torque_nm", "power_w")
+_WHEEL_BOUNDS = (20.0, 50.0, 100.0)
+
+
+class _Traverses:
+    """Any number of rovers that are to hold their lines: what both forms of the environment are."""
+
+    def __init__(
+        self,
+        count: int,
+        *,
+        scenario: Scenario | Source | None = None,
+        soil: Soil | Source = "toyoura-uncertain",
+        slope_deg: Sequence[float] = (5.0, 15.0),
+        max_speed_m_s: float = 0.1,
+        dt_s: float = 0.5,
+    ) -> None:
+        low, high = _pair("slope_deg", slope_deg)
+        self.slopes = (low, high)
+        self.fastest = number("max_speed_m_s", max_speed_m_s)
+        if not 0.0 < self.fastest <= 10.0:
+            raise ParameterError(
+                f"max_speed_m_s is {self.fastest}, it must be above 0, at most 10",
+                "max_speed_m_s",
+                self.fastest,
+            )
+        self.dt_s = number("dt_s", dt_s)
+        run = Scenario(scenario, soil=soil, slope_deg=high)
+        # What a reset draws must be allowed at both ends, and is found out here.
+        run.replace(slope_deg=low)
+        self.rovers = SimulatorBatch([run] * count, commands="speed_m_s")
+        # Wheels on the left side are those with y > 0 in the body frame.
+        left = [mount["position_m"][1] > 0.0 for mount in run.rover.mount]
+        self.side = np.where(left, -1.0, 1.0)
+        bounds = np.array([*_ROVER_BOUNDS, *np.repeat(_WHEEL_BOUNDS, len(left))])
+        self.observation_space = gymnasium.spaces.Box(-bounds, bounds, dtype=np.float64)
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), dtype=np.float64)
+        self.slope_deg = np.full(count, high)
+
+    def reset(self, which: NDArray[np.bool_], randoms: Sequence[np.random.Generator]) -> None:
+        """Draws slope, yaw and soil, in this order, of each rover from its own generator."""
+        seeds = [0] * len(randoms)
+        yaws = np.zeros(len(randoms))
+        for k in np.flatnonzero(which):
+            self.slope_deg[k] = randoms[k].uniform(*self.slopes)
+            yaws[k] = randoms[k].uniform(*START_YAW_DEG)
+            seeds[k] = int(randoms[k].integers(2**63))
+        self.rovers.reset(seed=seeds, slope_deg=self.slope_deg, yaw_deg=yaws, mask=which)
+
+    def step(
+        self, actions: ArrayLike, which: NDArray[np.bool_]
+    ) -> tuple[Floats, NDArray[np.bool_]]:
+        """Rewards, and which episodes ended by what the rover did."""
+        shares = np.clip(numbers("action", actions), -1.0, 1.0)
+        if shares.shape != (len(self.rovers), 2) or np.isnan(shares).any():
+            raise ParameterError(
+                f"the action is {actions!r}, it must be two numbers for each rover, from -1 to 1",
+                "action",
+            )
+        drive, turn = shares[:, :1], shares[:, 1:]
+        rims = self.fastest * np.clip(drive + turn * self.side, -1.0, 1.0)
+        before = self.rovers.state[:, 0]
+        state = self.rovers.step(rims, self.dt_s, mask=which)
+        progress = (state[:, 0] - before) / (self.fastest * self.dt_s)
+        offset = state[:, 1] / LINE_M
+        lost = np.abs(state[:, 1]) > LOST_M
+        ended = lost | np.array([outcome is not None for outcome in self.rovers.outcome])
+        rewards = progress - offset * offset + PENALTY * ended
+        return np.where(which, rewards, 0.0), ended & which
+
+    def observations(self) -> Floats:
+        state, wheel = self.rovers.state, self.rovers.wheel
+        rover = [state[:, [self.rovers.STATE.index(name)]] for name in _ROVER]
+        # A rover that has just tipped over or sunk has no torque to tell.
+        wheels = [np.nan_to_num(wheel[name]) for name in _WHEEL]
+        high = self.observation_space.high
+        return np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
+
+    def info(self, k: int) -> dict[str, Any]:
+        return {
+            "x_m": float(self.rovers.state[k, 0]),
+            "slope_deg": float(self.slope_deg[k]),
+            "energy_j": float(self.rovers.energy_j[k]),
+            "outcome": self.rovers.outcome[k],
+        }
+
+
+class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
+    """Hold a level line on a slope of unknown soil, with a rover that cannot steer its wheels.
+
+    The line is the contour through the start, y = 0. Each reset draws the slope, the yaw at the
+    start (−10 to 10°) and the soil, from its ``[uncertainty]``; none of them but the yaw is
+    observed. A rover that drives straight on drifts downhill: it has to find the yaw uphill that
+    makes up for it, by different speeds of its left and right wheels.
+
+    **Action**, two numbers from −1 to 1: drive, and turn to the left (uphill, while the rover goes
+    along +x). Rims on the left turn at ``max_speed_m_s`` (drive − turn), those on the right at
+    ``max_speed_m_s`` (drive + turn), each limited to ``max_speed_m_s``, for ``dt_s``.
+
+    **Observation**, float64: offset from the line y [m], positive uphill; yaw [°]; forward and
+    lateral speed of the body [m/s]; yaw rate [°/s]; then of every wheel, in the mounts' order, wheel
+    speed [rad/s], motor torque [N·m], motor power [W]. Values are clipped to the space's bounds.
+
+    **Reward** of a step: way along the line over the longest possible, Δx/(max_speed dt), less
+    (y/0.1 m)²; less 50 where the episode terminates.
+
+    **Termination**: the rover gets stuck, slides, tips over, or is more than 0.5 m off the line.
+    ``gymnasium.make`` truncates after 120 steps, a minute.
+
+    **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None while under way).
+
+    Parameters
+    ----------
+    scenario : Scenario, name, path or mapping, optional
+        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is some ten times as fast.
+    soil : Soil, name, path or mapping
+        The soil; without ``[uncertainty]`` it is the same in every episode.
+    slope_deg : (float, float)
+        Least and steepest slope [°].
+    max_speed_m_s : float
+        The fastest rim [m/s].
+    dt_s : float
+        How long an action is held [s].
+    render_mode : None
+        There is nothing to render.
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `grouser.Scenario`.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]
+
+    def __init__(
+        self,
+        *,
+        scenario: Scenario | Source | None = None,
+        soil: Soil | Source = "toyoura-uncertain",
+        slope_deg: Sequence[float] = (5.0, 15.0),
+        max_speed_m_s: float = 0.1,
+        dt_s: float = 0.5,
+        render_mode: None = None,
+    ) -> None:
+        self._traverses = _Traverses(
+            1,
+            scenario=scenario,
+            soil=soil,
+            slope_deg=slope_deg,
+            max_speed_m_s=max_speed_m_s,
+            dt_s=dt_s,
+        )
+        self.render_mode = render_mode
+        self.observation_space = self._traverses.observation_space
+        self.action_space = self._traverses.action_space
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Floats, dict[str, Any]]:
+        """Starts an episode; the seed decides on slope, yaw and soil. There are no options."""
+        super().reset(seed=seed)
+        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random])
+        return self._traverses.observations()[0], self._traverses.info(0)
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """Holds an action for ``dt_s``."""
+        all_of_one = np.ones(1, dtype=np.bool_)
+        rewards, ended = self._traverses.step(np.asarray(action)[None], all_of_one)
+        observation = self._traverses.observations()[0]
+        return observation, float(rewards[0]), bool(ended[0]), False, self._traverses.info(0)
+
+
+class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
+    """Many `LevelTraverseEnv` at once, on all cores: with the same seeds they have the same bits.
+
+    Seeds, masks of ``options["reset_mask"]``, infos and resets at an episode's end are those of
+    ``gymnasium.vector.SyncVectorEnv``.
+
+    Parameters
+    ----------
+    num_envs : int
+        How many.
+    max_episode_steps : int or None
+        Steps after which an episode is truncated.
+    autoreset_mode : AutoresetMode or str
+        When a sub-environment whose episode has ended is reset: with the next step (the default,
+        whose action it ignores), in the same step (the end is in ``infos["final_obs"]`` and
+        ``infos["final_info"]``), or not by itself.
+    **settings
+        As for `LevelTraverseEnv`.
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        *,
+        max_episode_steps: int | None = MAX_EPISODE_STEPS,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+        render_mode: None = None,
+        **settings: Any,
+    ) -> None:
+        self.num_envs = num_envs
+        self.render_mode = render_mode
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {**LevelTraverseEnv.metadata, "autoreset_mode": self.autoreset_mode}
+        self._traverses = _Traverses(num_envs, **settings)
+        self._longest = max_episode_steps
+        self.single_observation_space = self._traverses.observation_space
+        self.single_action_space = self._traverses.action_space
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._randoms: list[np.random.Generator] = []
+        self._steps = np.zeros(num_envs, dtype=np.int64)
+        self._ended = np.zeros(num_envs, dtype=np.bool_)
+
+    def reset(  # type: ignore[override]
+        self,
+        *,
+        seed: int | Sequence[int | None] | None = None,
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Floats, dict[str, Any]]:
+        """Starts episodes; sub-environment k of a single seed has ``seed + k``.
+
+        ``options["reset_mask"]``, an array of bool, says which of them; all without.
+        """
+        seeds = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else seed
+        if seeds is not None and len(seeds) != self.num_envs:
+            raise ParameterError(f"{len(seeds)} seeds for {self.num_envs} environments", "seed")
+        which = np.ones(self.num_envs, dtype=np.bool_)
+        if options is not None and "reset_mask" in options:
+            which = np.asarray(options["reset_mask"])
+            if which.dtype != np.bool_ or which.shape != (self.num_envs,) or not which.any():
+                raise ParameterError(
+                    f"reset_mask must be {self.num_envs} bools, one of them True", "reset_mask"
+                )
+        if not self._randoms:
+            self._randoms = [seeding.np_random()[0] for _ in range(self.num_envs)]
+        for k in np.flatnonzero(which):
+            if seeds is not None and seeds[k] is not None:
+                self._randoms[k] = seeding.np_random(seeds[k])[0]
+        self._start(which)
+        return self._traverses.observations(), self._infos({}, which)
+
+    def _start(self, which: NDArray[np.bool_]) -> None:
+        self._traverses.reset(which, self._randoms)
+        self._steps[which] = 0
+        self._ended[which] = False
+
+    def step(
+        self, actions: Floats
+    ) -> tuple[Floats, Floats, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
+        """Holds an action of each for ``dt_s``; those whose episode ended are reset as
+        ``autoreset_mode`` says."""
+        if not self._randoms:
+            raise gymnasium.error.ResetNeeded("reset the environments before the first step")
+        again = self._ended.copy()
+        if self.autoreset_mode is AutoresetMode.DISABLED and again.any():
+            raise gymnasium.error.ResetNeeded(
+                f"environments {np.flatnonzero(again).tolist()} have ended: reset them"
+            )
+        rewards, terminated = self._traverses.step(actions, ~again)
+        self._steps[~again] += 1
+        truncated = np.zeros(self.num_envs, dtype=np.bool_)
+        if self._longest is not None:
+            truncated = (self._steps >= self._longest) & ~again
+        if again.any():
+            self._start(again)
+        infos: dict[str, Any] = {}
+        self._ended = terminated | truncated
+        if self.autoreset_mode is AutoresetMode.SAME_STEP and self._ended.any():
+            last = self._traverses.observations()
+            for k in np.flatnonzero(self._ended):
+                final = {"final_obs": last[k], "final_info": self._traverses.info(int(k))}
+                infos = self._add_info(infos, final, int(k))
+            self._start(self._ended.copy())
+        everyone = np.ones(self.num_envs, dtype=np.bool_)
+        infos = self._infos(infos, everyone)
+        return self._traverses.observations(), rewards, terminated, truncated, infos
+
+    def _infos(self, infos: dict[str, Any], which: NDArray[np.bool_]) -> dict[str, Any]:
+        for k in np.flatnonzero(which):
+            infos = self._add_info(infos, self._traverses.info(int(k)), int(k))
+        return infos
+
+
+def _pair(name: str, values: Sequence[float]) -> tuple[float, float]:
+    array = numbers(name, values)
+    if array.shape != (2,) or not array[0] <= array[1]:
+        raise ParameterError(f"{name} is {values!r}, it must be the least and the largest", name)
+    return float(array[0]), float(array[1])
+
+
+gymnasium.register(
+    id=ENV_ID,
+    entry_point="grouser.gym:LevelTraverseEnv",
+    vector_entry_point="grouser.gym:LevelTraverseVectorEnv",
+    max_episode_steps=MAX_EPISODE_STEPS,
+)

@@ -1,0 +1,284 @@
+//! Rovers led step by step: any number at once, on all cores, each with the bits it has alone.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use grouser::document::trajectory::{SampleRecord, WheelSampleRecord};
+use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range};
+use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator};
+use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::columns::{WHEEL_COLUMNS, wheel_row};
+use crate::descriptions::Document;
+use crate::errors;
+use crate::studies::{SAMPLE_FIELDS, WHEEL_FIELDS, wheel_names};
+use crate::wheels::check;
+
+/// Rovers between two looks for signals: a small part of a second.
+const BATCH: usize = 64;
+
+/// The longest step [s]: that of the longest run.
+const LONGEST_STEP: f64 = grouser::simulation::scenario::LONGEST_DURATION;
+
+/// One rover: what it starts from, and where it is.
+#[derive(Clone)]
+struct Led {
+    nominal: Scenario,
+    soils: Option<UncertainSoil>,
+    rover: Simulator,
+    failure: Option<String>,
+}
+
+/// What one rover starts from besides its scenario.
+#[derive(Clone, Copy)]
+struct Fresh {
+    seed: Option<u64>,
+    slope_deg: Option<f64>,
+    yaw_deg: Option<f64>,
+}
+
+impl Led {
+    fn new(loaded: &LoadedScenario) -> Result<Self, SimulationError> {
+        let nominal = loaded.value.clone();
+        let soils = loaded.document.soil.inline().and_then(|soil| soil.uncertain()).cloned();
+        let rover = Simulator::new(nominal.clone())?;
+        Ok(Self { nominal, soils, rover, failure: None })
+    }
+
+    fn reset(&mut self, fresh: Fresh) -> Result<(), SimulationError> {
+        let mut scenario = self.nominal.clone();
+        if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
+            // That draws can be had was found out when the document was read.
+            if let Ok(soil) = soils.draw(seed, 0) {
+                scenario.site.soil = soil;
+            }
+        }
+        if let Some(slope) = fresh.slope_deg {
+            scenario.site.slope = slope.to_radians();
+        }
+        if let Some(yaw) = fresh.yaw_deg {
+            scenario.start.yaw = yaw.to_radians();
+        }
+        self.rover = Simulator::new(scenario)?;
+        self.failure = None;
+        Ok(())
+    }
+
+    /// Goes on for a while, unless its run has ended or failed.
+    fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), SimulationError> {
+        if self.failure.is_some() {
+            return Ok(());
+        }
+        let done = self.rover.step(rim_speeds, span);
+        if let Err(error) = &done {
+            self.failure = Some(error.to_string());
+        }
+        done
+    }
+
+    fn record(&self) -> SampleRecord {
+        SampleRecord::new(self.rover.now(), &self.nominal.rover)
+    }
+
+    /// `None` while it is under way.
+    fn outcome(&self) -> Option<&'static str> {
+        let found = self.rover.outcome().map(grouser::simulation::Outcome::name);
+        if self.failure.is_some() { Some("failed") } else { found }
+    }
+
+    fn message(&self) -> Option<String> {
+        self.failure.clone().or_else(|| self.rover.outcome()?.reason())
+    }
+}
+
+/// Rovers with one number of wheels.
+#[pyclass(frozen, module = "grouser._core")]
+pub(crate) struct Simulators {
+    rovers: Mutex<Vec<Led>>,
+    wheels: Vec<String>,
+    /// ω = v/r_s of each rover's wheels: r_s [m].
+    radii: Vec<f64>,
+}
+
+#[pymethods]
+impl Simulators {
+    #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
+    fn new(scenarios: Vec<PyRef<'_, Document>>) -> PyResult<Self> {
+        let loaded = scenarios.iter().map(|scenario| scenario.scenario());
+        let loaded = loaded.collect::<PyResult<Vec<_>>>()?;
+        let wheels = loaded.first().map_or(Vec::new(), |one| wheel_names(&one.value));
+        if loaded.iter().any(|one| one.value.rover.wheel_count() != wheels.len()) {
+            let message = "the rovers differ in their number of wheels".to_owned();
+            return Err(errors::parameter(message, "scenarios", None, "rovers of as many wheels"));
+        }
+        let radius = |one: &&LoadedScenario| one.value.rover.wheel().shearing_radius();
+        let radii = loaded.iter().map(radius).collect();
+        let rovers = loaded.into_iter().map(Led::new).collect::<Result<_, _>>();
+        let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
+        Ok(Self { rovers, wheels, radii })
+    }
+
+    /// How many rovers there are.
+    fn __len__(&self) -> usize {
+        self.radii.len()
+    }
+
+    /// Others that go on as these would, bit for bit.
+    fn copy(&self, py: Python<'_>) -> Self {
+        let rovers = py.detach(|| self.lock().clone());
+        Self { rovers: Mutex::new(rovers), wheels: self.wheels.clone(), radii: self.radii.clone() }
+    }
+
+    /// The names of the wheels, in the order of their mounts.
+    #[getter]
+    fn wheel_names(&self) -> Vec<String> {
+        self.wheels.clone()
+    }
+
+    /// Starts some of the rovers anew.
+    ///
+    /// * `seeds`: of the soil's draw; the nominal soil without
+    #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
+    fn reset(
+        &self,
+        py: Python<'_>,
+        places: Vec<usize>,
+        seeds: Vec<Option<u64>>,
+        slope_deg: Vec<Option<f64>>,
+        yaw_deg: Vec<Option<f64>>,
+    ) -> PyResult<()> {
+        let count = places.len();
+        if [seeds.len(), slope_deg.len(), yaw_deg.len()] != [count; 3]
+            || places.iter().any(|place| *place >= self.radii.len())
+        {
+            let message = "there is not one value for every rover".to_owned();
+            return Err(errors::parameter(message, "reset", None, "one value for each rover"));
+        }
+        let slopes = range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
+        let yaws = range(Kind::Scenario, "start.yaw_deg").unwrap_or(-180.0..=180.0);
+        check("slope_deg", &slope_deg.iter().flatten().copied().collect::<Vec<_>>(), &slopes)?;
+        check("yaw_deg", &yaw_deg.iter().flatten().copied().collect::<Vec<_>>(), &yaws)?;
+        let mut fresh = vec![None; self.radii.len()];
+        for (k, place) in places.into_iter().enumerate() {
+            let (slope_deg, yaw_deg) = (slope_deg[k], yaw_deg[k]);
+            fresh[place] = Some(Fresh { seed: seeds[k], slope_deg, yaw_deg });
+        }
+        self.each(py, |rover, place| fresh[place].map_or(Ok(()), |fresh| rover.reset(fresh)))
+    }
+
+    /// Turns wheels for a while. What cannot be computed is told as a failure of its rover.
+    ///
+    /// * `commands`: of each rover and wheel; wheel speeds [rad/s], or rim speeds [m/s]
+    /// * `active`: which rovers go on
+    #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+    fn step(
+        &self,
+        py: Python<'_>,
+        commands: PyReadonlyArray2<'_, f64>,
+        are_rim_speeds: bool,
+        dt_s: f64,
+        active: PyReadonlyArray1<'_, bool>,
+    ) -> PyResult<()> {
+        let (count, wheels) = (self.radii.len(), self.wheels.len());
+        let (commands, active) = (commands.as_array(), active.as_array());
+        if commands.dim() != (count, wheels) || active.len() != count {
+            let expected = format!("shape ({count}, {wheels}), rovers and wheels");
+            let message =
+                format!("commands have shape {:?}, it must be {expected}", commands.dim());
+            return Err(errors::parameter(message, "commands", None, expected));
+        }
+        check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
+        let mut rims = Vec::with_capacity(count);
+        for (row, radius) in commands.rows().into_iter().zip(&self.radii) {
+            let given = row.to_vec();
+            let factor = if are_rim_speeds { 1.0 } else { *radius };
+            let limit = RIM_SPEED_M_S.end() / factor;
+            check("commands", &given, &(-limit..=limit))?;
+            rims.push(given.into_iter().map(|command| command * factor).collect::<Vec<f64>>());
+        }
+        let active: Vec<bool> = active.to_vec();
+        self.each(py, |rover, place| {
+            // A failure is kept with its rover, and the others go on.
+            let _ = active[place].then(|| rover.step(&rims[place], dt_s));
+            Ok(())
+        })
+    }
+
+    /// A row for each rover with the columns of a trajectory.
+    fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> = py.detach(|| {
+            let row = |led: &Led| {
+                let record = led.record();
+                SAMPLE_FIELDS.iter().map(|(_, get)| get(&record)).collect()
+            };
+            self.lock().iter().map(row).collect()
+        });
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
+    /// A matrix of rovers and wheels for each column of a wheel; NaN where a rover has just tipped
+    /// over or sunk.
+    fn wheel_samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let records: Vec<SampleRecord> =
+            py.detach(|| self.lock().iter().map(Led::record).collect());
+        let matrix = |get: &dyn Fn(&WheelSampleRecord) -> f64| -> Vec<Vec<f64>> {
+            let wheels = 0..self.wheels.len();
+            let row = |record: &SampleRecord| {
+                wheels.clone().map(|k| record.wheels.get(k).map_or(f64::NAN, get)).collect()
+            };
+            records.iter().map(row).collect()
+        };
+        let own = WHEEL_FIELDS.iter().map(|(_, get)| matrix(get));
+        let forces =
+            (0..WHEEL_COLUMNS.len()).map(|place| matrix(&|wheel| wheel_row(&wheel.forces)[place]));
+        let all: Vec<Vec<Vec<f64>>> = own.chain(forces).collect();
+        Ok(PyArray3::from_vec3(py, &all)?)
+    }
+
+    /// Outcome and message of each rover, `None` while it is under way; and how it was computed.
+    #[allow(clippy::type_complexity, reason = "three words of each rover")]
+    fn words(&self, py: Python<'_>) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
+        let words = |led: &Led| (led.outcome(), led.message(), led.rover.method().name());
+        py.detach(|| self.lock().iter().map(words).collect())
+    }
+}
+
+impl Simulators {
+    /// The rovers, to one thread at a time; only without Python's lock, which who holds them may
+    /// wait for.
+    fn lock(&self) -> MutexGuard<'_, Vec<Led>> {
+        self.rovers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Does something to every rover, on all cores and with an ear for Ctrl-C, at which those that
+    /// had not their turn yet are left as they are. The first error in their order is told.
+    fn each(
+        &self,
+        py: Python<'_>,
+        act: impl Fn(&mut Led, usize) -> Result<(), SimulationError> + Sync,
+    ) -> PyResult<()> {
+        let mut told = Ok(());
+        let mut start = 0;
+        while start < self.radii.len() {
+            let done: Vec<_> = py.detach(|| {
+                let mut rovers = self.lock();
+                let batch = rovers.iter_mut().enumerate().skip(start).take(BATCH);
+                let batch: Vec<(usize, &mut Led)> = batch.collect();
+                batch.into_par_iter().map(|(place, led)| act(led, place)).collect()
+            });
+            told = told.and(done.into_iter().collect::<Result<(), SimulationError>>());
+            py.check_signals()?;
+            start += BATCH;
+        }
+        told.map_err(|error| errors::of_simulation(&error))
+    }
+}
+
+/// The names of the columns of [`Simulators::samples`] and [`Simulators::wheel_samples`].
+#[pyfunction]
+pub(crate) fn simulator_columns() -> (Vec<&'static str>, Vec<&'static str>) {
+    let own = WHEEL_FIELDS.iter().map(|(name, _)| *name);
+    (SAMPLE_FIELDS.iter().map(|(name, _)| *name).collect(), own.chain(WHEEL_COLUMNS).collect())
+}

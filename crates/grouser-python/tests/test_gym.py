@@ -1,0 +1,191 @@
+"""The environment keeps Gymnasium's promises, and its vector form keeps those of single ones."""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+import sys
+import textwrap
+import warnings
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+import grouser as gr
+import grouser.gym
+
+LEVEL = "grouser/LevelTraverse-v0"
+
+
+def make_single(limit: int, slope_deg: tuple[float, float]) -> gymnasium.Env[Any, Any]:
+    return gymnasium.make(LEVEL, max_episode_steps=limit, slope_deg=slope_deg)
+
+
+def test_the_checker_has_nothing_to_say() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(gymnasium.make(LEVEL).unwrapped)
+
+
+def alike(one: Any, other: Any, what: str) -> None:
+    assert type(one) is type(other), what
+    if isinstance(one, dict):
+        assert one.keys() == other.keys(), what
+        for key in one:
+            alike(one[key], other[key], f"{what}.{key}")
+    elif isinstance(one, np.ndarray):
+        assert one.dtype == other.dtype and one.shape == other.shape, what
+        if one.dtype == object:
+            for left, right in zip(one, other):
+                alike(left, right, what)
+        else:
+            assert one.tobytes() == other.tobytes(), what
+    else:
+        assert one == other, what
+
+
+@pytest.mark.parametrize("mode", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
+def test_the_vector_form_has_the_bits_of_single_ones(mode: AutoresetMode) -> None:
+    """Beside Gymnasium's own vector of single environments, over ends of episodes of both kinds."""
+    slopes, count, limit = (10.0, 38.0), 6, 7
+    singles = SyncVectorEnv([lambda: make_single(limit, slopes)] * count, autoreset_mode=mode)
+    together = gymnasium.make_vec(
+        LEVEL, num_envs=count, max_episode_steps=limit, slope_deg=slopes, autoreset_mode=mode
+    )
+    assert together.metadata["autoreset_mode"] is mode
+    for space in ("observation_space", "action_space", "single_observation_space"):
+        assert getattr(together, space) == getattr(singles, space)
+    alike(together.reset(seed=11), singles.reset(seed=11), "reset")
+    random, ends = np.random.default_rng(3), {"terminated": 0, "truncated": 0}
+    for k in range(20):
+        actions = random.uniform(-1.0, 1.0, (count, 2))
+        one, other = together.step(actions), singles.step(actions)
+        for name, left, right in zip(
+            ("observations", "rewards", "terminated", "truncated", "infos"), one, other
+        ):
+            alike(left, right, f"step {k}: {name}")
+        ends["terminated"] += int(one[2].sum())
+        ends["truncated"] += int(one[3].sum())
+    assert min(ends.values()) > 0, f"an end that was not tried: {ends}"
+
+
+def test_without_autoreset_a_mask_resets() -> None:
+    envs = gymnasium.make_vec(
+        LEVEL, num_envs=3, max_episode_steps=2, autoreset_mode=AutoresetMode.DISABLED
+    )
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.step(np.zeros((3, 2)))
+    envs.reset(seed=1)
+    for _ in range(2):
+        truncated = envs.step(np.tile([0.6, 0.0], (3, 1)))[3]
+    assert truncated.all()
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.step(np.zeros((3, 2)))
+    before = envs.reset(seed=[5, None, 7], options={"reset_mask": np.array([True, False, True])})[0]
+    assert before[0].tobytes() == gymnasium.make(LEVEL).reset(seed=5)[0].tobytes()
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.step(np.zeros((3, 2)))
+
+
+def test_an_episode_is_decided_by_its_seed() -> None:
+    env = gymnasium.make(LEVEL)
+    slopes = set()
+    for seed in (1, 2, 1):
+        observation, info = env.reset(seed=seed)
+        assert 5.0 <= info["slope_deg"] <= 15.0 and abs(observation[1]) <= 10.0
+        slopes.add((info["slope_deg"], observation[1]))
+    assert len(slopes) == 2
+
+
+def test_rewards_are_what_is_written() -> None:
+    """Way over the longest way, less the square of the offset in tenths of a metre."""
+    env = gymnasium.make(LEVEL)
+    _, info = env.reset(seed=4)
+    before = info["x_m"]
+    for _ in range(5):
+        observation, reward, terminated, _, info = env.step(np.array([0.6, 0.1]))
+        expected = (info["x_m"] - before) / (0.1 * 0.5) - (observation[0] / 0.1) ** 2
+        assert not terminated and reward == pytest.approx(expected, rel=1e-12)
+        before = info["x_m"]
+
+
+def test_a_turn_to_the_left_turns_to_the_left() -> None:
+    env = gymnasium.make(LEVEL, soil="toyoura", slope_deg=(0.0, 0.0))
+    for turn in (0.4, -0.4):
+        start = env.reset(seed=1)[0]
+        for _ in range(6):
+            observation = env.step(np.array([0.5, turn]))[0]
+        assert np.sign(observation[1] - start[1]) == np.sign(turn)
+        left, right = observation[[5, 6]], observation[[7, 8]]
+        assert (np.sign(right - left) == np.sign(turn)).all()
+
+
+def test_losing_the_line_ends_an_episode_at_a_price() -> None:
+    env = gymnasium.make(LEVEL, soil="toyoura", slope_deg=(5.0, 5.0))
+    env.reset(seed=1)
+    for _ in range(120):
+        observation, reward, terminated, truncated, info = env.step(np.array([1.0, -0.2]))
+        if terminated:
+            break
+    assert terminated and abs(observation[0]) > 0.5 and float(reward) < -50.0
+    assert info["outcome"] is None
+
+
+def test_what_cannot_be_asked_says_what_can() -> None:
+    wrong: list[dict[str, Any]] = [
+        {"slope_deg": (10.0, 5.0)},
+        {"slope_deg": (0.0, 70.0)},
+        {"max_speed_m_s": 0.0},
+        {"soil": {"cohesion_kpa": 1.0}},
+    ]
+    for settings in wrong:
+        with pytest.raises(gr.GrouserError):
+            gymnasium.make(LEVEL, **settings)
+    env = gymnasium.make(LEVEL).unwrapped
+    env.reset(seed=1)
+    for action in ([np.nan, 0.0], [0.1], "go"):
+        with pytest.raises(gr.ParameterError):
+            env.step(action)
+
+
+def test_a_missing_gymnasium_is_told_with_what_to_install() -> None:
+    script = """
+        import sys
+        sys.modules["gymnasium"] = None
+        import grouser
+        try:
+            import grouser.gym
+        except ImportError as error:
+            print(error)
+    """
+    command = [sys.executable, "-c", textwrap.dedent(script)]
+    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert "pip install grouser[gym]" in told
+    script = "import sys, grouser; print('gymnasium' in sys.modules)"
+    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
+    assert told.strip() == "False"
+
+
+def example() -> Any:
+    path = Path(__file__).resolve().parents[1] / "examples" / "level_line.py"
+    spec = importlib.util.spec_from_file_location("level_line", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_baseline_holds_the_line_better_than_driving_straight_on() -> None:
+    """On slopes and soils that neither knows. Quasi-steady runs, a tenth of the work."""
+    lines = example()
+    steady = {"scenario": {"simulation": "quasi-steady"}}
+    straight, straight_lost = lines.rms_offsets(lines.straight_on, 24, seed=100, **steady)
+    level, level_lost = lines.rms_offsets(lines.LevelLine(), 24, seed=100, **steady)
+    assert (level < straight).mean() > 0.8
+    assert np.median(level) < 0.5 * np.median(straight)
+    assert level_lost.sum() < straight_lost.sum()
