@@ -99,6 +99,10 @@ class Tabular:
         """What is to be said of the whole table."""
         return {}
 
+    def _unit_of(self, name: str) -> str | None:
+        """The unit of a column of numbers; None where it differs from row to row."""
+        return unit_of(name)
+
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         """The table as an Arrow stream of one batch, by the Arrow PyCapsule interface: what a
         consumer calls. The schema is always the table's own. Each number's unit is in its field's
@@ -118,7 +122,7 @@ class Tabular:
 
 
 def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
-    """The unit of a column, if it has numbers, and its cells, as the native half takes them."""
+    """The unit of a column and its cells, as the native half takes them."""
     if cells.dtype.kind == "f":
         return unit, np.ascontiguousarray(cells, dtype=np.float64)
     if cells.dtype.kind in "iu":

@@ -104,6 +104,11 @@ class SimulatedWheelTest(_tables.Tabular):
             "trial": trial,
         }
 
+    def _table(self) -> dict[str, Any]:
+        coords = self._coords()
+        mesh = np.meshgrid(*coords.values(), indexing="ij")
+        return {**dict(zip(coords, mesh)), **self._readings()}
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run of each setting, as the program has it. Its CSV
         (``.to_csv(file, index=False)``) is a file of measurements, for `calibrate` and `validate`."""
@@ -253,5 +258,3 @@ def wheel_test(
         model=model,
     )
     return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
-
-
