@@ -21,7 +21,7 @@ const NEEDED: [&str; 9] = [
     "pandas",
     "xarray",
     "matplotlib",
-    "mujoco>=3.3",
+    "mujoco>=3.4",
     "pytest>=8",
     "hypothesis>=6",
     "mypy>=1.10",
