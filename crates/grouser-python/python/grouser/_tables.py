@@ -91,10 +91,6 @@ class Tabular:
         """Columns of the table that ``to_pandas`` gives."""
         raise NotImplementedError
 
-    def _unit_of(self, name: str) -> str | None:
-        """The unit of a column of numbers."""
-        return unit_of(name)
-
     def _notes(self) -> Mapping[str, str]:
         """What is to be said of the whole table."""
         return {}
