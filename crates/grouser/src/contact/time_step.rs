@@ -114,14 +114,14 @@ impl TimeStep<'_> {
         /// Velocities agree to this share of the rest speed [-]: forces then do to 1e-6.
         const AGREED: f64 = 1e-6;
         const MOST_ROUNDS: u32 = 40;
-        const MOST_HALVINGS: u32 = 20;
+        const MOST_HALVINGS: i32 = 20;
         let mut best = self.attempt(wheels, self.free.clone());
         let mut rounds = 0;
         while best.residual.amax() > AGREED * self.rest_speed && rounds < MOST_ROUNDS {
             rounds += 1;
             let Some(step) = self.jacobian(wheels, &best).lu().solve(&best.residual) else { break };
             let shorter = |halvings| &best.motion - &step * 0.5_f64.powi(halvings);
-            let nearer = (0..MOST_HALVINGS as i32)
+            let nearer = (0..MOST_HALVINGS)
                 .map(|halvings| self.attempt(wheels, shorter(halvings)))
                 .find(|next| next.residual.norm() < best.residual.norm());
             let Some(next) = nearer else { break };
