@@ -1,9 +1,9 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), runs studies
-//! ([`studies`]) and lends the reaction to other engines ([`time_step`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
-//! computes physics, and nothing below knows of Python.
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), runs studies ([`studies`])
+//! and lends the reaction to other engines ([`time_step`]), without Python's lock and with an ear
+//! for Ctrl-C ([`interrupt`]). Nothing here computes physics, and nothing below knows of Python.
 
 mod columns;
 mod descriptions;
