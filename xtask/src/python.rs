@@ -22,7 +22,7 @@ const NEEDED: [&str; 11] = [
     "pandas",
     "xarray",
     "matplotlib",
-    "mujoco>=3.3",
+    "mujoco>=3.4",
     "pyarrow",
     "gymnasium>=1.1",
     "pytest>=8",

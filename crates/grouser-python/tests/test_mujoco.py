@@ -140,7 +140,7 @@ STAND = """
   <body name="carriage" pos="0 0 0.12"><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
     <joint name="x" type="slide" axis="1 0 0"/><joint name="y" type="slide" axis="0 1 0"/>
     <joint name="z" type="slide" axis="0 0 1"/>
-    <body name="wheel"><inertial pos="0.003 0.02 0.001" mass="1" diaginertia=".002 .003 .002"/>
+    <body name="wheel"><inertial pos="0 0.02 0" mass="1" diaginertia=".002 .003 .002"/>
       <joint name="spin" axis="0 1 0"/></body></body>
 </worldbody><actuator>
   <velocity joint="x" kv="1e5"/><velocity joint="y" kv="1e5"/><velocity joint="spin" kv="1e3"/>
@@ -160,7 +160,7 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
     forward = 0.05
     rim = forward / (1.0 - slip_ratio) if slip_ratio > 0 else forward * (1.0 + slip_ratio)
     data.ctrl[:] = [forward, forward * np.tan(np.radians(slip_angle_deg)), rim / 0.11]
-    soil.step(data, 1500)
+    soil.step(data, 800)
     found = soil.forces
     assert found.slip_ratio[0] == pytest.approx(slip_ratio, abs=0.002)
     settled = gr.settle(
@@ -174,7 +174,7 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
     for key in ("sinkage_mm", "drawbar_pull_n", "side_force_n", "normal_force_n", "torque_nm"):
         np.testing.assert_allclose(getattr(found, key), getattr(settled, key), rtol=1e-4)
     # What MuJoCo makes of the forces: on the stand's slides the forces, on the axle the torque.
-    # The centre of mass is off the hub, and gravity turns the wheel about it: not what is asked.
+    # The wheel's centre of mass is off its hub.
     jacobian = np.zeros((6, model.nv))
     mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], model.body("wheel").id)
     felt = jacobian.T @ data.xfrc_applied[model.body("wheel").id]
@@ -199,7 +199,7 @@ def test_grounds_of_every_kind_agree_on_a_plane() -> None:
         data = mujoco.MjData(model)
         soil = SoilContact(model, soil="toyoura", wheels={"wheel": "hakuto"}, ground=ground)
         data.ctrl[:] = [0.05, 0.01, 0.6]
-        soil.step(data, 500)
+        soil.step(data, 300)
         return np.concatenate([data.qpos, soil.forces.side_force_n])
 
     rows = np.linspace(-4.0, 4.0, 101)[:, None] * np.tan(slope)
@@ -235,15 +235,15 @@ def test_it_drives_brakes_and_stands_without_trembling(factor: float, timestep_s
     is millimetres a second and more."""
     plane = Plane(rover=heavier(factor), slope_deg=10.0, timestep_s=timestep_s)
     plane.data.qpos[2] += 0.01
-    plane.soil.step(plane.data, plane.steps(0.8))
+    plane.soil.step(plane.data, plane.steps(0.5))
     plane.data.ctrl[:] = SPEED / plane.radius_m
-    plane.soil.step(plane.data, plane.steps(1.5))
+    plane.soil.step(plane.data, plane.steps(0.8))
     driven = plane.data.qvel[0]
     assert 0.5 * SPEED < driven < SPEED
     plane.data.ctrl[:] = 0.0
-    plane.soil.step(plane.data, plane.steps(1.0))
+    plane.soil.step(plane.data, plane.steps(0.8))
     fastest, worst = 0.0, 0.0
-    for _ in range(plane.steps(0.2)):
+    for _ in range(plane.steps(0.1)):
         plane.soil.step(plane.data)
         fastest = max(fastest, fastest_hub(plane))
         worst = max(worst, plane.soil.residual_m_s)
@@ -258,11 +258,31 @@ def test_shorter_steps_converge() -> None:
     for timestep_s in (0.004, 0.002, 0.001, 0.0005):
         plane = Plane(slope_deg=10.0, timestep_s=timestep_s)
         plane.roll(0.0)
-        plane.soil.step(plane.data, plane.steps(2.0))
+        plane.soil.step(plane.data, plane.steps(1.0))
         ends.append(plane.data.qpos[:2].copy())
     errors = [float(np.linalg.norm(end - ends[-1])) for end in ends[:-1]]
     assert errors[0] > 1.5 * errors[1] > 2.25 * errors[2]
-    assert errors[1] < 1e-3
+    # Of 56 mm that it drives.
+    assert errors[1] < 1e-5
+
+
+def test_integrators_agree() -> None:
+    """A rover that rolls downhill against the damping of its axles, which all of them take at the
+    step's end."""
+    ends = []
+    for integrator in ("EULER", "IMPLICIT", "IMPLICITFAST"):
+        plane = Plane(slope_deg=10.0, yaw_deg=-90.0)
+        plane.model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
+        plane.model.actuator_gainprm[:] = plane.model.actuator_biasprm[:] = 0.0
+        plane.model.dof_damping[6:] = 0.3
+        plane.soil.step(plane.data, plane.steps(1.0))
+        ends.append(float(plane.data.qpos[1]))
+    assert ends[0] < -0.02
+    # They differ in terms of Coriolis alone.
+    assert ends[1:] == pytest.approx(ends[:1] * 2, rel=1e-3)
+    plane.model.opt.integrator = mujoco.mjtIntegrator.mjINT_RK4
+    with pytest.raises(gr.ParameterError, match="RK4"):
+        SoilContact(plane.model, soil="toyoura", wheels={"front-left": "hakuto"}, ground="ground")
 
 
 # ---- our own rover ----
@@ -276,7 +296,7 @@ def test_it_agrees_with_our_own_rover_on_a_plane(slope_deg: float, yaw_deg: floa
     cancels most of the drift, the rest of it to a thousandth of the distance. DIFFERENCE: ours takes
     the centre of mass at its height without sinkage, stays parallel to the plane, and has no inertia
     in heave, pitch and roll."""
-    duration = 6.0
+    duration = 4.0
     plane = Plane(slope_deg=slope_deg, yaw_deg=yaw_deg)
     plane.roll(yaw_deg)
     slips = []
@@ -311,16 +331,18 @@ def example() -> Any:
     return module
 
 
-def test_the_rocker_rover_climbs_and_crosses_a_slope() -> None:
-    """On MuJoCo's longest usual step. It starts 1.8 m below the contour that it is told to cross on."""
+def test_the_rocker_rover_climbs_and_crosses_a_slope(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On MuJoCo's longest usual step, from 1.1 m below the contour that it is told to cross on."""
     rocker = example()
+    monkeypatch.setattr(rocker, "START", (-1.6, rocker.LEVEL_Y - 1.1))
     traverse = rocker.Traverse(timestep_s=0.005)
     start = traverse.data.body("rover").xpos.copy()
-    run = traverse.run(62.0)
+    run = traverse.run(42.0)
     way = np.array(run.position_m)
     climbed = way[-1] - start
-    assert climbed[2] > 0.2 and climbed[0] > 1.5
-    crossing = way[np.array(run.time_s) > 47.0]
+    assert climbed[2] > 0.15 and climbed[0] > 1.0
+    # As wide as half a wheel's track either side: it overshoots, and steers back.
+    crossing = way[np.array(run.time_s) > 34.0]
     assert abs(crossing[:, 1] - rocker.LEVEL_Y).max() < 0.15
     # The differential keeps every wheel on the ground.
     assert np.array(run.load_n).min() > 0.0

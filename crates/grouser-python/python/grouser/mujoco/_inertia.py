@@ -35,5 +35,8 @@ def inertia_of_step(model: Any, stepped: Any) -> Floats:
 def _inertia(model: Any, data: Any) -> Floats:
     """The mass matrix."""
     inertia = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, inertia)
+    if hasattr(data, "qM"):  # MuJoCo 3
+        mujoco.mj_fullM(model, inertia, data.qM)
+    else:
+        mujoco.mj_fullM(model, data, inertia)
     return inertia
