@@ -480,7 +480,7 @@ def _seeds(seed: int | Sequence[int | None] | None, count: int) -> list[int | No
     """A seed for each rover."""
     if seed is None:
         return [None] * count
-    if isinstance(seed, (int, np.integer)) and not isinstance(seed, bool):
+    if isinstance(seed, (int, np.integer)):
         given: list[int | None] = [int(seed) + k for k in range(count)]
     elif isinstance(seed, (str, bytes)) or not hasattr(seed, "__len__"):
         raise ParameterError(f"seed is {seed!r}, it must be a whole number", "seed")
@@ -489,7 +489,7 @@ def _seeds(seed: int | Sequence[int | None] | None, count: int) -> list[int | No
     if len(given) != count:
         raise ParameterError(f"there are {len(given)} seeds for {count} rovers", "seed")
     for one in given:
-        whole = isinstance(one, (int, np.integer)) and not isinstance(one, bool)
+        whole = isinstance(one, (int, np.integer))
         if one is not None and not (whole and 0 <= one < 2**64):
             raise ParameterError(
                 f"seed is {one!r}, it must be a whole number from 0 to below 2**64", "seed"

@@ -106,7 +106,7 @@ class _Traverses:
         """Draws slope, yaw and soil, in this order, of each rover from its own generator."""
         seeds = [0] * len(randoms)
         yaws = np.zeros(len(randoms))
-        for k in np.flatnonzero(which):
+        for k in _places(which):
             self.slope_deg[k] = randoms[k].uniform(*self.slopes)
             yaws[k] = randoms[k].uniform(*START_YAW_DEG)
             seeds[k] = int(randoms[k].integers(2**63))
@@ -139,7 +139,8 @@ class _Traverses:
         # A rover that has just tipped over or sunk has no torque to tell.
         wheels = [np.nan_to_num(wheel[name]) for name in _WHEEL]
         high = self.observation_space.high
-        return np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
+        observations: Floats = np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
+        return observations
 
     def info(self, k: int) -> dict[str, Any]:
         return {
@@ -278,7 +279,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._steps = np.zeros(num_envs, dtype=np.int64)
         self._ended = np.zeros(num_envs, dtype=np.bool_)
 
-    def reset(  # type: ignore[override]
+    def reset(
         self,
         *,
         seed: int | Sequence[int | None] | None = None,
@@ -300,7 +301,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
                 )
         if not self._randoms:
             self._randoms = [seeding.np_random()[0] for _ in range(self.num_envs)]
-        for k in np.flatnonzero(which):
+        for k in _places(which):
             if seeds is not None and seeds[k] is not None:
                 self._randoms[k] = seeding.np_random(seeds[k])[0]
         self._start(which)
@@ -321,7 +322,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         again = self._ended.copy()
         if self.autoreset_mode is AutoresetMode.DISABLED and again.any():
             raise gymnasium.error.ResetNeeded(
-                f"environments {np.flatnonzero(again).tolist()} have ended: reset them"
+                f"environments {_places(again)} have ended: reset them"
             )
         rewards, terminated = self._traverses.step(actions, ~again)
         self._steps[~again] += 1
@@ -334,18 +335,23 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._ended = terminated | truncated
         if self.autoreset_mode is AutoresetMode.SAME_STEP and self._ended.any():
             last = self._traverses.observations()
-            for k in np.flatnonzero(self._ended):
-                final = {"final_obs": last[k], "final_info": self._traverses.info(int(k))}
-                infos = self._add_info(infos, final, int(k))
+            for k in _places(self._ended):
+                final = {"final_obs": last[k], "final_info": self._traverses.info(k)}
+                infos = self._add_info(infos, final, k)
             self._start(self._ended.copy())
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         infos = self._infos(infos, everyone)
         return self._traverses.observations(), rewards, terminated, truncated, infos
 
     def _infos(self, infos: dict[str, Any], which: NDArray[np.bool_]) -> dict[str, Any]:
-        for k in np.flatnonzero(which):
-            infos = self._add_info(infos, self._traverses.info(int(k)), int(k))
+        for k in _places(which):
+            infos = self._add_info(infos, self._traverses.info(k), k)
         return infos
+
+
+def _places(which: NDArray[np.bool_]) -> list[int]:
+    places: list[int] = np.flatnonzero(which).tolist()
+    return places
 
 
 def _pair(name: str, values: Sequence[float]) -> tuple[float, float]:
