@@ -51,9 +51,7 @@ def main() -> None:
     lines = [
         (
             "1,000,000 wheels settle",
-            lambda: _core.time_settle(
-                soil._document, wheel._document, stand, load, ratio, angle
-            ),
+            lambda: _core.time_settle(soil._document, wheel._document, stand, load, ratio, angle),
             lambda: gr.settle(soil, wheel, load_n=load, slip_ratio=ratio, slip_angle_deg=angle),
         ),
         (

@@ -32,19 +32,19 @@ pub(crate) enum Column<'py> {
 }
 
 impl Column<'_> {
-    fn to_array(&self) -> PyResult<ArrayRef> {
-        Ok(match self {
+    fn to_array(&self) -> ArrayRef {
+        match self {
             Self::Numbers(numbers) => {
                 let cells = numbers.as_array();
                 let present = cells.iter().map(|number| (!number.is_nan()).then_some(*number));
-                Arc::new(Float64Array::from_iter(present))
+                Arc::new(present.collect::<Float64Array>())
             }
             Self::Integers(numbers) => {
                 Arc::new(Int64Array::from_iter_values(numbers.as_array().iter().copied()))
             }
             Self::Truths(truths) => Arc::new(BooleanArray::from(truths.as_array().to_vec())),
-            Self::Texts(texts) => Arc::new(StringArray::from_iter(texts)),
-        })
+            Self::Texts(texts) => Arc::new(texts.iter().collect::<StringArray>()),
+        }
     }
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn arrow_stream<'py>(
     let mut fields = Vec::with_capacity(columns.len());
     let mut arrays = Vec::with_capacity(columns.len());
     for (name, unit, cells) in columns {
-        let array = cells.to_array()?;
+        let array = cells.to_array();
         let field = Field::new(name, array.data_type().clone(), true);
         let units: HashMap<String, String> =
             unit.map(|unit| ("units".to_owned(), unit)).into_iter().collect();
@@ -69,11 +69,11 @@ pub(crate) fn arrow_stream<'py>(
         arrays.push(array);
     }
     let schema = Arc::new(Schema::new_with_metadata(fields, notes));
-    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(unfit)?;
+    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays).map_err(|error| unfit(&error))?;
     let batches = RecordBatchIterator::new([Ok::<_, ArrowError>(batch)], schema);
     PyCapsule::new_with_value(py, FFI_ArrowArrayStream::new(Box::new(batches)), STREAM)
 }
 
-fn unfit(error: ArrowError) -> PyErr {
+fn unfit(error: &ArrowError) -> PyErr {
     errors::parameter(error.to_string(), "columns", None, "columns of one length")
 }

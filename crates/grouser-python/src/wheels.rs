@@ -128,17 +128,19 @@ fn evaluate(
             let end = (start + batch).min(count);
             let share = (batch / SHARES).clamp(1, SHARE);
             let begun = Instant::now();
-            let rows: Vec<Row> =
-                py.detach(|| (start..end).into_par_iter().with_min_len(share).map(&one).collect());
+            py.detach(|| {
+                let places = (start..end).into_par_iter().with_min_len(share);
+                let rows: Vec<Row> = places.map(&one).collect();
+                cells.par_chunks_mut(count).enumerate().for_each(|(column, cells)| {
+                    for (cell, row) in cells[start..end].iter_mut().zip(&rows) {
+                        *cell = row[column];
+                    }
+                });
+            });
             if begun.elapsed() < *BATCH_TIME.start() {
                 batch = (2 * batch).min(LARGEST_BATCH);
             } else if begun.elapsed() > *BATCH_TIME.end() {
                 batch = (batch / 2).max(SHARES);
-            }
-            for (offset, row) in rows.iter().enumerate() {
-                for (column, value) in row.iter().enumerate() {
-                    cells[column * count + start + offset] = *value;
-                }
             }
             py.check_signals()?;
             start = end;

@@ -22,9 +22,13 @@ def results() -> list[Any]:
         gr.simulate(duration_s=1.0),
         gr.simulate(slope_deg=40.0),
         gr.rollout([gr.Scenario(duration_s=0.5), gr.Scenario(slope_deg=40.0)]),
+        gr.rollout(slope_deg=[[5.0], [6.0]], yaw_deg=[0.0, 1.0], duration_s=0.5),
         gr.attitude(slope_deg=[5.0, 30.0]),
         gr.attitude_map(soil=["toyoura", "lunar-nominal"], slope_deg=[0, 30], course_deg=[0, 20]),
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2]),
+        gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2], trials=2),
+        gr.attitude(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], uncertainty=True, samples=5),
+        gr.calibrate(READINGS, "toyoura", "hakuto", fit="shear.longitudinal_m", point_fit=True),
         gr.settle("toyoura", "hakuto", load_n=[[10.0], [1e5]], slip_ratio=[0.1, 0.2, 0.3]),
         gr.wheel_forces("toyoura", "hakuto", sinkage_mm=10.0, slip_ratio=0.2),
         gr.validate(READINGS, "toyoura", "hakuto", where="slip_angle_deg=0"),
@@ -51,6 +55,9 @@ def test_units_stand_in_the_fields_metadata() -> None:
     assert units["rear-left.slip_ratio"] == b"1" and None not in units.values()
     assert schema.metadata[b"outcome"] == b"completed"
     assert gr.Scenario.from_toml(schema.metadata[b"scenario"].decode()) == run.scenario
+    fit = gr.calibrate(READINGS, "toyoura", "hakuto", fit="cohesion_kpa", point_fit=True).to_arrow()
+    assert fit.schema.field("fit").metadata is None, "its unit is the key's"
+    assert fit.schema.field("narrowing").metadata == {b"units": b"1"}
     texts = gr.attitude(slope_deg=[5.0]).to_arrow().schema.field("status")
     assert texts.type == pyarrow.string() and texts.metadata is None
 

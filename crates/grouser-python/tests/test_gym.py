@@ -75,7 +75,7 @@ def test_the_vector_form_has_the_bits_of_single_ones(mode: AutoresetMode) -> Non
 
 
 def test_without_autoreset_a_mask_resets() -> None:
-    envs = gymnasium.make_vec(
+    envs: Any = gymnasium.make_vec(
         LEVEL, num_envs=3, max_episode_steps=2, autoreset_mode=AutoresetMode.DISABLED
     )
     with pytest.raises(gymnasium.error.ResetNeeded):

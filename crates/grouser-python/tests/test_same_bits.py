@@ -110,7 +110,12 @@ def test_simulated_stand(program: Program) -> None:
     )["rows"]  # fmt: skip
     ratios = [row["slip_ratio"] for row in rows[:9:3]]
     test = gr.wheel_test(
-        load_n=[10, 60000], slip_ratio=ratios, slip_angle_deg=[0, 15], trials=3, seed=5, noise_mm=0.1
+        load_n=[10, 60000],
+        slip_ratio=ratios,
+        slip_angle_deg=[0, 15],
+        trials=3,
+        seed=5,
+        noise_mm=0.1,
     )
     table = test.to_pandas()
     assert table.status.tolist() == [row["status"] for row in rows]

@@ -32,6 +32,16 @@ def fitted(file: Path) -> gr.Soil:
     return found.soil
 
 
+def led(scenarios: list[gr.Scenario]) -> NDArray[np.float64]:
+    rover: gr.Simulator = gr.Simulator(scenarios[0], commands="speed_m_s")
+    slip_ratio: NDArray[np.float64] = rover.wheel["slip_ratio"]
+    state: NDArray[np.float64] = rover.step(0.06 + 0.0 * slip_ratio, 0.1)
+    many: gr.SimulatorBatch = gr.SimulatorBatch(scenarios)
+    many.reset(seed=1)
+    stuck: bool = rover.outcome == "immobilised"
+    return state if stuck else many.step(np.full((len(many), 4), 0.5), 0.1)[0]
+
+
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
@@ -42,7 +52,7 @@ def main() -> None:
     print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
     try:
-        print(deepest([soil], 17.0), drift(10.0), limit, ends.outcome[0])
+        print(deepest([soil], 17.0), drift(10.0), limit, ends.outcome[0], led([gr.Scenario()]))
     except gr.ParameterError as error:
         print(error.name, error.value, error.expected)
 

@@ -23,6 +23,7 @@ Examples
 
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._attitude_band import AttitudeBand
+from ._attitudes import AttitudeMap, Attitudes, attitude, attitude_map
 from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
@@ -36,7 +37,7 @@ from ._errors import (
 )
 from ._rollouts import Rollout, rollout
 from ._simulator import Simulator, SimulatorBatch
-from ._studies import AttitudeMap, Attitudes, Trajectory, attitude, attitude_map, simulate
+from ._studies import Trajectory, simulate
 from ._validation import Ranking, Validation, validate, validate_all
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from . import _core
+from . import _core, _tables
 from ._descriptions import Scenario
 from ._wheels import Floats
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeBand:
+class AttitudeBand(_tables.Tabular):
     """What draws of an uncertain soil say of the level attitude: arrays of shape (slopes,).
 
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the draws that have a level attitude on
@@ -72,7 +72,7 @@ class AttitudeBand:
         columns = {name: found.get(name, np.empty(0)) for name in names}
         return cls(**columns, **limit)
 
-    def _columns(self) -> dict[str, Any]:
+    def _table(self) -> dict[str, Any]:
         arrays = {field.name: getattr(self, field.name) for field in fields(self)}
         return {name: values for name, values in arrays.items() if isinstance(values, np.ndarray)}
 

@@ -41,6 +41,8 @@ _PARAMETERS = (
     "effective_samples",
     "narrowing",
 )
+#: Those of them that are numbers without a unit.
+_RATIOS = ("r_hat", "effective_samples", "narrowing")
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,27 +122,27 @@ class Calibration(_tables.Tabular):
         """Least squares by key."""
         return dict(zip(self.key, self.fit.tolist()))
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each key, as the program's CSV has it."""
-        return _tables.frame(self._table())
-
     def _table(self) -> dict[str, Any]:
         return {"key": np.array(self.key, dtype=object), **self._parameters()}
-
-    def _unit_of(self, name: str) -> str | None:
-        # They differ from key to key.
-        return None
 
     def _notes(self) -> dict[str, str]:
         notes = {"outcome": self.outcome, "soil": self.soil.to_toml()}
         return notes if self.message is None else {**notes, "message": self.message}
 
+    def _unit_of(self, name: str) -> str | None:
+        return "1" if name in _RATIOS else None
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each key, as the program's CSV has it."""
+        return _tables.frame(self._table())
+
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``key`` (with its ``unit``), and over ``sample`` and ``key``."""
         data = _tables.dataset(("key",), self._parameters(), {"key": list(self.key)})
         for name in data.data_vars:
-            # Their units differ from key to key.
-            data[name].attrs.clear()
+            if name not in _RATIOS:
+                # Their units differ from key to key.
+                data[name].attrs.clear()
         names = [key.removeprefix("soil.") for key in self.key]
         data = data.assign_coords(unit=("key", [_tables.unit_of(name) for name in names]))
         data["correlations"] = (("key", "other_key"), self.correlations)
@@ -305,7 +307,9 @@ def calibrate(
     wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
     loads = None if candidate_load_n is None else line("candidate_load_n", candidate_load_n)
     if not isinstance(target, str):
-        raise ParameterError(f"target is of type {type(target).__name__}, it must be text", "target")
+        raise ParameterError(
+            f"target is of type {type(target).__name__}, it must be text", "target"
+        )
     aim = (
         target,
         whole_number("propose", propose, most=1000),

@@ -91,13 +91,13 @@ class Tabular:
         """Columns of the table that ``to_pandas`` gives."""
         raise NotImplementedError
 
-    def _unit_of(self, name: str) -> str | None:
-        """The unit of a column of numbers."""
-        return unit_of(name)
-
     def _notes(self) -> Mapping[str, str]:
         """What is to be said of the whole table."""
         return {}
+
+    def _unit_of(self, name: str) -> str | None:
+        """The unit of a column of numbers; None where it differs from row to row."""
+        return unit_of(name)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         """The table as an Arrow stream of one batch, by the Arrow PyCapsule interface: what a
@@ -118,7 +118,7 @@ class Tabular:
 
 
 def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
-    """The unit of a column, if it has numbers, and its cells, as the native half takes them."""
+    """The unit of a column and its cells, as the native half takes them."""
     if cells.dtype.kind == "f":
         return unit, np.ascontiguousarray(cells, dtype=np.float64)
     if cells.dtype.kind in "iu":

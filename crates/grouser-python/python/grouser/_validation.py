@@ -134,24 +134,27 @@ class Ranking(_tables.Tabular):
     def __len__(self) -> int:
         return len(self.rows)
 
+    def _table(self) -> dict[str, Any]:
+        def column(name: str, dtype: type) -> Any:
+            return np.array([row[name] for row in self.rows], dtype=dtype)
+
+        def rmse(quantity: str) -> Any:
+            errors = (row["overall"][quantity] for row in self.rows)
+            return np.array([np.nan if it is None else it["rmse"] for it in errors])
+
+        quantities = ("drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm")
+        return {
+            **{name: column(name, object) for name in ("data_set", "case", "model", "soil")},
+            **{name: column(name, int) for name in ("rank", "unsettled_trials")},
+            # None is NaN among numbers.
+            "score": column("score", float),
+            **{f"{quantity}_rmse": rmse(quantity) for quantity in quantities},
+        }
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each, and the root mean square errors over all cells as
         ``drawbar_pull_n_rmse`` …"""
         return _tables.frame(self._table())
-
-    def _table(self) -> dict[str, Any]:
-        plain = ("data_set", "case", "rank", "model", "soil", "score", "unsettled_trials")
-        quantities = ("drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm")
-
-        def rmse(row: Mapping[str, Any], name: str) -> float:
-            errors = row["overall"][name]
-            return float("nan") if errors is None else float(errors["rmse"])
-
-        told = {name: np.array([row[name] for row in self.rows]) for name in plain}
-        # A theory that predicts nothing has no score.
-        told["score"] = np.array([row["score"] for row in self.rows], dtype=np.float64)
-        errors = {f"{name}_rmse": [rmse(row, name) for row in self.rows] for name in quantities}
-        return {**told, **{name: np.array(it) for name, it in errors.items()}}
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Draws the scores as bars, the best at the top of each part."""

@@ -90,11 +90,6 @@ class SimulatedWheelTest(_tables.Tabular):
         names = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
         return {"status": self.status, **{name: getattr(self, name) for name in names}}
 
-    def _table(self) -> dict[str, Any]:
-        coords = self._coords()
-        mesh = np.meshgrid(*coords.values(), indexing="ij")
-        return {**dict(zip(coords, mesh)), **self._readings()}
-
     def _coords(self) -> dict[str, Any]:
         trial = np.arange(1, self.status.shape[-1] + 1)
         return {
@@ -103,6 +98,11 @@ class SimulatedWheelTest(_tables.Tabular):
             "slip_ratio": self.slip_ratio,
             "trial": trial,
         }
+
+    def _table(self) -> dict[str, Any]:
+        coords = self._coords()
+        mesh = np.meshgrid(*coords.values(), indexing="ij")
+        return {**dict(zip(coords, mesh)), **self._readings()}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run of each setting, as the program has it. Its CSV
@@ -253,5 +253,3 @@ def wheel_test(
         model=model,
     )
     return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
-
-
