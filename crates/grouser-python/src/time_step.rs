@@ -63,6 +63,7 @@ impl SteppingWheels {
 
     /// Names of the results.
     #[getter]
+    #[allow(clippy::unused_self, reason = "how a property comes from Python")]
     fn names(&self) -> Vec<&'static str> {
         WHEEL_COLUMNS.into_iter().chain(["slip_ratio", "slip_angle_deg"]).collect()
     }

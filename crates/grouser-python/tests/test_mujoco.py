@@ -262,7 +262,8 @@ def test_shorter_steps_converge() -> None:
         ends.append(plane.data.qpos[:2].copy())
     errors = [float(np.linalg.norm(end - ends[-1])) for end in ends[:-1]]
     assert errors[0] > 1.5 * errors[1] > 2.25 * errors[2]
-    assert errors[1] < 1e-3
+    # Of 56 mm that it drives.
+    assert errors[1] < 1e-5
 
 
 def test_integrators_agree() -> None:
@@ -330,16 +331,18 @@ def example() -> Any:
     return module
 
 
-def test_the_rocker_rover_climbs_and_crosses_a_slope() -> None:
-    """On MuJoCo's longest usual step. It starts 1.8 m below the contour that it is told to cross on."""
+def test_the_rocker_rover_climbs_and_crosses_a_slope(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On MuJoCo's longest usual step, from 1.1 m below the contour that it is told to cross on."""
     rocker = example()
+    monkeypatch.setattr(rocker, "START", (-1.6, rocker.LEVEL_Y - 1.1))
     traverse = rocker.Traverse(timestep_s=0.005)
     start = traverse.data.body("rover").xpos.copy()
-    run = traverse.run(62.0)
+    run = traverse.run(42.0)
     way = np.array(run.position_m)
     climbed = way[-1] - start
-    assert climbed[2] > 0.2 and climbed[0] > 1.5
-    crossing = way[np.array(run.time_s) > 47.0]
+    assert climbed[2] > 0.15 and climbed[0] > 1.0
+    # As wide as half a wheel's track either side: it overshoots, and steers back.
+    crossing = way[np.array(run.time_s) > 34.0]
     assert abs(crossing[:, 1] - rocker.LEVEL_Y).max() < 0.15
     # The differential keeps every wheel on the ground.
     assert np.array(run.load_n).min() > 0.0

@@ -15,6 +15,7 @@ def setup(app):
     app.connect("builder-inited", reexports.gather, priority=100)
     app.connect("builder-inited", reexports.complete)
     app.connect("autodoc-process-signature", reexports.signature)
+    app.connect("missing-reference", reexports.from_below)
     app.connect("source-read", links.lead_outside)
     app.connect("doctree-read", count.cells)
     app.connect("build-finished", count.tell)

@@ -42,6 +42,15 @@ def signature(app, what, name, thing, options, arguments, returns):
     return arguments, returns
 
 
+def from_below(app, env, node, inner):
+    """A name of `grouser` in the docstrings of `grouser.gym` and `grouser.mujoco`."""
+    if node.get("refdomain") != "py" or node["reftarget"] not in grouser.__all__:
+        return None
+    whole = f"grouser.{node['reftarget']}"
+    python = env.domains["py"]
+    return python.resolve_xref(env, node["refdoc"], app.builder, "obj", whole, node, inner)
+
+
 def complete(app) -> None:
     """Warns of names of the package that the reference leaves out."""
     page = Path(app.srcdir, "reference", "python.md").read_text(encoding="utf-8")

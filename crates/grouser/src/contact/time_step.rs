@@ -1,8 +1,8 @@
 //! The soil's reaction over a time step of another engine, such that its steps stay stable.
 //!
 //! An engine of rigid bodies holds forces constant over a step Δt. The soil's change steeply with
-//! velocities: by their whole size within the rim's speed, and for wheels at rest, where they
-//! are those of dry friction, within next to nothing. Taken at the start of a step they would overshoot,
+//! velocities: by their whole size within the rim's speed, and for wheels at rest, where they are
+//! those of dry friction, within next to nothing. Taken at the start of a step they would overshoot,
 //! so they are taken at its end (backward Euler), where the unknown is the wheels' motion *u*:
 //!
 //! ```text
@@ -14,12 +14,13 @@
 //!
 //! *u°* is the motion at the end of the step without the soil, *h°* the sinkage at its start. The
 //! mobility *A* [1/kg] says how forces change velocities: of a mechanism with Jacobians J_u, J_f and
-//! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the theory's own; what a finite Δt adds is
-//! backward Euler's damping, of the order of Δt.
+//! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the theory's own; what a finite
+//! Δt adds is backward Euler's damping, of the order of Δt.
 //!
 //! The theories have no damping of their own, and without any a wheel would bounce on the soil as on
-//! a spring. The *sinkage damping* c lets all stresses grow with the rate of sinking, as in Hunt and Crossley
-//! (1975): there is no force without sinkage, no pull on a wheel that leaves, and no effect at rest.
+//! a spring. The *sinkage damping* c lets all stresses grow with the rate of sinking, as in Hunt and
+//! Crossley (1975): there is no force without sinkage, no pull on a wheel that leaves, and no effect
+//! at rest.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -35,8 +36,9 @@ pub const MOTIONS: usize = 4;
 /// Forces on a wheel: F_x, F_y, F_z, −T/r_s [N], M_x, M_z [N·m].
 pub const FORCES: usize = 6;
 
-/// Default of the sinkage damping, *c* [s/m]. Source: assumed; for a wheel that a soil of Fz ~ h^2.2
-/// carries at h = 15 mm on the Earth it is 0.65 of critical damping, and it adds 1 % to the forces of one that sinks at 2 mm/s.
+/// Default of the sinkage damping, *c* [s/m]. Source: assumed; for a wheel that a soil with
+/// F_z ~ h^2.2 carries at h = 15 mm on the Earth it is 0.65 of critical damping, and it adds 1 % to
+/// the forces of one that sinks at 2 mm/s.
 pub const SINKAGE_DAMPING: f64 = 5.0;
 
 /// Default of the rest speed [m/s]. Source: assumed; a thousandth of a rover's speed.
@@ -106,7 +108,7 @@ impl TimeStep<'_> {
     /// The reaction of the soil on wheels that a mechanism couples.
     ///
     /// Newton's method, with the theory's derivatives by differences and steps that are halved until
-    /// they lead nearer. Where it comes no nearer the nearest is taken, and `residual` says how near that is.
+    /// they lead nearer. Where none does, the nearest is taken, and `residual` says how near that is.
     ///
     /// Wheels deeper than the axle have the forces of axle depth.
     #[must_use]
@@ -114,14 +116,14 @@ impl TimeStep<'_> {
         /// Velocities agree to this share of the rest speed [-]: forces then do to 1e-6.
         const AGREED: f64 = 1e-6;
         const MOST_ROUNDS: u32 = 40;
-        const MOST_HALVINGS: u32 = 20;
+        const MOST_HALVINGS: i32 = 20;
         let mut best = self.attempt(wheels, self.free.clone());
         let mut rounds = 0;
         while best.residual.amax() > AGREED * self.rest_speed && rounds < MOST_ROUNDS {
             rounds += 1;
             let Some(step) = self.jacobian(wheels, &best).lu().solve(&best.residual) else { break };
             let shorter = |halvings| &best.motion - &step * 0.5_f64.powi(halvings);
-            let nearer = (0..MOST_HALVINGS as i32)
+            let nearer = (0..MOST_HALVINGS)
                 .map(|halvings| self.attempt(wheels, shorter(halvings)))
                 .find(|next| next.residual.norm() < best.residual.norm());
             let Some(next) = nearer else { break };
