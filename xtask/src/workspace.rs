@@ -82,12 +82,12 @@ pub(crate) fn build_work() -> Result<PathBuf> {
 }
 
 /// Builds all that is measured and shown, at once: alone, each would choose other features of the
-/// libraries that they share, and have those built again.
+/// libraries that they share, and have those built again. The Python package has no program; it is
+/// named so that its wheel, built afterwards, finds those libraries with the features it needs.
 fn build(program: &str) -> Result<PathBuf> {
-    let packages = ["--package", "grouser-cli", "--package", "grouser-bench"];
     let status = cargo()
         .args(["build", "--release", "--bins"])
-        .args(packages)
+        .args(["-p", "grouser-cli", "-p", "grouser-bench", "-p", "grouser-python"])
         .status()
         .context("cargo did not start")?;
     ensure!(status.success(), "`{program}` does not build");
