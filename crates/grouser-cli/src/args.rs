@@ -509,6 +509,7 @@ pub(crate) enum KindWord {
     Rover,
     Scenario,
     DataSet,
+    Campaign,
 }
 
 impl From<KindWord> for Kind {
@@ -519,6 +520,7 @@ impl From<KindWord> for Kind {
             KindWord::Rover => Self::Rover,
             KindWord::Scenario => Self::Scenario,
             KindWord::DataSet => Self::DataSet,
+            KindWord::Campaign => Self::Campaign,
         }
     }
 }

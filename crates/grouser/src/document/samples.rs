@@ -42,6 +42,14 @@ impl SampleTable {
         Self::parse(Arc::new(Text { label, content, folder, is_argument: false }))
     }
 
+    /// The same of a text in memory.
+    ///
+    /// * `label`: what messages call it
+    pub(super) fn of_text(label: String, content: String) -> Result<Self, DocumentError> {
+        let folder = Path::new("").to_owned();
+        Self::parse(Arc::new(Text { label, content, folder, is_argument: false }))
+    }
+
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {
         let mut table = Self { text, columns: Vec::new(), rows: Vec::new(), lines: Vec::new() };
         let text = table.text.clone();
@@ -110,6 +118,13 @@ impl SampleTable {
             }
         };
         cells(line).enumerate().map(number).collect()
+    }
+
+    /// The table as CSV, with something before each of its keys.
+    pub(super) fn prefixed(&self, prefix: &str) -> String {
+        let keys: Vec<String> = self.columns.iter().map(|key| format!("{prefix}{key}")).collect();
+        let (_, end) = self.lines[0];
+        format!("{}{}", keys.join(","), &self.text.content[end..])
     }
 
     /// The keys of the first line.

@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value as Json;
 
+use super::campaign::CampaignDocument;
 use super::{DataSetDocument, Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
@@ -47,6 +48,7 @@ pub(super) fn json(kind: Kind) -> &'static Json {
         Kind::Rover => make::<RoverDocument>(kind),
         Kind::Scenario => make::<ScenarioDocument>(kind),
         Kind::DataSet => make::<DataSetDocument>(kind),
+        Kind::Campaign => make::<CampaignDocument>(kind),
     })
 }
 

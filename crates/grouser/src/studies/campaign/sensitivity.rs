@@ -1,0 +1,1 @@
+//! Which input an output's variance comes from (Sobol indices).
