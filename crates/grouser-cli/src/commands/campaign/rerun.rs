@@ -57,7 +57,11 @@ fn check_same(
     let differing = pairs.filter(|((_, ours), (_, theirs))| bits(ours) != bits(theirs));
     let words: Vec<String> = differing
         .map(|((name, ours), (_, theirs))| {
-            format!("{name} is stored as {}, and is now {}", written(&value(theirs)), written(&value(ours)))
+            format!(
+                "{name} is stored as {}, and is now {}",
+                written(&value(theirs)),
+                written(&value(ours))
+            )
         })
         .collect();
     if words.is_empty() {

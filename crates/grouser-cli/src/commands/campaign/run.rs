@@ -76,7 +76,11 @@ fn tell_surprises(folder: &Folder) {
         );
     }
     if folder.runs_done() > 0 && !folder.missing().is_empty() {
-        output::tell(&format!("going on: {} of {} runs are there", folder.runs_done(), folder.runs()));
+        output::tell(&format!(
+            "going on: {} of {} runs are there",
+            folder.runs_done(),
+            folder.runs()
+        ));
     }
 }
 

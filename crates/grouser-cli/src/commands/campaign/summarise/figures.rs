@@ -90,8 +90,11 @@ fn sensitivity(curve: &Curve, shares: &[&SensitivityRecord]) -> Option<Figure> {
     let places = || shares.iter().enumerate().map(|(place, it)| (place as f64 + 1.0, *it));
     let first = places().map(|(place, it)| (place - APART, it.first));
     let total = places().map(|(place, it)| (place + APART, it.total));
-    let names: Vec<String> =
-        shares.iter().enumerate().map(|(place, it)| format!("{} {}", place + 1, it.input)).collect();
+    let names: Vec<String> = shares
+        .iter()
+        .enumerate()
+        .map(|(place, it)| format!("{} {}", place + 1, it.input))
+        .collect();
     let quantity = &curve.quantity;
     Some(Figure {
         file: format!("{quantity}-sensitivity"),

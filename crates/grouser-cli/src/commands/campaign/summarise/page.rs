@@ -18,7 +18,8 @@ pub(super) fn html(
     let manifest = results.manifest();
     let mut page = Page::new(&manifest.name);
     page.answer(&answer(statistics));
-    let part = manifest.part.map_or(String::new(), |part| format!(", of which this is part {part}"));
+    let part =
+        manifest.part.map_or(String::new(), |part| format!(", of which this is part {part}"));
     page.list([
         format!("{} runs{part}, seed {}", manifest.runs, manifest.seed),
         format!("grouser {}", manifest.version),

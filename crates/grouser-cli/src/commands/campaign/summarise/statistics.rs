@@ -166,9 +166,8 @@ impl Statistics {
 
     fn shares(&self) -> Table {
         let cells = self.sensitivities.iter().map(|it| {
-            let index = |value: f64, low: f64, high: f64| {
-                format!("{value:.3} [{low:.3}, {high:.3}]")
-            };
+            let index =
+                |value: f64, low: f64, high: f64| format!("{value:.3} [{low:.3}, {high:.3}]");
             vec![
                 it.quantity.clone(),
                 it.input.clone(),
@@ -281,20 +280,21 @@ fn sensitivities(
     let Some(found) = Sensitivity::of(values, inputs.len(), campaign.seed()) else {
         return Vec::new();
     };
-    let record = |(input, index): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
-        SensitivityRecord {
-            quantity: column.name.clone(),
-            input: input.clone(),
-            first: index.first.value,
-            first_low: index.first.low,
-            first_high: index.first.high,
-            total: index.total.value,
-            total_low: index.total.low,
-            total_high: index.total.high,
-            points: found.points,
-            points_missing: found.missing,
-        }
-    };
+    let record =
+        |(input, index): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
+            SensitivityRecord {
+                quantity: column.name.clone(),
+                input: input.clone(),
+                first: index.first.value,
+                first_low: index.first.low,
+                first_high: index.first.high,
+                total: index.total.value,
+                total_low: index.total.low,
+                total_high: index.total.high,
+                points: found.points,
+                points_missing: found.missing,
+            }
+        };
     inputs.iter().zip(&found.indices).map(record).collect()
 }
 
