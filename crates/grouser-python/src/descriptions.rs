@@ -36,7 +36,7 @@ impl Read {
             Kind::Soil => Self::Soil(document::read_soil(source, overrides)?.into()),
             Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
-            Kind::Scenario | Kind::DataSet => {
+            Kind::Scenario | Kind::DataSet | Kind::Campaign => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
         })

@@ -1,6 +1,6 @@
 //! Floor 5, the door: documents with units in their names, and what they mean in SI.
 //!
-//! A soil, a wheel, a rover, a scenario and a data set each have a TOML document. Reading one takes these
+//! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. Reading one takes these
 //! steps, and this page is their order:
 //!
 //! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
@@ -27,6 +27,7 @@
 //! ```
 
 pub mod calibration;
+pub mod campaign;
 mod check;
 pub mod checkpoint;
 mod data_set;
@@ -60,6 +61,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+pub use campaign::{Campaign, CampaignDocument, read_campaign};
 pub use check::nearest;
 pub use data_set::{CaseSection, DataSetCase, DataSetDocument, DataSetSchema};
 pub use error::{DocumentError, Place, Problem, Spot};
@@ -106,12 +108,14 @@ pub enum Kind {
     Scenario,
     /// A file of measurements, `data-set/1`.
     DataSet,
+    /// Many runs over what is not known exactly, `campaign/1`.
+    Campaign,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario, Self::DataSet];
+    pub const ALL: [Self; 6] =
+        [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario, Self::DataSet, Self::Campaign];
 
     /// Its name in commands and overrides.
     #[must_use]
@@ -122,6 +126,7 @@ impl Kind {
             Self::Rover => "rover",
             Self::Scenario => "scenario",
             Self::DataSet => "data-set",
+            Self::Campaign => "campaign",
         }
     }
 
@@ -134,6 +139,7 @@ impl Kind {
             Self::Rover => "rover/1",
             Self::Scenario => "scenario/1",
             Self::DataSet => "data-set/1",
+            Self::Campaign => "campaign/1",
         }
     }
 
@@ -148,6 +154,11 @@ impl Kind {
             Self::Scenario => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
+            ],
+            Self::Campaign => &[
+                Part { kind: Self::Scenario, path: &["scenario"], default: None },
+                Part { kind: Self::Soil, path: &["wheel_test", "soil"], default: None },
+                Part { kind: Self::Wheel, path: &["wheel_test", "wheel"], default: None },
             ],
         }
     }
@@ -308,6 +319,7 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
         Kind::Rover => read_rover(source, &overrides).map(drop),
         Kind::Scenario => read_scenario(source, &overrides).map(drop),
         Kind::DataSet => read_data_set(source, &overrides).map(drop),
+        Kind::Campaign => read_campaign(source, &overrides).map(drop),
     }?;
     Ok(kind)
 }

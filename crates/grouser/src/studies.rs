@@ -4,13 +4,14 @@
 //! [`attitude_map`] the same for other courses and several soils, [`attitude_band`] where the soil is uncertain, with what [`uncertainty`] knows of draws,
 //! [`measurement`] what a real stand reads, [`simulated_test`] makes such readings with a known
 //! truth, [`validation`] judges a theory by them, [`calibration`] finds the soil that they speak
-//! for, [`comparison`] has the metrics by which the source paper judges a run, and
+//! for, [`campaign`] runs many over what is not known exactly, [`comparison`] has the metrics by which the source paper judges a run, and
 //! [`reproduction`] runs the whole of the paper's study again.
 
 pub mod attitude;
 pub mod attitude_band;
 pub mod attitude_map;
 pub mod calibration;
+pub mod campaign;
 pub mod comparison;
 pub mod measurement;
 mod random;

@@ -69,8 +69,14 @@ pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Opti
         .map(|(_, known)| known)
 }
 
-/// The key that chooses among tables.
-const LAW: &str = "law";
+/// The keys that choose among tables; a table has one of them.
+const LAWS: [&str; 2] = ["law", "distribution"];
+
+/// The key that chooses among some tables.
+fn law_key(tables: &[&Json]) -> &'static str {
+    let has = |law: &&str| tables.iter().any(|table| keys(table).any(|(key, _)| key == *law));
+    LAWS.into_iter().find(has).unwrap_or(LAWS[0])
+}
 
 struct Checker<'a> {
     root: &'static Json,
@@ -126,17 +132,18 @@ impl Checker<'_> {
         path: &str,
         key: &Origin,
     ) -> Result<&'static Json, DocumentError> {
+        let law = law_key(tables);
         let words_of = |table: &'static Json| self.laws_of(table);
-        let Some(entry) = node.entry(LAW) else {
-            let without = tables.iter().copied().find(|table| !requires(table, LAW));
+        let Some(entry) = node.entry(law) else {
+            let without = tables.iter().copied().find(|table| !requires(table, law));
             let all: Vec<_> = tables.iter().copied().filter_map(words_of).flatten().collect();
             return without.ok_or_else(|| {
-                DocumentError::at(key, Problem::MissingKey { key: join(path, LAW) })
-                    .with_hint(format!("it names the law: {}", listed(&all)))
+                DocumentError::at(key, Problem::MissingKey { key: join(path, law) })
+                    .with_hint(format!("it names the {law}: {}", listed(&all)))
             });
         };
         let all: Vec<_> = tables.iter().copied().filter_map(words_of).flatten().collect();
-        check_word(&all, &entry.node, &join(path, LAW))?;
+        check_word(&all, &entry.node, &join(path, law))?;
         let named = tables.iter().copied().find(|table| {
             matches!((&entry.node.value, words_of(table)),
                 (Value::String(law), Some(words)) if words.contains(&law.as_str()))
@@ -146,7 +153,7 @@ impl Checker<'_> {
 
     /// The laws that a table's keys belong to.
     fn laws_of(&self, table: &'static Json) -> Option<Vec<&'static str>> {
-        words(self.root, table.get("properties")?.get(LAW)?)
+        words(self.root, table.get("properties")?.get(law_key(&[table]))?)
     }
 
     /// * `all`: the schemas among which `schema` was chosen
@@ -190,15 +197,16 @@ impl Checker<'_> {
         entry: &Entry,
         path: String,
     ) -> DocumentError {
-        let law = match table.entry(LAW).map(|entry| &entry.node.value) {
-            Some(Value::String(law)) => format!(" with law = \"{law}\""),
+        let key = law_key(all);
+        let law = match table.entry(key).map(|entry| &entry.node.value) {
+            Some(Value::String(law)) => format!(" with {key} = \"{law}\""),
             _ => String::new(),
         };
         let known: Vec<_> = keys(schema).map(|(key, _)| key).collect();
         let knowing = all.iter().filter(|table| keys(table).any(|(key, _)| key == entry.key));
         let laws: Vec<_> = knowing.filter_map(|table| self.laws_of(table)).flatten().collect();
         let hint = if !laws.is_empty() {
-            format!("it goes with law = {}", listed(&laws))
+            format!("it goes with {key} = {}", listed(&laws))
         } else if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
             format!("did you mean `{meant}`?")
         } else if let [only] = &paths_of(self.root, &entry.key)[..]

@@ -205,6 +205,14 @@ pub enum Problem {
     /// A distribution outside the ranges of its keys.
     #[error("the uncertainty reaches too far: {0}")]
     NoDraws(#[from] NothingAccepted),
+    /// A distribution far from its key's range.
+    #[error("less than 1 % of the draws of `{key}` would be in its range, {range}")]
+    OutsideRange {
+        /// The key.
+        key: String,
+        /// Its range.
+        range: String,
+    },
     /// A file of samples that is not there.
     #[error("there is no file of samples {name}")]
     NoSamples {

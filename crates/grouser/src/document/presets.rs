@@ -1,5 +1,6 @@
 //! The documents that come with the program: those of `data/` and `scenarios/`.
 
+use super::campaign::CampaignDocument;
 use super::{DataSetDocument, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument, read};
 use super::{Document, Kind, Overrides, Source};
 
@@ -35,6 +36,7 @@ impl Preset {
             Kind::Rover => self.header(|rover: &RoverDocument| (&rover.name, &rover.source)),
             Kind::Scenario => self.header(|run: &ScenarioDocument| (&run.name, &run.source)),
             Kind::DataSet => self.header(|set: &DataSetDocument| (&set.name, &set.source)),
+            Kind::Campaign => self.header(|runs: &CampaignDocument| (&runs.name, &runs.source)),
         }
     }
 
@@ -102,4 +104,6 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
     preset!(DataSet, "data/measurements", "cmu-single-wheel"),
+    preset!(Campaign, "scenarios", "campaign-attitude"),
+    preset!(Campaign, "scenarios", "campaign-traverse"),
 ];

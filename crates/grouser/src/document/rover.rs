@@ -139,6 +139,17 @@ impl Document for RoverDocument {
 }
 
 impl RoverDocument {
+    /// Leaves the numbers alone, and the names of the wheels.
+    pub(super) fn forget_words(&mut self) {
+        self.assumed.clear();
+        for text in [&mut self.name, &mut self.source, &mut self.notes] {
+            text.clear();
+        }
+        if let Reference::Inline(wheel) = &mut self.wheel_unit.wheel {
+            wheel.forget_words();
+        }
+    }
+
     /// That every wheel can be told from the others: columns and messages name them.
     fn check_names(&self, tree: &Node) -> Result<(), DocumentError> {
         for (index, mount) in self.mount.iter().enumerate() {

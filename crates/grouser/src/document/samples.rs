@@ -46,6 +46,14 @@ impl SampleTable {
         Self::parse(Arc::new(Text { label, content, folder, ..Text::default() }))
     }
 
+    /// The same of a text in memory.
+    ///
+    /// * `label`: what messages call it
+    pub(super) fn of_text(label: String, content: String) -> Result<Self, DocumentError> {
+        let folder = Path::new("").to_owned();
+        Self::parse(Arc::new(Text { label, content, folder, is_argument: false }))
+    }
+
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {
         let mut table = Self { text, columns: Vec::new(), rows: Vec::new(), lines: Vec::new() };
         let text = table.text.clone();
@@ -70,9 +78,8 @@ impl SampleTable {
             let found =
                 format!("it has {} rows of numbers, it needs two or more", table.rows.len());
             let problem = Problem::NoTable(found);
-            return Err(DocumentError::whole(&table.text.label, problem).with_hint(
-                "the first line names keys of the soil, every other is a sample".to_owned(),
-            ));
+            return Err(DocumentError::whole(&table.text.label, problem)
+                .with_hint("the first line names keys, every other is a sample".to_owned()));
         }
         Ok(table)
     }
@@ -114,6 +121,13 @@ impl SampleTable {
             }
         };
         cells(line).enumerate().map(number).collect()
+    }
+
+    /// The table as CSV, with something before each of its keys.
+    pub(super) fn prefixed(&self, prefix: &str) -> String {
+        let keys: Vec<String> = self.columns.iter().map(|key| format!("{prefix}{key}")).collect();
+        let (_, end) = self.lines[0];
+        format!("{}{}", keys.join(","), &self.text.content[end..])
     }
 
     /// The keys of the first line.

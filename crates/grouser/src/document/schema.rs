@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde_json::Value as Json;
 
+use super::campaign::CampaignDocument;
 use super::{DataSetDocument, Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
@@ -47,6 +48,7 @@ pub(super) fn json(kind: Kind) -> &'static Json {
         Kind::Rover => make::<RoverDocument>(kind),
         Kind::Scenario => make::<ScenarioDocument>(kind),
         Kind::DataSet => make::<DataSetDocument>(kind),
+        Kind::Campaign => make::<CampaignDocument>(kind),
     })
 }
 
@@ -134,7 +136,10 @@ fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &
 fn properties<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Vec<&'s Json> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
     let tables = alternatives(root, schema).into_iter();
-    let tables = tables.map(|table| table.get("items").map_or(table, |items| resolve(root, items)));
+    let tables = tables.flat_map(|table| match table.get("items") {
+        Some(items) => alternatives(root, items),
+        None => vec![table],
+    });
     let children = tables.filter_map(|table| table.get("properties")?.get(first));
     children
         .flat_map(|child| match rest {

@@ -530,6 +530,15 @@ impl SoilDocument {
         Self { pressure_sinkage, ..self.clone() }
     }
 
+    /// Leaves the numbers alone.
+    pub(super) fn forget_words(&mut self) {
+        self.assumed.clear();
+        for text in [&mut self.name, &mut self.source, &mut self.notes] {
+            text.clear();
+        }
+        self.uncertainty = None;
+    }
+
     /// Whether its pressure-sinkage law is Reece's.
     #[must_use]
     pub fn follows_reece(&self) -> bool {

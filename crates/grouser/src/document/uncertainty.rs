@@ -22,7 +22,7 @@ use super::text::Node;
 use super::{Companion, Kind};
 use crate::error::ParameterError;
 use crate::soil::Soil;
-use crate::studies::uncertainty::{Correlation, Distribution, Marginal, NothingAccepted, Shape};
+use crate::studies::uncertainty::{Correlation, Distribution, Marginal, NothingAccepted};
 
 /// How well the numbers of a soil are known: keys with standard deviations, or a file of samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -216,6 +216,43 @@ fn check_rows(soils: &UncertainSoil, table: &SampleTable) -> Result<(), Document
     Ok(())
 }
 
+/// Correlations by the places of their keys, added to those that there are already.
+///
+/// * `keys`: all that may be correlated
+/// * `path`: where the sections stand in the tree
+pub(super) fn correlations(
+    sections: &[CorrelationSection],
+    keys: &[&str],
+    tree: &Node,
+    path: &str,
+    mut all: Vec<Correlation>,
+) -> Result<Vec<Correlation>, DocumentError> {
+    for (index, CorrelationSection { between, value }) in sections.iter().enumerate() {
+        let path = format!("{path}.{index}.between");
+        let mut places = [0; 2];
+        for (end, name) in between.iter().enumerate() {
+            let found = keys.iter().position(|key| key == name);
+            places[end] = found.ok_or_else(|| {
+                let problem = Problem::NotUncertain { key: name.clone() };
+                let origin = tree.origin_of(&format!("{path}.{end}"));
+                DocumentError::at(origin, problem).with_hint(meant(name, keys))
+            })?;
+        }
+        places.sort_unstable();
+        let origin = tree.origin_of(&path);
+        if places[0] == places[1] {
+            let problem = Problem::Conflict("a key has no correlation with itself");
+            return Err(DocumentError::at(origin, problem));
+        }
+        if all.iter().any(|other| other.between == places) {
+            let name = between.join(", ");
+            return Err(DocumentError::at(origin, Problem::RepeatedName { key: path, name }));
+        }
+        all.push(Correlation { between: places, value: *value });
+    }
+    Ok(all)
+}
+
 /// Reads an uncertainty beside the document it is of.
 struct Reader<'a> {
     tree: &'a Node,
@@ -238,9 +275,12 @@ impl Reader<'_> {
                 let problem = Problem::RepeatedName { key: path, name: key.path };
                 return Err(DocumentError::at(origin, problem));
             }
-            let shape = match parameter.distribution {
-                DistributionWord::Normal => Shape::Normal,
-                DistributionWord::Lognormal if mean > 0.0 => Shape::Lognormal,
+            let standard_deviation = parameter.standard_deviation;
+            let marginal = match parameter.distribution {
+                DistributionWord::Normal => Marginal::Normal { mean, standard_deviation },
+                DistributionWord::Lognormal if mean > 0.0 => {
+                    Marginal::Lognormal { mean, standard_deviation }
+                }
                 DistributionWord::Lognormal => {
                     let range = "above 0 to be lognormal".to_owned();
                     let problem = Problem::OutOfRange { key: key.path, value: mean, range };
@@ -248,10 +288,12 @@ impl Reader<'_> {
                 }
             };
             keys.push(key);
-            let standard_deviation = parameter.standard_deviation;
-            marginals.push(Marginal { mean, standard_deviation, shape });
+            marginals.push(marginal);
         }
-        let correlations = self.correlations(section, &keys)?;
+        let names: Vec<&str> = keys.iter().map(|key| key.path.as_str()).collect();
+        let place = "uncertainty.correlation";
+        let correlations =
+            correlations(&section.correlation, &names, self.tree, place, Vec::new())?;
         let distribution =
             Distribution::of_marginals(marginals, &correlations).map_err(|error| {
                 let origin = self.tree.origin_of("uncertainty.correlation");
@@ -262,40 +304,6 @@ impl Reader<'_> {
                 )
             })?;
         Ok((keys, distribution))
-    }
-
-    fn correlations(
-        &self,
-        section: &UncertaintySection,
-        keys: &[UncertainKey],
-    ) -> Result<Vec<Correlation>, DocumentError> {
-        let mut all: Vec<Correlation> = Vec::new();
-        for (index, CorrelationSection { between, value }) in section.correlation.iter().enumerate()
-        {
-            let path = format!("uncertainty.correlation.{index}.between");
-            let mut places = [0; 2];
-            for (end, name) in between.iter().enumerate() {
-                let found = keys.iter().position(|key| key.path == *name);
-                places[end] = found.ok_or_else(|| {
-                    let known: Vec<&str> = keys.iter().map(|key| key.path.as_str()).collect();
-                    let problem = Problem::NotUncertain { key: name.clone() };
-                    let origin = self.tree.origin_of(&format!("{path}.{end}"));
-                    DocumentError::at(origin, problem).with_hint(meant(name, &known))
-                })?;
-            }
-            places.sort_unstable();
-            let origin = self.tree.origin_of(&path);
-            if places[0] == places[1] {
-                let problem = Problem::Conflict("a key has no correlation with itself");
-                return Err(DocumentError::at(origin, problem));
-            }
-            if all.iter().any(|other| other.between == places) {
-                let name = between.join(", ");
-                return Err(DocumentError::at(origin, Problem::RepeatedName { key: path, name }));
-            }
-            all.push(Correlation { between: places, value: *value });
-        }
-        Ok(all)
     }
 
     /// A table of samples.

@@ -61,6 +61,14 @@ pub struct GrousersSection {
 }
 
 impl WheelDocument {
+    /// Leaves the numbers alone.
+    pub(super) fn forget_words(&mut self) {
+        self.assumed.clear();
+        for text in [&mut self.name, &mut self.source, &mut self.notes] {
+            text.clear();
+        }
+    }
+
     pub(super) fn wheel(&self) -> Wheel {
         let grousers = self.grousers.as_ref();
         Wheel {

@@ -168,6 +168,22 @@ impl AttitudeStudy {
     /// # Errors
     /// As [`curve`](Self::curve), and for a course out of its range.
     pub fn curve_on(&self, course: f64) -> Result<AttitudeCurve, ParameterError> {
+        self.curve_until(course, STEEPEST)
+    }
+
+    /// The level attitude on one slope [rad]: the curve is followed as far as that slope and no
+    /// further. Next to the fold, where a curve's last points are those that it was closed in on
+    /// with, the answer may differ from the whole curve's by round-off.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if soil or gravity are no such things; [`NoAttitude`] within if no yaw
+    /// keeps a traverse level there.
+    pub fn on_slope(&self, slope: f64) -> Result<Result<Attitude, NoAttitude>, ParameterError> {
+        Ok(self.curve_until(0.0, slope.min(STEEPEST))?.at(slope))
+    }
+
+    /// The curve of a course as far as its first point that is not below a slope, or to its end.
+    fn curve_until(&self, course: f64, slope: f64) -> Result<AttitudeCurve, ParameterError> {
         Site { soil: self.soil, slope: 0.0, gravity: self.gravity }.check()?;
         finite("course [rad]", course)?;
         if course.abs() > STRAIGHT_UP {
@@ -180,7 +196,7 @@ impl AttitudeStudy {
             Ok(start) => {
                 held_below = start.place.z;
                 points.push(start);
-                path.follow(&mut points)
+                path.follow(&mut points, slope)
             }
         };
         let settled_wheels = path.settled_wheels();

@@ -1,9 +1,11 @@
 //! Random numbers of studies: each from a stream of its own, so that it does not matter what else
 //! was drawn, or on which thread.
 
+use std::f64::consts::SQRT_2;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use statrs::function::erf::erfc_inv;
+use statrs::function::erf::{erfc, erfc_inv};
 
 /// The generator of a stream.
 pub(super) fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
@@ -17,10 +19,32 @@ pub(super) fn uniform(random: &mut ChaCha8Rng) -> f64 {
     part(random.next_u64())
 }
 
-/// A standard normal number, by the inverse of its distribution at a uniform one:
-/// *z* = −√2 erfc⁻¹(2 *u*).
+/// A whole number below a count, of which there is at least one.
+pub(super) fn below(random: &mut ChaCha8Rng, count: usize) -> usize {
+    place_below(uniform(random) * count as f64, count)
+}
+
+/// The whole part of a place in a list that is not negative; the last one for what is beyond.
+pub(super) fn place_below(place: f64, length: usize) -> usize {
+    // Saturating: what is beyond the largest number of all is beyond the list, too.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let whole = place as usize;
+    whole.min(length - 1)
+}
+
+/// A standard normal number, by the inverse of its distribution at a uniform one.
 pub(super) fn standard_normal(random: &mut ChaCha8Rng) -> f64 {
-    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * uniform(random))
+    normal_score(uniform(random))
+}
+
+/// The standard normal number below which a share of all lies: *z* = −√2 erfc⁻¹(2 *u*).
+pub(super) fn normal_score(share: f64) -> f64 {
+    -SQRT_2 * erfc_inv(2.0 * share)
+}
+
+/// The share of standard normal numbers below one, Φ(z) = erfc(−*z*/√2)/2.
+pub(super) fn normal_share(score: f64) -> f64 {
+    erfc(-score / SQRT_2) / 2.0
 }
 
 /// The middle of one of 2⁵² equal parts, by the first bits of a word. With 2⁵³ of them the last

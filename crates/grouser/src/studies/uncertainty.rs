@@ -5,43 +5,169 @@
 //! there are or which thread they run on. What comes of the draws is told by a [`Band`] of a
 //! quantity, and by the [`Probability`] of an event.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
 
-use super::random;
+use super::random::{self, normal_score, normal_share, place_below};
 
-/// What is known of one value.
+/// The distribution of one value, in the value's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Marginal {
-    /// Its mean, in the value's own unit.
-    pub mean: f64,
-    /// Its standard deviation, in the same unit.
-    pub standard_deviation: f64,
-    /// Its distribution.
-    pub shape: Shape,
-}
-
-/// The distribution of one value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Marginal {
     /// x = m + d z.
-    Normal,
+    Normal {
+        /// Mean, *m*.
+        mean: f64,
+        /// Standard deviation, *d*.
+        standard_deviation: f64,
+    },
     /// x = m e^(σz − σ²/2) with σ² = ln(1 + d²/m²): positive, with mean m and deviation d.
-    Lognormal,
+    Lognormal {
+        /// Mean, *m*; above 0.
+        mean: f64,
+        /// Standard deviation, *d*.
+        standard_deviation: f64,
+    },
+    /// x = a + (b − a) Φ(z): every value between two is as likely as the others.
+    Uniform {
+        /// Lower end, *a*.
+        low: f64,
+        /// Upper end, *b*.
+        high: f64,
+    },
+    /// A density that rises linearly from a to c and falls linearly to b.
+    ///
+    /// ```text
+    /// x = a + √[Φ(z) (b − a)(c − a)]        up to c
+    /// x = b − √[Φ(−z) (b − a)(b − c)]       beyond
+    /// ```
+    Triangular {
+        /// Lower end, *a*.
+        low: f64,
+        /// The most likely value, *c*.
+        mode: f64,
+        /// Upper end, *b*.
+        high: f64,
+    },
 }
 
 impl Marginal {
-    /// The value at a standard normal score, *z* [-], by the formula of its [`Shape`].
+    /// The value at a standard normal score, *z* [-]; it grows with the score.
     #[must_use]
     pub fn at(&self, score: f64) -> f64 {
-        let (m, d, z) = (self.mean, self.standard_deviation, score);
-        match self.shape {
-            Shape::Normal => m + d * z,
-            Shape::Lognormal => {
+        let z = score;
+        match *self {
+            Self::Normal { mean: m, standard_deviation: d } => m + d * z,
+            Self::Lognormal { mean: m, standard_deviation: d } => {
                 let variance = (d / m).powi(2).ln_1p();
                 m * (variance.sqrt() * z - variance / 2.0).exp()
             }
+            Self::Uniform { low: a, high: b } => a + (b - a) * normal_share(z),
+            Self::Triangular { low: a, mode: c, high: b } => {
+                let share = normal_share(z);
+                if share * (b - a) < c - a {
+                    a + (share * (b - a) * (c - a)).sqrt()
+                } else {
+                    b - (normal_share(-z) * (b - a) * (b - c)).sqrt()
+                }
+            }
         }
+    }
+
+    /// The share of draws below a value, *F(x)* [-], where draws differ.
+    fn share_below(&self, value: f64) -> f64 {
+        let x = value;
+        match *self {
+            Self::Normal { mean, standard_deviation } => {
+                normal_share((x - mean) / standard_deviation)
+            }
+            Self::Lognormal { mean, standard_deviation } => {
+                let variance = (standard_deviation / mean).powi(2).ln_1p();
+                // The logarithm of what is not positive is below that of all that is.
+                let log = if x > 0.0 { (x / mean).ln() } else { f64::NEG_INFINITY };
+                normal_share((log + variance / 2.0) / variance.sqrt())
+            }
+            Self::Uniform { low: a, high: b } => ((x - a) / (b - a)).clamp(0.0, 1.0),
+            Self::Triangular { low: a, mode: c, high: b } => {
+                if x <= a {
+                    0.0
+                } else if x < c {
+                    (x - a).powi(2) / ((b - a) * (c - a))
+                } else if x < b {
+                    1.0 - (b - x).powi(2) / ((b - a) * (b - c))
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
+
+    /// The share of draws within a range [-].
+    #[must_use]
+    pub fn share_within(&self, range: &RangeInclusive<f64>) -> f64 {
+        if self.is_certain() {
+            return if range.contains(&self.at(0.0)) { 1.0 } else { 0.0 };
+        }
+        self.share_below(*range.end()) - self.share_below(*range.start())
+    }
+
+    /// Whether it has one value alone.
+    fn is_certain(&self) -> bool {
+        match *self {
+            Self::Normal { standard_deviation, .. }
+            | Self::Lognormal { standard_deviation, .. } => standard_deviation == 0.0,
+            Self::Uniform { low, high } | Self::Triangular { low, high, .. } => low == high,
+        }
+    }
+}
+
+/// A distribution cut off at the ends of a range: what is outside is spread over the inside in
+/// proportion.
+///
+/// ```text
+/// x = F⁻¹{F(low) + Φ(z) [F(high) − F(low)]}
+/// ```
+///
+/// A cut by formula instead of by drawing again keeps a designed set of points what it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cut {
+    marginal: Marginal,
+    /// The ends of the range.
+    range: (f64, f64),
+    /// The shares of draws below the range and above it [-].
+    outside: (f64, f64),
+}
+
+impl Cut {
+    /// A distribution as it is.
+    fn nowhere(marginal: Marginal) -> Self {
+        Self { marginal, range: (f64::NEG_INFINITY, f64::INFINITY), outside: (0.0, 0.0) }
+    }
+
+    fn at_ends(marginal: Marginal, range: &RangeInclusive<f64>) -> Self {
+        // One value alone is inside, also where it is an end.
+        if marginal.is_certain() {
+            return Self::nowhere(marginal);
+        }
+        let (low, high) = (*range.start(), *range.end());
+        let outside = (marginal.share_below(low), 1.0 - marginal.share_below(high));
+        Self { marginal, range: (low, high), outside }
+    }
+
+    fn at(&self, score: f64) -> f64 {
+        let (below, above) = self.outside;
+        let inside = 1.0 - below - above;
+        let cut = if below == 0.0 && above == 0.0 {
+            score
+        } else if score < 0.0 {
+            normal_score(below + normal_share(score) * inside)
+        } else {
+            // From the other end, where small shares are exact.
+            -normal_score(above + normal_share(-score) * inside)
+        };
+        // Round-off may lead just beside an end.
+        self.marginal.at(cut).clamp(self.range.0, self.range.1)
     }
 }
 
@@ -67,7 +193,7 @@ pub struct Distribution(Law);
 #[derive(Clone, Debug, PartialEq)]
 enum Law {
     /// Values with normal scores L z, where L Lᵀ is their matrix of correlations.
-    Scores { marginals: Vec<Marginal>, factor: DMatrix<f64> },
+    Scores { marginals: Vec<Cut>, factor: DMatrix<f64> },
     /// One of several rows of values, each as likely as the others.
     Samples(Vec<Vec<f64>>),
 }
@@ -109,7 +235,24 @@ impl Distribution {
         if factor.diagonal().iter().any(|pivot| pivot * pivot <= SINGULAR) {
             return Err(Contradiction);
         }
+        let marginals = marginals.into_iter().map(Cut::nowhere).collect();
         Ok(Self(Law::Scores { marginals, factor }))
+    }
+
+    /// The same, each value's distribution cut off at the ends of its range. (Correlations are of
+    /// the scores, and stay what they are; samples are not cut.)
+    ///
+    /// * `ranges`: one for each value; each with some share of its value's draws inside
+    #[must_use]
+    pub fn within(self, ranges: &[RangeInclusive<f64>]) -> Self {
+        match self.0 {
+            Law::Scores { marginals, factor } => {
+                let cut = |(cut, range): (&Cut, _)| Cut::at_ends(cut.marginal, range);
+                let marginals = marginals.iter().zip(ranges).map(cut).collect();
+                Self(Law::Scores { marginals, factor })
+            }
+            samples @ Law::Samples(_) => Self(samples),
+        }
     }
 
     /// Rows of samples, such as those of a posterior; each draw is one of them, whichever were
@@ -139,14 +282,35 @@ impl Distribution {
         drawn.ok_or(NothingAccepted { index, tries: MOST_TRIES })
     }
 
-    fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
+    /// How many uniform numbers a draw is made of: one for each marginal, or one for samples.
+    #[must_use]
+    pub fn dimensions(&self) -> usize {
+        match &self.0 {
+            Law::Scores { marginals, .. } => marginals.len(),
+            Law::Samples(_) => 1,
+        }
+    }
+
+    /// How many values a draw has.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        match &self.0 {
+            Law::Scores { marginals, .. } => marginals.len(),
+            Law::Samples(rows) => rows[0].len(),
+        }
+    }
+
+    /// The values at a point of the unit cube: uniform points make draws of the distribution.
+    ///
+    /// * `point`: a number above 0 and below 1 for each of the [`dimensions`](Self::dimensions)
+    #[must_use]
+    pub fn at(&self, point: &[f64]) -> Vec<f64> {
         match &self.0 {
             Law::Samples(rows) => {
-                rows[place_below(random::uniform(random) * rows.len() as f64, rows.len())].clone()
+                rows[place_below(point[0] * rows.len() as f64, rows.len())].clone()
             }
             Law::Scores { marginals, factor } => {
-                let independent: Vec<f64> =
-                    marginals.iter().map(|_| random::standard_normal(random)).collect();
+                let independent: Vec<f64> = point.iter().map(|u| normal_score(*u)).collect();
                 let scores = (0..marginals.len()).map(|row| {
                     (0..=row).map(|column| factor[(row, column)] * independent[column]).sum()
                 });
@@ -154,14 +318,11 @@ impl Distribution {
             }
         }
     }
-}
 
-/// The whole part of a place in a list that is not negative; the last one for what is beyond.
-fn place_below(place: f64, length: usize) -> usize {
-    // Saturating: what is beyond the largest number of all is beyond the list, too.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let whole = place as usize;
-    whole.min(length - 1)
+    fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
+        let point: Vec<f64> = (0..self.dimensions()).map(|_| random::uniform(random)).collect();
+        self.at(&point)
+    }
 }
 
 /// The middle 95 % of a quantity, and its median.

@@ -8,7 +8,7 @@ use grouser::soil::{Exit, Soil};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::attitude_band::AttitudeBand;
 use grouser::studies::uncertainty::{
-    Band, Contradiction, Correlation, Distribution, Marginal, Probability, Shape,
+    Band, Contradiction, Correlation, Distribution, Marginal, Probability,
 };
 use grouser::units::deg;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -16,11 +16,11 @@ use statrs::distribution::{ContinuousCDF, Normal};
 const SEED: u64 = 7;
 
 fn normal(mean: f64, standard_deviation: f64) -> Marginal {
-    Marginal { mean, standard_deviation, shape: Shape::Normal }
+    Marginal::Normal { mean, standard_deviation }
 }
 
 fn lognormal(mean: f64, standard_deviation: f64) -> Marginal {
-    Marginal { mean, standard_deviation, shape: Shape::Lognormal }
+    Marginal::Lognormal { mean, standard_deviation }
 }
 
 fn of_marginals(marginals: &[Marginal], correlations: &[Correlation]) -> Distribution {

@@ -139,12 +139,13 @@ impl<'a> Path<'a> {
         Err("the start of the curve was not found".into())
     }
 
-    /// Follows the curve from its one point until it folds or ends; says what ended it.
-    pub(super) fn follow(&self, points: &mut Vec<Point>) -> String {
+    /// Follows the curve from its one point until it folds or ends, or until a point is not below
+    /// a slope; says what ended it.
+    pub(super) fn follow(&self, points: &mut Vec<Point>, slope: f64) -> String {
         let mut step = FIRST_STEP;
         loop {
             let here = points[points.len() - 1].clone();
-            if here.place.z >= STEEPEST {
+            if here.place.z >= slope {
                 return "the end of the range of slopes".into();
             }
             let next = loop {

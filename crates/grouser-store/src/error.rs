@@ -1,0 +1,188 @@
+//! What can go wrong with a campaign's folder.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a folder cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The disk or its permissions.
+    #[error("cannot {operation} {}: {source}", path.display())]
+    Disk {
+        /// What was tried, such as `write`.
+        operation: &'static str,
+        /// On what.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Another program writes there.
+    #[error(
+        "another campaign is writing to {}\nhint: wait until it is done, stop it, or choose another folder",
+        .0.display()
+    )]
+    Locked(PathBuf),
+    /// There is something in the folder that no campaign left there.
+    #[error(
+        "the folder {} is not empty, and holds no campaign: {found} is in it\nhint: choose another folder",
+        folder.display()
+    )]
+    NotACampaign {
+        /// The folder.
+        folder: PathBuf,
+        /// One of the things in it.
+        found: String,
+    },
+    /// There is no campaign to read.
+    #[error("{} holds no campaign: it has no manifest.json", .0.display())]
+    NoCampaign(PathBuf),
+    /// The manifest cannot be understood.
+    #[error("{}: {problem}", file.display())]
+    Manifest {
+        /// The manifest.
+        file: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The folder has the results of another study.
+    #[error(
+        "the folder {} has the runs of another study: {difference}\nhint: choose another folder, or give the study its old values",
+        folder.display()
+    )]
+    OtherStudy {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs, key by key.
+        difference: String,
+    },
+    /// The folder has the results of another version of the program, which may compute otherwise.
+    #[error(
+        "the folder {} has runs of grouser {theirs}, this is {ours}: their numbers may differ\nhint: choose another folder, or go on with grouser {theirs}",
+        folder.display()
+    )]
+    OtherVersion {
+        /// The folder.
+        folder: PathBuf,
+        /// Its version.
+        theirs: String,
+        /// This one.
+        ours: String,
+    },
+    /// The folder is for another part of an array of jobs.
+    #[error("the folder {} is for {theirs}, not for {ours}\nhint: give every part a folder of its own", folder.display())]
+    OtherPart {
+        /// The folder.
+        folder: PathBuf,
+        /// What it is for.
+        theirs: String,
+        /// What was asked for.
+        ours: String,
+    },
+    /// A Parquet file that the campaign does not have.
+    #[error("{} is no shard of this campaign: move it away", .0.display())]
+    UnknownShard(PathBuf),
+    /// A shard is not whole, or not one of this campaign.
+    #[error("shard {shard}: {fault}")]
+    Shard {
+        /// Its number.
+        shard: u64,
+        /// What is wrong.
+        fault: ShardFault,
+    },
+    /// Shards that were not computed yet.
+    #[error("{} of {all} shards are missing: {}", shards.len(), listed(shards))]
+    Missing {
+        /// Their numbers.
+        shards: Vec<u64>,
+        /// How many there should be.
+        all: u64,
+    },
+    /// A part's folder in which the part is not finished.
+    #[error("{} is not finished: {} of its shards are missing\nhint: run its campaign again, it goes on where it stopped", folder.display(), shards.len())]
+    Unfinished {
+        /// The folder.
+        folder: PathBuf,
+        /// The numbers of what is missing.
+        shards: Vec<u64>,
+    },
+    /// Two folders have the same shard.
+    #[error("{} and {} both have shard {shard}\nhint: leave one of them out", first.display(), second.display())]
+    Duplicate {
+        /// Its number.
+        shard: u64,
+        /// A folder.
+        first: PathBuf,
+        /// Another one.
+        second: PathBuf,
+    },
+    /// The bytes of a finished campaign are no more what they were.
+    #[error(
+        "{}: its digest was {recorded}, now it is {found}\nhint: some shard was computed anew with other numbers; run the campaign in a new folder",
+        folder.display()
+    )]
+    OtherDigest {
+        /// The folder.
+        folder: PathBuf,
+        /// As the manifest has it.
+        recorded: String,
+        /// As it is.
+        found: String,
+    },
+    /// A column that the campaign does not have.
+    #[error("there is no column {0}")]
+    NoColumn(String),
+    /// A run that the campaign does not have.
+    #[error("there is no run {run}: the campaign has runs 0 to {}", runs.saturating_sub(1))]
+    NoRun {
+        /// Its number.
+        run: u64,
+        /// How many there are.
+        runs: u64,
+    },
+    /// The writer or reader of Parquet failed.
+    #[error("Parquet: {0}")]
+    Parquet(#[from] parquet::errors::ParquetError),
+}
+
+/// What is wrong with a shard.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ShardFault {
+    /// It ends too early, or bits of it have changed.
+    #[error("the file is truncated or damaged")]
+    Damaged,
+    /// It is a shard of another study, another version, or has another number.
+    #[error("the file is that of another {0}")]
+    Foreign(&'static str),
+    /// It has too few or too many rows.
+    #[error("the file has {found} rows, it should have {expected}")]
+    Rows {
+        /// As it is.
+        found: u64,
+        /// As it should be.
+        expected: u64,
+    },
+}
+
+impl StoreError {
+    /// Whether the disk, its permissions or another program are in the way: nobody asked wrongly.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        matches!(self, Self::Disk { .. } | Self::Locked(_) | Self::Parquet(_))
+    }
+
+    /// A failed operation on a file or folder.
+    pub(crate) fn at(operation: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Disk { operation, path, source }
+    }
+}
+
+/// The first few of some numbers.
+fn listed(shards: &[u64]) -> String {
+    const SHOWN: usize = 8;
+    let mut words: Vec<String> = shards.iter().take(SHOWN).map(u64::to_string).collect();
+    if shards.len() > SHOWN {
+        words.push("…".into());
+    }
+    words.join(", ")
+}

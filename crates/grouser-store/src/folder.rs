@@ -1,0 +1,303 @@
+//! The folder that a campaign writes: one program at a time, one file for each shard.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest as _, Sha256};
+
+use crate::error::{ShardFault, StoreError};
+use crate::manifest::{self, Manifest, Part, Session};
+use crate::study::{Study, VERSION, difference, hex};
+use crate::{place, shard, time};
+
+/// Where the shards are.
+pub(crate) const RUNS: &str = "runs";
+/// The resolved study.
+pub(crate) const STUDY: &str = "study.toml";
+const LOCK: &str = ".lock";
+
+/// A campaign's folder, open for writing and locked.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    study: Study,
+    manifest: Manifest,
+    missing: BTreeSet<u64>,
+    faults: Vec<(u64, ShardFault)>,
+    /// Whether this program has a session in the manifest.
+    in_session: bool,
+    /// Held as long as the folder is open; a kill releases it, too. None on disks without locks.
+    lock: Option<File>,
+}
+
+/// A campaign whose shards are all there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finished {
+    /// SHA-256 over the shards' bytes in their order: what `cat runs/*.parquet | sha256sum` prints.
+    pub digest: String,
+    /// How many shards there are.
+    pub shards: u64,
+    /// How many bytes they have.
+    pub bytes: u64,
+}
+
+impl Folder {
+    /// Opens a folder to go on with a campaign, or makes it. What killed programs left unfinished is
+    /// removed, and every shard that is there is checked, to the last bit: damaged ones are missing.
+    ///
+    /// On network disks the lock is as good as theirs: NFS before version 4 may have none.
+    ///
+    /// * `part`: which of the shards belong here; none for all
+    ///
+    /// # Errors
+    /// [`StoreError`] if it is somebody else's folder, or the disk fails.
+    pub fn open(path: &Path, study: &Study, part: Option<Part>) -> Result<Self, StoreError> {
+        check_strangers(path)?;
+        let runs = path.join(RUNS);
+        fs::create_dir_all(path).map_err(StoreError::at("make the folder", path))?;
+        let lock = lock(path)?;
+        let manifest = match Manifest::read(path)? {
+            Some(manifest) => {
+                check_identity(path, &manifest, study, part)?;
+                manifest
+            }
+            None => begin(path, study, part)?,
+        };
+        fs::create_dir_all(&runs).map_err(StoreError::at("make the folder", &runs))?;
+        place::remove_unfinished(path)?;
+        place::remove_unfinished(&runs)?;
+        let missing = manifest.own_shards().collect();
+        let (path, study) = (path.to_owned(), study.clone());
+        let mut folder =
+            Self { path, study, manifest, missing, faults: Vec::new(), in_session: false, lock };
+        folder.check_shards()?;
+        Ok(folder)
+    }
+
+    /// Finds out which shards are there and whole.
+    fn check_shards(&mut self) -> Result<(), StoreError> {
+        let runs = self.path.join(RUNS);
+        for name in place::names(&runs)?.iter().filter(|name| name.ends_with(".parquet")) {
+            let file = runs.join(name);
+            let Some(shard) = shard::number_of(name).filter(|shard| self.missing.contains(shard))
+            else {
+                return Err(StoreError::UnknownShard(file));
+            };
+            let bytes = fs::read(&file).map_err(StoreError::at("read", &file))?;
+            match shard::check(&self.study, shard, &bytes) {
+                Ok(()) => drop(self.missing.remove(&shard)),
+                Err(fault) => self.faults.push((shard, fault)),
+            }
+        }
+        Ok(())
+    }
+
+    /// The shards that are not there yet, in order.
+    #[must_use]
+    pub fn missing(&self) -> Vec<u64> {
+        self.missing.iter().copied().collect()
+    }
+
+    /// Runs of the shards that are there.
+    #[must_use]
+    pub fn runs_done(&self) -> u64 {
+        let there = self.manifest.own_shards().filter(|shard| !self.missing.contains(shard));
+        there.map(|shard| self.manifest.runs_of(shard)).map(|runs| runs.end - runs.start).sum()
+    }
+
+    /// Runs of all shards that belong here.
+    #[must_use]
+    pub fn runs(&self) -> u64 {
+        let own = self.manifest.own_shards().map(|shard| self.manifest.runs_of(shard));
+        own.map(|runs| runs.end - runs.start).sum()
+    }
+
+    /// Shards whose files were there when the folder was opened, but not as they should be. They
+    /// are among the [missing](Self::missing), and a new file replaces each.
+    #[must_use]
+    pub fn faults(&self) -> &[(u64, ShardFault)] {
+        &self.faults
+    }
+
+    /// Whether a second program would be kept out: not every disk has locks.
+    #[must_use]
+    pub fn is_locked(&self) -> bool {
+        self.lock.is_some()
+    }
+
+    /// The manifest, as it was when the folder was opened or last written.
+    #[must_use]
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+
+    /// Takes in a shard, whoever computed it. One that is there already stays as it is.
+    ///
+    /// # Errors
+    /// [`StoreError::Shard`] if the bytes are not those of a shard that belongs here, or
+    /// [`StoreError::Disk`]; the folder is as it was then.
+    pub fn accept(&mut self, shard: u64, bytes: &[u8]) -> Result<(), StoreError> {
+        let fault = match shard::check(&self.study, shard, bytes) {
+            Ok(()) if self.manifest.has(shard) => None,
+            Ok(()) => Some(ShardFault::Foreign("part")),
+            Err(fault) => Some(fault),
+        };
+        if let Some(fault) = fault {
+            return Err(StoreError::Shard { shard, fault });
+        }
+        if !self.missing.contains(&shard) {
+            return Ok(());
+        }
+        self.begin_session()?;
+        place::put(&self.path.join(RUNS).join(shard::file_name(shard)), bytes)?;
+        self.missing.remove(&shard);
+        if let Some(session) = self.manifest.sessions.last_mut() {
+            session.shards += 1;
+        }
+        Ok(())
+    }
+
+    fn begin_session(&mut self) -> Result<(), StoreError> {
+        if self.in_session {
+            return Ok(());
+        }
+        let session = Session { started: time::now(), ended: None, shards: 0 };
+        self.manifest.sessions.push(session);
+        self.manifest.write(&self.path)?;
+        self.in_session = true;
+        Ok(())
+    }
+
+    /// Writes down when this program stopped, and what it did. A program that is killed cannot, and
+    /// nothing but that is lost.
+    ///
+    /// # Errors
+    /// [`StoreError::Disk`].
+    pub fn pause(&mut self) -> Result<(), StoreError> {
+        if let Some(session) = self.manifest.sessions.last_mut().filter(|_| self.in_session) {
+            session.ended = Some(time::now());
+            self.manifest.write(&self.path)?;
+        }
+        Ok(())
+    }
+
+    /// Computes the digest and writes it to the manifest.
+    ///
+    /// # Errors
+    /// [`StoreError::Missing`] if shards are; [`StoreError::OtherDigest`] if the campaign was finished
+    /// before, with other bytes.
+    pub fn finish(&mut self) -> Result<Finished, StoreError> {
+        if !self.missing.is_empty() {
+            let all = self.manifest.own_shards().count() as u64;
+            return Err(StoreError::Missing { shards: self.missing(), all });
+        }
+        let finished = digest(&self.path, &self.manifest)?;
+        match &self.manifest.digest {
+            Some(recorded) if *recorded != finished.digest => {
+                return Err(StoreError::OtherDigest {
+                    folder: self.path.clone(),
+                    recorded: recorded.clone(),
+                    found: finished.digest,
+                });
+            }
+            Some(_) if !self.in_session => return Ok(finished),
+            _ => {}
+        }
+        self.manifest.digest = Some(finished.digest.clone());
+        self.pause()?;
+        if !self.in_session {
+            self.manifest.write(&self.path)?;
+        }
+        Ok(finished)
+    }
+}
+
+/// SHA-256 over the files of all shards that belong to a folder.
+pub(crate) fn digest(path: &Path, manifest: &Manifest) -> Result<Finished, StoreError> {
+    let (mut hash, mut shards, mut bytes) = (Sha256::new(), 0, 0);
+    let mut buffer = vec![0; 1 << 20];
+    for shard in manifest.own_shards() {
+        let file = path.join(RUNS).join(shard::file_name(shard));
+        let mut reader = File::open(&file).map_err(StoreError::at("read", &file))?;
+        loop {
+            let read = reader.read(&mut buffer).map_err(StoreError::at("read", &file))?;
+            if read == 0 {
+                break;
+            }
+            hash.update(&buffer[..read]);
+            bytes += read as u64;
+        }
+        shards += 1;
+    }
+    Ok(Finished { digest: hex(&hash.finalize()), shards, bytes })
+}
+
+/// Takes the folder for this program alone, until it closes the folder or ends in any way.
+fn lock(path: &Path) -> Result<Option<File>, StoreError> {
+    let place = path.join(LOCK);
+    let file = OpenOptions::new().create(true).truncate(false).write(true).open(&place);
+    let file = file.map_err(StoreError::at("write", &place))?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(StoreError::Locked(path.to_owned())),
+        // A disk without locks: better no lock than no campaign.
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+/// That a folder without a manifest has nothing in it but what a campaign leaves that was killed
+/// before it had written one.
+fn check_strangers(path: &Path) -> Result<(), StoreError> {
+    let names = place::names(path)?;
+    if names.iter().any(|name| name == manifest::FILE) {
+        return Ok(());
+    }
+    let is_ours = names.iter().any(|name| name == LOCK);
+    let known = |name: &str| is_ours && [LOCK, STUDY].contains(&name) || place::is_unfinished(name);
+    match names.into_iter().find(|name| !known(name)) {
+        None => Ok(()),
+        Some(found) => Err(StoreError::NotACampaign { folder: path.to_owned(), found }),
+    }
+}
+
+/// That a folder has this campaign, of this version and part.
+fn check_identity(
+    path: &Path,
+    manifest: &Manifest,
+    study: &Study,
+    part: Option<Part>,
+) -> Result<(), StoreError> {
+    let folder = path.to_owned();
+    if manifest.study_sha256 != study.hash {
+        let theirs = fs::read_to_string(path.join(STUDY)).unwrap_or_default();
+        return Err(StoreError::OtherStudy {
+            folder,
+            difference: difference(&theirs, &study.text),
+        });
+    }
+    if manifest.version != VERSION {
+        let (theirs, ours) = (manifest.version.clone(), VERSION.to_owned());
+        return Err(StoreError::OtherVersion { folder, theirs, ours });
+    }
+    if manifest.part != part {
+        let words = |part: Option<Part>| {
+            part.map_or_else(|| "the whole campaign".to_owned(), |part| format!("part {part}"))
+        };
+        return Err(StoreError::OtherPart {
+            folder,
+            theirs: words(manifest.part),
+            ours: words(part),
+        });
+    }
+    Ok(())
+}
+
+/// The first files of a folder; the manifest last, for with it the folder is a campaign's.
+fn begin(path: &Path, study: &Study, part: Option<Part>) -> Result<Manifest, StoreError> {
+    place::put(&path.join(STUDY), study.text.as_bytes())?;
+    let manifest = Manifest::new(study, part);
+    manifest.write(path)?;
+    Ok(manifest)
+}

@@ -1,0 +1,56 @@
+//! A campaign's results on disk, so that a kill at any moment loses no more than what was being
+//! computed, and doubles nothing.
+//!
+//! ```text
+//! DIR/manifest.json              what campaign this is, by which version, when, and its digest once finished
+//! DIR/study.toml                 the resolved study: enough to run it again
+//! DIR/runs/part-000017.parquet   shard 17: the same bytes always
+//! DIR/.lock                      held while a program writes here
+//! ```
+//!
+//! [`Study`] is what the store knows of a campaign, [`shard`] turns rows into a file's bytes and back,
+//! [`Folder`] is the folder that a campaign writes, [`Results`] the same for reading, [`merge`] brings
+//! the parts of an array of jobs together.
+//!
+//! Shards are computed one by one, in any order, anywhere: [`shard_bytes`] makes one, [`Folder::missing`]
+//! tells which are wanted, [`Folder::accept`] takes them in. A file appears under its name only when it
+//! is whole and on disk (written beside, synced, renamed), and carries a hash of its own bytes. Neither
+//! a clock nor a random number goes into a shard: the [`digest`](Folder::finish) over all of them is
+//! that of the campaign, however it was computed.
+
+mod error;
+mod folder;
+mod manifest;
+mod merge;
+mod place;
+mod results;
+pub mod shard;
+mod study;
+mod time;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::{ShardFault, StoreError};
+pub use folder::{Finished, Folder};
+pub use manifest::{ColumnRecord, Manifest, Part, Session};
+pub use merge::merge;
+pub use results::Results;
+pub use study::Study;
+
+use grouser::document::campaign::Campaign;
+
+/// Computes a shard of a campaign, to its bytes: all that a worker has to do.
+///
+/// * `go_on`: asked before each run; `None` is returned if it says no
+///
+/// # Errors
+/// [`StoreError`] if the rows cannot be written.
+pub fn shard_bytes(
+    campaign: &Campaign,
+    shard: u64,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Vec<u8>>, StoreError> {
+    let Some(table) = campaign.shard(shard, go_on) else { return Ok(None) };
+    shard::encode(&Study::of(campaign), shard, &table).map(Some)
+}

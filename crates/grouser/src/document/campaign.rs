@@ -1,0 +1,214 @@
+//! `campaign/1`: many runs over what is not known exactly.
+//!
+//! A campaign names a study (`traverse`, `attitude`, `wheel-test`), what it is a study of, and how well
+//! the numbers of that are known. Read, it is a [`Campaign`]: ready to run, run by run, in any order and
+//! on any machine, each run a row of the same [`Column`]s. These steps lead there:
+//!
+//! 1. The document is read as any other, with the scenario, or the soil and the wheel, that it names.
+//! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from the
+//!    soil's own `[uncertainty]` if asked for; each key is a number of the resolved base (`inputs`).
+//! 3. It becomes a [`Plan`](crate::studies::campaign::Plan). A run puts the plan's values in the base
+//!    document's place of them, makes a domain's value of it, and computes (`rows`).
+//!
+//! The resolved document holds all of that in one text: samples, too. Its hash names the campaign.
+
+mod inputs;
+mod marginals;
+mod numbers;
+mod rows;
+mod sections;
+mod table;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+pub use rows::FAILED;
+pub use sections::{
+    CampaignDocument, CampaignSchema, ParameterSection, SampleRows, SamplesSection, SamplingWord,
+    StudyWord, WheelTestSection,
+};
+pub use table::{Cell, Column, ColumnKind, Role, Table, Values, unit};
+
+use self::inputs::Prepared;
+use self::rows::Base;
+use super::error::DocumentError;
+use super::text::Node;
+use super::{Document, Kind, Loaded, Overrides, Source, told_by};
+use crate::studies::campaign::Plan;
+pub use rows::STATUSES;
+
+/// A campaign that was read and checked: ready to run.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    study: StudyWord,
+    base: Base,
+    plan: Plan,
+    shard_runs: u64,
+    columns: Vec<Column>,
+    prepared: Prepared,
+    name: String,
+    resolved: String,
+    assumptions: Vec<String>,
+}
+
+/// Reads a campaign with all that it names.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign, DocumentError> {
+    let Loaded { document, value, assumptions, .. } =
+        super::read::<CampaignDocument>(source, overrides)?;
+    let resolved = super::to_toml(&document.resolved(&value.prepared));
+    Ok(Campaign { resolved, assumptions, ..value })
+}
+
+impl Campaign {
+    /// What it calls itself.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What every run computes.
+    #[must_use]
+    pub fn study(&self) -> StudyWord {
+        self.study
+    }
+
+    /// How many runs there are: the document's `runs` or, with `sensitivity`, that many times two more
+    /// than there are inputs.
+    #[must_use]
+    pub fn runs(&self) -> u64 {
+        self.plan.runs()
+    }
+
+    /// What tells its draws from those of the same document with another seed.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.plan.design().seed
+    }
+
+    /// Runs of every shard but the last, which may have fewer.
+    #[must_use]
+    pub fn shard_runs(&self) -> u64 {
+        self.shard_runs
+    }
+
+    /// How many shards there are. They are fixed by the document, not by who computes them.
+    #[must_use]
+    pub fn shards(&self) -> u64 {
+        self.runs().div_ceil(self.shard_runs)
+    }
+
+    /// The runs of a shard; none beyond the last.
+    #[must_use]
+    pub fn runs_of(&self, shard: u64) -> std::ops::Range<u64> {
+        let start = shard.saturating_mul(self.shard_runs).min(self.runs());
+        start..start.saturating_add(self.shard_runs).min(self.runs())
+    }
+
+    /// What a row has, in the order of [`run`](Self::run) and [`shard`](Self::shard).
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// How it is planned.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// What a sensitivity can be asked of, in the plan's order of dimensions: the keys, and `samples`
+    /// for rows of samples, which are one.
+    #[must_use]
+    pub fn factors(&self) -> &[String] {
+        self.prepared.factors()
+    }
+
+    /// The document with everything in its place, samples included, as TOML: read again it is the same
+    /// campaign, and its hash names the campaign.
+    #[must_use]
+    pub fn resolved(&self) -> &str {
+        &self.resolved
+    }
+
+    /// What was assumed, each with the name of the document that says so.
+    #[must_use]
+    pub fn assumptions(&self) -> &[String] {
+        &self.assumptions
+    }
+
+    /// Run number `index`: its row. It depends on the document and the number alone.
+    #[must_use]
+    pub fn run(&self, index: u64) -> Vec<Cell> {
+        let inputs = self.plan.inputs(index);
+        let mut row = Vec::with_capacity(self.columns.len());
+        row.push(Cell::Whole(Some(index)));
+        if let Some(place) = inputs.place {
+            row.push(Cell::Whole(Some(place.point)));
+            row.push(Cell::text(self.prepared.matrix(place.matrix)));
+        }
+        row.extend(inputs.values.iter().map(|value| Cell::Float(Some(*value))));
+        rows::run(self.study, &self.base, self.prepared.keys(), &inputs.values, &mut row);
+        // A row without an answer has its status, and nothing in the columns after it.
+        let missing = self.columns[row.len()..].iter().map(|column| Cell::none(column.kind));
+        row.extend(missing);
+        row
+    }
+
+    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` said no before
+    /// the end.
+    ///
+    /// * `go_on`: asked before each run, from any thread
+    #[must_use]
+    pub fn shard(&self, shard: u64, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Table> {
+        let stopped = AtomicBool::new(false);
+        let rows: Vec<Option<Vec<Cell>>> = self
+            .runs_of(shard)
+            .into_par_iter()
+            .map(|index| {
+                if stopped.load(Ordering::Relaxed) {
+                    return None;
+                }
+                if go_on() {
+                    return Some(self.run(index));
+                }
+                stopped.store(true, Ordering::Relaxed);
+                None
+            })
+            .collect();
+        let rows: Vec<Vec<Cell>> = rows.into_iter().collect::<Option<_>>()?;
+        Some(Table::of(&self.columns, rows))
+    }
+}
+
+impl Document for CampaignDocument {
+    const KIND: Kind = Kind::Campaign;
+    type Value = Campaign;
+
+    fn to_domain(&self, tree: &Node) -> Result<Campaign, DocumentError> {
+        let (base, prepared) = inputs::prepare(self, tree)?;
+        Ok(Campaign {
+            study: self.study,
+            plan: prepared.plan(self),
+            columns: rows::columns(self.study, self.sensitivity, prepared.keys()),
+            base,
+            shard_runs: self.shard_runs,
+            prepared,
+            name: self.name.clone(),
+            resolved: String::new(),
+            assumptions: Vec::new(),
+        })
+    }
+
+    fn note(&mut self, tree: &Node, overrides: &Overrides) {
+        self.note_parts(tree, overrides);
+    }
+
+    fn assumptions(&self) -> Vec<String> {
+        let own = told_by(Self::KIND, &self.name, &self.assumed, &self.source);
+        own.into_iter().chain(self.assumptions_of_parts()).collect()
+    }
+}

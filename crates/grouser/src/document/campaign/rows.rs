@@ -1,0 +1,322 @@
+//! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
+
+use super::super::error::DocumentError;
+use super::super::scenario::ScenarioDocument;
+use super::super::study::{OK, WheelRecord};
+use super::super::text::Node;
+use super::super::{Document, Reference};
+use super::numbers::Numbers;
+use super::sections::{StudyWord, WheelTestSection};
+use super::table::{Cell, Column, ColumnKind, Role};
+use crate::contact::{Contact, SettleError, Slip, Theory, settle};
+use crate::simulation::{Scenario, Simulation};
+use crate::studies::attitude::{AttitudeStudy, NoAttitude};
+use crate::studies::campaign::drive::Drive;
+use crate::vehicle::DriveLaw;
+
+/// What a campaign varies: a document with its tree, for what is wrong with a draw.
+#[derive(Clone, Debug)]
+pub(super) enum Base {
+    Scenario { document: Box<ScenarioDocument>, tree: Box<Node> },
+    WheelTest { document: Box<WheelTestSection>, tree: Box<Node> },
+}
+
+/// A draw's domain value.
+enum Case {
+    Scenario(Box<Scenario>),
+    WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
+}
+
+/// Why a row has no answer: a word that is the same for all such rows, and the reason of this one.
+struct Failure {
+    status: &'static str,
+    reason: String,
+}
+
+/// Numbers that are fine one by one, but not together.
+const UNFIT: &str = "not possible together";
+/// There is no yaw that keeps a traverse level.
+const NO_ATTITUDE: &str = "no level attitude";
+/// Not even on level ground.
+const CANNOT_MOVE: &str = "cannot move";
+/// The soil carries less than the load.
+const SUNK: &str = "soil cannot carry the load";
+/// The solver gave up.
+const NOT_COMPUTED: &str = "not computed";
+
+/// All statuses of a row; `ok` first.
+pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_ATTITUDE, CANNOT_MOVE, SUNK, NOT_COMPUTED];
+
+/// Statuses of rows that could not be computed: all others are answers, or findings.
+pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
+
+const ATTITUDE: [&str; 7] = [
+    "yaw_deg",
+    "slip_ratio",
+    "sinkage_mm",
+    "torque_nm",
+    "power_w",
+    "energy_j_per_m",
+    "yaw_moment_nm",
+];
+
+const TRAVERSE: [&str; 11] = [
+    "time_s",
+    "x_m",
+    "y_m",
+    "yaw_deg",
+    "distance_m",
+    "drift_m_per_m",
+    "slip_ratio",
+    "sinkage_mm",
+    "power_w",
+    "energy_j",
+    "energy_j_per_m",
+];
+
+const WHEEL_TEST: [&str; 15] = [
+    "sinkage_mm",
+    "entry_angle_deg",
+    "exit_angle_deg",
+    "max_stress_angle_deg",
+    "drawbar_pull_n",
+    "side_force_n",
+    "side_force_from_shear_n",
+    "bulldozing_load_n",
+    "normal_force_n",
+    "torque_nm",
+    "overturning_moment_nm",
+    "aligning_moment_nm",
+    "thrust_n",
+    "motion_resistance_n",
+    "max_normal_stress_kpa",
+];
+
+/// The columns of a study.
+///
+/// * `keys`: what is drawn
+pub(super) fn columns(study: StudyWord, sensitivity: bool, keys: &[String]) -> Vec<Column> {
+    let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
+    if sensitivity {
+        all.push(Column::new("point", ColumnKind::Whole, Role::Index));
+        all.push(Column::new("matrix", ColumnKind::Text, Role::Index));
+    }
+    all.extend(keys.iter().map(|key| Column::new(key, ColumnKind::Float, Role::Input)));
+    let words: &[&str] = match study {
+        StudyWord::Traverse => &["status", "reason", "outcome", "simulation"],
+        StudyWord::Attitude | StudyWord::WheelTest => &["status", "reason"],
+    };
+    all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
+    let results: &[&str] = match study {
+        StudyWord::Traverse => &TRAVERSE,
+        StudyWord::Attitude => &ATTITUDE,
+        StudyWord::WheelTest => &WHEEL_TEST,
+    };
+    all.extend(results.iter().map(|word| Column::new(*word, ColumnKind::Float, Role::Result)));
+    all
+}
+
+/// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
+pub(super) fn run(
+    study: StudyWord,
+    base: &Base,
+    keys: &[String],
+    values: &[f64],
+    row: &mut Vec<Cell>,
+) {
+    let answer = base.with(keys, values).and_then(|case| match (study, case) {
+        (StudyWord::Attitude, Case::Scenario(scenario)) => attitude(&scenario),
+        (_, Case::Scenario(scenario)) => traverse(&scenario),
+        (_, Case::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
+    });
+    match answer {
+        Ok(cells) => {
+            row.push(Cell::text(OK));
+            row.extend(cells);
+        }
+        Err(Failure { status, reason }) => row.extend([Cell::text(status), Cell::text(reason)]),
+    }
+}
+
+impl Base {
+    /// The base without what it says in words, which no run needs.
+    pub(super) fn scenario(mut document: ScenarioDocument, tree: Node) -> Self {
+        document.assumed.clear();
+        for text in [&mut document.name, &mut document.source, &mut document.notes] {
+            text.clear();
+        }
+        if let Reference::Inline(soil) = &mut document.soil {
+            soil.forget_words();
+        }
+        if let Reference::Inline(rover) = &mut document.rover {
+            rover.forget_words();
+        }
+        Self::Scenario { document: Box::new(document), tree: Box::new(tree) }
+    }
+
+    /// The same of a test stand.
+    pub(super) fn wheel_test(mut document: WheelTestSection, tree: Node) -> Self {
+        if let Reference::Inline(soil) = &mut document.soil {
+            soil.forget_words();
+        }
+        if let Reference::Inline(wheel) = &mut document.wheel {
+            wheel.forget_words();
+        }
+        Self::WheelTest { document: Box::new(document), tree: Box::new(tree) }
+    }
+
+    /// The number under a key.
+    pub(super) fn number(&self, key: &str) -> Option<f64> {
+        match self.clone() {
+            Self::Scenario { mut document, .. } => document.number_mut(key).copied(),
+            Self::WheelTest { mut document, .. } => document.number_mut(key).copied(),
+        }
+    }
+
+    /// What it means as it is.
+    pub(super) fn check(&self) -> Result<(), DocumentError> {
+        match self {
+            Self::Scenario { document, tree } => scenario_case(document, tree).map(drop),
+            Self::WheelTest { document, tree } => wheel_test_case(document, tree).map(drop),
+        }
+    }
+
+    /// That it means something with other values of some keys.
+    pub(super) fn check_with(&self, keys: &[String], values: &[f64]) -> Result<(), DocumentError> {
+        self.case_of(keys, values).map(drop)
+    }
+
+    fn with(&self, keys: &[String], values: &[f64]) -> Result<Case, Failure> {
+        self.case_of(keys, values)
+            .map_err(|error| Failure { status: UNFIT, reason: error.problem().to_string() })
+    }
+
+    fn case_of(&self, keys: &[String], values: &[f64]) -> Result<Case, DocumentError> {
+        match self {
+            Self::Scenario { document, tree } => {
+                let mut document = document.clone();
+                set(&mut *document, keys, values);
+                scenario_case(&document, tree)
+            }
+            Self::WheelTest { document, tree } => {
+                let mut document = document.clone();
+                set(&mut *document, keys, values);
+                wheel_test_case(&document, tree)
+            }
+        }
+    }
+}
+
+fn set(document: &mut dyn Numbers, keys: &[String], values: &[f64]) {
+    for (key, value) in keys.iter().zip(values) {
+        // That each key leads somewhere was seen when the campaign was read.
+        if let Some(number) = document.number_mut(key) {
+            *number = *value;
+        }
+    }
+}
+
+fn scenario_case(document: &ScenarioDocument, tree: &Node) -> Result<Case, DocumentError> {
+    Ok(Case::Scenario(Box::new(document.to_domain(tree)?)))
+}
+
+fn wheel_test_case(stand: &WheelTestSection, tree: &Node) -> Result<Case, DocumentError> {
+    let at = |key: &str| tree.entry(key).map_or(tree, |entry| &entry.node);
+    let missing = |key: &str| {
+        let problem = super::super::Problem::MissingKey { key: key.to_owned() };
+        DocumentError::at(&tree.origin, problem)
+    };
+    let soil = stand.soil.inline().ok_or_else(|| missing("soil"))?;
+    let wheel = stand.wheel.inline().ok_or_else(|| missing("wheel"))?;
+    let theory = stand.model.map(super::super::soil::TheoryWord::theory).or(soil.theory());
+    let contact = Contact {
+        wheel: wheel.to_domain(at("wheel"))?,
+        soil: soil.to_domain(at("soil"))?,
+        slip: Slip::on_test_stand(stand.slip_ratio, stand.slip_angle_deg.to_radians()),
+        gravity: stand.gravity_m_s2,
+    };
+    let (contact, theory) = (Box::new(contact), theory.unwrap_or_default());
+    Ok(Case::WheelTest { contact, theory, load: stand.load_n })
+}
+
+fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
+    let attitude = AttitudeStudy::of(scenario)
+        .on_slope(scenario.site.slope)
+        .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
+        .map_err(|error| {
+            let status = match error {
+                NoAttitude::CannotMove(_) => CANNOT_MOVE,
+                NoAttitude::TooSteep { .. } => NO_ATTITUDE,
+            };
+            Failure { status, reason: error.to_string() }
+        })?;
+    let power = match scenario.drive {
+        DriveLaw::Constant(speed) => Some(attitude.power(&scenario.rover, speed)),
+        _ => None,
+    };
+    let floats = [
+        Some(attitude.yaw.to_degrees()),
+        Some(attitude.slip_ratio),
+        Some(attitude.mean_sinkage() * 1e3),
+        Some(attitude.torque()),
+        power,
+        Some(attitude.energy_per_metre(&scenario.rover)),
+        Some(attitude.yaw_moment),
+    ];
+    Ok(std::iter::once(Cell::Text(None)).chain(floats.map(Cell::Float)).collect())
+}
+
+fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
+    let run = Simulation::new(scenario)
+        .and_then(Simulation::run)
+        .map_err(|error| Failure { status: NOT_COMPUTED, reason: error.to_string() })?;
+    let (end, drive) = (run.last(), Drive::of(&run));
+    let words = [
+        Cell::Text(run.outcome.reason()),
+        Cell::text(run.outcome.name()),
+        Cell::text(run.method.name()),
+    ];
+    let floats = [
+        Some(end.time),
+        Some(end.state.position.x),
+        Some(end.state.position.y),
+        Some(end.state.yaw.to_degrees()),
+        Some(drive.distance),
+        drive.drift,
+        drive.slip_ratio,
+        drive.sinkage.map(|sinkage| sinkage * 1e3),
+        drive.power,
+        Some(drive.energy),
+        drive.energy_per_metre,
+    ];
+    Ok(words.into_iter().chain(floats.map(Cell::Float)).collect())
+}
+
+fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
+    let settled = settle(theory.model(), contact, load).map_err(|error| {
+        let status = match error {
+            SettleError::SunkToAxle { .. } => SUNK,
+            SettleError::BadLoad { .. } => UNFIT,
+        };
+        Failure { status, reason: error.to_string() }
+    })?;
+    let wheel = WheelRecord::new(&settled);
+    let floats = [
+        wheel.sinkage_mm,
+        wheel.entry_angle_deg,
+        wheel.exit_angle_deg,
+        wheel.max_stress_angle_deg,
+        wheel.drawbar_pull_n,
+        wheel.side_force_n,
+        wheel.side_force_from_shear_n,
+        wheel.bulldozing_load_n,
+        wheel.normal_force_n,
+        wheel.torque_nm,
+        wheel.overturning_moment_nm,
+        wheel.aligning_moment_nm,
+        wheel.thrust_n,
+        wheel.motion_resistance_n,
+        wheel.max_normal_stress_kpa,
+    ];
+    Ok(std::iter::once(Cell::Text(None)).chain(floats.map(Cell::Float)).collect())
+}

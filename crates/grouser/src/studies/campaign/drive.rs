@@ -1,0 +1,53 @@
+//! What a campaign keeps of a traverse.
+
+use crate::simulation::{Sample, Trajectory, WheelSample};
+
+/// A traverse in a few numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Length of the way [m], from sample to sample.
+    pub distance: f64,
+    /// Drift uphill per length of the way, *y*/distance [-], −1 to 1; negative downhill. None for a
+    /// rover that did not move.
+    pub drift: Option<f64>,
+    /// Slip ratio [-], over wheels and samples. None where no sample has its wheels.
+    pub slip_ratio: Option<f64>,
+    /// Sinkage [m], over wheels and samples.
+    pub sinkage: Option<f64>,
+    /// Work of the motors over the time [W]. None for a run without any.
+    pub power: Option<f64>,
+    /// Work of the motors [J].
+    pub energy: f64,
+    /// Work of the motors over the length of the way [J/m].
+    pub energy_per_metre: Option<f64>,
+}
+
+impl Drive {
+    /// Of a run; means are over its samples.
+    #[must_use]
+    pub fn of(run: &Trajectory) -> Self {
+        /// A way shorter than this is none [m].
+        const STILL: f64 = 1e-9;
+        let last = run.last();
+        let steps = run.samples.windows(2);
+        let length = |pair: &[Sample]| (pair[1].state.position - pair[0].state.position).norm();
+        let distance: f64 = steps.map(length).sum();
+        let per_metre = |quantity: f64| (distance > STILL).then(|| quantity / distance);
+        let energy = last.energy.motors;
+        Self {
+            distance,
+            drift: per_metre(last.state.position.y),
+            slip_ratio: mean(run, |wheel| wheel.reaction.slip.ratio),
+            sinkage: mean(run, |wheel| wheel.reaction.settled.sinkage),
+            power: (last.time > 0.0).then(|| energy / last.time),
+            energy,
+            energy_per_metre: per_metre(energy),
+        }
+    }
+}
+
+fn mean(run: &Trajectory, quantity: fn(&WheelSample) -> f64) -> Option<f64> {
+    let all = run.samples.iter().flat_map(|sample| &sample.wheels).map(quantity);
+    let (count, sum) = all.fold((0_usize, 0.0), |(count, sum), value| (count + 1, sum + value));
+    (count > 0).then(|| sum / count as f64)
+}
