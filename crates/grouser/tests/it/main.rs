@@ -2,6 +2,7 @@
 
 mod attitude_map;
 mod calibration;
+mod card;
 mod documents;
 mod extended;
 mod floors;
