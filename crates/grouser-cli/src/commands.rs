@@ -5,6 +5,7 @@ mod attitude_band;
 pub(crate) mod attitude_map;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
+pub(crate) mod card;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod import;

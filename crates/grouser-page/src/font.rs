@@ -45,6 +45,12 @@ impl Face {
         f64::from(self.parsed().units_per_em())
     }
 
+    /// Left, bottom, right and top of the box that holds every letter, in units of the font.
+    pub(crate) fn bounds(self) -> [f32; 4] {
+        let bounds = self.parsed().global_bounding_box();
+        [bounds.x_min, bounds.y_min, bounds.x_max, bounds.y_max].map(f32::from)
+    }
+
     /// The letter for a character; a box for one that the font does not have.
     pub(crate) fn glyph(self, character: char) -> Glyph {
         let face = self.parsed();

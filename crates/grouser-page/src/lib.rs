@@ -111,6 +111,12 @@ impl Shape {
         Self::area([[left, top], [right, top], [right, bottom], [left, bottom]], fill)
     }
 
+    /// Only the line around it.
+    #[must_use]
+    pub fn unfilled(self) -> Self {
+        Self { fill: None, ..self }
+    }
+
     /// The same area with a line around it.
     #[must_use]
     pub fn outlined(self, stroke: Stroke) -> Self {

@@ -75,7 +75,8 @@ fn write_font(pdf: &mut Pdf, face: Face, font: Ref, codes: &Codes, id: &mut impl
     let unicode = id();
     let advances = glyphs.iter().map(|(_, _, letter, _)| single(face.glyph(*letter).advance));
     let mut writer = pdf.type3_font(font);
-    writer.bbox(Rect::new(0.0, 0.0, 0.0, 0.0));
+    let [left, bottom, right, top] = face.bounds();
+    writer.bbox(Rect::new(left, bottom, right, top));
     let per_unit = single(1.0 / units);
     writer.matrix([per_unit, 0.0, 0.0, per_unit, 0.0, 0.0]);
     writer.first_char(0).last_char(glyphs.last().map_or(0, |last| last.3));
