@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod calibrate;
+mod card;
 mod contract;
 mod conversations;
 mod import;

@@ -40,7 +40,8 @@ struct Chart {
     from: f64,
     to: f64,
     values: Values,
-    decimals: usize,
+    /// Digits of the numbers, counted from the first of the axis' end.
+    digits: i32,
 }
 
 /// Edges of the first columns [mm].
@@ -59,7 +60,7 @@ const CHARTS: [Chart; 4] = [
         values: |row| {
             middle_of([row.yaw_deg_p2_5, row.yaw_deg_p50, row.yaw_deg_p97_5], row.yaw_deg)
         },
-        decimals: 0,
+        digits: 2,
     },
     Chart {
         head: ["slip", "%"],
@@ -70,7 +71,7 @@ const CHARTS: [Chart; 4] = [
             let quantiles = [row.slip_ratio_p2_5, row.slip_ratio_p50, row.slip_ratio_p97_5];
             times(100.0, middle_of(quantiles, row.slip_ratio))
         },
-        decimals: 0,
+        digits: 2,
     },
     Chart {
         head: ["drift, nose not", "turned: cm per m"],
@@ -82,7 +83,7 @@ const CHARTS: [Chart; 4] = [
                 [row.drift_m_per_m_p2_5, row.drift_m_per_m_p50, row.drift_m_per_m_p97_5];
             times(100.0, middle_of(quantiles, row.drift_m_per_m))
         },
-        decimals: 0,
+        digits: 2,
     },
     Chart {
         head: ["power", "W"],
@@ -92,7 +93,7 @@ const CHARTS: [Chart; 4] = [
         values: |row| {
             middle_of([row.power_w_p2_5, row.power_w_p50, row.power_w_p97_5], row.power_w)
         },
-        decimals: 2,
+        digits: 3,
     },
 ];
 
@@ -170,42 +171,42 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
     if words.has_bands {
         let middle = (CHANCE + RIGHT) / 2.0;
         for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
-            sheet.text(
-                Text::new(*text, 2.5).anchor(Anchor::Middle),
-                [middle, y - 6.6 + 3.3 * index as f64],
-            );
+            let size = fitting(text, 2.6, RIGHT - CHANCE);
+            let text = Text::new(*text, size).anchor(Anchor::Middle);
+            sheet.text(text, [middle, y - 6.6 + 3.3 * index as f64]);
         }
     }
 }
 
 /// One row of numbers.
 fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
-    let middle = table.middle(row.slope_deg);
-    // Half the height of a digit is 0.365 of the font's.
-    let at = |x: f64, size: f64| [x, middle + 0.365 * size];
     let large = (table.height * 0.98).min(7.6);
+    // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
+    // one line of text for those who copy it, too.
+    let line = table.middle(row.slope_deg) + 0.365 * large;
+    let at = |x: f64| [x, line];
     let bold = |text: String, size: f64| Text::new(text, size).face(Face::Bold).anchor(Anchor::End);
-    sheet.text(bold(format!("{}°", row.slope_deg), large), at(SLOPE - 3.0, large));
+    sheet.text(bold(format!("{}°", row.slope_deg), large), at(SLOPE - 3.0));
     let [low, heading, high] = (CHARTS[0].values)(row);
     if let Some(heading) = heading {
-        sheet.text(bold(format!("{heading:.1}°"), large), at(HEADING - 3.5, large));
+        sheet.text(bold(format!("{heading:.1}°"), large), at(HEADING - 3.5));
     }
     let small = (table.height * 0.62).min(4.0);
     if let (Some(low), Some(high)) = (low, high) {
         let text = format!("{low:.1} to {high:.1}°");
         let size = fitting(&text, small, RANGE - HEADING - 2.0);
-        sheet.text(Text::new(text, size).anchor(Anchor::Middle), at((HEADING + RANGE) / 2.0, size));
+        sheet.text(Text::new(text, size).anchor(Anchor::Middle), at((HEADING + RANGE) / 2.0));
     }
     for chart in &CHARTS {
         if let (Some(end), [_, Some(value), _]) = (chart.numbers, (chart.values)(row)) {
-            let text = format!("{value:.*}", chart.decimals);
-            sheet.text(Text::new(text, small).anchor(Anchor::End), at(end, small));
+            let text = format!("{value:.*}", decimals(end_of(table, chart), chart.digits));
+            sheet.text(Text::new(text, small).anchor(Anchor::End), at(end));
         }
     }
     if let Some(level) = row.probability_level.filter(|_| words.has_bands) {
         // Rounded down: 100 % is all of them.
         let text = format!("{} %", (level * 100.0 + 1e-9).floor());
-        sheet.text(Text::new(text, small).anchor(Anchor::End), at(RIGHT - 1.5, small));
+        sheet.text(Text::new(text, small).anchor(Anchor::End), at(RIGHT - 1.5));
     }
 }
 
@@ -219,6 +220,15 @@ fn end_of(table: &Table<'_>, chart: &Chart) -> f64 {
     steps.iter().map(|step| step * decade).find(|end| *end >= most * 0.999).unwrap_or(10.0 * decade)
 }
 
+/// Decimals that leave a number below the end of an axis so many digits.
+fn decimals(end: f64, digits: i32) -> usize {
+    /// More do not fit.
+    const MOST: f64 = 4.0;
+    let before = end.log10().floor() + 1.0;
+    let wanted = (f64::from(digits) - before).clamp(0.0, MOST);
+    (0..=4_u8).find(|count| f64::from(*count) >= wanted).map_or(0, usize::from)
+}
+
 /// Lines at nothing, the half and the whole, with numbers below.
 fn axis(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
     let end = end_of(table, chart);
@@ -227,14 +237,16 @@ fn axis(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
         let x = chart.from + share * (chart.to - chart.from);
         let stroke = if share == 0.0 { Stroke::black(0.25) } else { Stroke::grey(0.15, 0.55) };
         sheet.draw(Shape::line([[x, table.top], [x, bottom + 0.8]], stroke));
-        let anchor = if share == 0.0 {
-            Anchor::Start
-        } else if share == 1.0 {
-            Anchor::End
-        } else {
-            Anchor::Middle
+        let anchor = match share {
+            0.0 => Anchor::Start,
+            1.0 => Anchor::End,
+            _ => Anchor::Middle,
         };
-        sheet.text(Text::new(plain(end * share), 2.5).anchor(anchor), [x, bottom + 3.2]);
+        let text = Text::new(plain(end * share), 2.5).anchor(anchor);
+        // The half is left out where it would run into the whole.
+        if share != 0.5 || 3.4 * text.width() < chart.to - chart.from {
+            sheet.text(text, [x, bottom + 3.2]);
+        }
     }
 }
 

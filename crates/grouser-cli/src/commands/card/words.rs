@@ -54,16 +54,21 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
     }
 }
 
-/// The documents' assumptions, under their kinds alone: their names stand above.
+/// The documents' assumptions without the names of soil and rover, which stand above.
 fn assumed(inputs: &CardInputs) -> Vec<String> {
     let document = &inputs.scenario.document;
+    let rover = document.rover.inline();
+    let wheel = rover.and_then(|rover| rover.wheel_unit.wheel.inline());
     let names = [
-        document.soil.inline().map(|soil| format!("soil {}: ", soil.name)),
-        document.rover.inline().map(|rover| format!("rover {}: ", rover.name)),
+        document.soil.inline().map(|soil| (format!("soil {}: ", soil.name), "")),
+        rover.map(|rover| (format!("rover {}: ", rover.name), "")),
+        wheel.map(|wheel| (format!("wheel {}: ", wheel.name), "wheel: ")),
     ];
     let short = |assumption: &String| {
-        let named = names.iter().flatten().find(|name| assumption.starts_with(name.as_str()));
-        named.map_or(assumption.clone(), |name| assumption[name.len()..].to_owned())
+        let named = names.iter().flatten().find(|(name, _)| assumption.starts_with(name));
+        named.map_or(assumption.clone(), |(name, kind)| {
+            format!("{kind}{}", &assumption[name.len()..])
+        })
     };
     inputs.scenario.assumptions.iter().map(short).collect()
 }
