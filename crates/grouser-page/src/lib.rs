@@ -226,9 +226,11 @@ impl Sheet {
         &self.title
     }
 
-    /// Draws a shape.
+    /// Draws a shape; one of less than two points shows nothing.
     pub fn draw(&mut self, shape: Shape) {
-        self.items.push(Item::Shape(shape));
+        if shape.points.len() > 1 {
+            self.items.push(Item::Shape(shape));
+        }
     }
 
     /// Writes a line of text with its base line at a place.

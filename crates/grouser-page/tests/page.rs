@@ -59,6 +59,15 @@ fn hatching_fills_its_rectangle_and_nothing_else() {
 }
 
 #[test]
+fn what_has_no_extent_is_not_there() {
+    let empty = Sheet::new("t", 10.0, 10.0);
+    let mut sheet = empty.clone();
+    sheet.draw(Shape::area([], BLACK));
+    sheet.draw(Shape::line([[1.0, 1.0]], Stroke::black(0.5)));
+    assert_eq!(sheet, empty);
+}
+
+#[test]
 fn text_can_be_read_and_is_escaped() {
     let svg = page().to_svg();
     assert!(svg.contains(">13° → 7.3°</text>") && svg.contains(">up &lt; down</text>"));

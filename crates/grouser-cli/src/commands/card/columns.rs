@@ -171,8 +171,7 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
     if words.has_bands {
         let middle = (CHANCE + RIGHT) / 2.0;
         for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
-            let size = fitting(text, 2.6, RIGHT - CHANCE);
-            let text = Text::new(*text, size).anchor(Anchor::Middle);
+            let text = Text::new(*text, 2.35).anchor(Anchor::Middle);
             sheet.text(text, [middle, y - 6.6 + 3.3 * index as f64]);
         }
     }

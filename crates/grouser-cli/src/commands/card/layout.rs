@@ -44,7 +44,7 @@ pub(super) fn draw(words: &Words, records: &[CardRecord], measured: &[Measured])
     let table = Table { top: TABLE_TOP + HEADER, height, rows: &driven };
     columns::draw(&mut sheet, words, &table, measured);
     let end = table.top + height * driven.len() as f64 + AXES;
-    let first = records.iter().filter(whole).find(|row| row.verdict == "no-go");
+    let first = records.iter().find(|row| row.verdict == "no-go" && row.slope_deg.fract() == 0.0);
     if let Some(first) = first {
         bar(&mut sheet, end, first.slope_deg);
     }
@@ -138,7 +138,10 @@ fn arrow_head(tip: Place, way: Place, length: f64) -> Shape {
 /// From where on nobody drives.
 fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
     sheet.draw(Shape::rectangle([LEFT, top], [RIGHT - LEFT, BAR], BLACK));
-    let text = format!("NO-GO   {from_deg}° and steeper");
+    let text = match from_deg {
+        0.0 => "NO-GO   on any slope".to_owned(),
+        _ => format!("NO-GO   {from_deg}° and steeper"),
+    };
     sheet.text(Text::new(text, 7.0).face(Face::Bold).grey(WHITE), [LEFT + 3.0, top + 7.5]);
     let what = "no heading: do not cross";
     sheet.text(Text::new(what, 4.2).grey(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 6.6]);
