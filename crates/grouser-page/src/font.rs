@@ -110,7 +110,7 @@ impl OutlineBuilder for Outline {
 
     /// TrueType has no such curves; if one came, its middle would do.
     fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
-        self.0.push(Step::Curve([(x1 + x2) / 2.0, (y1 + y2) / 2.0], [x, y]));
+        self.0.push(Step::Curve([x1.midpoint(x2), y1.midpoint(y2)], [x, y]));
     }
 
     fn close(&mut self) {

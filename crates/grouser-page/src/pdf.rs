@@ -156,7 +156,7 @@ fn drawing(sheet: &Sheet, codes: &BTreeMap<Face, Codes>) -> Vec<u8> {
         match item {
             Item::Shape(shape) => draw_shape(&mut content, shape, &place),
             Item::Text { text, at } => {
-                draw_text(&mut content, text, *at, &codes[&text.face], &place)
+                draw_text(&mut content, text, *at, &codes[&text.face], &place);
             }
         }
     }

@@ -137,7 +137,7 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
         let text = Text::new(word, fitting(word, 7.0, height - 3.0))
             .face(Face::Bold)
             .anchor(Anchor::Middle);
-        let (middle, half) = ([(LEFT + STRIP) / 2.0, top + height / 2.0], text.width() / 2.0);
+        let (middle, half) = ([f64::midpoint(LEFT, STRIP), top + height / 2.0], text.width() / 2.0);
         sheet.draw(Shape::rectangle(
             [middle[0] - 3.6, middle[1] - half - 1.2],
             [7.2, 2.0 * half + 2.4],
@@ -151,25 +151,25 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
     let y = table.top - 2.0;
     let bold =
         |text: &str, size: f64| Text::new(text, size).face(Face::Bold).anchor(Anchor::Middle);
-    sheet.text(bold("SLOPE", 4.4), [(STRIP + SLOPE) / 2.0, y - 0.6]);
-    let middle = (SLOPE + HEADING) / 2.0;
+    sheet.text(bold("SLOPE", 4.4), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
+    let middle = f64::midpoint(SLOPE, HEADING);
     sheet.draw(Shape::rectangle([SLOPE, table.top - 15.0], [HEADING - SLOPE, 15.0], 0.0));
     sheet.text(bold("TURN NOSE", 4.2).grey(WHITE), [middle, y - 6.6]);
     sheet.text(bold("UPHILL BY", 4.2).grey(WHITE), [middle, y - 1.4]);
-    let middle = (HEADING + RANGE) / 2.0;
+    let middle = f64::midpoint(HEADING, RANGE);
     let small = |text: &str| Text::new(text, 3.0).anchor(Anchor::Middle);
     sheet.text(small(&words.band), [middle, y - 4.0]);
     sheet.text(small(if words.has_bands { "need" } else { "stated" }), [middle, y]);
     for chart in &CHARTS {
         let from = chart.numbers.map_or(chart.from, |end| end - 8.5);
-        let middle = (from + chart.to) / 2.0;
+        let middle = from.midpoint(chart.to);
         sheet.text(small(chart.head[0]).face(Face::Bold), [middle, y - 4.0]);
         let is_marked = are_measured && chart.numbers.is_none();
         let unit = if is_marked { "°; × measured" } else { chart.head[1] };
         sheet.text(small(unit), [middle, y]);
     }
     if words.has_bands {
-        let middle = (CHANCE + RIGHT) / 2.0;
+        let middle = f64::midpoint(CHANCE, RIGHT);
         for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
             let text = Text::new(*text, 2.35).anchor(Anchor::Middle);
             sheet.text(text, [middle, y - 6.6 + 3.3 * index as f64]);
@@ -194,7 +194,7 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
     if let (Some(low), Some(high)) = (low, high) {
         let text = format!("{low:.1} to {high:.1}°");
         let size = fitting(&text, small, RANGE - HEADING - 2.0);
-        sheet.text(Text::new(text, size).anchor(Anchor::Middle), at((HEADING + RANGE) / 2.0));
+        sheet.text(Text::new(text, size).anchor(Anchor::Middle), at(f64::midpoint(HEADING, RANGE)));
     }
     for chart in &CHARTS {
         if let (Some(end), [_, Some(value), _]) = (chart.numbers, (chart.values)(row)) {

@@ -171,7 +171,7 @@ fn foot(sheet: &mut Sheet, words: &Words, top: f64) {
 /// * `most`: how many assumptions there is room for
 fn below(sheet: &mut Sheet, words: &Words, size: f64, most: usize, top: f64) -> f64 {
     const GAP: f64 = 4.0;
-    let middle = (LEFT + RIGHT) / 2.0;
+    let middle = f64::midpoint(LEFT, RIGHT);
     let facts: Vec<(&str, &str)> =
         words.facts.iter().map(|(name, text)| (*name, &**text)).collect();
     let (left, right) = facts.split_at(facts.len().div_ceil(2));
@@ -182,7 +182,7 @@ fn below(sheet: &mut Sheet, words: &Words, size: f64, most: usize, top: f64) -> 
     let mut assumed =
         words.assumed.iter().take(most).cloned().collect::<Vec<String>>().join("  ·  ");
     if let Some(more @ 1..) = words.assumed.len().checked_sub(most) {
-        assumed += &format!("  ·  and {more} more, in the documents");
+        assumed = format!("{assumed}  ·  and {more} more, in the documents");
     }
     let mut rest = vec![("Holds for", &*words.holds_for), ("Leaves out", &*words.leaves_out)];
     if !assumed.is_empty() {

@@ -79,41 +79,23 @@ fn rule(rule: &Rule, draws: Option<usize>) -> Vec<(&'static str, String)> {
     let (go, stop) = (percent(rule.go_probability), percent(rule.no_go_probability));
     let between = "all between: not without a second look, and with slip measured on the way.";
     let last = "A steeper slope never gets a better verdict.";
-    match draws {
-        Some(draws) => vec![
-            (
-                "GO",
-                format!(
-                    "on at least {go} % of {draws} drawn soils the rover crosses level, with slip up to {go_slip} %."
-                ),
-            ),
-            ("CAUTION", between.to_owned()),
-            (
-                "NO-GO",
-                format!(
-                    "on less than {stop} % of them it does so with slip up to {stop_slip} %. {last}"
-                ),
-            ),
-        ],
-        None => {
-            let margin = four_digits(rule.margin.to_degrees());
-            vec![
-                (
-                    "GO",
-                    format!(
-                        "a slope {margin}° steeper can still be crossed level, with slip up to {go_slip} %."
-                    ),
-                ),
-                ("CAUTION", between.to_owned()),
-                (
-                    "NO-GO",
-                    format!(
-                        "a slope {margin}° steeper cannot be crossed level with slip up to {stop_slip} %. {last}"
-                    ),
-                ),
-            ]
-        }
-    }
+    let caution = ("CAUTION", between.to_owned());
+    let Some(draws) = draws else {
+        let margin = four_digits(rule.margin.to_degrees());
+        let go = format!(
+            "a slope {margin}° steeper can still be crossed level, with slip up to {go_slip} %."
+        );
+        let no_go = format!(
+            "a slope {margin}° steeper cannot be crossed level with slip up to {stop_slip} %. {last}"
+        );
+        return vec![("GO", go), caution, ("NO-GO", no_go)];
+    };
+    let go = format!(
+        "on at least {go} % of {draws} drawn soils the rover crosses level, with slip up to {go_slip} %."
+    );
+    let no_go =
+        format!("on less than {stop} % of them it does so with slip up to {stop_slip} %. {last}");
+    vec![("GO", go), caution, ("NO-GO", no_go)]
 }
 
 fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
