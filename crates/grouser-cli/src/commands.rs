@@ -6,6 +6,7 @@ pub(crate) mod attitude_map;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod campaign;
+pub(crate) mod card;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod import;

@@ -7,9 +7,11 @@ use grouser::document::measurements::MeasurementError;
 use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
 };
+use grouser::studies::card::Rule;
 
 use crate::args::{
-    AttitudeArgs, AttitudeMapArgs, BalanceArgs, SettingArgs, StandArgs, TraverseArgs, WheelTestArgs,
+    AttitudeArgs, AttitudeMapArgs, BalanceArgs, CardArgs, SettingArgs, StandArgs, TraverseArgs,
+    WheelTestArgs,
 };
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
@@ -149,12 +151,66 @@ pub(crate) fn uncertain_soil<'s>(
              docs/guide/uncertainty.md tells how"
         )));
     };
+    refuse_sampled_keys(&args.setting, soil, uncertain)?;
+    Ok(uncertain)
+}
+
+/// What the samples say in every draw cannot be set by hand.
+fn refuse_sampled_keys(
+    setting: &SettingArgs,
+    soil: Option<&SoilDocument>,
+    uncertain: &UncertainSoil,
+) -> Result<(), Failure> {
     if soil.is_some_and(SoilDocument::is_sampled) {
         let keys: Vec<&str> = uncertain.keys().collect();
         let hint = "the samples give this key a value in every draw";
-        Overrides::parse(&args.setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
+        Overrides::parse(&setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
     }
-    Ok(uncertain)
+    Ok(())
+}
+
+/// What a card is made from.
+pub(crate) struct CardInputs {
+    pub(crate) scenario: LoadedScenario,
+    /// Rim speed [m/s].
+    pub(crate) rim_speed: f64,
+    pub(crate) rule: Rule,
+}
+
+pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
+    use document::card::{MARGIN_DEG, RuleRecord, SHARE};
+    let flags = &args.rule;
+    let record = RuleRecord {
+        go_slip_ratio: single("--go-slip-ratio", &flags.go_slip_ratio, &SHARE)?,
+        go_probability: single("--go-probability", &flags.go_probability, &SHARE)?,
+        no_go_slip_ratio: single("--no-go-slip-ratio", &flags.no_go_slip_ratio, &SHARE)?,
+        no_go_probability: single("--no-go-probability", &flags.no_go_probability, &SHARE)?,
+        margin_deg: single("--margin-deg", &flags.margin_deg, &MARGIN_DEG)?,
+    };
+    let rule = Rule::from(&record);
+    rule.check()?;
+    let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
+    let (setting, balance) = (&args.setting, &args.balance);
+    let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
+    if let Some(soil) = scenario.document.soil.inline()
+        && let Some(uncertain) = soil.uncertain()
+    {
+        refuse_sampled_keys(setting, Some(soil), uncertain)?;
+    }
+    let rim_speed = match &args.speed_m_s {
+        Some(speed) => single("--speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
+        None => scenario.value.drive.nominal_rim_speed(),
+    };
+    Ok(CardInputs { scenario, rim_speed, rule })
+}
+
+/// The one number of a flag.
+fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<f64, Failure> {
+    let [number] = numbers.0[..] else {
+        return Err(Failure::Usage(format!("{flag}: one number, please")));
+    };
+    check_numbers(flag, numbers, range)?;
+    Ok(number)
 }
 
 /// Wheel, soil, gravity and theory of a wheel on a test stand.

@@ -43,6 +43,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::WheelTest(args) => commands::wheel_test::run(args),
         Command::Attitude(args) => commands::attitude::run(args),
         Command::AttitudeMap(args) => commands::attitude_map::run(args),
+        Command::Card(args) => commands::card::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Campaign(args) => commands::campaign::run(args),

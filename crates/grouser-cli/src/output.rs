@@ -1,6 +1,7 @@
 //! What the program says: results to the standard output, talk to the standard error, files to a
 //! folder.
 
+pub(crate) mod file;
 pub(crate) mod folder;
 pub(crate) mod rows;
 

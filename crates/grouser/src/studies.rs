@@ -2,6 +2,7 @@
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
 //! [`attitude_map`] the same for other courses and several soils, [`attitude_band`] where the soil is uncertain, with what [`uncertainty`] knows of draws,
+//! [`card`] what an operator needs of all that, with go and no-go,
 //! [`measurement`] what a real stand reads, [`simulated_test`] makes such readings with a known
 //! truth, [`validation`] judges a theory by them, [`calibration`] finds the soil that they speak
 //! for, [`campaign`] runs many over what is not known exactly, [`comparison`] has the metrics by which the source paper judges a run, and
@@ -12,6 +13,7 @@ pub mod attitude_band;
 pub mod attitude_map;
 pub mod calibration;
 pub mod campaign;
+pub mod card;
 pub mod comparison;
 pub mod measurement;
 mod random;

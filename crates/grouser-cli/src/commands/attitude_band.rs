@@ -67,7 +67,12 @@ pub(crate) fn draw(
     })
 }
 
-fn soils(uncertain: &UncertainSoil, seed: u64, samples: u32) -> Result<Vec<Soil>, Failure> {
+/// The drawn soils.
+pub(crate) fn soils(
+    uncertain: &UncertainSoil,
+    seed: u64,
+    samples: u32,
+) -> Result<Vec<Soil>, Failure> {
     let draw = |index| uncertain.draw(seed, u64::from(index));
     let soils: Result<Vec<Soil>, _> = (0..samples).map(draw).collect();
     soils.map_err(|error| {

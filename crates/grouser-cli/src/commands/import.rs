@@ -1,8 +1,5 @@
 //! `grouser import`: another laboratory's CSV as ours.
 
-use std::io::Write as _;
-use std::path::Path;
-
 use grouser::document::measurements::{
     self, Choice, Layout, MeasurementError, MeasurementProblem, SlipDefinition, import,
 };
@@ -10,18 +7,11 @@ use grouser::studies::measurement::Quantity;
 
 use crate::args::{ImportArgs, SlipWord};
 use crate::failure::Failure;
-use crate::interrupt;
-use crate::output;
+use crate::output::{self, file};
 
 pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
-    if let Some(out) = &args.out
-        && out.exists()
-        && !args.force
-    {
-        let out = out.display();
-        return Err(Failure::Usage(format!(
-            "{out} exists already: choose another name, or add --force to replace it"
-        )));
+    if let Some(out) = &args.out {
+        file::check_new(out, args.force)?;
     }
     let layout = Layout {
         delimiter: delimiter(&args.delimiter)?,
@@ -38,7 +28,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     let text = import(&label, file, &args.columns, &layout)?;
     check(&label, &text)?;
     match &args.out {
-        Some(out) => write(out, &text),
+        Some(out) => file::write(out, text.as_bytes()),
         None => output::print(&text),
     }
 }
@@ -89,17 +79,4 @@ fn delimiter(text: &str) -> Result<u8, Failure> {
             "--delimiter {text}: it must be one character, such as ';', or the word tab"
         ))),
     }
-}
-
-/// Writes beside and renames, so that the file is whole or not there.
-fn write(out: &Path, text: &str) -> Result<(), Failure> {
-    let _not_now = interrupt::not_now();
-    let folder = match out.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let failed = || Failure::at("cannot write", out);
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed())?;
-    file.write_all(text.as_bytes()).map_err(failed())?;
-    file.persist(out).map(drop).map_err(|error| failed()(error.error))
 }

@@ -26,7 +26,7 @@ pub(crate) struct OutputFolder {
     base: PathBuf,
     /// The way from there to the target; empty if that is there.
     missing: PathBuf,
-    files: Vec<(String, String)>,
+    files: Vec<(String, Vec<u8>)>,
 }
 
 /// What may happen to files that are there already.
@@ -65,8 +65,8 @@ impl OutputFolder {
     }
 
     /// Adds a file; folders in its name are made.
-    pub(crate) fn add(&mut self, name: &str, content: String) {
-        self.files.push((name.to_owned(), content));
+    pub(crate) fn add(&mut self, name: &str, content: impl Into<Vec<u8>>) {
+        self.files.push((name.to_owned(), content.into()));
     }
 
     /// Adds a resolved document with the files that it names.
@@ -157,12 +157,12 @@ fn check_writable(folder: &Path) -> Result<(), Failure> {
     temporary_folder(folder).map(drop)
 }
 
-fn write(path: &Path, content: &str) -> std::io::Result<()> {
+fn write(path: &Path, content: &[u8]) -> std::io::Result<()> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
     let mut file = fs::File::create(path)?;
-    file.write_all(content.as_bytes())?;
+    file.write_all(content)?;
     file.sync_all()
 }
 
@@ -189,8 +189,8 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let target = place.path().join("a/b");
         let mut folder = OutputFolder::open(&target, OldFiles::Keep).unwrap();
-        folder.add("one.csv", "1\n".into());
-        folder.add("figures/two.svg", "2\n".into());
+        folder.add("one.csv", "1\n");
+        folder.add("figures/two.svg", "2\n");
         assert!(!place.path().join("a").exists());
         folder.finish().unwrap();
         assert_eq!(fs::read_to_string(target.join("figures/two.svg")).unwrap(), "2\n");
@@ -200,8 +200,8 @@ mod tests {
         let refused = OutputFolder::open(&target, OldFiles::Keep).err().unwrap();
         assert!(refused.to_string().contains("--force"));
         let mut again = OutputFolder::open(&target, OldFiles::Replace).unwrap();
-        again.add("one.csv", "3\n".into());
-        again.add("figures/three.svg", "3\n".into());
+        again.add("one.csv", "3\n");
+        again.add("figures/three.svg", "3\n");
         again.finish().unwrap();
         assert_eq!(fs::read_to_string(target.join("one.csv")).unwrap(), "3\n");
         assert_eq!(fs::read_to_string(target.join("figures/two.svg")).unwrap(), "2\n");
@@ -214,7 +214,7 @@ mod tests {
         let place = tempfile::tempdir().unwrap();
         let target = place.path().join("a/out");
         let mut folder = OutputFolder::open(&target, OldFiles::Keep).unwrap();
-        folder.add("one.csv", "1\n".into());
+        folder.add("one.csv", "1\n");
         drop(folder);
         assert_eq!(fs::read_dir(place.path()).unwrap().count(), 0);
     }
@@ -225,8 +225,8 @@ mod tests {
         fs::write(place.path().join("a.csv"), "old").unwrap();
         fs::create_dir(place.path().join("b.csv")).unwrap();
         let mut folder = OutputFolder::open(place.path(), OldFiles::Replace).unwrap();
-        folder.add("a.csv", "new".into());
-        folder.add("b.csv", "new".into());
+        folder.add("a.csv", "new");
+        folder.add("b.csv", "new");
         assert!(folder.finish().is_err());
         assert_eq!(fs::read_to_string(place.path().join("a.csv")).unwrap(), "old");
         assert_eq!(fs::read_dir(place.path()).unwrap().count(), 2);

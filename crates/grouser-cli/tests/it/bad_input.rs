@@ -52,6 +52,26 @@ fn wrong_commands_and_flags() {
 }
 
 #[test]
+fn rules_of_a_card() {
+    check_lines_refused(
+        "cards",
+        &Place::new(),
+        &[
+            "card --go-slip-ratio 0.7",
+            "card --go-slip-ratio -0.1",
+            "card --no-go-probability 0.99",
+            "card --margin-deg 70",
+            "card --margin-deg 1,2",
+            "card --speed-m-s 0",
+            "card --samples 1",
+            "card --set scenario.slope_deg=5",
+            "card --out card.docx",
+            "card --force",
+        ],
+    );
+}
+
+#[test]
 fn numbers_out_of_range() {
     check_lines_refused(
         "numbers-out-of-range",

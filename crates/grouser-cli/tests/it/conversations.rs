@@ -78,6 +78,7 @@ fn help_of_each_command() {
         "wheel-test",
         "attitude",
         "attitude-map",
+        "card",
         "validate",
         "import",
         "check",
@@ -131,6 +132,14 @@ fn attitude_map_as_a_table_and_for_programs() {
     let line = "attitude-map --course-deg -30,0,30 --slope-deg 10,20";
     check_conversation("attitude-map", line);
     check_rounded("attitude-map-csv", &format!("{line} --format csv"), rounded_csv);
+}
+
+#[test]
+fn card_as_a_table_and_for_programs() {
+    check_conversation("card", "card");
+    let line = "card --soil toyoura-uncertain --samples 20";
+    check_conversation("card-with-bands", line);
+    check_rounded("card-csv", &format!("{line} --format csv"), rounded_csv);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod bad_input;
 mod calibrate;
 mod campaign;
+mod card;
 mod contract;
 mod conversations;
 mod import;

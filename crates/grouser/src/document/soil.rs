@@ -37,6 +37,10 @@ pub struct SoilDocument {
     /// Where the values come from.
     #[serde(default = "not_stated")]
     pub source: String,
+    /// The day on which the soil was measured or observed to be like this, as 2026-11-20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String", extend("format" = "date"))]
+    pub date: Option<String>,
     /// Anything else worth knowing.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub notes: String,
@@ -471,6 +475,10 @@ impl Document for SoilDocument {
     type Value = Soil;
 
     fn to_domain(&self, tree: &Node) -> Result<Soil, DocumentError> {
+        if self.date.as_deref().is_some_and(|date| !is_day(date)) {
+            let problem = Problem::Conflict("`date` is no day: it is written as \"2026-11-20\"");
+            return Err(DocumentError::at(tree.origin_of("date"), problem));
+        }
         self.meaning().map_err(|Misfit { path, error }| {
             DocumentError::at(tree.origin_of(path), Problem::Unfit(error))
         })
@@ -500,6 +508,27 @@ impl Document for SoilDocument {
     fn assumptions(&self) -> Vec<String> {
         told_by(Self::KIND, &self.name, &self.assumed, &self.source)
     }
+}
+
+/// Whether a text is a day of the calendar, year-month-day (ISO 8601).
+fn is_day(text: &str) -> bool {
+    let fields: Vec<&str> = text.split('-').collect();
+    let all_digits = |field: &&str| field.bytes().all(|byte| byte.is_ascii_digit());
+    let lengths: Vec<usize> = fields.iter().map(|field| field.len()).collect();
+    if lengths != [4, 2, 2] || !fields.iter().all(all_digits) {
+        return false;
+    }
+    let numbers: Vec<u32> = fields.iter().filter_map(|field| field.parse().ok()).collect();
+    let [year, month, day] = numbers[..] else { return false };
+    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let days = match month {
+        1 | 3 | 5 | 7 | 8 | 10 | 12 => 31,
+        4 | 6 | 9 | 11 => 30,
+        2 if is_leap => 29,
+        2 => 28,
+        _ => 0,
+    };
+    (1..=days).contains(&day)
 }
 
 /// Values that are fine one by one, but not together.

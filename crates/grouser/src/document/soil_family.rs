@@ -145,6 +145,7 @@ impl SoilFamily {
         SoilDocument {
             name: self.base.name.clone(),
             source: self.base.source.clone(),
+            date: self.base.date.clone(),
             notes: self.base.notes.clone(),
             assumed: self.base.assumed.clone(),
             model: self.base.model,
@@ -175,6 +176,7 @@ impl SoilFamily {
             name: format!("{}, calibrated", document.name),
             source: format!("{source}; other values: {}", document.source),
             // What was said of the old values need not hold for these.
+            date: None,
             notes: String::new(),
             assumed: document.assumed.into_iter().filter(|one| !is_fitted(one)).collect(),
             model: if named { TheoryWord::named(theory.name()) } else { None },

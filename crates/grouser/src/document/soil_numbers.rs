@@ -9,7 +9,7 @@ pub(super) struct SoilNumbers(toml::Value);
 
 impl SoilNumbers {
     pub(super) fn of(soil: &SoilDocument) -> Self {
-        let words = ["name", "source", "notes", "assumed", "uncertainty", "model"];
+        let words = ["name", "source", "date", "notes", "assumed", "uncertainty", "model"];
         let mut tree =
             toml::Value::try_from(soil).unwrap_or(toml::Value::Table(toml::Table::new()));
         if let Some(table) = tree.as_table_mut() {

@@ -15,13 +15,15 @@
 //!
 //! A level traverse is one course among many. On a course χ, the direction of travel counted from
 //! the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and the
-//! same two equations hold, at the yaw γ = χ + c.
+//! same two equations hold, at the yaw γ = χ + c. And a rover that does nothing against the slope,
+//! with its nose along the contour, drifts: it holds γ = 0 instead of a course, and χ = −c is what
+//! becomes of it.
 
 mod path;
 
 use nalgebra::Vector3;
 
-use self::path::{JUST_TURNED, Path, Place, Point};
+use self::path::{Held, JUST_TURNED, Path, Place, Point};
 use crate::contact::Theory;
 use crate::error::{ParameterError, finite};
 use crate::root;
@@ -91,6 +93,12 @@ impl Attitude {
         self.torque() / radius * (self.yaw - self.course).cos() * rim_over_hub
     }
 
+    /// Way downhill for a metre along the contour, −tan χ [-]: 0 on a level traverse.
+    #[must_use]
+    pub fn drift(&self) -> f64 {
+        0.0 - self.course.tan()
+    }
+
     /// Power of the motors at a rim speed ω r_s [m/s], ΣT ω [W].
     #[must_use]
     pub fn power(&self, rover: &Rover, rim_speed: f64) -> f64 {
@@ -125,7 +133,7 @@ pub enum NoAttitude {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AttitudeCurve {
     study: AttitudeStudy,
-    course: f64,
+    held: Held,
     /// Points of the branch, rising; empty if the rover cannot move.
     points: Vec<Point>,
     /// Below this slope the flank holds the rover without any crab [rad]; 0 for smooth soils' laws.
@@ -168,7 +176,11 @@ impl AttitudeStudy {
     /// # Errors
     /// As [`curve`](Self::curve), and for a course out of its range.
     pub fn curve_on(&self, course: f64) -> Result<AttitudeCurve, ParameterError> {
-        self.curve_until(course, STEEPEST)
+        finite("course [rad]", course)?;
+        if course.abs() > STRAIGHT_UP {
+            return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
+        }
+        self.follow(Held::Course(course), STEEPEST)
     }
 
     /// The level attitude on one slope [rad]: the curve is followed as far as that slope and no
@@ -179,17 +191,23 @@ impl AttitudeStudy {
     /// [`ParameterError`] if soil or gravity are no such things; [`NoAttitude`] within if no yaw
     /// keeps a traverse level there.
     pub fn on_slope(&self, slope: f64) -> Result<Result<Attitude, NoAttitude>, ParameterError> {
-        Ok(self.curve_until(0.0, slope.min(STEEPEST))?.at(slope))
+        Ok(self.follow(Held::Course(0.0), slope.min(STEEPEST))?.at(slope))
     }
 
-    /// The curve of a course as far as its first point that is not below a slope, or to its end.
-    fn curve_until(&self, course: f64, slope: f64) -> Result<AttitudeCurve, ParameterError> {
+    /// Follows the curve of drift: the nose stays along the contour, γ = 0, and the course turns
+    /// downhill with the slope. It ends where no drift holds the rover any more.
+    ///
+    /// # Errors
+    /// As [`curve`](Self::curve).
+    pub fn drift_curve(&self) -> Result<AttitudeCurve, ParameterError> {
+        self.follow(Held::Yaw(0.0), STEEPEST)
+    }
+
+    /// The curve of what is held, as far as its first point that is not below a slope, or to its
+    /// end.
+    fn follow(&self, held: Held, slope: f64) -> Result<AttitudeCurve, ParameterError> {
         Site { soil: self.soil, slope: 0.0, gravity: self.gravity }.check()?;
-        finite("course [rad]", course)?;
-        if course.abs() > STRAIGHT_UP {
-            return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
-        }
-        let path = Path::new(self, course);
+        let path = Path::new(self, held);
         let (mut points, mut held_below) = (Vec::new(), 0.0);
         let end = match path.start() {
             Err(reason) => reason,
@@ -200,15 +218,15 @@ impl AttitudeStudy {
             }
         };
         let settled_wheels = path.settled_wheels();
-        Ok(AttitudeCurve { study: self.clone(), course, points, held_below, end, settled_wheels })
+        Ok(AttitudeCurve { study: self.clone(), held, points, held_below, end, settled_wheels })
     }
 }
 
 impl AttitudeCurve {
-    /// The course, *χ* [rad].
+    /// The course, *χ* [rad]; of a curve of drift the one it has on level ground.
     #[must_use]
     pub fn course(&self) -> f64 {
-        self.course
+        self.held.course(0.0)
     }
 
     /// How many wheels were settled to follow the curve.
@@ -231,14 +249,14 @@ impl AttitudeCurve {
     /// The attitude on a slope [rad].
     ///
     /// # Errors
-    /// [`NoAttitude`] if no yaw keeps the course there.
+    /// [`NoAttitude`] if no yaw keeps the course there, or no drift holds the rover.
     pub fn at(&self, slope: f64) -> Result<Attitude, NoAttitude> {
         let (limit, reason) = self.limit()?;
         if slope > limit {
             let reason = reason.into();
-            return Err(NoAttitude::TooSteep { course: self.course, limit, reason });
+            return Err(NoAttitude::TooSteep { course: self.course(), limit, reason });
         }
-        let path = Path::new(&self.study, self.course);
+        let path = Path::new(&self.study, self.held);
         let point = if slope <= self.held_below {
             let slip_ratio = path.slip_at(0.0, slope).map_err(NoAttitude::CannotMove)?;
             let place = Place::new(slip_ratio, 0.0, slope);
@@ -300,8 +318,8 @@ impl AttitudeCurve {
         let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
         Attitude {
             slope: place.z,
-            course: self.course,
-            yaw: self.course + crab,
+            course: self.held.course(crab),
+            yaw: self.held.yaw(crab),
             slip_ratio: place.x,
             yaw_moment: moment - study.rover.centre_of_mass().perp(&force),
             wheels: wheels.clone(),

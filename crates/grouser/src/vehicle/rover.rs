@@ -99,6 +99,32 @@ impl Rover {
         })
     }
 
+    /// The same rover seen in a mirror: left and right changed. A traverse with the uphill side on
+    /// the right is that of the mirrored rover with the uphill side on the left.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut mirrored = self.clone();
+        for mount in &mut mirrored.mounts {
+            mount.position.y = -mount.position.y;
+        }
+        for arm in &mut mirrored.load_arms {
+            arm.y = -arm.y;
+        }
+        mirrored.first_moment.y = -mirrored.first_moment.y;
+        mirrored
+    }
+
+    /// Whether the rover is its own mirror image: then headings hold either way.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        /// Hubs may be off by this much [m]: a tenth of a millimetre turns no rover.
+        const SAME: f64 = 1e-4;
+        self.mounts.iter().all(|mount| {
+            let image = Vec2::new(mount.position.x, -mount.position.y);
+            self.mounts.iter().any(|other| (other.position.xy() - image).amax() <= SAME)
+        })
+    }
+
     /// The body.
     #[must_use]
     pub fn body(&self) -> &Body {

@@ -4,6 +4,7 @@ mod attitude_map;
 mod calibration;
 mod campaign;
 mod campaign_documents;
+mod card;
 mod documents;
 mod extended;
 mod floors;

@@ -29,11 +29,45 @@ pub(super) struct Point {
 /// Derivatives of the imbalances along and across the rover by (s, c, α).
 pub(super) type Gradients = [Place; 2];
 
-/// The study of one course.
+/// What a rover holds while it crabs by c [rad].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Held {
+    /// Its course, *χ*: the yaw is χ + c.
+    Course(f64),
+    /// Its yaw, *γ*: the course is γ − c.
+    Yaw(f64),
+}
+
+impl Held {
+    /// Yaw at a crab angle [rad].
+    pub(super) fn yaw(self, crab: f64) -> f64 {
+        match self {
+            Self::Course(course) => course + crab,
+            Self::Yaw(yaw) => yaw,
+        }
+    }
+
+    /// Course at a crab angle [rad].
+    pub(super) fn course(self, crab: f64) -> f64 {
+        match self {
+            Self::Course(course) => course,
+            Self::Yaw(yaw) => yaw - crab,
+        }
+    }
+
+    /// What it means that the curve folds.
+    fn reason_to_fold(self) -> &'static str {
+        match self {
+            Self::Course(_) => "where turning further uphill costs more thrust than it gains",
+            Self::Yaw(_) => "where drifting more steeply gains no more side force",
+        }
+    }
+}
+
+/// The study of one course, or of one yaw.
 pub(super) struct Path<'a> {
     study: &'a AttitudeStudy,
-    /// Direction of travel, *χ* [rad].
-    course: f64,
+    held: Held,
     settled_wheels: Cell<u64>,
 }
 
@@ -51,8 +85,8 @@ pub(super) const JUST_TURNED: f64 = 1e-9;
 const MOST_SLIP: f64 = 0.999;
 
 impl<'a> Path<'a> {
-    pub(super) fn new(study: &'a AttitudeStudy, course: f64) -> Self {
-        Self { study, course, settled_wheels: Cell::new(0) }
+    pub(super) fn new(study: &'a AttitudeStudy, held: Held) -> Self {
+        Self { study, held, settled_wheels: Cell::new(0) }
     }
 
     /// How many wheels were settled so far.
@@ -76,7 +110,7 @@ impl<'a> Path<'a> {
             sharing: *sharing,
             own_moments: *own_moments,
         };
-        ground.reactions(self.course + crab, &slips)
+        ground.reactions(self.held.yaw(crab), &slips)
     }
 
     /// The wheels at a place, and the forces left over there, over the weight: along and across
@@ -86,7 +120,7 @@ impl<'a> Path<'a> {
         let wheels = self.reactions(place)?;
         let forces = forces_of(&wheels);
         let (soil, _) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
-        let pull = load::slope_pull(&study.rover, &self.site(place.z), self.course + place.y);
+        let pull = load::slope_pull(&study.rover, &self.site(place.z), self.held.yaw(place.y));
         let left_over = (soil + pull) / (study.rover.mass() * study.gravity);
         Ok(([left_over.x, left_over.y], wheels))
     }
@@ -121,7 +155,8 @@ impl<'a> Path<'a> {
         /// Rounds in which slip and slope settle on each other.
         const ROUNDS: usize = 100;
         // Straight up or down the slope nothing pulls sideways, and the rover does not crab.
-        if self.course.abs() >= STRAIGHT_UP {
+        let yaw = self.held.yaw(0.0);
+        if yaw.abs() >= STRAIGHT_UP {
             let place = Place::new(self.slip_at(0.0, 0.0)?, 0.0, 0.0);
             return self.point(place).map_err(|error| error.to_string());
         }
@@ -134,7 +169,7 @@ impl<'a> Path<'a> {
                 return self.point(place).map_err(|error| error.to_string());
             }
             // The slope's pull across the rover goes with the cosine of its yaw.
-            slope = (slope.sin() + left_over / self.course.cos()).clamp(0.0, STEEPEST.sin()).asin();
+            slope = (slope.sin() + left_over / yaw.cos()).clamp(0.0, STEEPEST.sin()).asin();
         }
         Err("the start of the curve was not found".into())
     }
@@ -166,7 +201,7 @@ impl<'a> Path<'a> {
             }
             if next.place.z < here.place.z {
                 self.end_at_fold(points, next);
-                return "where turning further uphill costs more thrust than it gains".into();
+                return self.held.reason_to_fold().into();
             }
             points.push(next);
             step = (1.5 * step).min(LONGEST_STEP);

@@ -1,0 +1,276 @@
+//! `grouser card`: the operator's card, on one page.
+
+mod columns;
+mod layout;
+mod measured;
+mod words;
+
+use std::path::Path;
+
+use grouser::document::card::{CardRecord, MeasuredRecord, RuleRecord};
+use grouser::soil::Soil;
+use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::card::{Card, CardStudy};
+use grouser_page::Sheet;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::{Answer, attitude_band};
+use crate::args::{CardArgs, SideWord};
+use crate::failure::Failure;
+use crate::inputs::{self, CardInputs};
+use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::rows::Rows;
+use crate::output::{self, Format, file};
+use measured::Measured;
+
+/// Columns of the table on a terminal.
+const COLUMNS: [&str; 6] =
+    ["slope_deg", "verdict", "yaw_deg", "slip_ratio", "downhill_m_per_m", "power_w"];
+
+/// The same, with the draws of an uncertain soil.
+const COLUMNS_WITH_BANDS: [&str; 9] = [
+    "slope_deg",
+    "verdict",
+    "yaw_deg_p50",
+    "yaw_deg_p2_5",
+    "yaw_deg_p97_5",
+    "slip_ratio_p97_5",
+    "downhill_m_per_m_p97_5",
+    "power_w_p97_5",
+    "probability_level",
+];
+
+/// Columns of the comparison with measured yaws.
+const MEASURED_COLUMNS: [&str; 7] = [
+    "slope_deg",
+    "measured",
+    "measured_yaw_deg",
+    "yaw_deg_p2_5",
+    "yaw_deg_p97_5",
+    "probability_level",
+    "place",
+];
+
+/// Steepest slope that is looked at [°].
+const STEEPEST_DEG: u8 = 60;
+
+pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
+    let target = args.out.as_deref().map(|out| Target::of(out, args.force)).transpose()?;
+    let inputs = inputs::card(args)?;
+    let measured = args.measured.as_deref().map(measured::read).transpose()?.unwrap_or_default();
+    let soils = soils(args, &inputs)?;
+    let card = compute(args, &inputs, &soils, &measured)?;
+    let records = shown(CardRecord::of(&card), &measured);
+    let beside = measured::beside(&measured, &records);
+    if let Some(target) = target {
+        let sheet = layout::draw(&words::of(args, &inputs, &card), &records, &measured);
+        target.write(
+            &Answers { args, inputs: &inputs, card: &card, rows: &records, beside: &beside },
+            &sheet,
+        )?;
+    }
+    match args.format {
+        Format::Table => output::print(&table(&card, &records, &beside)),
+        Format::Csv => output::print(&Rows::of(&records).to_csv()?),
+        Format::Json => output::print_json(&answer(args, &inputs, &card, &records, &beside)),
+    }
+}
+
+/// The drawn soils; none where no uncertainty is stated.
+fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
+    let uncertain = inputs.scenario.document.soil.inline().and_then(|soil| soil.uncertain());
+    let draw = |uncertain| attitude_band::soils(uncertain, args.seed, args.samples);
+    uncertain.map_or(Ok(Vec::new()), draw)
+}
+
+fn compute(
+    args: &CardArgs,
+    inputs: &CardInputs,
+    soils: &[Soil],
+    measured: &[Measured],
+) -> Result<Card, Failure> {
+    let mut attitude = AttitudeStudy::of(&inputs.scenario.value);
+    if args.uphill == SideWord::Right {
+        attitude.rover = attitude.rover.mirrored();
+    }
+    let study = CardStudy { attitude, rim_speed: inputs.rim_speed, rule: inputs.rule };
+    let degrees = (0..=STEEPEST_DEG).map(f64::from);
+    let asked = measured.iter().map(|point| point.slope_deg);
+    let mut slopes: Vec<f64> = degrees.chain(asked).map(f64::to_radians).collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    let bar = output::progress_bar(soils.len() as u64);
+    bar.set_message("soils");
+    let card = study.card(soils, &slopes, &|| bar.inc(1));
+    bar.finish_and_clear();
+    Ok(card?)
+}
+
+/// The rows up to the first slope that no soil can be crossed on, and those that were measured on.
+fn shown(records: Vec<CardRecord>, measured: &[Measured]) -> Vec<CardRecord> {
+    let is_last = |row: &CardRecord| {
+        row.verdict == "no-go" && row.yaw_deg.is_none() && row.yaw_deg_p50.is_none()
+    };
+    let last = records.iter().position(is_last).unwrap_or(records.len());
+    let kept = records.into_iter().enumerate().filter(|(place, row)| {
+        *place <= last || measured.iter().any(|point| point.slope_deg == row.slope_deg)
+    });
+    kept.map(|(_, row)| row).collect()
+}
+
+/// The card's rows, or the comparison where one is asked for.
+fn table(card: &Card, records: &[CardRecord], beside: &[MeasuredRecord]) -> String {
+    if !beside.is_empty() {
+        return Rows::of(beside).to_table(&MEASURED_COLUMNS);
+    }
+    let columns: &[&str] = if card.draws.is_some() { &COLUMNS_WITH_BANDS } else { &COLUMNS };
+    let mut text = Rows::of(records).to_table(columns);
+    if card.draws.is_none() {
+        text +=
+            "no uncertainty of this soil is stated: no bands; slopes are judged with a margin\n";
+    }
+    text
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    draws: Option<usize>,
+    limit_slope_deg: Option<f64>,
+    limit_slope_deg_p2_5: Option<f64>,
+    limit_slope_deg_p50: Option<f64>,
+    limit_slope_deg_p97_5: Option<f64>,
+    rows: &'a [CardRecord],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    measured: &'a [MeasuredRecord],
+}
+
+fn answer<'a>(
+    args: &CardArgs,
+    inputs: &CardInputs,
+    card: &Card,
+    rows: &'a [CardRecord],
+    measured: &'a [MeasuredRecord],
+) -> Answer<Results<'a>> {
+    let band = card.limit_band;
+    let results = Results {
+        draws: card.draws,
+        limit_slope_deg: card.limit.as_ref().ok().map(|(limit, _)| limit.to_degrees()),
+        limit_slope_deg_p2_5: band.map(|band| band.low.to_degrees()),
+        limit_slope_deg_p50: band.map(|band| band.median.to_degrees()),
+        limit_slope_deg_p97_5: band.map(|band| band.high.to_degrees()),
+        rows,
+        measured,
+    };
+    Answer::new("card", settings(args, inputs, card), results)
+}
+
+/// What the card was made from.
+fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
+    let document = &inputs.scenario.document;
+    let mut settings = json!({
+        "rover": document.rover,
+        "soil": document.soil,
+        "gravity_m_s2": document.gravity_m_s2,
+        "model": inputs.scenario.value.theory.name(),
+        "loads": document.loads,
+        "moments": document.moments,
+        "uphill": if args.uphill == SideWord::Left { "left" } else { "right" },
+        "speed_m_s": inputs.rim_speed,
+        "rule": RuleRecord::from(&inputs.rule),
+    });
+    if card.draws.is_some() {
+        settings["samples"] = args.samples.into();
+        settings["seed"] = args.seed.into();
+    }
+    settings
+}
+
+/// Forms of the page, by what the file's name ends in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Html,
+    Pdf,
+    Png,
+    Svg,
+}
+
+const FORMS: [(&str, Form); 4] =
+    [("html", Form::Html), ("pdf", Form::Pdf), ("png", Form::Png), ("svg", Form::Svg)];
+
+impl Form {
+    fn bytes(self, sheet: &Sheet) -> Vec<u8> {
+        match self {
+            Self::Html => html(sheet).into_bytes(),
+            Self::Pdf => sheet.to_pdf(),
+            Self::Png => sheet.to_png(),
+            Self::Svg => sheet.to_svg().into_bytes(),
+        }
+    }
+}
+
+/// A page that prints on one sheet.
+fn html(sheet: &Sheet) -> String {
+    let (title, svg) = (sheet.title(), sheet.to_svg());
+    let escaped = title.replace('&', "&amp;").replace('<', "&lt;");
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n\
+         <meta name=\"generator\" content=\"Grouser {}\">\n<title>{escaped}</title>\n<style>\n\
+         @page {{ size: A4; margin: 0 }}\nbody {{ margin: 0 }}\n\
+         svg {{ display: block; width: 100%; max-width: 210mm; height: auto; margin: 0 auto }}\n\
+         @media print {{ svg {{ width: 210mm; height: 296.9mm }} }}\n\
+         </style>\n</head>\n<body>\n{svg}</body>\n</html>\n",
+        env!("CARGO_PKG_VERSION")
+    )
+}
+
+/// What is written beside the page.
+struct Answers<'a> {
+    args: &'a CardArgs,
+    inputs: &'a CardInputs,
+    card: &'a Card,
+    rows: &'a [CardRecord],
+    beside: &'a [MeasuredRecord],
+}
+
+/// Where the card goes.
+enum Target<'a> {
+    File(&'a Path, Form),
+    Folder(OutputFolder),
+}
+
+impl<'a> Target<'a> {
+    /// A file for a name that ends like one; a folder for one that ends in nothing.
+    fn of(out: &'a Path, force: bool) -> Result<Self, Failure> {
+        let Some(ending) = out.extension().filter(|_| !out.is_dir()) else {
+            let old_files = if force { OldFiles::Replace } else { OldFiles::Keep };
+            return Ok(Self::Folder(OutputFolder::open(out, old_files)?));
+        };
+        let ending = ending.to_string_lossy().to_lowercase();
+        let Some((_, form)) = FORMS.iter().find(|(known, _)| *known == ending) else {
+            let shown = out.display();
+            return Err(Failure::Usage(format!(
+                "--out {shown}: a card ends in .html, .pdf, .png or .svg; a name without an \
+                 ending is a folder for all of them"
+            )));
+        };
+        file::check_new(out, force)?;
+        Ok(Self::File(out, *form))
+    }
+
+    fn write(self, answers: &Answers<'_>, sheet: &Sheet) -> Result<(), Failure> {
+        let mut folder = match self {
+            Self::File(out, form) => return file::write(out, &form.bytes(sheet)),
+            Self::Folder(folder) => folder,
+        };
+        for (ending, form) in FORMS {
+            folder.add(&format!("card.{ending}"), form.bytes(sheet));
+        }
+        let Answers { args, inputs, card, rows, beside } = answers;
+        folder.add("card.json", answer(args, inputs, card, rows, beside).to_text());
+        folder.add("card.csv", Rows::of(rows).to_csv()?);
+        folder.add_document("scenario.toml", &inputs.scenario);
+        folder.finish()
+    }
+}

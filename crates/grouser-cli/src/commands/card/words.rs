@@ -1,0 +1,174 @@
+//! What the card says in sentences.
+
+use grouser::studies::card::{Card, Rule};
+
+use crate::args::{CardArgs, SideWord};
+use crate::inputs::CardInputs;
+use crate::output::rows::{four_digits, rounded_down};
+
+/// All words of a card that depend on what it is made from.
+pub(super) struct Words {
+    pub(super) title: String,
+    /// On which side uphill may be.
+    pub(super) side: &'static str,
+    /// What the numbers hang on: day, gravity, speed.
+    pub(super) setting: String,
+    /// Heads the column of headings' bands, and says how many soils those are.
+    pub(super) band: String,
+    pub(super) has_bands: bool,
+    /// Each verdict with its rule.
+    pub(super) rule: Vec<(&'static str, String)>,
+    /// What is said of a thing, by its name.
+    pub(super) facts: Vec<(&'static str, String)>,
+    pub(super) holds_for: String,
+    pub(super) leaves_out: String,
+    pub(super) assumed: Vec<String>,
+}
+
+pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
+    let document = &inputs.scenario.document;
+    let rover = document.rover.inline().map_or("unnamed rover", |rover| rover.name.as_str());
+    let soil = document.soil.inline().map_or("unnamed soil", |soil| soil.name.as_str());
+    let is_symmetric = inputs.scenario.value.rover.is_symmetric();
+    let side = match (is_symmetric, args.uphill) {
+        (true, _) => "Uphill on the left or on the right: the same heading.",
+        (false, SideWord::Left) => "ONLY with uphill on the rover's LEFT.",
+        (false, SideWord::Right) => "ONLY with uphill on the rover's RIGHT.",
+    };
+    let has_bands = card.draws.is_some();
+    Words {
+        title: format!("{rover} on {soil}"),
+        side,
+        setting: setting(inputs),
+        band: if has_bands { "95 % of soils" } else { "no band" }.to_owned(),
+        has_bands,
+        rule: rule(&inputs.rule, card.draws),
+        facts: facts(args, inputs, card),
+        holds_for: "steady straight driving along the contour of an even slope of one soil, with all \
+                    wheels turning alike. Nothing holds the heading by itself: correct it on the way."
+            .to_owned(),
+        leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; errors of \
+                     the theory, which come on top of every band: a real rover scatters by more."
+            .to_owned(),
+        assumed: assumed(inputs),
+    }
+}
+
+/// The documents' assumptions without the names of soil and rover, which stand above.
+fn assumed(inputs: &CardInputs) -> Vec<String> {
+    let document = &inputs.scenario.document;
+    let rover = document.rover.inline();
+    let wheel = rover.and_then(|rover| rover.wheel_unit.wheel.inline());
+    let names = [
+        document.soil.inline().map(|soil| (format!("soil {}: ", soil.name), "")),
+        rover.map(|rover| (format!("rover {}: ", rover.name), "")),
+        wheel.map(|wheel| (format!("wheel {}: ", wheel.name), "wheel: ")),
+    ];
+    let short = |assumption: &String| {
+        let named = names.iter().flatten().find(|(name, _)| assumption.starts_with(name));
+        named.map_or(assumption.clone(), |(name, kind)| {
+            format!("{kind}{}", &assumption[name.len()..])
+        })
+    };
+    inputs.scenario.assumptions.iter().map(short).collect()
+}
+
+fn rule(rule: &Rule, draws: Option<usize>) -> Vec<(&'static str, String)> {
+    let percent = |share: f64| four_digits(share * 100.0);
+    let (go_slip, stop_slip) = (percent(rule.go_slip_ratio), percent(rule.no_go_slip_ratio));
+    let (go, stop) = (percent(rule.go_probability), percent(rule.no_go_probability));
+    let between = "all between: not without a second look, and with slip measured on the way.";
+    let last = "A steeper slope never gets a better verdict.";
+    let caution = ("CAUTION", between.to_owned());
+    let Some(draws) = draws else {
+        let margin = four_digits(rule.margin.to_degrees());
+        let go = format!(
+            "a slope {margin}° steeper can still be crossed level, with slip up to {go_slip} %."
+        );
+        let no_go = format!(
+            "a slope {margin}° steeper cannot be crossed level with slip up to {stop_slip} %. {last}"
+        );
+        return vec![("GO", go), caution, ("NO-GO", no_go)];
+    };
+    let go = format!(
+        "on at least {go} % of {draws} drawn soils the rover crosses level, with slip up to {go_slip} %."
+    );
+    let no_go =
+        format!("on less than {stop} % of them it does so with slip up to {stop_slip} %. {last}");
+    vec![("GO", go), caution, ("NO-GO", no_go)]
+}
+
+fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
+    let scenario = &inputs.scenario;
+    let (document, value) = (&scenario.document, &scenario.value);
+    let soil = document.soil.inline();
+    let source = soil.map_or("not stated", |soil| soil.source.as_str());
+    let known = match card.draws {
+        Some(draws) => format!("as its document states; {draws} draws, seed {}", args.seed),
+        None => "NOT STATED: no bands. The margin above stands in for it.".to_owned(),
+    };
+    vec![
+        ("Soil", source.to_owned()),
+        ("Uncertainty", known),
+        (
+            "Rover",
+            format!("{} wheels, {} kg", value.rover.wheel_count(), four_digits(value.rover.mass())),
+        ),
+        ("Steepest level slope", limit(card)),
+        (
+            "Theory",
+            format!(
+                "{}; loads {}; moments {}",
+                value.theory.name(),
+                word(&document.loads),
+                word(&document.moments)
+            ),
+        ),
+        (
+            "Made by",
+            format!(
+                "grouser {}; documents {:016x}",
+                env!("CARGO_PKG_VERSION"),
+                scenario.fingerprint()
+            ),
+        ),
+    ]
+}
+
+fn setting(inputs: &CardInputs) -> String {
+    let document = &inputs.scenario.document;
+    let date = document.soil.inline().and_then(|soil| soil.date.as_deref());
+    let gravity = document.gravity_m_s2;
+    let named = grouser::document::GRAVITIES.iter().find(|(_, value)| *value == gravity);
+    let place = named.map_or(String::new(), |(name, _)| format!(" ({name})"));
+    format!(
+        "Date of the soil: {}.  Gravity {} m/s²{place}.  Rims at {} cm/s.",
+        date.unwrap_or("not stated"),
+        four_digits(gravity),
+        four_digits(inputs.rim_speed * 100.0)
+    )
+}
+
+fn limit(card: &Card) -> String {
+    let shown = |slope: f64| rounded_down(slope.to_degrees());
+    let nominal = match &card.limit {
+        Ok((slope, _)) => format!("{}°", shown(*slope)),
+        Err(_) => "none".to_owned(),
+    };
+    match card.limit_band {
+        Some(band) => format!(
+            "{nominal} (95 %: {} to {}°), not a limit to drive by",
+            shown(band.low),
+            shown(band.high)
+        ),
+        None => format!("{nominal}, not a limit to drive by"),
+    }
+}
+
+/// A word of a document as it is written there.
+fn word(value: &impl serde::Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(serde_json::Value::String(word)) => word,
+        _ => "unknown".to_owned(),
+    }
+}

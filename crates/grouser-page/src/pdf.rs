@@ -1,0 +1,222 @@
+//! A page as PDF: its letters are a font of outlines (Type 3), so that its text is text.
+
+use std::collections::BTreeMap;
+
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::types::UnicodeCmap;
+use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
+
+use crate::font::{FACES, Face, Step};
+use crate::svg::letters;
+use crate::{Item, Place, Shape, Sheet, Text};
+
+/// Points in a millimetre.
+const POINTS: f64 = 72.0 / 25.4;
+/// Effort of the compression, of 10.
+const EFFORT: u8 = 8;
+/// How many letters a font of this kind can have.
+const MOST: usize = 255;
+
+/// The codes of a face's letters: from 1; 0 is for letters beyond what a font can have.
+type Codes = BTreeMap<char, u8>;
+
+pub(crate) fn write(sheet: &Sheet) -> Vec<u8> {
+    let mut next = 0;
+    let mut id = || {
+        next += 1;
+        Ref::new(next)
+    };
+    let [catalog, pages, page, content, info] = [id(), id(), id(), id(), id()];
+    let codes: BTreeMap<Face, Codes> =
+        FACES.iter().map(|face| (*face, codes(sheet, *face))).collect();
+    let mut pdf = Pdf::new();
+    pdf.catalog(catalog).pages(pages);
+    pdf.pages(pages).kids([page]).count(1);
+    pdf.document_info(info).title(TextStr(&sheet.title)).producer(TextStr("Grouser"));
+    let fonts: Vec<(Face, Ref)> = FACES.iter().map(|face| (*face, id())).collect();
+    let [width, height] = [sheet.width, sheet.height].map(|length| single(length * POINTS));
+    let mut writer = pdf.page(page);
+    writer.media_box(Rect::new(0.0, 0.0, width, height)).parent(pages).contents(content);
+    let mut resources = writer.resources();
+    let mut named = resources.fonts();
+    for (face, font) in &fonts {
+        named.pair(name(*face), *font);
+    }
+    named.finish();
+    resources.finish();
+    writer.finish();
+    let drawn = compress_to_vec_zlib(&drawing(sheet, &codes), EFFORT);
+    pdf.stream(content, &drawn).filter(Filter::FlateDecode);
+    for (face, font) in fonts {
+        write_font(&mut pdf, face, font, &codes[&face], &mut id);
+    }
+    pdf.finish()
+}
+
+fn codes(sheet: &Sheet, face: Face) -> Codes {
+    let own = letters(sheet).into_iter().filter(|(of, _)| *of == face).map(|(_, letter)| letter);
+    own.take(MOST).zip(1..=u8::MAX).collect()
+}
+
+fn name(face: Face) -> Name<'static> {
+    match face {
+        Face::Regular => Name(b"R"),
+        Face::Bold => Name(b"B"),
+    }
+}
+
+/// A font whose letters are drawings.
+fn write_font(pdf: &mut Pdf, face: Face, font: Ref, codes: &Codes, id: &mut impl FnMut() -> Ref) {
+    let units = face.units();
+    let glyphs: Vec<(String, Ref, char, u8)> = std::iter::once((&'\u{fffd}', &0))
+        .chain(codes)
+        .map(|(letter, code)| (format!("g{code}"), id(), *letter, *code))
+        .collect();
+    let unicode = id();
+    let advances = glyphs.iter().map(|(_, _, letter, _)| single(face.glyph(*letter).advance));
+    let mut writer = pdf.type3_font(font);
+    let [left, bottom, right, top] = face.bounds();
+    writer.bbox(Rect::new(left, bottom, right, top));
+    let per_unit = single(1.0 / units);
+    writer.matrix([per_unit, 0.0, 0.0, per_unit, 0.0, 0.0]);
+    writer.first_char(0).last_char(glyphs.last().map_or(0, |last| last.3));
+    writer.widths(advances);
+    let mut drawings = writer.char_procs();
+    for (name, drawing, _, _) in &glyphs {
+        drawings.pair(Name(name.as_bytes()), *drawing);
+    }
+    drawings.finish();
+    let mut encoding = writer.encoding_custom();
+    let mut differences = encoding.differences();
+    differences.consecutive(0, glyphs.iter().map(|(name, ..)| Name(name.as_bytes())));
+    differences.finish();
+    encoding.finish();
+    writer.to_unicode(unicode);
+    writer.finish();
+
+    let mut map = UnicodeCmap::<u8>::new(
+        Name(b"Letters"),
+        pdf_writer::types::SystemInfo {
+            registry: Str(b"Grouser"),
+            ordering: Str(b"Letters"),
+            supplement: 0,
+        },
+    );
+    for (_, drawing, letter, code) in &glyphs {
+        map.pair(*code, *letter);
+        let drawn = compress_to_vec_zlib(&letter_drawing(face, *letter), EFFORT);
+        pdf.stream(*drawing, &drawn).filter(Filter::FlateDecode);
+    }
+    let text = compress_to_vec_zlib(&map.finish(), EFFORT);
+    pdf.stream(unicode, &text).filter(Filter::FlateDecode);
+}
+
+fn letter_drawing(face: Face, letter: char) -> Vec<u8> {
+    let glyph = face.glyph(letter);
+    let mut content = Content::new();
+    let ends = glyph.outline.iter().flat_map(|step| match *step {
+        Step::Move(to) | Step::Line(to) => vec![to],
+        Step::Curve(by, to) => vec![by, to],
+        Step::Close => Vec::new(),
+    });
+    let [left, bottom, right, top] =
+        ends.fold([0.0_f32; 4], |[l, b, r, t], [x, y]| [l.min(x), b.min(y), r.max(x), t.max(y)]);
+    content.start_shape_glyph(single(glyph.advance), left, bottom, right, top);
+    let mut here = [0.0; 2];
+    for step in glyph.outline {
+        match step {
+            Step::Move(to) => {
+                content.move_to(to[0], to[1]);
+                here = to;
+            }
+            Step::Line(to) => {
+                content.line_to(to[0], to[1]);
+                here = to;
+            }
+            Step::Curve(by, to) => {
+                // The cubic that is this quadratic: its control points are two thirds of the way.
+                let two_thirds = |end: [f32; 2]| [0, 1].map(|k| (end[k] + 2.0 * by[k]) / 3.0);
+                let [[a, b], [c, d]] = [two_thirds(here), two_thirds(to)];
+                content.cubic_to(a, b, c, d, to[0], to[1]);
+                here = to;
+            }
+            Step::Close => {
+                content.close_path();
+            }
+        }
+    }
+    content.fill_nonzero();
+    content.finish().to_vec()
+}
+
+fn drawing(sheet: &Sheet, codes: &BTreeMap<Face, Codes>) -> Vec<u8> {
+    let mut content = Content::new();
+    let place = |[x, y]: Place| [x * POINTS, (sheet.height - y) * POINTS].map(single);
+    for item in &sheet.items {
+        match item {
+            Item::Shape(shape) => draw_shape(&mut content, shape, &place),
+            Item::Text { text, at } => {
+                draw_text(&mut content, text, *at, &codes[&text.face], &place);
+            }
+        }
+    }
+    content.finish().to_vec()
+}
+
+fn draw_shape(content: &mut Content, shape: &Shape, place: &impl Fn(Place) -> [f32; 2]) {
+    content.save_state();
+    if let Some(grey) = shape.fill {
+        content.set_fill_gray(single(grey));
+    }
+    if let Some(stroke) = shape.stroke {
+        content.set_stroke_gray(single(stroke.grey));
+        content.set_line_width(single(stroke.width * POINTS));
+        if let Some(lengths) = stroke.dash {
+            content.set_dash_pattern(lengths.map(|length| single(length * POINTS)), 0.0);
+        }
+    }
+    for (index, point) in shape.points.iter().enumerate() {
+        let [x, y] = place(*point);
+        if index == 0 {
+            content.move_to(x, y);
+        } else {
+            content.line_to(x, y);
+        }
+    }
+    if shape.closed {
+        content.close_path();
+    }
+    match (shape.fill, shape.stroke) {
+        (Some(_), Some(_)) => content.fill_nonzero_and_stroke(),
+        (Some(_), None) => content.fill_nonzero(),
+        (None, Some(_)) => content.stroke(),
+        (None, None) => content.end_path(),
+    };
+    content.restore_state();
+}
+
+fn draw_text(
+    content: &mut Content,
+    text: &Text,
+    at: Place,
+    codes: &Codes,
+    place: &impl Fn(Place) -> [f32; 2],
+) {
+    let (start, [right, down]) = text.base_line(at);
+    let [x, y] = place(start);
+    let [a, b] = [right, -down].map(single);
+    let bytes: Vec<u8> =
+        text.content.chars().map(|letter| codes.get(&letter).copied().unwrap_or(0)).collect();
+    content.begin_text();
+    content.set_fill_gray(single(text.grey));
+    content.set_font(name(text.face), single(text.size * POINTS));
+    content.set_text_matrix([a, b, -b, a, x, y]);
+    content.show(Str(&bytes));
+    content.end_text();
+}
+
+/// Lengths on a page are well within what the narrower type holds.
+#[expect(clippy::cast_possible_truncation)]
+fn single(value: f64) -> f32 {
+    value as f32
+}

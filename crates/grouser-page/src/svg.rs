@@ -1,0 +1,126 @@
+//! A page as SVG: outlines to be seen, and unseen text to be searched and copied.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use crate::font::{Face, Step};
+use crate::{Grey, Item, Place, Shape, Sheet, Text};
+
+pub(crate) fn write(sheet: &Sheet) -> String {
+    let [width, height] = [sheet.width, sheet.height].map(short);
+    let title = escaped(&sheet.title);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{title}</title>\n<defs>\n"
+    );
+    for (face, character) in letters(sheet) {
+        let outline = outline(&face.glyph(character).outline);
+        let _ = writeln!(svg, "<path id=\"{}\" d=\"{outline}\"/>", id(face, character));
+    }
+    svg.push_str("</defs>\n");
+    let _ = writeln!(svg, "<path d=\"M0 0H{width}V{height}H0Z\" fill=\"#fff\"/>");
+    for item in &sheet.items {
+        match item {
+            Item::Shape(shape) => write_shape(&mut svg, shape),
+            Item::Text { text, at } => write_text(&mut svg, text, *at),
+        }
+    }
+    svg.push_str("</svg>\n");
+    svg
+}
+
+/// The letters that a page needs.
+pub(crate) fn letters(sheet: &Sheet) -> BTreeSet<(Face, char)> {
+    let texts = sheet.items.iter().filter_map(|item| match item {
+        Item::Text { text, .. } => Some(text),
+        Item::Shape(_) => None,
+    });
+    texts.flat_map(|text| text.content.chars().map(|letter| (text.face, letter))).collect()
+}
+
+fn write_shape(svg: &mut String, shape: &Shape) {
+    let mut path = String::new();
+    for (index, point) in shape.points.iter().enumerate() {
+        let letter = if index == 0 { 'M' } else { 'L' };
+        let _ = write!(path, "{letter}{} {}", short(point[0]), short(point[1]));
+    }
+    if shape.closed {
+        path.push('Z');
+    }
+    let fill = shape.fill.map_or("none".to_owned(), colour);
+    let _ = write!(svg, "<path d=\"{path}\" fill=\"{fill}\"");
+    if let Some(stroke) = shape.stroke {
+        let (line, width) = (colour(stroke.grey), short(stroke.width));
+        let _ = write!(svg, " stroke=\"{line}\" stroke-width=\"{width}\"");
+        if let Some([on, off]) = stroke.dash {
+            let _ = write!(svg, " stroke-dasharray=\"{} {}\"", short(on), short(off));
+        }
+    }
+    svg.push_str("/>\n");
+}
+
+fn write_text(svg: &mut String, text: &Text, at: Place) {
+    let ([x, y], _) = text.base_line(at);
+    let scale = text.size / text.face.units();
+    let turn = if text.upright { " rotate(-90)" } else { "" };
+    let (left, top) = (short(x), short(y));
+    let _ = write!(
+        svg,
+        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} {:.7})\" fill=\"{}\">",
+        -scale,
+        colour(text.grey)
+    );
+    let mut gone = 0.0;
+    for letter in text.content.chars() {
+        if letter != ' ' {
+            let _ = write!(svg, "<use href=\"#{}\" x=\"{gone}\"/>", id(text.face, letter));
+        }
+        gone += text.face.glyph(letter).advance;
+    }
+    // Any font will do for what is not seen: its width is given.
+    let _ = writeln!(
+        svg,
+        "</g><text font-size=\"{}\" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\" \
+         fill-opacity=\"0\">{}</text></g>",
+        short(text.size),
+        short(text.width()),
+        escaped(&text.content)
+    );
+}
+
+fn outline(steps: &[Step]) -> String {
+    let mut path = String::new();
+    for step in steps {
+        // Writing to a string does not fail.
+        let _ = match step {
+            Step::Move([x, y]) => write!(path, "M{x} {y}"),
+            Step::Line([x, y]) => write!(path, "L{x} {y}"),
+            Step::Curve([u, v], [x, y]) => write!(path, "Q{u} {v} {x} {y}"),
+            Step::Close => write!(path, "Z"),
+        };
+    }
+    path
+}
+
+fn id(face: Face, letter: char) -> String {
+    let name = match face {
+        Face::Regular => 'r',
+        Face::Bold => 'b',
+    };
+    format!("{name}{:x}", u32::from(letter))
+}
+
+fn colour(grey: Grey) -> String {
+    let level = (grey.clamp(0.0, 1.0) * 255.0).round();
+    format!("rgb({level},{level},{level})")
+}
+
+/// A micrometre is fine enough.
+fn short(length: f64) -> String {
+    let text = format!("{length:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,113 @@
+//! What a page promises: the same in every form, and the same bytes every time.
+
+use grouser_page::{Anchor, BLACK, Face, PIXELS_PER_MM, Shape, Sheet, Stroke, Text, width, wrap};
+
+fn page() -> Sheet {
+    let mut sheet = Sheet::new("Page & <title>", 40.0, 20.0);
+    sheet.draw(Shape::rectangle([5.0, 5.0], [10.0, 4.0], BLACK));
+    sheet.hatch([20.0, 5.0], [10.0, 4.0], 1.0, Stroke::black(0.2));
+    sheet.text(Text::new("13° → 7.3°", 4.0).face(Face::Bold), [5.0, 15.0]);
+    sheet.text(Text::new("up < down", 2.0).upright(), [38.0, 18.0]);
+    sheet
+}
+
+/// The greys of a picture, row by row, and its width.
+fn pixels(png: &[u8]) -> (Vec<u8>, usize) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a picture");
+    let mut greys = vec![0; reader.output_buffer_size().expect("it has a size")];
+    let info = reader.next_frame(&mut greys).expect("it is whole");
+    assert_eq!(info.color_type, png::ColorType::Grayscale);
+    (greys, info.width as usize)
+}
+
+#[test]
+fn the_same_page_has_the_same_bytes() {
+    assert_eq!(page().to_svg(), page().to_svg());
+    assert_eq!(page().to_pdf(), page().to_pdf());
+    assert_eq!(page().to_png(), page().to_png());
+}
+
+/// A rectangle of 10 mm by 4 mm is black where it is, and the page is white around it.
+#[test]
+fn a_millimetre_is_ten_pixels() {
+    let (greys, across) = pixels(&page().to_png());
+    assert_eq!((across, greys.len() / across), (400, 200));
+    let at = |x: f64, y: f64| {
+        let place = |length: f64| format!("{:.0}", length * PIXELS_PER_MM).parse().expect("whole");
+        let (column, row): (usize, usize) = (place(x), place(y));
+        greys[row * across + column]
+    };
+    for (x, y, grey) in [(5.2, 5.2, 0), (14.8, 8.8, 0), (4.8, 6.0, 255), (10.0, 9.3, 255)] {
+        assert_eq!(at(x, y), grey, "{x}, {y}");
+    }
+}
+
+/// Hatching stays inside, and darkens by its share of the area: lines of 0.2 mm, 1 mm apart along the edge at 45°, cover
+/// 0.2·√2 of it, but for corners.
+#[test]
+fn hatching_fills_its_rectangle_and_nothing_else() {
+    let (greys, across) = pixels(&page().to_png());
+    let darkness = |columns: std::ops::Range<usize>, rows: std::ops::Range<usize>| {
+        let count = (columns.len() * rows.len()) as f64;
+        let cells = rows.flat_map(|row| columns.clone().map(move |column| row * across + column));
+        cells.map(|cell| 1.0 - f64::from(greys[cell]) / 255.0).sum::<f64>() / count
+    };
+    let inside = darkness(201..299, 51..89);
+    assert!((inside - 0.2 * 2.0_f64.sqrt()).abs() < 0.02, "{inside}");
+    // A line's end is cut square, and sticks out by half its width at most.
+    assert!(darkness(200..300, 92..95) == 0.0 && darkness(302..310, 50..90) == 0.0);
+}
+
+#[test]
+fn what_has_no_extent_is_not_there() {
+    let empty = Sheet::new("t", 10.0, 10.0);
+    let mut sheet = empty.clone();
+    sheet.draw(Shape::area([], BLACK));
+    sheet.draw(Shape::line([[1.0, 1.0]], Stroke::black(0.5)));
+    assert_eq!(sheet, empty);
+}
+
+#[test]
+fn text_can_be_read_and_is_escaped() {
+    let svg = page().to_svg();
+    assert!(svg.contains(">13° → 7.3°</text>") && svg.contains(">up &lt; down</text>"));
+    assert!(svg.contains("<title>Page &amp; &lt;title&gt;</title>"));
+    // Letters are drawn once and used often: the font is not needed where the page is shown.
+    assert!(!svg.contains("font-family") && svg.contains("<use href=\"#b31\""));
+}
+
+/// A PDF reader finds objects by the table at the end, whose place the last lines tell.
+#[test]
+fn a_pdf_leads_to_its_table() {
+    let pdf = page().to_pdf();
+    assert!(pdf.starts_with(b"%PDF-1.") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+    let tail = String::from_utf8_lossy(&pdf[pdf.len() - 60..]).into_owned();
+    let place = tail.split("startxref").nth(1).expect("it is told").split_whitespace().next();
+    let place: usize = place.expect("a number").parse().expect("a number");
+    assert!(pdf[place..].starts_with(b"xref"));
+}
+
+#[test]
+fn lines_are_no_wider_than_they_may_be() {
+    let text = "on at least 95 % of the drawn soils the rover crosses level";
+    let lines = wrap(text, Face::Regular, 3.0, 30.0);
+    assert!(lines.len() > 1 && lines.iter().all(|line| width(line, Face::Regular, 3.0) <= 30.0));
+    assert_eq!(lines.join(" "), text);
+    // A word that is too long stands alone.
+    assert_eq!(wrap("a longwordindeed b", Face::Regular, 3.0, 5.0).len(), 3);
+}
+
+/// Twice the size is twice the width, and anchors only move a text.
+#[test]
+fn widths_go_with_the_size() {
+    let once = width("Heading 13°", Face::Bold, 3.0);
+    assert!((width("Heading 13°", Face::Bold, 6.0) - 2.0 * once).abs() < 1e-12);
+    let placed = |anchor: Anchor, x: f64| {
+        let mut sheet = Sheet::new("t", 60.0, 10.0);
+        sheet.text(Text::new("Heading 13°", 3.0).face(Face::Bold).anchor(anchor), [x, 5.0]);
+        sheet.to_svg()
+    };
+    let start = placed(Anchor::Start, 10.0);
+    assert_eq!(placed(Anchor::End, 10.0 + once), start);
+    assert_eq!(placed(Anchor::Middle, 10.0 + once / 2.0), start);
+}

@@ -1,0 +1,278 @@
+//! The operator's card: for each slope, which heading keeps a traverse level, what it costs, what
+//! happens without it, and whether to go at all.
+//!
+//! On an uncertain soil every number has a band over its draws, and a slope is judged by how many
+//! of them allow a level traverse at a slip that a rover can afford. On a soil of which no
+//! uncertainty is stated there is one curve and no band: nothing is made up, and a slope is judged
+//! as if it were steeper by a margin. The [`Rule`] is the caller's; a verdict never gets better on
+//! a steeper slope.
+
+use rayon::prelude::*;
+
+use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy};
+use super::uncertainty::{Band, Probability};
+use crate::error::ParameterError;
+use crate::soil::Soil;
+
+/// What an operator is told about a slope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// Drive.
+    Go,
+    /// Drive only with a second look: measured slip, a stop on the way, someone's decision.
+    Caution,
+    /// Do not drive.
+    NoGo,
+}
+
+/// When to go, and when not to. Source of all numbers: ours; a mission has its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rule {
+    /// Go: a level traverse exists and slips at most this much [-] …
+    pub go_slip_ratio: f64,
+    /// … on at least this share of the drawn soils [-].
+    pub go_probability: f64,
+    /// No-go: a level traverse exists and slips at most this much [-] …
+    pub no_go_slip_ratio: f64,
+    /// … on less than this share of the drawn soils [-].
+    pub no_go_probability: f64,
+    /// Without stated uncertainty a slope is judged as if it were steeper by this [rad].
+    pub margin: f64,
+}
+
+impl Rule {
+    /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
+    /// 95 % band.
+    /// Slip 0.6: rims go 2.5 times the way, and thrust hardly grows any more: nothing is left to
+    /// get out with. 0.8: on one soil in five the slope cannot be crossed level.
+    /// 5°: about as far as the stated deviations of Toyoura sand move the steepest slope down.
+    pub const DEFAULT: Self = Self {
+        go_slip_ratio: 0.3,
+        go_probability: 0.95,
+        no_go_slip_ratio: 0.6,
+        no_go_probability: 0.8,
+        margin: 5.0 * std::f64::consts::PI / 180.0,
+    };
+
+    /// That the rule has an order: what is a go is never a no-go.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for shares and slip ratios outside 0 to 1, a go that asks for less than
+    /// a no-go, and a margin outside 0 to π/3.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        let within = |name: &str, value: f64, most: f64, expected: &'static str| {
+            let inside = (0.0..=most).contains(&value);
+            inside.then_some(()).ok_or_else(|| ParameterError::new(name, value, expected))
+        };
+        let (slip, share) = (self.no_go_slip_ratio, self.go_probability);
+        within("the no-go slip ratio", slip, 1.0, "0 to 1")?;
+        within("the go slip ratio", self.go_slip_ratio, slip, "0 to the no-go slip ratio")?;
+        within("the go probability", share, 1.0, "0 to 1")?;
+        let most = "0 to the go probability";
+        within("the no-go probability", self.no_go_probability, share, most)?;
+        within("the margin [rad]", self.margin, std::f64::consts::FRAC_PI_3, "0 to π/3")
+    }
+
+    /// The verdict on a slope.
+    ///
+    /// * `slips`: slip ratio of the level traverse on each soil, `None` where there is none
+    fn verdict(&self, slips: &[Option<f64>]) -> Verdict {
+        let share_within = |most: f64| {
+            let count = slips.iter().flatten().filter(|slip| **slip <= most).count();
+            count as f64 / slips.len() as f64
+        };
+        if share_within(self.go_slip_ratio) >= self.go_probability {
+            Verdict::Go
+        } else if share_within(self.no_go_slip_ratio) < self.no_go_probability {
+            Verdict::NoGo
+        } else {
+            Verdict::Caution
+        }
+    }
+}
+
+/// What the card asks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CardStudy {
+    /// Rover, soil as its document has it, gravity, theory and balance.
+    pub attitude: AttitudeStudy,
+    /// Rim speed ω r_s [m/s], for the power.
+    pub rim_speed: f64,
+    /// When to go.
+    pub rule: Rule,
+}
+
+/// The card's numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// On each slope that was asked for, in that order.
+    pub rows: Vec<CardRow>,
+    /// Steepest slope with a level traverse on the soil as written [rad], and what ends it; `Err` with
+    /// the reason where the rover cannot move.
+    pub limit: Result<(f64, String), String>,
+    /// The same over the draws on which the rover can move.
+    pub limit_band: Option<Band>,
+    /// How many soils were drawn; `None` where no uncertainty is stated.
+    pub draws: Option<usize>,
+}
+
+/// One slope of the card.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CardRow {
+    /// Slope, *α* [rad].
+    pub slope: f64,
+    /// Whether to go.
+    pub verdict: Verdict,
+    /// On the soil as written; `None` where it has no level traverse.
+    pub level: Option<Level>,
+    /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
+    /// the contour [-]; `None` where the rover slides.
+    pub drift: Option<f64>,
+    /// Over the draws; `None` where no uncertainty is stated.
+    pub bands: Option<CardBands>,
+}
+
+/// A level traverse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Yaw, *γ* [rad], positive uphill.
+    pub yaw: f64,
+    /// Slip ratio of every wheel, *s* [-].
+    pub slip_ratio: f64,
+    /// Power of the motors [W].
+    pub power: f64,
+}
+
+/// What the draws say of one slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CardBands {
+    /// How many have a level traverse: those that yaw, slip and power are over.
+    pub level: Probability,
+    /// Yaw, *γ* [rad].
+    pub yaw: Option<Band>,
+    /// Slip ratio, *s* [-].
+    pub slip_ratio: Option<Band>,
+    /// Power of the motors [W].
+    pub power: Option<Band>,
+    /// How many do not slide with the nose on the contour: those that drift is over.
+    pub held: Probability,
+    /// Drift [-].
+    pub drift: Option<Band>,
+}
+
+/// What is kept of one soil.
+struct Draw {
+    limit: Result<(f64, String), String>,
+    /// On each slope.
+    levels: Vec<Option<Level>>,
+    drifts: Vec<Option<f64>>,
+}
+
+impl CardStudy {
+    /// The card. Draws are shared among threads and keep their order: the result is the same for
+    /// any number of threads.
+    ///
+    /// * `soils`: one for each draw; none where no uncertainty is stated
+    /// * `slopes`: [rad], rising
+    /// * `done`: called after each draw, from any thread
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
+    /// first soil that is none.
+    pub fn card(
+        &self,
+        soils: &[Soil],
+        slopes: &[f64],
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Card, ParameterError> {
+        self.rule.check()?;
+        crate::error::positive("rim speed [m/s]", self.rim_speed)?;
+        if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
+            return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
+        }
+        let nominal = self.draw(&self.attitude.soil, slopes)?;
+        let drawn = |soil: &Soil| {
+            let draw = self.draw(soil, slopes);
+            done();
+            draw
+        };
+        let all: Vec<Result<Draw, ParameterError>> = soils.par_iter().map(drawn).collect();
+        // Collected in order, so that the error is always that of the first soil.
+        let draws = all.into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
+        let judged: Vec<Vec<Option<f64>>> = if draws.is_empty() {
+            let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
+            let levels = self.draw(&self.attitude.soil, &steeper)?.levels;
+            levels.iter().map(|level| vec![level.map(|level| level.slip_ratio)]).collect()
+        } else {
+            (0..slopes.len()).map(|place| slips_at(&draws, place)).collect()
+        };
+        let limits = draws.iter().filter_map(|draw| draw.limit.as_ref().ok());
+        Ok(Card {
+            rows: self.rows(slopes, &nominal, &draws, &judged),
+            limit: nominal.limit,
+            limit_band: Band::of(limits.map(|(slope, _)| *slope)),
+            draws: (!draws.is_empty()).then_some(draws.len()),
+        })
+    }
+
+    fn rows(
+        &self,
+        slopes: &[f64],
+        nominal: &Draw,
+        draws: &[Draw],
+        judged: &[Vec<Option<f64>>],
+    ) -> Vec<CardRow> {
+        let mut worst = Verdict::Go;
+        let row = |(place, slope): (usize, &f64)| {
+            worst = worst.max(self.rule.verdict(&judged[place]));
+            CardRow {
+                slope: *slope,
+                verdict: worst,
+                level: nominal.levels[place],
+                drift: nominal.drifts[place],
+                bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+            }
+        };
+        slopes.iter().enumerate().map(row).collect()
+    }
+
+    fn draw(&self, soil: &Soil, slopes: &[f64]) -> Result<Draw, ParameterError> {
+        let study = AttitudeStudy { soil: *soil, ..self.attitude.clone() };
+        let (level, drift) = (study.curve()?, study.drift_curve()?);
+        let keep = |attitude: &Attitude| Level {
+            yaw: attitude.yaw,
+            slip_ratio: attitude.slip_ratio,
+            power: attitude.power(&study.rover, self.rim_speed),
+        };
+        let on = |curve: &AttitudeCurve, slope: f64| curve.at(slope).ok();
+        Ok(Draw {
+            limit: level
+                .limit()
+                .map(|(slope, reason)| (slope, reason.to_owned()))
+                .map_err(|error| error.to_string()),
+            levels: slopes.iter().map(|slope| on(&level, *slope).as_ref().map(keep)).collect(),
+            drifts: slopes.iter().map(|slope| Some(on(&drift, *slope)?.drift())).collect(),
+        })
+    }
+}
+
+/// Slip ratios of the level traverses on one of the slopes.
+fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
+    draws.iter().map(|draw| draw.levels[place].map(|level| level.slip_ratio)).collect()
+}
+
+impl CardBands {
+    fn over(draws: &[Draw], place: usize) -> Self {
+        let levels: Vec<Level> = draws.iter().filter_map(|draw| draw.levels[place]).collect();
+        let drifts: Vec<f64> = draws.iter().filter_map(|draw| draw.drifts[place]).collect();
+        let trials = draws.len();
+        Self {
+            level: Probability { successes: levels.len(), trials },
+            yaw: Band::of(levels.iter().map(|level| level.yaw)),
+            slip_ratio: Band::of(levels.iter().map(|level| level.slip_ratio)),
+            power: Band::of(levels.iter().map(|level| level.power)),
+            held: Probability { successes: drifts.len(), trials },
+            drift: Band::of(drifts),
+        }
+    }
+}
