@@ -197,7 +197,11 @@ class Traverse:
         x, y = self.data.body("rover").xpos[:2]
         # A point ahead: first up the slope, then along the contour.
         reach = 0.6
-        ahead = np.array([x + reach, LEVEL_Y]) if y > LEVEL_Y - reach else np.array([START[0], y + reach])
+        ahead = (
+            np.array([x + reach, LEVEL_Y])
+            if y > LEVEL_Y - reach
+            else np.array([START[0], y + reach])
+        )
         bearing = np.arctan2(ahead[1] - y, ahead[0] - x) - self.yaw
         bearing = (bearing + np.pi) % (2.0 * np.pi) - np.pi
         curvature = np.clip(2.0 * np.sin(bearing) / np.hypot(*(ahead - [x, y])), -1.4, 1.4)
@@ -241,7 +245,11 @@ class Painter:
         self._renderer = mujoco.Renderer(traverse.model, tall, width, max_geom=20_000)
 
     def picture(
-        self, run: Run, lookat: tuple[float, float, float], distance: float, azimuth: float,
+        self,
+        run: Run,
+        lookat: tuple[float, float, float],
+        distance: float,
+        azimuth: float,
         elevation: float,
     ) -> NDArray[np.uint8]:
         """The rover and the way it came, seen from a place."""
@@ -289,7 +297,11 @@ def charts(run: Run, path: Path) -> None:
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(3, 1, figsize=(9, 8), sharex=True, layout="constrained")
-    rows = (("slip ratio", run.slip_ratio), ("sinkage [mm]", run.sinkage_mm), ("load [N]", run.load_n))
+    rows = (
+        ("slip ratio", run.slip_ratio),
+        ("sinkage [mm]", run.sinkage_mm),
+        ("load [N]", run.load_n),
+    )
     for axis, (label, values) in zip(axes, rows):
         axis.plot(run.time_s, np.array(values), label=list(CORNERS))
         axis.set_ylabel(label)

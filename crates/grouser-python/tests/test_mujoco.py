@@ -73,7 +73,8 @@ def test_grouser_does_not_bring_mujoco() -> None:
 
 def test_without_mujoco_the_error_says_what_to_install() -> None:
     code = "import sys; sys.modules['mujoco'] = None; import grouser.mujoco"
-    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    command = [sys.executable, "-c", code]
+    told = subprocess.run(command, check=False, capture_output=True, text=True)
     assert told.returncode == 1
     assert "ImportError: grouser.mujoco needs MuJoCo: pip install grouser[mujoco]" in told.stderr
 
@@ -154,8 +155,12 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
     model = mujoco.MjModel.from_xml_string(STAND)
     data = mujoco.MjData(model)
     soil = SoilContact(
-        model, soil="toyoura", wheels={"wheel": "hakuto"}, ground="ground", moments="neglected",
-        rest_speed_m_s=1e-6
+        model,
+        soil="toyoura",
+        wheels={"wheel": "hakuto"},
+        ground="ground",
+        moments="neglected",
+        rest_speed_m_s=1e-6,
     )
     forward = 0.05
     rim = forward / (1.0 - slip_ratio) if slip_ratio > 0 else forward * (1.0 + slip_ratio)
@@ -293,9 +298,9 @@ def test_integrators_agree() -> None:
 )
 def test_it_agrees_with_our_own_rover_on_a_plane(slope_deg: float, yaw_deg: float) -> None:
     """Mean slip over wheels and time, and drift over distance, within 2 %; where a yaw uphill
-    cancels most of the drift, the rest of it to a thousandth of the distance. DIFFERENCE: ours takes
-    the centre of mass at its height without sinkage, stays parallel to the plane, and has no inertia
-    in heave, pitch and roll."""
+    cancels most of the drift, the rest of it to a thousandth of the distance. DIFFERENCE: ours
+    takes the centre of mass at its height without sinkage, stays parallel to the plane, and has no
+    inertia in heave, pitch and roll."""
     duration = 4.0
     plane = Plane(slope_deg=slope_deg, yaw_deg=yaw_deg)
     plane.roll(yaw_deg)

@@ -254,7 +254,9 @@ def _hinge(model: Any, name: str) -> int:
         raise ParameterError(f"the model has no body {name!r} for a wheel", "wheels")
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     if count != 1 or int(model.jnt_type[first]) != _HINGE:
-        raise ParameterError(f"the wheel {name!r} must turn on one hinge, and on that alone", "wheels")
+        raise ParameterError(
+            f"the wheel {name!r} must turn on one hinge, and on that alone", "wheels"
+        )
     return first
 
 
@@ -273,9 +275,7 @@ def _check_contact_is_off(model: Any, bodies: NDArray[np.int64], ground: str) ->
             for first, second in zip(model.pair_geom1, model.pair_geom2)
         )
         if paired or (touching and (one << 16) + other not in excluded):
-            wheel = mujoco.mj_id2name(
-                model, mujoco.mjtObj.mjOBJ_BODY, int(model.geom_bodyid[geom])
-            )
+            wheel = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, int(model.geom_bodyid[geom]))
             raise ParameterError(
                 f"MuJoCo's own contact between the wheel {wheel!r} and the ground {ground!r} is on: "
                 f'give the geoms of the wheel contype="0" conaffinity="0", or exclude the pair',

@@ -115,9 +115,7 @@ def _cell(place: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
     return inside - cell, cell
 
 
-def ground_of(
-    model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats
-) -> Ground:
+def ground_of(model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats) -> Ground:
     """The ground that a geom's name or a function stands for, under wheels of these shearing radii
     and widths [m]."""
     if isinstance(ground, str):
@@ -127,7 +125,9 @@ def ground_of(
         return _Uneven(geom, _HeightField(model, geom), radii, widths)
     if not callable(ground):
         given = type(ground).__name__
-        raise ParameterError(f"ground is a {given}, it must be a geom's name or a function", "ground")
+        raise ParameterError(
+            f"ground is a {given}, it must be a geom's name or a function", "ground"
+        )
     return _Uneven(None, ground, radii, widths)
 
 

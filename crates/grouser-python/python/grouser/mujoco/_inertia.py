@@ -14,8 +14,8 @@ _EULER_DAMPING_OFF = int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
 
 
 def inertia_of_step(model: Any, stepped: Any) -> Floats:
-    """M − Δt ∂f/∂v [kg, kg·m, kg·m²], with the forces that the integrator takes at the step's end:
-    joint damping for Euler, and those of actuators too for the implicit ones.
+    """M − Δt ∂f/∂v [kg, kg·m, kg·m²], with the forces that the integrator takes at the end of the
+    step: joint damping for Euler, and those of actuators too for the implicit ones.
 
     Parameters
     ----------
