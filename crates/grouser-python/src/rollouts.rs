@@ -93,13 +93,11 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
     let Some(index) = index else { return Ok(None) };
     let place = |it: &i64| usize::try_from(*it).ok().filter(|place| *place < known);
     let all: Option<Vec<usize>> = index.as_slice()?.iter().map(place).collect();
-    match all.filter(|all| all.len() == count) {
-        Some(all) => Ok(Some(all)),
-        None => {
-            let message = "an index does not fit the runs".to_owned();
-            Err(errors::parameter(message, "scenarios", None, "an index for each run"))
-        }
-    }
+    let all = all.filter(|all| all.len() == count).ok_or_else(|| {
+        let message = "an index does not fit the runs".to_owned();
+        errors::parameter(message, "scenarios", None, "an index for each run")
+    })?;
+    Ok(Some(all))
 }
 
 fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(Varied, Vec<f64>)>> {

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas
 import pyarrow
 import pytest
 
@@ -40,10 +41,8 @@ def test_the_arrow_table_is_the_pandas_table(result: Any) -> None:
     table, frame = pyarrow.table(result), result.to_pandas()
     assert table.column_names == list(frame.columns) and table.num_rows == len(frame)
     for name in table.column_names:
-        cells, expected = table[name].to_pylist(), frame[name].tolist()
-        if pyarrow.types.is_floating(table.schema.field(name).type):
-            expected = [None if np.isnan(cell) else cell for cell in expected]
-        assert cells == expected, name
+        expected = [None if pandas.isna(cell) else cell for cell in frame[name]]
+        assert table[name].to_pylist() == expected, name
     assert result.to_arrow().equals(table, check_metadata=True)
 
 
@@ -69,9 +68,6 @@ def test_a_stream_can_be_left_unread() -> None:
         result.__arrow_c_stream__()
     reader = pyarrow.RecordBatchReader.from_stream(result)
     assert reader.read_all().num_rows == 1000
-    requested = pyarrow.schema([("load_n", pyarrow.float64())])
-    assert pyarrow.table(result, schema=None).schema.names[0] == "slip_ratio"
-    assert requested.names[0] in pyarrow.table(result).schema.names
 
 
 def test_an_empty_result_is_an_empty_table() -> None:

@@ -38,6 +38,9 @@ def alike(one: Any, other: Any, what: str) -> None:
         assert one.keys() == other.keys(), what
         for key in one:
             alike(one[key], other[key], f"{what}.{key}")
+    elif isinstance(one, tuple):
+        for left, right in zip(one, other):
+            alike(left, right, what)
     elif isinstance(one, np.ndarray):
         assert one.dtype == other.dtype and one.shape == other.shape, what
         if one.dtype == object:

@@ -48,7 +48,8 @@ class SimulatorBatch:
     >>> slopes = [5.0, 10.0, 15.0]
     >>> rovers = gr.SimulatorBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="speed_m_s")
     >>> state = rovers.step(0.06, 1.0)
-    >>> state.shape, bool((np.diff(state[:, 1]) < 0.0).all())   # steeper slopes, more drift
+    >>> drift = state[:, rovers.STATE.index("y_m")].tolist()
+    >>> state.shape, drift[0] > drift[1] > drift[2]      # steeper slopes, more drift downhill
     ((3, 6), True)
     """
 
@@ -306,7 +307,7 @@ class Simulator:
     >>> for _ in range(20):
     ...     state = rover.step([0.03, 0.03, 0.09, 0.09], 0.1)
     >>> state = rover.step(0.06, 3.0)
-    >>> dict(zip(rover.STATE, state.round(3)))["yaw_deg"] > 0.0
+    >>> float(dict(zip(rover.STATE, state))["yaw_deg"]) > 0.0
     True
     >>> rover.wheel["slip_ratio"].shape, rover.outcome
     ((4,), None)
