@@ -184,7 +184,7 @@ def example() -> Any:
 
 
 def test_the_baseline_holds_the_line_better_than_driving_straight_on() -> None:
-    """On slopes and soils that neither knows. Quasi-steady runs, a tenth of the work."""
+    """On slopes and soils that neither knows. Quasi-steady runs, the quicker ones."""
     lines = example()
     steady = {"scenario": {"simulation": "quasi-steady"}}
     straight, straight_lost = lines.rms_offsets(lines.straight_on, 24, seed=100, **steady)

@@ -286,8 +286,8 @@ class Simulator:
         What `step` is told: speeds of the wheels [rad/s], or of their rims, ω (r + h_g) [m/s].
     **changes
         Keys of the scenario with other values: ``slope_deg=15.0``. With
-        ``simulation="quasi-steady"`` velocities are those in balance, at a tenth of the time: see
-        `Scenario`.
+        ``simulation="quasi-steady"`` velocities are those in balance, which is quicker to compute and
+        another motion: ``docs/guide/simulator.md`` says by how much.
 
     Raises
     ------

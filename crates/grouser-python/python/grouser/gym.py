@@ -178,7 +178,7 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is some ten times as fast.
+        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is some four times as fast.
     soil : Soil, name, path or mapping
         The soil; without ``[uncertainty]`` it is the same in every episode.
     slope_deg : (float, float)
