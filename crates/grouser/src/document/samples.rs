@@ -50,8 +50,7 @@ impl SampleTable {
     ///
     /// * `label`: what messages call it
     pub(super) fn of_text(label: String, content: String) -> Result<Self, DocumentError> {
-        let folder = Path::new("").to_owned();
-        Self::parse(Arc::new(Text { label, content, folder, is_argument: false }))
+        Self::parse(Arc::new(Text { label, content, ..Text::default() }))
     }
 
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {
