@@ -19,6 +19,19 @@ pub(super) fn uniform(random: &mut ChaCha8Rng) -> f64 {
     part(random.next_u64())
 }
 
+/// A whole number below a count, of which there is at least one.
+pub(super) fn below(random: &mut ChaCha8Rng, count: usize) -> usize {
+    place_below(uniform(random) * count as f64, count)
+}
+
+/// The whole part of a place in a list that is not negative; the last one for what is beyond.
+pub(super) fn place_below(place: f64, length: usize) -> usize {
+    // Saturating: what is beyond the largest number of all is beyond the list, too.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let whole = place as usize;
+    whole.min(length - 1)
+}
+
 /// A standard normal number, by the inverse of its distribution at a uniform one.
 pub(super) fn standard_normal(random: &mut ChaCha8Rng) -> f64 {
     normal_score(uniform(random))

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
 
-use super::random::{self, normal_score, normal_share};
+use super::random::{self, normal_score, normal_share, place_below};
 
 /// The distribution of one value, in the value's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -323,14 +323,6 @@ impl Distribution {
         let point: Vec<f64> = (0..self.dimensions()).map(|_| random::uniform(random)).collect();
         self.at(&point)
     }
-}
-
-/// The whole part of a place in a list that is not negative; the last one for what is beyond.
-fn place_below(place: f64, length: usize) -> usize {
-    // Saturating: what is beyond the largest number of all is beyond the list, too.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let whole = place as usize;
-    whole.min(length - 1)
 }
 
 /// The middle 95 % of a quantity, and its median.

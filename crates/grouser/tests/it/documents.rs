@@ -38,6 +38,13 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
         Kind::Rover => read!(read_rover),
         Kind::Scenario => read!(read_scenario),
         Kind::DataSet => read!(read_data_set),
+        Kind::Campaign => {
+            let campaign = document::read_campaign(source, overrides)?;
+            let resolved = campaign.resolved().to_owned();
+            // A row of each: what a campaign means is what it computes.
+            let meaning = format!("{:?} {:?}", campaign.columns(), campaign.run(0));
+            Ok(Read { resolved, meaning, assumptions: campaign.assumptions().to_vec() })
+        }
     }
 }
 
@@ -73,16 +80,22 @@ fn every_preset_says_its_name_and_its_source() {
 #[test]
 fn every_file_of_the_data_is_a_preset() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folders = ["data/soils", "data/wheels", "data/rovers", "scenarios", "data/measurements"];
-    for (kind, folder) in Kind::ALL.into_iter().zip(folders) {
+    let kinds: [(&str, &[Kind]); 5] = [
+        ("data/soils", &[Kind::Soil]),
+        ("data/wheels", &[Kind::Wheel]),
+        ("data/rovers", &[Kind::Rover]),
+        ("scenarios", &[Kind::Scenario, Kind::Campaign]),
+        ("data/measurements", &[Kind::DataSet]),
+    ];
+    for (folder, kinds) in kinds {
         let entries = fs::read_dir(root.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries
             .map(|entry| entry.expect("it can be listed").path())
             .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
             .collect();
         files.sort();
-        let mut presets: Vec<_> =
-            document::presets(kind).map(|preset| preset.name.to_owned()).collect();
+        let presets = kinds.iter().flat_map(|kind| document::presets(*kind));
+        let mut presets: Vec<_> = presets.map(|preset| preset.name.to_owned()).collect();
         presets.sort();
         assert_eq!(files, presets, "{folder}");
     }

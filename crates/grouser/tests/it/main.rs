@@ -2,6 +2,8 @@
 
 mod attitude_map;
 mod calibration;
+mod campaign;
+mod campaign_documents;
 mod documents;
 mod extended;
 mod floors;

@@ -259,3 +259,54 @@ pub(super) fn number_keys(tree: &toml::Value) -> Vec<String> {
     });
     keys.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use serde::Serialize;
+    use serde::de::DeserializeOwned;
+
+    use super::*;
+    use crate::document::{Kind, Overrides, Source, presets, read_scenario, read_soil};
+
+    /// That every number of a document is reached by its key, and no other is changed by it.
+    fn check_numbers<D: Numbers + Serialize + DeserializeOwned + Clone>(document: &D) -> usize {
+        let tree = |document: &D| toml::Value::try_from(document).expect("a table");
+        let at = |tree: &toml::Value, key: &str| {
+            key.split('.').fold(tree.clone(), |node, step| match step.parse::<usize>() {
+                Ok(place) => node[place].clone(),
+                Err(_) => node[step].clone(),
+            })
+        };
+        let before = tree(document);
+        let keys = number_keys(&before);
+        for key in &keys {
+            let mut changed = document.clone();
+            let number = changed.number_mut(key).unwrap_or_else(|| panic!("{key} is forgotten"));
+            assert_eq!(Some(*number), at(&before, key).as_float(), "{key}");
+            *number += 1.0;
+            let after = tree(&changed);
+            for other in &keys {
+                let differs = at(&before, other) != at(&after, other);
+                assert_eq!(differs, key == other, "{key} changes {other}");
+            }
+        }
+        keys.len()
+    }
+
+    #[test]
+    fn every_number_of_the_presets_is_reached_by_its_key() {
+        let mut count = 0;
+        for preset in presets(Kind::Soil) {
+            let loaded = read_soil(&Source::Preset(preset), &Overrides::none()).expect("a preset");
+            let mut soil = loaded.document;
+            soil.uncertainty = None;
+            count += check_numbers(&soil);
+        }
+        for preset in presets(Kind::Scenario) {
+            let source = Source::Preset(preset);
+            let loaded = read_scenario(&source, &Overrides::none()).expect("a preset");
+            count += check_numbers(&loaded.document);
+        }
+        assert!(count > 500, "{count}");
+    }
+}
