@@ -15,12 +15,16 @@ use crate::workspace;
 const PACKAGE: &str = "crates/grouser-python";
 
 /// What builds and tests the package, by name: where from is for pip's own settings to say.
-const NEEDED: [&str; 8] = [
+const NEEDED: [&str; 12] = [
     "maturin>=1.16,<2",
     "numpy",
     "pandas",
     "xarray",
     "matplotlib",
+    "pyarrow",
+    "distributed",
+    "fsspec",
+    "ray",
     "pytest>=8",
     "hypothesis>=6",
     "mypy>=1.10",

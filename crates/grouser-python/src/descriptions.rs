@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
+use crate::campaign::LoadedCampaign;
 use crate::{errors, values};
 
 /// A document that was read: what it says, and what that means.
@@ -26,6 +27,7 @@ enum Read {
     Wheel(Box<LoadedWheel>),
     Rover(Box<LoadedRover>),
     Scenario(Box<LoadedScenario>),
+    Campaign(Box<LoadedCampaign>),
 }
 
 impl Read {
@@ -34,7 +36,8 @@ impl Read {
             Kind::Soil => Self::Soil(document::read_soil(source, overrides)?.into()),
             Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
-            Kind::Scenario | Kind::DataSet | Kind::Campaign => {
+            Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
+            Kind::Scenario | Kind::DataSet => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
         })
@@ -49,6 +52,7 @@ impl Document {
             Read::Wheel(it) => Table::try_from(&it.document),
             Read::Rover(it) => Table::try_from(&it.document),
             Read::Scenario(it) => Table::try_from(&it.document),
+            Read::Campaign(it) => Table::try_from(it.document()),
         };
         // A document that was read has text keys and finite numbers only.
         table.unwrap_or_default()
@@ -61,6 +65,7 @@ impl Document {
             Read::Wheel(it) => serde_json::to_value(&it.document),
             Read::Rover(it) => serde_json::to_value(&it.document),
             Read::Scenario(it) => serde_json::to_value(&it.document),
+            Read::Campaign(it) => serde_json::to_value(it.document()),
         };
         json.unwrap_or_default()
     }
@@ -86,6 +91,17 @@ impl Document {
         }
     }
 
+    pub(crate) fn campaign(&self) -> PyResult<&LoadedCampaign> {
+        match &self.read {
+            Read::Campaign(campaign) => Ok(campaign),
+            _ => Err(self.is_no("campaign")),
+        }
+    }
+
+    pub(crate) fn of_campaign(campaign: LoadedCampaign) -> Self {
+        Self { read: Read::Campaign(campaign.into()) }
+    }
+
     fn is_no(&self, expected: &str) -> PyErr {
         PyValueError::new_err(format!("this is a {}, not a {expected}", self.kind()))
     }
@@ -93,7 +109,7 @@ impl Document {
 
 #[pymethods]
 impl Document {
-    /// `soil`, `wheel`, `rover` or `scenario`.
+    /// `soil`, `wheel`, `rover`, `scenario` or `campaign`.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.read {
@@ -101,6 +117,7 @@ impl Document {
             Read::Wheel(_) => Kind::Wheel.name(),
             Read::Rover(_) => Kind::Rover.name(),
             Read::Scenario(_) => Kind::Scenario.name(),
+            Read::Campaign(_) => Kind::Campaign.name(),
         }
     }
 
@@ -112,6 +129,7 @@ impl Document {
             Read::Wheel(it) => it.assumptions.clone(),
             Read::Rover(it) => it.assumptions.clone(),
             Read::Scenario(it) => it.assumptions.clone(),
+            Read::Campaign(it) => it.campaign().assumptions().to_vec(),
         }
     }
 
@@ -122,6 +140,7 @@ impl Document {
             Read::Wheel(it) => it.to_toml(),
             Read::Rover(it) => it.to_toml(),
             Read::Scenario(it) => it.to_toml(),
+            Read::Campaign(it) => it.campaign().resolved().to_owned(),
         }
     }
 
@@ -203,7 +222,7 @@ fn changed(
 }
 
 fn kind_of(name: &str) -> PyResult<Kind> {
-    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario];
+    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario, Kind::Campaign];
     known
         .into_iter()
         .find(|kind| kind.name() == name)

@@ -1,10 +1,11 @@
 //! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]) and runs studies
-//! ([`studies`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
-//! computes physics, and nothing below knows of Python.
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), runs studies
+//! ([`studies`]) and campaigns ([`campaign`]), without Python's lock and with an ear for Ctrl-C
+//! ([`interrupt`]). Nothing here computes physics, and nothing below knows of Python.
 
+mod campaign;
 mod columns;
 mod descriptions;
 mod errors;
@@ -17,6 +18,12 @@ mod wheels;
 /// The module `grouser._core`.
 #[pyo3::pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::campaign::{
+        CampaignFolder, campaign_facts, campaign_manifest, campaign_row, campaign_shard,
+        campaign_summary, check_shard, find_campaign, merge_campaign, read_shard,
+        study_difference,
+    };
     #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,

@@ -3,7 +3,8 @@
 Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
 `wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`).
+(`wheel_test`, `validate`). A `Campaign` puts what is not known exactly through a study, on one machine
+or on many (`grouser.campaign`).
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -20,9 +21,14 @@ Examples
 'completed'
 """
 
+from . import campaign
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
+    CampaignDiskError,
+    CampaignError,
+    CampaignLockedError,
+    CampaignNotFoundError,
     DocumentError,
     DocumentNotFoundError,
     DocumentUnreadableError,
@@ -44,6 +50,7 @@ from ._studies import (
 )
 from ._validation import Validation, validate
 from ._wheels import Settled, WheelForces, settle, wheel_forces
+from .campaign import Campaign
 
 __all__ = [
     "EARTH_GRAVITY",
@@ -51,6 +58,11 @@ __all__ = [
     "MOON_GRAVITY",
     "AttitudeMap",
     "Attitudes",
+    "Campaign",
+    "CampaignDiskError",
+    "CampaignError",
+    "CampaignLockedError",
+    "CampaignNotFoundError",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
@@ -71,6 +83,7 @@ __all__ = [
     "__version__",
     "attitude",
     "attitude_map",
+    "campaign",
     "rollout",
     "settle",
     "simulate",

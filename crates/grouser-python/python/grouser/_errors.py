@@ -126,3 +126,51 @@ class SimulationError(GrouserError, ArithmeticError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.time_s)
+
+
+class CampaignError(GrouserError):
+    """A campaign that cannot go on: a folder with another study, a shard that nobody can compute."""
+
+
+class CampaignLockedError(CampaignError, BlockingIOError):
+    """Another program writes to the folder."""
+
+    def __init__(self, message: str, folder: str | None = None) -> None:
+        super().__init__(message)
+        self.filename = folder
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.filename)
+
+
+class CampaignNotFoundError(CampaignError, FileNotFoundError):
+    """There is no campaign in the folder."""
+
+    def __init__(self, message: str, folder: str | None = None) -> None:
+        super().__init__(message)
+        self.errno = errno.ENOENT
+        self.filename = folder
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.filename)
+
+
+class CampaignDiskError(CampaignError, OSError):
+    """The disk is full or fails, or does not permit it. What was written before is kept."""
+
+    def __init__(self, message: str, number: int | None = None, file: str | None = None) -> None:
+        super().__init__(message)
+        self.errno = number
+        self.filename = file
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.errno, self.filename)
