@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::measurements::{Condition, Mapping};
 use grouser::document::{FitKey, Kind};
+use grouser_store::Part;
 
 use crate::list::{self, Numbers};
 use crate::output::Format;
@@ -17,7 +18,7 @@ use crate::output::Format;
 #[command(name = "grouser", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "Start with `grouser reproduce`: the source paper's study, as a page to \
                         open in a browser. Exit codes: 0 done, 1 the run or the disk failed, 2 \
-                        wrong use or a bad document, 130 interrupted.")]
+                        wrong use or a bad document, 3 some runs of a campaign failed, 130 interrupted.")]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// Find the soil that measured wheel tests, or plate tests, speak for, and how surely.
     Calibrate(CalibrateArgs),
+    /// Many runs over what is not known exactly, and what they say together.
+    Campaign(CampaignArgs),
     /// Turn another laboratory's CSV into the layout that `validate` reads.
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.
@@ -449,6 +452,136 @@ pub(crate) enum SlipWord {
     Rim,
     /// wr/v - 1, in driving too.
     Hub,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignArgs {
+    #[command(subcommand)]
+    pub(crate) command: CampaignCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum CampaignCommand {
+    /// Compute a campaign's runs, or those that are missing.
+    Run(CampaignRunArgs),
+    /// Compute one run again, and compare it with what is stored.
+    Rerun(CampaignRerunArgs),
+    /// Bring the parts of an array of jobs together.
+    Merge(CampaignMergeArgs),
+    /// What the runs say together: quantiles, probabilities, convergence, sensitivities.
+    Summarise(CampaignSummariseArgs),
+    /// The SHA-256 over all results.
+    Digest(CampaignDigestArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The same command goes on with a campaign that was interrupted in any way. Exit codes: 0 all \
+                        runs are there, 3 some of them failed (their rows say why), 130 interrupted."
+)]
+pub(crate) struct CampaignRunArgs {
+    /// The study: a campaign document's file or preset.
+    #[arg(value_name = "STUDY", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) study: String,
+    /// Folder for the results: a new one, or that of the same study.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Threads, or worker processes; without it as many as there are cores.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    pub(crate) threads: Option<u16>,
+    /// Only part I of N of an array of jobs, counted from 1; `campaign merge` brings parts together.
+    #[arg(long, value_name = "I/N", value_parser = parse_part)]
+    pub(crate) shard: Option<Part>,
+    /// What computes: threads of this program, or the Python package with its processes, Dask or Ray.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) executor: ExecutorWord,
+    /// Where the cluster's scheduler listens, for `dask` and `ray`.
+    #[arg(long, value_name = "ADDRESS")]
+    pub(crate) scheduler: Option<String>,
+    /// Override a key of the study, such as `campaign.runs=100`; can be repeated.
+    #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
+    pub(crate) settings: Vec<String>,
+    /// `json`: a line now and then of how far it is, and one at the end.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableOrJson,
+}
+
+/// What computes a campaign.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ExecutorWord {
+    /// This program.
+    #[default]
+    Threads,
+    /// Processes of this machine, by the Python package.
+    Processes,
+    /// Dask distributed, by the Python package.
+    Dask,
+    /// Ray, by the Python package.
+    Ray,
+}
+
+/// How results are printed that are no rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableOrJson {
+    /// For reading.
+    #[default]
+    Table,
+    /// For programs: every digit.
+    Json,
+}
+
+fn parse_part(text: &str) -> Result<Part, String> {
+    let numbers = text.split_once('/').and_then(|(index, of)| {
+        Some(Part { index: index.trim().parse().ok()?, of: of.trim().parse().ok()? })
+    });
+    numbers
+        .filter(|part| (1..=part.of).contains(&part.index))
+        .ok_or_else(|| "it must be I/N with I from 1 to N, such as 2/8".to_owned())
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignRerunArgs {
+    /// A campaign's folder.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// The run's number, from 0.
+    #[arg(value_name = "RUN")]
+    pub(crate) run: u64,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableOrJson,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignMergeArgs {
+    /// Folder for all of it: a new one, or one that an earlier merge left unfinished.
+    #[arg(value_name = "OUT")]
+    pub(crate) out: PathBuf,
+    /// The folders of the parts.
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableOrJson,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignSummariseArgs {
+    /// A campaign's folder.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignDigestArgs {
+    /// A campaign's folder.
+    #[arg(value_name = "DIR")]
+    pub(crate) folder: PathBuf,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableOrJson,
 }
 
 #[derive(Debug, Args)]

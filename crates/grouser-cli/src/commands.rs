@@ -5,6 +5,7 @@ mod attitude_band;
 pub(crate) mod attitude_map;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
+pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod import;
@@ -32,6 +33,11 @@ impl<R: Serialize> Answer<R> {
     pub(crate) fn new(command: &str, inputs: Value, results: R) -> Self {
         let schema = format!("grouser.{command}.v1");
         Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, results }
+    }
+
+    /// The text of a line.
+    pub(crate) fn to_line(&self) -> String {
+        serde_json::to_string(self).expect("text keys, and writing to memory") + "\n"
     }
 
     /// The text for a file.

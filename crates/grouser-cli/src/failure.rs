@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::interrupt;
+
 /// Why a command did not do what it was asked to.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
@@ -22,6 +24,15 @@ pub(crate) enum Failure {
         /// What the system said.
         source: std::io::Error,
     },
+    /// Some of many runs failed; all else is done: exit code 3.
+    #[error("{0}")]
+    Partly(String),
+    /// Ctrl-C, and all is in its place: exit code 130.
+    #[error("{0}")]
+    Interrupted(String),
+    /// Another program did the work, said what there is to say, and ended with this exit code.
+    #[error("the program that did the work failed")]
+    ToldByOther(u8),
     /// The reader of our output has gone: no message, exit code 0.
     #[error("the reader of the output has gone")]
     ReaderGone,
@@ -34,12 +45,24 @@ impl Failure {
             Self::ReaderGone => 0,
             Self::Run(_) | Self::Environment { .. } => 1,
             Self::Usage(_) | Self::UsageToldAlready => 2,
+            Self::Partly(_) => 3,
+            Self::Interrupted(_) => interrupt::INTERRUPTED,
+            Self::ToldByOther(code) => *code,
+        }
+    }
+
+    /// How its message begins.
+    pub(crate) fn label(&self) -> &'static str {
+        match self {
+            Self::Interrupted(_) => "interrupted",
+            Self::Partly(_) => "note",
+            _ => "error",
         }
     }
 
     /// Whether a message is still due.
     pub(crate) fn is_to_be_told(&self) -> bool {
-        !matches!(self, Self::ReaderGone | Self::UsageToldAlready)
+        !matches!(self, Self::ReaderGone | Self::UsageToldAlready | Self::ToldByOther(_))
     }
 
     /// A failed operation on a file or folder, such as `cannot write`.

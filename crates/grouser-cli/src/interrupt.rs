@@ -2,24 +2,44 @@
 //! limit on the size of files is an error like a full disk.
 
 use std::io::Write as _;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Held while there are files that are not in their place.
 static MOVING_FILES: Mutex<()> = Mutex::new(());
 
+/// Whether a command looks after Ctrl-C itself.
+static IS_LOOKED_AFTER: AtomicBool = AtomicBool::new(false);
+/// Whether such a command is to come to its end.
+static STOP: AtomicBool = AtomicBool::new(false);
+
 /// The exit code of an interrupted program: 128 and the number of SIGINT.
-const INTERRUPTED: i32 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// From now on, Ctrl-C ends the program as soon as no files are being moved.
 pub(crate) fn exit_on_ctrl_c() {
     let handler = || {
+        if IS_LOOKED_AFTER.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
+            return;
+        }
         let _files_are_whole = not_now();
         // Whoever cannot hear it still gets the exit code.
         let _ = writeln!(std::io::stderr(), "interrupted");
-        std::process::exit(INTERRUPTED);
+        std::process::exit(INTERRUPTED.into());
     };
     // Without a handler the system's own ends the program: no reason not to start.
     drop(ctrlc::set_handler(handler));
+}
+
+/// From now on, the first Ctrl-C only [asks](is_asked_to_stop) to stop; the second one ends the
+/// program as ever.
+pub(crate) fn look_after() {
+    IS_LOOKED_AFTER.store(true, Ordering::Relaxed);
+}
+
+/// Whether whoever looks after Ctrl-C is to come to an end.
+pub(crate) fn is_asked_to_stop() -> bool {
+    STOP.load(Ordering::Relaxed)
 }
 
 /// As long as the result lives, Ctrl-C waits.

@@ -45,6 +45,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::AttitudeMap(args) => commands::attitude_map::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
+        Command::Campaign(args) => commands::campaign::run(args),
         Command::Import(args) => commands::import::run(args),
         Command::Bench(args) => commands::bench::run(args),
         Command::Check(args) => commands::check::run(args),

@@ -49,8 +49,19 @@ pub(crate) fn tell(text: &str) {
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {
-        let _ = writeln!(stderr(), "error: {failure}");
+        let _ = writeln!(stderr(), "{}: {failure}", failure.label());
     }
+}
+
+/// A bar with its rate and the time that is left, drawn only where the standard error is a terminal.
+pub(crate) fn rate_bar(length: u64) -> ProgressBar {
+    let template =
+        "{bar:30} {human_pos}/{human_len} runs  {per_sec}  {msg}{elapsed} gone, {eta} left";
+    let style =
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(length).with_style(style);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
 }
 
 /// A bar on the standard error, drawn only where that is a terminal.

@@ -295,7 +295,10 @@ fn check_identity(
     let folder = path.to_owned();
     if manifest.study_sha256 != study.hash {
         let theirs = fs::read_to_string(path.join(STUDY)).unwrap_or_default();
-        return Err(StoreError::OtherStudy { folder, difference: difference(&theirs, &study.text) });
+        return Err(StoreError::OtherStudy {
+            folder,
+            difference: difference(&theirs, &study.text),
+        });
     }
     if manifest.version != VERSION {
         let (theirs, ours) = (manifest.version.clone(), VERSION.to_owned());

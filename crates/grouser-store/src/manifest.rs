@@ -144,8 +144,10 @@ impl Manifest {
             }
             Err(error) => return Err(StoreError::at("read", &file)(error)),
         };
-        let manifest: Self = serde_json::from_str(&text)
-            .map_err(|error| StoreError::Manifest { file: file.clone(), problem: error.to_string() })?;
+        let manifest: Self = serde_json::from_str(&text).map_err(|error| StoreError::Manifest {
+            file: file.clone(),
+            problem: error.to_string(),
+        })?;
         manifest.check().map_err(|problem| StoreError::Manifest { file, problem })?;
         Ok(Some(manifest))
     }

@@ -16,9 +16,9 @@ const UNFINISHED: &str = ".partial-";
 /// [`StoreError::Disk`]; the place is as it was, and nothing is left beside it.
 pub(crate) fn put(path: &Path, content: &[u8]) -> Result<(), StoreError> {
     let beside = beside(path);
-    let written = write(&beside, content).map_err(StoreError::at("write", path)).and_then(|()| {
-        fs::rename(&beside, path).map_err(StoreError::at("write", path))
-    });
+    let written = write(&beside, content)
+        .map_err(StoreError::at("write", path))
+        .and_then(|()| fs::rename(&beside, path).map_err(StoreError::at("write", path)));
     if written.is_err() {
         // Whatever is wrong with the disk, we said it already.
         let _ = fs::remove_file(&beside);

@@ -136,7 +136,11 @@ fn properties(study: &Study, shard: u64, table: &Table) -> WriterProperties {
         .set_max_row_group_row_count(None)
         .set_dictionary_enabled(false)
         .set_key_value_metadata(Some(about));
-    table.columns.iter().fold(fixed, |builder, (name, values)| encoding(builder, name, values)).build()
+    table
+        .columns
+        .iter()
+        .fold(fixed, |builder, (name, values)| encoding(builder, name, values))
+        .build()
 }
 
 /// Counting numbers as their steps, what repeats through a dictionary, all others as they are.
@@ -166,7 +170,9 @@ fn repeats(values: &[Option<f64>]) -> bool {
 fn write(column: &mut SerializedColumnWriter<'_>, values: &Values) -> ParquetResult<()> {
     match values {
         Values::Float(values) => write_as::<DoubleType, _>(column, values, |value| *value),
-        Values::Whole(values) => write_as::<Int64Type, _>(column, values, |value| value.cast_signed()),
+        Values::Whole(values) => {
+            write_as::<Int64Type, _>(column, values, |value| value.cast_signed())
+        }
         Values::Text(values) => {
             write_as::<ByteArrayType, _>(column, values, |text| ByteArray::from(text.as_str()))
         }
@@ -193,7 +199,8 @@ pub fn check(study: &Study, shard: u64, file: &[u8]) -> Result<(), ShardFault> {
     let place = hash_place(file).ok_or(ShardFault::Damaged)?;
     let (before, rest) = file.split_at(place);
     let (hash, after) = rest.split_at(HASH_DIGITS);
-    let found = Sha256::new().chain_update(before).chain_update(ZEROS).chain_update(after).finalize();
+    let found =
+        Sha256::new().chain_update(before).chain_update(ZEROS).chain_update(after).finalize();
     if hex(&found).as_bytes() != hash {
         return Err(ShardFault::Damaged);
     }

@@ -39,7 +39,9 @@ fn table(study: &Study, shard: u64) -> Table {
     let columns = [
         Values::Whole(runs().map(Some).collect()),
         Values::Float(runs().map(|run| Some(float(run))).collect()),
-        Values::Text(runs().map(|run| Some(if stuck(&run) { "stuck" } else { "ok" }.into())).collect()),
+        Values::Text(
+            runs().map(|run| Some(if stuck(&run) { "stuck" } else { "ok" }.into())).collect(),
+        ),
         Values::Float(runs().map(|run| (!stuck(&run)).then(|| 7.5 * float(run))).collect()),
     ];
     let names = study.columns.iter().map(|column| column.name.clone());
@@ -143,7 +145,9 @@ fn a_folder_goes_on_where_it_was_left() {
     fill(&mut folder, &study);
     assert_eq!(folder.finish().unwrap().digest, digest);
     let unfinished = |folder: &Path| {
-        fs::read_dir(folder).unwrap().any(|it| it.unwrap().path().to_string_lossy().contains("partial"))
+        fs::read_dir(folder)
+            .unwrap()
+            .any(|it| it.unwrap().path().to_string_lossy().contains("partial"))
     };
     assert!(!unfinished(&runs) && !unfinished(&path));
     assert_eq!(folder.manifest().sessions.len(), 4);

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod calibrate;
+mod campaign;
 mod contract;
 mod conversations;
 mod import;

@@ -22,6 +22,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+pub use rows::FAILED;
 pub use sections::{
     CampaignDocument, CampaignSchema, ParameterSection, SampleRows, SamplesSection, SamplingWord,
     StudyWord, WheelTestSection,

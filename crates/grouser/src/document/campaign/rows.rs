@@ -47,6 +47,9 @@ const NOT_COMPUTED: &str = "not computed";
 /// All statuses of a row; `ok` first.
 pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_ATTITUDE, CANNOT_MOVE, SUNK, NOT_COMPUTED];
 
+/// Statuses of rows that could not be computed: all others are answers, or findings.
+pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
+
 const ATTITUDE: [&str; 7] = [
     "yaw_deg",
     "slip_ratio",

@@ -1,0 +1,190 @@
+//! `grouser campaign run`: all runs that are not there yet.
+//!
+//! One thread has the shards computed, by all threads, one shard after another; another one takes
+//! them to the disk, so that nobody waits for that.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+use grouser::document::Campaign;
+use grouser::document::campaign::{FAILED, Values};
+use grouser_store::{Folder, Results, StoreError, Study, shard_bytes};
+use serde::Serialize;
+
+use super::digest::DigestRecord;
+use super::progress::Progress;
+use super::{campaign, inputs, python};
+use crate::args::{CampaignRunArgs, ExecutorWord, TableOrJson};
+use crate::commands::Answer;
+use crate::failure::Failure;
+use crate::{interrupt, output};
+
+/// A shard's number and bytes.
+type Shard = (u64, Vec<u8>);
+
+/// What a campaign comes to.
+#[derive(Serialize)]
+struct RunRecord {
+    /// Whether all runs were there before.
+    finished_before: bool,
+    #[serde(flatten)]
+    digest: DigestRecord,
+    /// How often each status is.
+    statuses: BTreeMap<String, u64>,
+    runs_per_s: Option<f64>,
+}
+
+pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
+    let campaign = campaign(&args.study, &args.settings)?;
+    if args.executor != ExecutorWord::Threads {
+        return python::hand_over(args);
+    }
+    if args.scheduler.is_some() {
+        return Err(Failure::Usage("--scheduler: it goes with --executor dask or ray".into()));
+    }
+    if let Some(threads) = args.threads {
+        // It fails only if there is a pool already, and nothing made one yet.
+        drop(rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global());
+    }
+    let mut folder = {
+        let _not_now = interrupt::not_now();
+        Folder::open(&args.out, &Study::of(&campaign), args.shard)?
+    };
+    tell_surprises(&folder);
+    let finished_before = folder.missing().is_empty();
+    let progress = Progress::new(args.format, &folder);
+    if !finished_before {
+        interrupt::look_after();
+        compute(&campaign, &mut folder, &progress)?;
+    }
+    let digest = DigestRecord::from(folder.finish()?);
+    let runs_per_s = progress.rate(&folder);
+    let results = Results::open(&args.out)?;
+    let statuses = statuses(&results)?;
+    finish(args, &results, RunRecord { finished_before, digest, statuses, runs_per_s })
+}
+
+fn tell_surprises(folder: &Folder) {
+    for (shard, fault) in folder.faults() {
+        output::tell(&format!("note: shard {shard} is computed anew: {fault}"));
+    }
+    if !folder.is_locked() {
+        output::tell(
+            "note: this disk has no locks: make sure that no second campaign writes to the folder",
+        );
+    }
+    if folder.runs_done() > 0 && !folder.missing().is_empty() {
+        output::tell(&format!(
+            "going on: {} of {} runs are there",
+            folder.runs_done(),
+            folder.runs()
+        ));
+    }
+}
+
+/// Computes what is missing, until Ctrl-C or the disk stops it.
+fn compute(campaign: &Campaign, folder: &mut Folder, progress: &Progress) -> Result<(), Failure> {
+    // Two shards wait at most: more would only fill memory where the disk is slow.
+    let (sender, receiver) = sync_channel(2);
+    let missing = folder.missing();
+    let disk_failed = AtomicBool::new(false);
+    let done = thread::scope(|scope| {
+        let go_on = || {
+            progress.start();
+            !interrupt::is_asked_to_stop() && !disk_failed.load(Ordering::Relaxed)
+        };
+        let computing = scope.spawn(move || compute_shards(campaign, &missing, &go_on, &sender));
+        let kept = keep(folder, receiver, progress);
+        disk_failed.store(kept.is_err(), Ordering::Relaxed);
+        let computed = computing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        kept.and(computed.map_err(Failure::from))
+    });
+    progress.end();
+    if done.is_err() {
+        // The disk may be full: when the session ended is not worth a second message.
+        drop(folder.pause());
+        return done;
+    }
+    if interrupt::is_asked_to_stop() && !folder.missing().is_empty() {
+        folder.pause()?;
+        return Err(Failure::Interrupted(format!(
+            "{} of {} runs are kept; the same command goes on",
+            folder.runs_done(),
+            folder.runs()
+        )));
+    }
+    Ok(())
+}
+
+fn compute_shards(
+    campaign: &Campaign,
+    shards: &[u64],
+    go_on: &(dyn Fn() -> bool + Sync),
+    sender: &SyncSender<Shard>,
+) -> Result<(), StoreError> {
+    for shard in shards {
+        let Some(bytes) = shard_bytes(campaign, *shard, go_on)? else { break };
+        // Nobody takes shards any more once the disk failed.
+        if sender.send((*shard, bytes)).is_err() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Result<(), Failure> {
+    let mut told = None;
+    progress.tell(folder, &mut told)?;
+    for (shard, bytes) in shards {
+        {
+            let _not_now = interrupt::not_now();
+            folder.accept(shard, &bytes)?;
+        }
+        progress.tell(folder, &mut told)?;
+    }
+    Ok(())
+}
+
+/// How often each status is, counted shard by shard.
+fn statuses(results: &Results) -> Result<BTreeMap<String, u64>, Failure> {
+    let mut counts = BTreeMap::new();
+    for shard in results.manifest().own_shards() {
+        for (_, values) in results.shard(shard, &["status"])?.columns {
+            let Values::Text(words) = values else { continue };
+            for word in words.into_iter().flatten() {
+                *counts.entry(word).or_default() += 1;
+            }
+        }
+    }
+    Ok(counts)
+}
+
+fn finish(args: &CampaignRunArgs, results: &Results, record: RunRecord) -> Result<(), Failure> {
+    let all: u64 = record.statuses.values().sum();
+    let failed: u64 = FAILED.iter().filter_map(|word| record.statuses.get(*word)).sum();
+    match args.format {
+        TableOrJson::Table => output::print(&text_of(args, &record, all))?,
+        TableOrJson::Json => {
+            let answer = Answer::new("campaign.run", inputs(results), record);
+            output::print(&answer.to_line())?;
+        }
+    }
+    if failed == 0 {
+        return Ok(());
+    }
+    Err(Failure::Partly(format!("{failed} of {all} runs failed; the column `reason` says why")))
+}
+
+fn text_of(args: &CampaignRunArgs, record: &RunRecord, all: u64) -> String {
+    let folder = args.out.display();
+    let first = match (record.finished_before, record.runs_per_s) {
+        (true, _) => format!("{folder} is finished, there is nothing to do: {all} runs"),
+        (false, Some(rate)) => format!("{folder} is finished: {all} runs, {rate:.0} per second"),
+        (false, None) => format!("{folder} is finished: {all} runs"),
+    };
+    let statuses = record.statuses.iter().map(|(word, count)| format!("{word}: {count}"));
+    let statuses = statuses.collect::<Vec<_>>().join(", ");
+    format!("{first}\n{statuses}\n{}", record.digest.line())
+}

@@ -1,0 +1,68 @@
+//! `grouser campaign summarise`: what the runs say together.
+
+mod figures;
+mod page;
+mod statistics;
+
+use serde::Serialize;
+
+use self::statistics::Statistics;
+use super::digest::DigestRecord;
+use super::{inputs, stored};
+use crate::args::CampaignSummariseArgs;
+use crate::commands::Answer;
+use crate::failure::Failure;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, aligned};
+use crate::output::{self, Format};
+
+/// All that is told for programs.
+#[derive(Serialize)]
+struct SummaryRecord<'a> {
+    #[serde(flatten)]
+    digest: &'a DigestRecord,
+    #[serde(flatten)]
+    statistics: &'a Statistics,
+}
+
+pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let (results, campaign) = stored(&args.folder)?;
+    if let Some(part) = results.manifest().part {
+        output::tell(&format!(
+            "note: this is part {part} of a campaign; `grouser campaign merge` brings the parts together"
+        ));
+    }
+    results.require_all()?;
+    let digest = DigestRecord::from(results.digest()?);
+    let statistics = Statistics::of(&campaign, &results)?;
+    let record = SummaryRecord { digest: &digest, statistics: &statistics };
+    let answer = Answer::new("campaign.summarise", inputs(&results), record);
+    if let Some(mut folder) = folder {
+        folder.add("summary.json", answer.to_text());
+        folder.add("summary.csv", Rows::of(&statistics.rows).to_csv()?);
+        folder.add("probabilities.csv", Rows::of(&statistics.probabilities).to_csv()?);
+        folder.add("convergence.csv", Rows::of(&statistics.convergence).to_csv()?);
+        if !statistics.sensitivities.is_empty() {
+            folder.add("sensitivities.csv", Rows::of(&statistics.sensitivities).to_csv()?);
+        }
+        let figures = figures::all(&statistics);
+        for figure in &figures {
+            folder.add(&format!("figures/{}.svg", figure.file), figure.chart.to_svg());
+        }
+        folder.add("report.html", page::html(&campaign, &results, &statistics, &digest, &figures));
+        folder.add("study.toml", results.study().to_owned());
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&text_of(&statistics, &digest)),
+        Format::Csv => output::print(&Rows::of(&statistics.rows).to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+fn text_of(statistics: &Statistics, digest: &DigestRecord) -> String {
+    let tables = statistics.tables();
+    let tables = tables.iter().map(|table| aligned(&table.header, &table.cells) + "\n");
+    tables.collect::<String>() + &digest.line()
+}

@@ -1,0 +1,118 @@
+//! The figures of a summary: distributions, convergence, sensitivities.
+
+use super::statistics::{ConvergenceRecord, Curve, SensitivityRecord, Statistics};
+use crate::chart::{Chart, Series, Style};
+
+/// A figure.
+pub(super) struct Figure {
+    /// Name of its file, without ending.
+    pub(super) file: String,
+    pub(super) caption: String,
+    pub(super) chart: Chart,
+}
+
+/// All of them, those of a quantity after each other.
+pub(super) fn all(statistics: &Statistics) -> Vec<Figure> {
+    let of_quantity = |curve: &Curve| {
+        let of = |quantity: &String| *quantity == curve.quantity;
+        let steps = statistics.convergence.iter().filter(|it| of(&it.quantity));
+        let shares = statistics.sensitivities.iter().filter(|it| of(&it.quantity));
+        let figures = [
+            Some(distribution(curve)),
+            convergence(curve, &steps.collect::<Vec<_>>()),
+            sensitivity(curve, &shares.collect::<Vec<_>>()),
+        ];
+        figures.into_iter().flatten().collect::<Vec<_>>()
+    };
+    statistics.curves.iter().flat_map(of_quantity).collect()
+}
+
+fn label(curve: &Curve) -> String {
+    let unit = curve.unit.map_or(String::new(), |unit| format!(" [{unit}]"));
+    format!("{}{unit}", curve.quantity)
+}
+
+fn distribution(curve: &Curve) -> Figure {
+    let quantity = &curve.quantity;
+    Figure {
+        file: format!("{quantity}-distribution"),
+        caption: format!(
+            "Share of the runs with an answer whose {quantity} is below. A steep curve is a quantity \
+             that is known well."
+        ),
+        chart: Chart {
+            title: format!("{quantity}: distribution"),
+            x_label: label(curve),
+            y_label: "share of the runs below".into(),
+            series: vec![Series::new("runs", Style::Line, 1, curve.points.iter().copied())],
+        },
+    }
+}
+
+/// The median over the number of runs; none for fewer than two steps.
+fn convergence(curve: &Curve, steps: &[&ConvergenceRecord]) -> Option<Figure> {
+    let known = steps.iter().filter_map(|it| {
+        let runs = (it.runs as f64).log10();
+        Some((runs, it.p50?, it.p50_low?, it.p50_high?))
+    });
+    let known: Vec<(f64, f64, f64, f64)> = known.collect();
+    if known.len() < 2 {
+        return None;
+    }
+    let quantity = &curve.quantity;
+    let band = known.iter().map(|(runs, _, low, high)| (*runs, *low, *high));
+    let line = known.iter().map(|(runs, median, ..)| (*runs, *median));
+    Some(Figure {
+        file: format!("{quantity}-convergence"),
+        caption: format!(
+            "The median of {quantity} after the first runs, with its 95 % interval: more runs narrow it \
+             with the square root of their number."
+        ),
+        chart: Chart {
+            title: format!("{quantity}: convergence"),
+            x_label: "runs, as a power of ten".into(),
+            y_label: label(curve),
+            series: vec![
+                Series::band("95 % interval of the median", 6, band),
+                Series::new("median", Style::Line, 1, line),
+            ],
+        },
+    })
+}
+
+fn sensitivity(curve: &Curve, shares: &[&SensitivityRecord]) -> Option<Figure> {
+    /// How far the marks of an input stand apart.
+    const APART: f64 = 0.08;
+    if shares.is_empty() {
+        return None;
+    }
+    let half = |low: f64, high: f64| (high - low) / 2.0;
+    let places = || shares.iter().enumerate().map(|(place, it)| (place as f64 + 1.0, *it));
+    let first = places().map(|(place, it)| (place - APART, it.first));
+    let total = places().map(|(place, it)| (place + APART, it.total));
+    let names: Vec<String> = shares
+        .iter()
+        .enumerate()
+        .map(|(place, it)| format!("{} {}", place + 1, it.input))
+        .collect();
+    let quantity = &curve.quantity;
+    Some(Figure {
+        file: format!("{quantity}-sensitivity"),
+        caption: format!(
+            "What share of the variance of {quantity} each input makes, alone and with what it does \
+             together with others: {}.",
+            names.join(", ")
+        ),
+        chart: Chart {
+            title: format!("{quantity}: Sobol indices"),
+            x_label: "input".into(),
+            y_label: "share of the variance".into(),
+            series: vec![
+                Series::new("first order", Style::Dots, 1, first)
+                    .with_error_bars(shares.iter().map(|it| half(it.first_low, it.first_high))),
+                Series::new("total", Style::Squares, 2, total)
+                    .with_error_bars(shares.iter().map(|it| half(it.total_low, it.total_high))),
+            ],
+        },
+    })
+}

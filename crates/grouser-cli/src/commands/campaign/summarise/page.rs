@@ -1,0 +1,62 @@
+//! The page of a summary.
+
+use grouser::document::Campaign;
+use grouser_store::Results;
+
+use super::figures::Figure;
+use super::statistics::Statistics;
+use crate::commands::campaign::digest::DigestRecord;
+use crate::report::page::Page;
+
+pub(super) fn html(
+    campaign: &Campaign,
+    results: &Results,
+    statistics: &Statistics,
+    digest: &DigestRecord,
+    figures: &[Figure],
+) -> String {
+    let manifest = results.manifest();
+    let mut page = Page::new(&manifest.name);
+    page.answer(&answer(statistics));
+    let part =
+        manifest.part.map_or(String::new(), |part| format!(", of which this is part {part}"));
+    page.list([
+        format!("{} runs{part}, seed {}", manifest.runs, manifest.seed),
+        format!("grouser {}", manifest.version),
+        digest.line().trim_end().to_owned(),
+    ]);
+    page.heading("Numbers");
+    page.paragraph(
+        "Quantiles are over the runs that have an answer; their intervals hold for any distribution. \
+         All intervals are for independent draws: those of a Latin hypercube or a Sobol design are \
+         rather too wide. Of a campaign for sensitivities, quantiles and probabilities are over the runs \
+         of both independent sets, A and B.",
+    );
+    for table in statistics.tables() {
+        page.grid(table.caption, &table.header, &table.cells);
+    }
+    page.heading("Figures");
+    for figure in figures {
+        page.drawing(&figure.chart.to_svg(), &figure.caption);
+    }
+    page.heading("Assumptions in force");
+    page.list(campaign.assumptions());
+    page.heading("The study");
+    page.code(results.study());
+    page.to_html()
+}
+
+/// The chance of failure, in a sentence.
+fn answer(statistics: &Statistics) -> String {
+    let failure = statistics.probabilities.iter().find(|it| it.event.starts_with("failure"));
+    let Some(it) = failure else { return "There are no runs.".into() };
+    format!(
+        "{} of {} runs failed, that is, had no answer or were not completed: {:.2} %, with 95 % \
+         confidence between {:.2} and {:.2} %.",
+        it.count,
+        it.runs,
+        1e2 * it.probability,
+        1e2 * it.probability_low,
+        1e2 * it.probability_high
+    )
+}
