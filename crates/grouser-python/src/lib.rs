@@ -43,6 +43,7 @@ mod _core {
         for (name, value) in grouser::document::GRAVITIES {
             module.add(format!("{}_GRAVITY", name.to_uppercase()), value)?;
         }
+        module.add("FAILED_STATUSES", grouser::document::campaign::FAILED.to_vec())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -164,34 +164,36 @@ def test_an_interrupted_campaign_goes_on(whole: gr.campaign.Results, tmp_path: P
     assert [session["shards"] for session in again.manifest["sessions"]] == [3, 9]
 
 
-def test_ctrl_c_is_heard_and_keeps_what_is_there(tmp_path: Path) -> None:
+def endless(tmp_path: Path) -> subprocess.Popen[str]:
+    """A campaign on two processes that takes minutes, once its first shard is there."""
     script = tmp_path / "study.toml"
     script.write_text(campaigns.study(runs=40_000, shard_runs=4).to_toml())
     command = [sys.executable, "-m", "grouser.campaign", "run", str(script)]
     command += ["--out", str(tmp_path / "out"), "--workers", "2", "--format", "json"]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert child.stdout is not None and child.stderr is not None
+    child = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    assert child.stdout is not None
     first = json.loads(child.stdout.readline())
-    child.send_signal(signal.SIGINT)
-    _, error = child.communicate(timeout=60)
-    assert child.returncode == 130, error
+    assert first["runs_done"] >= 4
+    return child
+
+
+def test_ctrl_c_is_heard_and_keeps_what_is_there(tmp_path: Path) -> None:
+    with endless(tmp_path) as child:
+        child.send_signal(signal.SIGINT)
+        _, error = child.communicate(timeout=60)
+        assert child.returncode == 130, error
     assert "the same command goes on" in error and "Traceback" not in error
-    assert len(gr.campaign.results(tmp_path / "out")) >= first["runs_done"] >= 4
+    assert len(gr.campaign.results(tmp_path / "out")) >= 4
 
 
 def test_workers_do_not_outlive_who_started_them(tmp_path: Path) -> None:
-    script = tmp_path / "study.toml"
-    script.write_text(campaigns.study(runs=40_000, shard_runs=4).to_toml())
-    command = [sys.executable, "-m", "grouser.campaign", "run", str(script)]
-    command += ["--out", str(tmp_path / "out"), "--workers", "2", "--format", "json"]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, start_new_session=True)
-    assert child.stdout is not None
-    child.stdout.readline()
-    child.kill()
-    child.wait()
-    # The workers hold its output open as long as they live.
-    child.stdout.read()
-    deadline = time.monotonic() + 30
+    with endless(tmp_path) as child:
+        child.kill()
+        # The workers hold its output open as long as they live.
+        child.communicate(timeout=60)
+    deadline = time.monotonic() + 60
     while time.monotonic() < deadline:
         try:
             os.killpg(child.pid, 0)
