@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -59,17 +58,15 @@ class Killer:
 
     def __call__(self, now: gr.campaign.Progress) -> None:
         self.lost = now.lost
-        if not self.killed and now.shards_done >= self._after:
-            pid = next(iter(self._pids()))
+        if self.killed or now.shards_done < self._after:
+            return
+        # None if nobody happens to compute: then after the next shard.
+        for pid in self._pids():
             os.kill(pid, signal.SIGKILL)
             self.killed.append(pid)
+            return
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
     """The shards in a folder."""
     return {path.name: path.read_bytes() for path in sorted((folder / "runs").iterdir())}
-
-
-def threads_named(prefix: str) -> list[str]:
-    """Threads of this process whose name starts so."""
-    return [thread.name for thread in threading.enumerate() if thread.name.startswith(prefix)]

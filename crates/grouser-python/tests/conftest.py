@@ -14,7 +14,6 @@ import pytest
 matplotlib.use("Agg")
 
 
-
 class Program:
     """The program `grouser`: arguments in, its JSON out."""
 

@@ -60,7 +60,9 @@ def test_a_campaign_is_a_description() -> None:
     assert gr.Campaign.from_toml(study.to_toml()) == study == pickle.loads(pickle.dumps(study))
     assert study.replace(seed=2).sha256 != study.sha256
     with pytest.raises(gr.ParameterError, match="soil.warmth"):
-        campaigns.study(parameter=[{"key": "soil.warmth", "distribution": "uniform", "low": 0, "high": 1}])
+        campaigns.study(
+            parameter=[{"key": "soil.warmth", "distribution": "uniform", "low": 0, "high": 1}]
+        )
 
 
 @pytest.mark.parametrize("ways", [{"threads": 2}, {"executor": "threads", "workers": 2}])
@@ -73,7 +75,9 @@ def test_threads_change_no_byte(
 
 
 def test_a_pool_of_processes_finds_the_same(whole: gr.campaign.Results, tmp_path: Path) -> None:
-    found = gr.campaign.run(campaigns.study(), out=tmp_path / "ours", executor="processes", workers=2)
+    found = gr.campaign.run(
+        campaigns.study(), out=tmp_path / "ours", executor="processes", workers=2
+    )
     assert found.digest == whole.digest
     with ProcessPoolExecutor(2, mp_context=SPAWN) as pool:
         for write in ("coordinator", "workers"):

@@ -21,7 +21,9 @@ pytestmark = [pytest.mark.cluster, pytest.mark.filterwarnings("default")]
 @pytest.fixture(scope="module")
 def digest(tmp_path_factory: pytest.TempPathFactory) -> str:
     """That of an undisturbed run in one thread."""
-    found = gr.campaign.run(campaigns.study(), out=tmp_path_factory.mktemp("one") / "out", threads=1)
+    found = gr.campaign.run(
+        campaigns.study(), out=tmp_path_factory.mktemp("one") / "out", threads=1
+    )
     assert found.digest is not None
     return found.digest
 
@@ -93,7 +95,9 @@ def workers_of_ray() -> list[int]:
 def test_ray_finds_the_same(ray: Any, digest: str, tmp_path: Path) -> None:
     found = gr.campaign.run(campaigns.study(), out=tmp_path / "object", executor=ray)
     assert found.digest == digest
-    found = gr.campaign.run(campaigns.study(), out=tmp_path / "name", executor="ray", write="workers")
+    found = gr.campaign.run(
+        campaigns.study(), out=tmp_path / "name", executor="ray", write="workers"
+    )
     assert found.digest == digest
     # It was started before, and is left as it is.
     assert ray.is_initialized()

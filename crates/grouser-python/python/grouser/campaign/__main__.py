@@ -37,7 +37,12 @@ def _arguments(words: Sequence[str] | None) -> argparse.Namespace:
     command = commands.add_parser("run", help="compute what is missing of a campaign")
     add = command.add_argument
     add("study", metavar="STUDY", help="a campaign document's file or preset")
-    add("--out", metavar="DIR_OR_URL", required=True, help="folder, or URL of fsspec, for the results")
+    add(
+        "--out",
+        metavar="DIR_OR_URL",
+        required=True,
+        help="folder, or URL of fsspec, for the results",
+    )
     add("--executor", choices=["threads", "processes", "dask", "ray"], default="processes")
     add("--scheduler", metavar="ADDRESS", help="where the cluster's scheduler listens")
     add("--workers", metavar="N", type=int, help="how many workers to start on this machine")
@@ -82,7 +87,9 @@ class _Teller:
         elif self._people:
             lost = f", {now.lost} given to other workers" if now.lost else ""
             left = f", {now.left_s:.0f} s left" if now.left_s is not None else ""
-            text = f"{now.runs_done} of {now.runs} runs, {now.runs_per_s:.0f} per second{left}{lost}"
+            text = (
+                f"{now.runs_done} of {now.runs} runs, {now.runs_per_s:.0f} per second{left}{lost}"
+            )
             print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
@@ -164,7 +171,9 @@ def main(words: Sequence[str] | None = None) -> int:
         teller.end()
         _say(error)
         environment = (CampaignDiskError, CampaignLockedError, DocumentUnreadableError)
-        usage = isinstance(error, (ValueError, CampaignError)) and not isinstance(error, environment)
+        usage = isinstance(error, (ValueError, CampaignError)) and not isinstance(
+            error, environment
+        )
         return 2 if usage and not isinstance(error.__cause__, BaseException) else 1
     except (ImportError, OSError) as error:
         teller.end()

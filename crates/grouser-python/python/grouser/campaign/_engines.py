@@ -6,6 +6,7 @@ differs is how many shards are kept in flight, how a dead worker shows, and what
 
 from __future__ import annotations
 
+import importlib
 import multiprocessing
 import os
 import signal
@@ -283,11 +284,15 @@ def _named(
     raise ParameterError(f"there is no executor {name!r}: it is {known}", "executor", None, known)
 
 
-def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
+def _imported(module: str, otherwise: str) -> Any:
     try:
-        import distributed
+        return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError("Dask is not here: pip install grouser[dask]") from error
+        raise ImportError(otherwise) from error
+
+
+def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
+    distributed = _imported("distributed", "Dask is not here: pip install grouser[dask]")
     if scheduler is not None:
         client = distributed.Client(scheduler, set_as_default=False)
     else:
@@ -302,10 +307,7 @@ def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int |
 
 
 def _ray(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
-    try:
-        import ray
-    except ImportError as error:
-        raise ImportError("Ray is not here: pip install grouser[ray]") from error
+    ray = _imported("ray", "Ray is not here: pip install grouser[ray]")
     owned = not ray.is_initialized()
     if owned:
         if scheduler is not None:

@@ -18,7 +18,6 @@ from ._study import Campaign
 from ._worker import Writer, file_name
 
 
-
 @dataclass(frozen=True)
 class Finished:
     """A campaign whose shards are all there."""
@@ -121,7 +120,9 @@ class UrlPlace:
             return self._checked(told, fresh)
         stranger = next((name for name in self._files.names() if name not in (STUDY, RUNS)), None)
         if stranger is not None:
-            raise CampaignError(f"{self._where} is not empty, and holds no campaign: {stranger} is in it")
+            raise CampaignError(
+                f"{self._where} is not empty, and holds no campaign: {stranger} is in it"
+            )
         self._files.make()
         self._files.put(STUDY, self._campaign.to_toml().encode())
         # Last: with it, this is a campaign's.
@@ -134,10 +135,14 @@ class UrlPlace:
             theirs = [manifest[key] for key in ("schema", "version", "study_sha256", "part")]
             list(manifest["sessions"])
         except (ValueError, KeyError, TypeError) as error:
-            raise CampaignError(f"{self._where}/{MANIFEST} cannot be understood: {error!r}") from error
+            raise CampaignError(
+                f"{self._where}/{MANIFEST} cannot be understood: {error!r}"
+            ) from error
         schema, version, study, part = theirs
         if schema != fresh["schema"]:
-            raise CampaignError(f"{self._where}/{MANIFEST}: its schema is {schema}, not {fresh['schema']}")
+            raise CampaignError(
+                f"{self._where}/{MANIFEST}: its schema is {schema}, not {fresh['schema']}"
+            )
         if study != fresh["study_sha256"]:
             text = (self._files.read(STUDY) or b"").decode(errors="replace")
             difference = _core.study_difference(text, self._campaign.to_toml())
@@ -164,7 +169,9 @@ class UrlPlace:
                     self._files.remove(f"{RUNS}/{name}")
             elif name.endswith(".parquet"):
                 if name not in own:
-                    raise CampaignError(f"{self._where}/{RUNS}/{name} is no shard of this campaign: move it away")
+                    raise CampaignError(
+                        f"{self._where}/{RUNS}/{name} is no shard of this campaign: move it away"
+                    )
                 self._check(own[name])
 
     def _check(self, shard: int) -> None:
@@ -229,7 +236,9 @@ class UrlPlace:
         for shard in self._own:
             data = self._read(shard)
             if data is None:
-                raise CampaignError(f"shard {shard} is missing in {self._where}: run the campaign again")
+                raise CampaignError(
+                    f"shard {shard} is missing in {self._where}: run the campaign again"
+                )
             digest.update(data)
             size += len(data)
         found, recorded = digest.hexdigest(), self._manifest["digest"]

@@ -110,7 +110,9 @@ class Results:
         kinds = {column["name"]: column["kind"] for column in self._manifest["columns"]}
         for name in names:
             if name not in kinds:
-                raise ParameterError(f"there is no column {name!r}", "columns", None, ", ".join(kinds))
+                raise ParameterError(
+                    f"there is no column {name!r}", "columns", None, ", ".join(kinds)
+                )
         parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
         for _, data in self._shards():
             for name, values in _core.read_shard(data, list(names)).items():
@@ -171,7 +173,9 @@ class Results:
         """
         shard = run // self._manifest["shard_runs"]
         if run < 0 or shard not in self._there:
-            raise ParameterError(f"run {run} is not there", "run", run, f"below {self._manifest['runs']}")
+            raise ParameterError(
+                f"run {run} is not there", "run", run, f"below {self._manifest['runs']}"
+            )
         data = need(self._files, f"{RUNS}/{file_name(shard)}")
         place = run - self.campaign.runs_of(shard).start
         columns = _core.read_shard(data, list(self.columns))
@@ -189,7 +193,10 @@ class Results:
         return self.campaign.rerun(run)
 
     def summarise(
-        self, columns: Iterable[str] | None = None, *, quantiles: Sequence[float] = (0.025, 0.5, 0.975)
+        self,
+        columns: Iterable[str] | None = None,
+        *,
+        quantiles: Sequence[float] = (0.025, 0.5, 0.975),
     ) -> Summary:
         """What the runs say together: how often each status is, with Wilson's intervals; mean, quantiles
         and their confidence intervals for each result; convergence over the runs; Sobol indices, if the

@@ -97,7 +97,9 @@ def run(
     _check_counts(workers=workers, threads=threads, in_flight=in_flight)
     if write not in ("coordinator", "workers"):
         known = "coordinator or workers"
-        raise ParameterError(f"shards are written by the {known}, not {write!r}", "write", None, known)
+        raise ParameterError(
+            f"shards are written by the {known}, not {write!r}", "write", None, known
+        )
     _check_part(part)
     place = place_of(out, storage_options, campaign, part)
     try:
@@ -124,7 +126,9 @@ def run(
 def _check_counts(**counts: int | None) -> None:
     for name, count in counts.items():
         if count is not None and count < 1:
-            raise ParameterError(f"{name} is {count}, and must be 1 or more", name, count, "1 or more")
+            raise ParameterError(
+                f"{name} is {count}, and must be 1 or more", name, count, "1 or more"
+            )
 
 
 def _check_part(part: tuple[int, int] | None) -> None:

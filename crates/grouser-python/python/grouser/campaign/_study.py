@@ -102,7 +102,9 @@ class Campaign(_Description):
         ParameterError
             If there is no such shard.
         """
-        return _core.campaign_shard(self._document, _whole("shard", shard), _whole("threads", threads))
+        return _core.campaign_shard(
+            self._document, _whole("shard", shard), _whole("threads", threads)
+        )
 
     def rerun(self, run: int) -> dict[str, Any]:
         """Computes a single run: its row by column, None where there is no value.

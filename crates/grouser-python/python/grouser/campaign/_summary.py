@@ -118,7 +118,9 @@ def summary_of(
         if name not in campaign.outputs:
             known = ", ".join(campaign.outputs)
             raise ParameterError(f"{name!r} is no result", "columns", None, known)
-    texts = {name: results.column(name) for name in ("status", "outcome") if name in results.columns}
+    texts = {
+        name: results.column(name) for name in ("status", "outcome") if name in results.columns
+    }
     counts = {name: _counts(values) for name, values in texts.items()}
     runs = len(results)
     flat = [(count, runs) for each in counts.values() for count in each.values()]
@@ -153,7 +155,9 @@ def _quantity(told: dict[str, Any], runs: int) -> Quantity:
         standard_deviation=told.get("standard_deviation", nan),
         least=told.get("least", nan),
         most=told.get("most", nan),
-        quantiles={share: (value, low, high) for share, value, low, high in told.get("quantiles", ())},
+        quantiles={
+            share: (value, low, high) for share, value, low, high in told.get("quantiles", ())
+        },
         convergence=tuple(told["convergence"]),
         sensitivity=sensitivity,
     )
