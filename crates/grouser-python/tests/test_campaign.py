@@ -144,6 +144,33 @@ def test_a_shard_that_always_kills_its_worker_is_named(tmp_path: Path) -> None:
     assert len(campaigns.files_of(tmp_path)) == 9
 
 
+def test_workers_that_never_finish_anything_are_given_up(tmp_path: Path) -> None:
+    """Soon, however many shards there are."""
+
+    class Lost(Executor):
+        asked = 0
+
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            self.asked += 1
+            future: Future[Any] = Future()
+            future.set_exception(CancelledError())
+            return future
+
+    executor, study = Lost(), campaigns.wheel_study(runs=100_000, shard_runs=1)
+    with pytest.raises(gr.CampaignError, match="workers die before they finish a shard"):
+        gr.campaign.run(study, out=tmp_path / "out", executor=executor, in_flight=4)
+    assert executor.asked <= 16
+    # As where a script is read again by each process that it starts.
+    script = tmp_path / "script.py"
+    script.write_text(
+        "import grouser as gr\n"
+        f"study = gr.Campaign.from_toml({campaigns.study().to_toml()!r})\n"
+        f"gr.campaign.run(study, out={str(tmp_path / 'script')!r}, executor='processes', workers=1)\n"
+    )
+    told = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+    assert told.returncode == 1 and "below `if __name__ == '__main__':`" in told.stderr
+
+
 def test_an_interrupted_campaign_goes_on(whole: gr.campaign.Results, tmp_path: Path) -> None:
     class Enough(Exception):
         pass

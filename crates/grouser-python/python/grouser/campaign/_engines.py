@@ -69,6 +69,8 @@ class Engine:
 
     #: Whether a broken one can be replaced.
     mends = False
+    #: What to look at where workers die before they finish anything.
+    hint = "has each of them enough memory, and this package?"
 
     def __init__(self, executor: Executor, job: Job, in_flight: int | None) -> None:
         self.executor = executor
@@ -141,6 +143,7 @@ class Processes(Engine):
     """Processes of this machine. They are spawned, not forked: what runs here has threads."""
 
     mends = True
+    hint = "has each enough memory, and does the script call this below `if __name__ == '__main__':`?"
 
     def __init__(self, job: Job, workers: int | None, in_flight: int | None) -> None:
         self._count = workers or os.cpu_count() or 1

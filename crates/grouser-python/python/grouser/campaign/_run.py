@@ -19,6 +19,9 @@ from ._study import Campaign
 
 #: How often a shard may be lost with its worker: then it is taken for what kills workers.
 MOST_LOSSES = 5
+#: How often all shards that are in flight may be lost with none finished in between: then workers do
+#: not live long enough for any.
+MOST_BARREN_ROUNDS = 3
 
 
 def run(
@@ -170,6 +173,8 @@ class _Loop:
         #: others then.
         self._again: deque[int] = deque()
         self._losses: Counter[int] = Counter()
+        #: Losses since a shard was last finished.
+        self._barren = 0
         self._pending: dict[Future[Union[bytes, int]], int] = {}
         self._start = time.monotonic()
         self._shards, self._all_shards = place.shards()
@@ -218,6 +223,7 @@ class _Loop:
                 self._place.accept(shard, found)
             else:
                 self._place.adopt(shard)
+            self._barren = 0
             self._tell(shard)
         elif is_death(error):
             self._lose(shard, error)
@@ -230,6 +236,9 @@ class _Loop:
 
     def _lose(self, shard: int, error: BaseException) -> None:
         self._losses[shard] += 1
+        self._barren += 1
+        if self._barren > MOST_BARREN_ROUNDS * self._engine.capacity():
+            raise CampaignError(f"workers die before they finish a shard: {self._engine.hint}") from error
         if self._losses[shard] > MOST_LOSSES:
             raise CampaignError(
                 f"shard {shard} was lost {self._losses[shard]} times with its worker, the last time by "
