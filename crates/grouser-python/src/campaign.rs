@@ -94,7 +94,8 @@ pub(crate) fn campaign_shard<'py>(
     let campaign = Arc::clone(&campaign.campaign()?.campaign);
     let shards = campaign.shards();
     if shard >= shards {
-        let message = format!("there is no shard {shard}: the campaign has shards 0 to {}", shards - 1);
+        let message =
+            format!("there is no shard {shard}: the campaign has shards 0 to {}", shards - 1);
         return Err(errors::parameter(message, "shard", None, format!("below {shards}")));
     }
     // Threads of its own for each shard: those of a pool would be gone in a process that was forked.
@@ -179,7 +180,8 @@ pub(crate) fn read_shard<'py>(
             }
             // Runs and points are numbered; none is without its number.
             Values::Whole(values) => {
-                let values = values.into_iter().map(|value| value.unwrap_or_default().cast_signed());
+                let values =
+                    values.into_iter().map(|value| value.unwrap_or_default().cast_signed());
                 dict.set_item(name, PyArray1::from_iter(py, values))?;
             }
             Values::Text(values) => dict.set_item(name, PyList::new(py, values)?)?,

@@ -21,8 +21,7 @@ mod _core {
     #[pymodule_export]
     use super::campaign::{
         CampaignFolder, campaign_facts, campaign_manifest, campaign_row, campaign_shard,
-        campaign_summary, check_shard, find_campaign, merge_campaign, read_shard,
-        study_difference,
+        campaign_summary, check_shard, find_campaign, merge_campaign, read_shard, study_difference,
     };
     #[pymodule_export]
     use super::descriptions::{

@@ -92,6 +92,12 @@ def test_strangers_are_left_alone(url: str) -> None:
     assert files.ls(path, detail=False) == [f"{path}/thesis.tex"]
 
 
+def test_a_url_that_nothing_reaches_is_named() -> None:
+    with pytest.raises(gr.ParameterError, match="teletype") as caught:
+        gr.campaign.run(campaigns.wheel_study(), out="teletype://nowhere")
+    assert caught.value.name == "out"
+
+
 def test_without_fsspec_its_command_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     import sys
 

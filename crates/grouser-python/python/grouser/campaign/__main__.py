@@ -174,7 +174,9 @@ def main(words: Sequence[str] | None = None) -> int:
         usage = isinstance(error, (ValueError, CampaignError)) and not isinstance(
             error, environment
         )
-        return 2 if usage and not isinstance(error.__cause__, BaseException) else 1
+        # A campaign that something else ended: nobody asked wrongly.
+        ended = isinstance(error, CampaignError) and error.__cause__ is not None
+        return 2 if usage and not ended else 1
     except (ImportError, OSError) as error:
         teller.end()
         _say(error)

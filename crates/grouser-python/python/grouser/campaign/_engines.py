@@ -143,7 +143,9 @@ class Processes(Engine):
     """Processes of this machine. They are spawned, not forked: what runs here has threads."""
 
     mends = True
-    hint = "has each enough memory, and does the script call this below `if __name__ == '__main__':`?"
+    hint = (
+        "has each enough memory, and does the script call this below `if __name__ == '__main__':`?"
+    )
 
     def __init__(self, job: Job, workers: int | None, in_flight: int | None) -> None:
         self._count = workers or os.cpu_count() or 1

@@ -238,7 +238,9 @@ class _Loop:
         self._losses[shard] += 1
         self._barren += 1
         if self._barren > MOST_BARREN_ROUNDS * self._engine.capacity():
-            raise CampaignError(f"workers die before they finish a shard: {self._engine.hint}") from error
+            raise CampaignError(
+                f"workers die before they finish a shard: {self._engine.hint}"
+            ) from error
         if self._losses[shard] > MOST_LOSSES:
             raise CampaignError(
                 f"shard {shard} was lost {self._losses[shard]} times with its worker, the last time by "

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol, Union
 
 from .. import _core
+from .._errors import ParameterError
 
 
 class Writer(Protocol):
@@ -101,7 +102,11 @@ def open_url(url: str, options: tuple[tuple[str, Any], ...]) -> tuple[Any, str]:
     try:
         import fsspec
     except ImportError as error:
-        message = "URLs need fsspec: pip install grouser[fsspec], and what your store needs (s3fs, gcsfs, adlfs)"
-        raise ImportError(message) from error
-    files, path = fsspec.core.url_to_fs(url, **dict(options))
+        raise ImportError(
+            "URLs need fsspec: pip install grouser[fsspec], and what your store needs, such as s3fs"
+        ) from error
+    try:
+        files, path = fsspec.core.url_to_fs(url, **dict(options))
+    except ValueError as error:
+        raise ParameterError(f"{url}: {error}", "out", None, "a URL that fsspec knows") from error
     return files, str(path).rstrip("/")
