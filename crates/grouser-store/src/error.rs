@@ -16,6 +16,9 @@ pub enum StoreError {
         /// What the system said.
         source: io::Error,
     },
+    /// A file stands where the folder has to be.
+    #[error("{} is a file: a campaign needs a folder, a new one or that of the same study", .0.display())]
+    NotAFolder(PathBuf),
     /// Another program writes there.
     #[error(
         "another campaign is writing to {}\nhint: wait until it is done, stop it, or choose another folder",

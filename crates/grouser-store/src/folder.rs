@@ -54,6 +54,9 @@ impl Folder {
     /// # Errors
     /// [`StoreError`] if it is somebody else's folder, or the disk fails.
     pub fn open(path: &Path, study: &Study, part: Option<Part>) -> Result<Self, StoreError> {
+        if path.exists() && !path.is_dir() {
+            return Err(StoreError::NotAFolder(path.to_owned()));
+        }
         check_strangers(path)?;
         let runs = path.join(RUNS);
         fs::create_dir_all(path).map_err(StoreError::at("make the folder", path))?;

@@ -85,6 +85,8 @@ pub fn difference(theirs: &str, ours: &str) -> String {
             differing.push(format!("{key} is {} there, {} here", value(&theirs), value(&ours)));
         }
     }
+    // Changed values bring words about themselves along.
+    differing.sort_by_key(|words| words.contains("assumed."));
     let more = differing.len().saturating_sub(SHOWN);
     differing.truncate(SHOWN);
     match (differing.is_empty(), more) {

@@ -1,6 +1,6 @@
 //! Floor 5, the door: documents with units in their names, and what they mean in SI.
 //!
-//! A soil, a wheel, a rover, a scenario and a data set each have a TOML document. Reading one takes these
+//! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. Reading one takes these
 //! steps, and this page is their order:
 //!
 //! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.

@@ -13,6 +13,7 @@
 //! The resolved document holds all of that in one text: samples, too. Its hash names the campaign.
 
 mod inputs;
+mod marginals;
 mod numbers;
 mod rows;
 mod sections;

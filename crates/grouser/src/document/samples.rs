@@ -74,9 +74,8 @@ impl SampleTable {
             let found =
                 format!("it has {} rows of numbers, it needs two or more", table.rows.len());
             let problem = Problem::NoTable(found);
-            return Err(DocumentError::whole(&table.text.label, problem).with_hint(
-                "the first line names keys of the soil, every other is a sample".to_owned(),
-            ));
+            return Err(DocumentError::whole(&table.text.label, problem)
+                .with_hint("the first line names keys, every other is a sample".to_owned()));
         }
         Ok(table)
     }

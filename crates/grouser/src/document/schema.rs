@@ -136,7 +136,10 @@ fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &
 fn properties<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Vec<&'s Json> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));
     let tables = alternatives(root, schema).into_iter();
-    let tables = tables.map(|table| table.get("items").map_or(table, |items| resolve(root, items)));
+    let tables = tables.flat_map(|table| match table.get("items") {
+        Some(items) => alternatives(root, items),
+        None => vec![table],
+    });
     let children = tables.filter_map(|table| table.get("properties")?.get(first));
     children
         .flat_map(|child| match rest {

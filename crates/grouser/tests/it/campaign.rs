@@ -143,10 +143,10 @@ fn quantiles(marginal: Marginal, range: Option<(f64, f64)>, shares: &[f64]) -> V
     shares.iter().map(|share| distribution.at(&[*share])[0]).collect()
 }
 
-/// The inverse error function is good to 1e-14 or so.
+/// The error function and its inverse are good to 1e-10 together.
 fn check_close(found: &[f64], expected: &[f64]) {
     for (found, expected) in found.iter().zip(expected) {
-        assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} {expected}");
+        assert!((found - expected).abs() <= 1e-9 * expected.abs().max(1.0), "{found} {expected}");
     }
 }
 

@@ -93,8 +93,9 @@ fn quantiles_of_a_closed_form_lie_in_their_intervals() {
             let truth = 1e3 * (centre + deviation * score).exp();
             let (low, high) = (quantile.low.expect("many"), quantile.high.expect("many"));
             assert!(low <= truth && truth <= high, "{sampling}: {truth} {quantile:?}");
-            // 4096 draws tell the median to 2 % of the deviation, the outer quantiles to 4 %.
-            assert!(high - low < 0.2 * deviation * truth, "{sampling}: {quantile:?}");
+            // 4096 draws tell the outer quantiles with an error of 4 % of the deviation: an interval of
+            // 16 % or so, whose ends are draws that scatter themselves.
+            assert!(high - low < 0.25 * deviation * truth, "{sampling}: {quantile:?}");
         }
     }
 }

@@ -28,9 +28,14 @@ impl DigestRecord {
     /// For people.
     pub(super) fn line(&self) -> String {
         let Self { digest, shards, bytes } = self;
-        let megabytes = *bytes as f64 / 1e6;
+        let bytes = *bytes as f64;
+        let size = if bytes < 1e6 {
+            format!("{:.0} kB", bytes / 1e3)
+        } else {
+            format!("{:.1} MB", bytes / 1e6)
+        };
         let files = if *shards == 1 { "file" } else { "files" };
-        format!("{shards} {files}, {megabytes:.1} MB, SHA-256 {digest}\n")
+        format!("{shards} {files}, {size}, SHA-256 {digest}\n")
     }
 }
 

@@ -7,7 +7,7 @@ use super::{inputs, stored};
 use crate::args::{CampaignMergeArgs, TableOrJson};
 use crate::commands::Answer;
 use crate::failure::Failure;
-use crate::{interrupt, output};
+use crate::output;
 
 pub(super) fn run(args: &CampaignMergeArgs) -> Result<(), Failure> {
     let Some(first) = args.folders.first() else { return Ok(()) };
@@ -15,8 +15,7 @@ pub(super) fn run(args: &CampaignMergeArgs) -> Result<(), Failure> {
     let study = Study::of(&campaign);
     let bar = output::progress_bar(study.shards());
     bar.set_message("shards");
-    // Ctrl-C between two shards leaves a folder that the same command goes on with.
-    let _not_now = interrupt::not_now();
+    // Ctrl-C at any moment leaves a folder that the same command goes on with.
     let merged = grouser_store::merge(&args.out, &study, &args.folders, &mut |done, _| {
         bar.set_position(done);
     });

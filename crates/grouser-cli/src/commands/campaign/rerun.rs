@@ -13,14 +13,11 @@ use crate::output::rows::aligned;
 pub(super) fn run(args: &CampaignRerunArgs) -> Result<(), Failure> {
     let (results, campaign) = stored(&args.folder)?;
     let manifest = results.manifest();
-    let kept = if args.run < manifest.runs
-        && results.missing().contains(&(args.run / manifest.shard_runs))
-        || !manifest.has(args.run / manifest.shard_runs)
-    {
-        None
-    } else {
-        Some(results.row(args.run)?)
-    };
+    let shard = args.run / manifest.shard_runs;
+    let is_stored = manifest.has(shard) && !results.missing().contains(&shard);
+    // A run that the campaign does not have is for the results to refuse.
+    let is_unstored = args.run < manifest.runs && !is_stored;
+    let kept = if is_unstored { None } else { Some(results.row(args.run)?) };
     let names = campaign.columns().iter().map(|column| column.name.clone());
     let row: Vec<(String, Cell)> = names.zip(campaign.run(args.run)).collect();
     if let Some(kept) = &kept {

@@ -1,7 +1,5 @@
 //! What is uncertain, brought together and checked against the base.
 
-use std::ops::RangeInclusive;
-
 use super::super::check::range_at;
 use super::super::error::{DocumentError, Problem};
 use super::super::samples::SampleTable;
@@ -12,12 +10,13 @@ use super::super::uncertainty::{
     CorrelationSection, DistributionWord, UncertainParameter, UncertaintySection, correlations,
 };
 use super::super::{Document, Kind, Reference};
+use super::marginals::{Key, check_marginal, out_of_range};
 use super::numbers::number_keys;
 use super::rows::Base;
 use super::sections::{CampaignDocument, ParameterSection, SampleRows, SamplesSection, StudyWord};
 use crate::studies::campaign::design::{SOBOL_DIMENSIONS, Sampling};
 use crate::studies::campaign::{Matrix, Plan};
-use crate::studies::uncertainty::{Correlation, Distribution, Marginal};
+use crate::studies::uncertainty::{Correlation, Distribution};
 
 /// What is uncertain, with everything in its place.
 #[derive(Clone, Debug)]
@@ -35,9 +34,6 @@ pub(super) struct Prepared {
 
 /// The factor that rows of samples are.
 const SAMPLES: &str = "samples";
-/// Of the draws of a key as many must be in its range [-]: with fewer, the distribution is far from
-/// the one that was written down.
-const LEAST_INSIDE: f64 = 0.01;
 
 impl Prepared {
     pub(super) fn keys(&self) -> &[String] {
@@ -144,13 +140,6 @@ struct OfSoil {
     samples: Option<SampleTable>,
 }
 
-/// A number of the base that is uncertain.
-struct Key {
-    path: String,
-    value: f64,
-    range: RangeInclusive<f64>,
-}
-
 struct Reader<'a> {
     document: &'a CampaignDocument,
     tree: &'a Node,
@@ -178,7 +167,7 @@ impl Reader<'_> {
         };
         // All that can be wrong with it is told in the soil's own words.
         soil.clone().prepare(&entry.node)?;
-        Ok(OfSoil::of(uncertainty, &entry.node)?)
+        OfSoil::of(uncertainty, &entry.node)
     }
 
     fn read(&self, soil: OfSoil) -> Result<Prepared, DocumentError> {
@@ -194,11 +183,10 @@ impl Reader<'_> {
             let key = self.key(section.key(), key_origin)?;
             check_new(&keys, &key, key_origin)?;
             let section = section.around(key.value);
-            let marginal = section.marginal();
-            check_marginal(&key, &section, marginal, self.tree, &path)?;
+            check_marginal(&key, &section, self.tree, &path)?;
+            marginals.push(section.marginal());
             keys.push(key);
             parameters.push(section);
-            marginals.push(marginal);
         }
         let factors: Vec<String> = keys.iter().map(|key| key.path.clone()).collect();
         let ranges: Vec<_> = keys.iter().map(|key| key.range.clone()).collect();
@@ -231,8 +219,7 @@ impl Reader<'_> {
     ) -> Result<(Vec<CorrelationSection>, Vec<Correlation>), DocumentError> {
         let names: Vec<&str> = keys.iter().map(String::as_str).collect();
         // Those of the soil were checked as part of its document.
-        let soil_origin = Node { origin: self.tree.origin.clone(), ..self.tree.clone() };
-        let mut all = correlations(&of_soil, &names, &soil_origin, "soil_uncertainty", Vec::new())?;
+        let mut all = correlations(&of_soil, &names, self.tree, "soil_uncertainty", Vec::new())?;
         all = correlations(&self.document.correlation, &names, self.tree, "correlation", all)?;
         let sections = of_soil.into_iter().chain(self.document.correlation.clone()).collect();
         Ok((sections, all))
@@ -392,30 +379,6 @@ impl StudyWord {
     }
 }
 
-impl ParameterSection {
-    /// The same with its mean, where it had none.
-    fn around(&self, value: f64) -> Self {
-        let mut section = self.clone();
-        if let Self::Normal { mean, .. } | Self::Lognormal { mean, .. } = &mut section {
-            mean.get_or_insert(value);
-        }
-        section
-    }
-
-    fn marginal(&self) -> Marginal {
-        match *self {
-            Self::Normal { mean, standard_deviation, .. } => {
-                Marginal::Normal { mean: mean.unwrap_or_default(), standard_deviation }
-            }
-            Self::Lognormal { mean, standard_deviation, .. } => {
-                Marginal::Lognormal { mean: mean.unwrap_or_default(), standard_deviation }
-            }
-            Self::Uniform { low, high, .. } => Marginal::Uniform { low, high },
-            Self::Triangular { low, mode, high, .. } => Marginal::Triangular { low, mode, high },
-        }
-    }
-}
-
 /// That a key is not uncertain twice.
 fn check_new(keys: &[Key], key: &Key, origin: &Origin) -> Result<(), DocumentError> {
     if keys.iter().all(|other| other.path != key.path) {
@@ -423,52 +386,4 @@ fn check_new(keys: &[Key], key: &Key, origin: &Origin) -> Result<(), DocumentErr
     }
     let problem = Problem::RepeatedName { key: "key".to_owned(), name: key.path.clone() };
     Err(DocumentError::at(origin, problem))
-}
-
-/// That a distribution is one, and mostly in its key's range.
-fn check_marginal(
-    key: &Key,
-    section: &ParameterSection,
-    marginal: Marginal,
-    tree: &Node,
-    path: &str,
-) -> Result<(), DocumentError> {
-    let at = |name: &str, problem| {
-        Err(DocumentError::at(tree.origin_of(&format!("{path}.{name}")), problem))
-    };
-    let outside = |name: &str, value: f64, range: String| {
-        at(name, Problem::OutOfRange { key: name.to_owned(), value, range })
-    };
-    match *section {
-        ParameterSection::Lognormal { mean: Some(mean), .. } if mean <= 0.0 => {
-            return outside("mean", mean, "above 0 to be lognormal".to_owned());
-        }
-        ParameterSection::Uniform { low, high, .. }
-        | ParameterSection::Triangular { low, high, .. } => {
-            for (name, value) in [("low", low), ("high", high)] {
-                if !key.range.contains(&value) {
-                    return at(name, out_of_range(&key.path, value, &key.range));
-                }
-            }
-            if low >= high {
-                return outside("high", high, format!("above low, {low}"));
-            }
-        }
-        _ => {}
-    }
-    if let ParameterSection::Triangular { low, mode, high, .. } = *section
-        && !(low..=high).contains(&mode)
-    {
-        return outside("mode", mode, format!("{low} to {high}"));
-    }
-    if marginal.share_within(&key.range) >= LEAST_INSIDE {
-        return Ok(());
-    }
-    let range = format!("{} to {}", key.range.start(), key.range.end());
-    at("key", Problem::OutsideRange { key: key.path.clone(), range })
-}
-
-fn out_of_range(key: &str, value: f64, range: &RangeInclusive<f64>) -> Problem {
-    let range = format!("{} to {}", range.start(), range.end());
-    Problem::OutOfRange { key: key.to_owned(), value, range }
 }

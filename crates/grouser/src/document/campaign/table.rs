@@ -76,7 +76,10 @@ pub fn unit(name: &str) -> Option<&'static str> {
         ("_j", "J"),
     ];
     // An entry of a list has its list's unit.
-    let name = name.trim_end_matches(|c: char| c == '.' || c.is_ascii_digit());
+    let name = match name.rsplit_once('.') {
+        Some((list, place)) if place.parse::<usize>().is_ok() => list,
+        _ => name,
+    };
     UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| *unit)
 }
 
