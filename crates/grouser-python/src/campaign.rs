@@ -211,6 +211,7 @@ pub(crate) struct CampaignFolder {
 #[pymethods]
 impl CampaignFolder {
     #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn new(
         py: Python<'_>,
         path: PathBuf,
