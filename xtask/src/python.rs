@@ -16,7 +16,7 @@ use crate::{markers, workspace};
 const PACKAGE: &str = "crates/grouser-python";
 
 /// What builds and tests the package, by name: where from is for pip's own settings to say.
-const NEEDED: [&str; 11] = [
+const NEEDED: [&str; 14] = [
     "maturin>=1.16,<2",
     "numpy",
     "pandas",
@@ -25,6 +25,9 @@ const NEEDED: [&str; 11] = [
     "mujoco>=3.4",
     "pyarrow",
     "gymnasium>=1.1",
+    "distributed",
+    "fsspec",
+    "ray",
     "pytest>=8",
     "hypothesis>=6",
     "mypy>=1.10",

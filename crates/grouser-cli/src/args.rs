@@ -568,6 +568,8 @@ pub(crate) enum CampaignCommand {
     Summarise(CampaignSummariseArgs),
     /// The SHA-256 over all results.
     Digest(CampaignDigestArgs),
+    /// Measure what studies cost: runs per core and second, bytes per run, and what that means for many.
+    Cost(CampaignCostArgs),
 }
 
 #[derive(Debug, Args)]
@@ -675,6 +677,22 @@ pub(crate) struct CampaignDigestArgs {
     /// A campaign's folder.
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableOrJson,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CampaignCostArgs {
+    /// Studies: campaign documents' files or presets.
+    #[arg(value_name = "STUDY", required = true)]
+    pub(crate) studies: Vec<String>,
+    /// How many runs to tell the cost of.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) runs: u64,
+    /// How long to measure, in all [s].
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
+    pub(crate) seconds: f64,
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableOrJson,

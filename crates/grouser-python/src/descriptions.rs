@@ -13,6 +13,7 @@ use pyo3::types::PyDict;
 use serde_json::Value as Json;
 use toml::{Table, Value};
 
+use crate::campaign::LoadedCampaign;
 use crate::values::Change;
 use crate::{errors, values};
 
@@ -28,6 +29,7 @@ enum Read {
     Wheel(Box<LoadedWheel>),
     Rover(Box<LoadedRover>),
     Scenario(Box<LoadedScenario>),
+    Campaign(Box<LoadedCampaign>),
 }
 
 impl Read {
@@ -36,7 +38,8 @@ impl Read {
             Kind::Soil => Self::Soil(document::read_soil(source, overrides)?.into()),
             Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
-            Kind::Scenario | Kind::DataSet | Kind::Campaign => {
+            Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
+            Kind::Scenario | Kind::DataSet => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
         })
@@ -51,6 +54,7 @@ impl Document {
             Read::Wheel(it) => Table::try_from(&it.document),
             Read::Rover(it) => Table::try_from(&it.document),
             Read::Scenario(it) => Table::try_from(&it.document),
+            Read::Campaign(it) => Table::try_from(it.document()),
         };
         // A document that was read has text keys and finite numbers only.
         table.unwrap_or_default()
@@ -63,6 +67,7 @@ impl Document {
             Read::Wheel(it) => serde_json::to_value(&it.document),
             Read::Rover(it) => serde_json::to_value(&it.document),
             Read::Scenario(it) => serde_json::to_value(&it.document),
+            Read::Campaign(it) => serde_json::to_value(it.document()),
         };
         json.unwrap_or_default()
     }
@@ -74,6 +79,8 @@ impl Document {
             Read::Wheel(it) => &it.companions,
             Read::Rover(it) => &it.companions,
             Read::Scenario(it) => &it.companions,
+            // A campaign holds all that it needs.
+            Read::Campaign(_) => &[],
         }
     }
 
@@ -105,6 +112,17 @@ impl Document {
         }
     }
 
+    pub(crate) fn campaign(&self) -> PyResult<&LoadedCampaign> {
+        match &self.read {
+            Read::Campaign(campaign) => Ok(campaign),
+            _ => Err(self.is_no("campaign")),
+        }
+    }
+
+    pub(crate) fn of_campaign(campaign: LoadedCampaign) -> Self {
+        Self { read: Read::Campaign(campaign.into()) }
+    }
+
     fn is_no(&self, expected: &str) -> PyErr {
         PyValueError::new_err(format!("this is a {}, not a {expected}", self.kind()))
     }
@@ -112,7 +130,7 @@ impl Document {
 
 #[pymethods]
 impl Document {
-    /// `soil`, `wheel`, `rover` or `scenario`.
+    /// `soil`, `wheel`, `rover`, `scenario` or `campaign`.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.read {
@@ -120,6 +138,7 @@ impl Document {
             Read::Wheel(_) => Kind::Wheel.name(),
             Read::Rover(_) => Kind::Rover.name(),
             Read::Scenario(_) => Kind::Scenario.name(),
+            Read::Campaign(_) => Kind::Campaign.name(),
         }
     }
 
@@ -131,6 +150,7 @@ impl Document {
             Read::Wheel(it) => it.assumptions.clone(),
             Read::Rover(it) => it.assumptions.clone(),
             Read::Scenario(it) => it.assumptions.clone(),
+            Read::Campaign(it) => it.campaign().assumptions().to_vec(),
         }
     }
 
@@ -148,6 +168,7 @@ impl Document {
             Read::Wheel(it) => it.to_toml(),
             Read::Rover(it) => it.to_toml(),
             Read::Scenario(it) => it.to_toml(),
+            Read::Campaign(it) => it.campaign().resolved().to_owned(),
         }
     }
 
@@ -239,7 +260,7 @@ fn changed(
 }
 
 fn kind_of(name: &str) -> PyResult<Kind> {
-    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario];
+    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario, Kind::Campaign];
     known
         .into_iter()
         .find(|kind| kind.name() == name)

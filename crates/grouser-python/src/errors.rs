@@ -6,6 +6,7 @@ use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
 use grouser::simulation::SimulationError;
 use grouser::studies::calibration::CalibrationError;
+use grouser_store::StoreError;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -19,6 +20,10 @@ mod classes {
     import_exception!(grouser._errors, DocumentUnreadableError);
     import_exception!(grouser._errors, SimulationError);
     import_exception!(grouser._errors, CalibrationError);
+    import_exception!(grouser._errors, CampaignError);
+    import_exception!(grouser._errors, CampaignLockedError);
+    import_exception!(grouser._errors, CampaignNotFoundError);
+    import_exception!(grouser._errors, CampaignDiskError);
 }
 
 /// What a document's problem says of a value.
@@ -179,6 +184,28 @@ pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
             let file = folder.display().to_string();
             classes::DocumentNotFoundError::new_err((message, file, Some(hint)))
         }
+    }
+}
+
+/// A campaign's folder that cannot be used, or a shard of it.
+pub(crate) fn of_store(error: &StoreError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        StoreError::Disk { path, source, .. } => {
+            let file = path.to_string_lossy().into_owned();
+            classes::CampaignDiskError::new_err((message, source.raw_os_error(), file))
+        }
+        StoreError::Locked(path) => {
+            classes::CampaignLockedError::new_err((message, path.to_string_lossy().into_owned()))
+        }
+        StoreError::NoCampaign(path) => {
+            classes::CampaignNotFoundError::new_err((message, path.to_string_lossy().into_owned()))
+        }
+        StoreError::NoRun { run, runs } => {
+            parameter(message, "run", Some(*run as f64), format!("below {runs}"))
+        }
+        StoreError::NoColumn(_) => parameter(message, "columns", None, "a column of the campaign"),
+        _ => classes::CampaignError::new_err(message),
     }
 }
 

@@ -2,13 +2,14 @@
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
-//! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]), lends
-//! the reaction to other engines ([`time_step`]) and hands tables on ([`arrow`]), without Python's
-//! lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here computes physics, and nothing below
-//! knows of Python.
+//! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
+//! campaigns ([`campaign`]), lends the reaction to other engines ([`time_step`]) and hands tables on
+//! ([`arrow`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
+//! computes physics, and nothing below knows of Python.
 
 mod arrow;
 mod calibration;
+mod campaign;
 mod columns;
 mod descriptions;
 mod errors;
@@ -28,6 +29,11 @@ mod _core {
     use super::arrow::arrow_stream;
     #[pymodule_export]
     use super::calibration::{calibrate_plate_tests, calibrate_wheel_tests};
+    #[pymodule_export]
+    use super::campaign::{
+        CampaignFolder, campaign_facts, campaign_manifest, campaign_row, campaign_shard,
+        campaign_summary, check_shard, find_campaign, merge_campaign, read_shard, study_difference,
+    };
     #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,
@@ -56,6 +62,7 @@ mod _core {
         for (name, value) in super::time_step::DEFAULTS {
             module.add(name, value)?;
         }
+        module.add("FAILED_STATUSES", grouser::document::campaign::FAILED.to_vec())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,21 +13,25 @@ import pytest
 
 matplotlib.use("Agg")
 
-Program = Callable[..., dict[str, Any]]
 
-
-@pytest.fixture(scope="session")
-def program() -> Program:
+class Program:
     """The program `grouser`: arguments in, its JSON out."""
-    target = Path(__file__).resolve().parents[3] / "target"
-    built = [target / profile / "grouser" for profile in ("release", "debug")]
-    named = os.environ.get("GROUSER_PROGRAM")
-    path = Path(named) if named else next((path for path in built if path.exists()), built[0])
 
-    def run(*arguments: str) -> dict[str, Any]:
-        command = [str(path), *arguments, "--format", "json"]
+    def __init__(self, path: Path) -> None:
+        self.command = [str(path)]
+
+    def __call__(self, *arguments: str) -> dict[str, Any]:
+        command = [*self.command, *arguments, "--format", "json"]
         told = subprocess.run(command, capture_output=True, text=True, check=True)
         answer: dict[str, Any] = json.loads(told.stdout)
         return answer
 
-    return run
+
+@pytest.fixture(scope="session")
+def program() -> Program:
+    """The program that was built with the package."""
+    target = Path(__file__).resolve().parents[3] / "target"
+    built = [target / profile / "grouser" for profile in ("release", "debug")]
+    named = os.environ.get("GROUSER_PROGRAM")
+    path = Path(named) if named else next((path for path in built if path.exists()), built[0])
+    return Program(path)

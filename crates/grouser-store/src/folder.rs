@@ -155,11 +155,34 @@ impl Folder {
         }
         self.begin_session()?;
         place::put(&self.path.join(RUNS).join(shard::file_name(shard)), bytes)?;
+        self.count(shard);
+        Ok(())
+    }
+
+    /// Takes in a shard that a worker has put in its place by itself.
+    ///
+    /// # Errors
+    /// [`StoreError::Shard`] if its file is not that of a shard that belongs here, or
+    /// [`StoreError::Disk`] if there is none; the shard is missing then as before.
+    pub fn adopt(&mut self, shard: u64) -> Result<(), StoreError> {
+        if !self.missing.contains(&shard) {
+            return Ok(());
+        }
+        let file = self.path.join(RUNS).join(shard::file_name(shard));
+        let bytes = fs::read(&file).map_err(StoreError::at("read", &file))?;
+        shard::check(&self.study, shard, &bytes)
+            .map_err(|fault| StoreError::Shard { shard, fault })?;
+        self.begin_session()?;
+        self.count(shard);
+        Ok(())
+    }
+
+    /// Notes that a shard is there.
+    fn count(&mut self, shard: u64) {
         self.missing.remove(&shard);
         if let Some(session) = self.manifest.sessions.last_mut() {
             session.shards += 1;
         }
-        Ok(())
     }
 
     fn begin_session(&mut self) -> Result<(), StoreError> {

@@ -36,7 +36,7 @@ pub use folder::{Finished, Folder};
 pub use manifest::{ColumnRecord, Manifest, Part, Session};
 pub use merge::merge;
 pub use results::Results;
-pub use study::Study;
+pub use study::{Study, difference};
 
 use grouser::document::campaign::Campaign;
 

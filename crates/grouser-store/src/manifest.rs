@@ -114,7 +114,9 @@ impl std::fmt::Display for Part {
 }
 
 impl Manifest {
-    pub(crate) fn new(study: &Study, part: Option<Part>) -> Self {
+    /// That of a campaign of which nothing is computed yet.
+    #[must_use]
+    pub fn new(study: &Study, part: Option<Part>) -> Self {
         Self {
             schema: SCHEMA.into(),
             version: VERSION.into(),

@@ -258,6 +258,14 @@ pub fn read<R: ChunkReader + 'static>(file: R, columns: &[&str]) -> Result<Table
     Ok(table)
 }
 
+/// The values of some columns of a shard's bytes.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bytes(file: Vec<u8>, columns: &[&str]) -> Result<Table, StoreError> {
+    read(Bytes::from(file), columns)
+}
+
 fn column_values(reader: ColumnReader, rows: usize) -> Result<Values, StoreError> {
     match reader {
         ColumnReader::DoubleColumnReader(reader) => {

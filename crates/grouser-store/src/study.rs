@@ -72,7 +72,8 @@ pub(crate) fn hex(bytes: &[u8]) -> String {
 ///
 /// * `theirs`: what the folder has
 /// * `ours`: what is asked for
-pub(crate) fn difference(theirs: &str, ours: &str) -> String {
+#[must_use]
+pub fn difference(theirs: &str, ours: &str) -> String {
     /// How many keys are told; more do not help to find the mistake.
     const SHOWN: usize = 3;
     let (theirs, ours) = (flat(theirs), flat(ours));

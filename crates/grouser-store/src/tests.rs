@@ -153,6 +153,26 @@ fn a_folder_goes_on_where_it_was_left() {
     assert_eq!(folder.manifest().sessions.len(), 4);
 }
 
+/// As a worker does that shares the disk.
+#[test]
+fn a_shard_that_is_in_its_place_already_is_adopted() {
+    let (study, place) = (study("a = 1"), tempfile::tempdir().unwrap());
+    let digest = finished(&place.path().join("whole"), &study, None);
+    let path = place.path().join("shared");
+    let mut folder = Folder::open(&path, &study, None).unwrap();
+    for shard in folder.missing() {
+        let file = path.join("runs").join(file_name(shard));
+        assert!(matches!(folder.adopt(shard), Err(StoreError::Disk { .. })));
+        fs::write(&file, "half").unwrap();
+        assert!(matches!(folder.adopt(shard), Err(StoreError::Shard { .. })));
+        assert!(folder.missing().contains(&shard));
+        fs::write(&file, bytes(&study, shard)).unwrap();
+        folder.adopt(shard).unwrap();
+    }
+    assert_eq!(folder.manifest().sessions[0].shards, study.shards());
+    assert_eq!(folder.finish().unwrap().digest, digest);
+}
+
 #[test]
 fn a_finished_folder_is_left_as_it_is() {
     let (study, place) = (study("a = 1"), tempfile::tempdir().unwrap());

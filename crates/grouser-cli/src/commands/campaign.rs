@@ -1,5 +1,6 @@
 //! `grouser campaign`: many runs over what is not known exactly.
 
+mod cost;
 mod digest;
 mod merge;
 mod progress;
@@ -24,6 +25,7 @@ pub(crate) fn run(args: &CampaignArgs) -> Result<(), Failure> {
         CampaignCommand::Merge(args) => merge::run(args),
         CampaignCommand::Summarise(args) => summarise::run(args),
         CampaignCommand::Digest(args) => digest::run(args),
+        CampaignCommand::Cost(args) => cost::run(args),
     }
 }
 

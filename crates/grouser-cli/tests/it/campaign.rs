@@ -103,10 +103,30 @@ fn it_says_what_it_did() {
     assert_snapshot!("summary", masked(&place.line("campaign summarise out")));
     let rerun = place.results("campaign rerun out 13");
     assert!(rerun.ends_with("equal to the stored row\n"), "{rerun}");
-    for command in ["run", "rerun", "merge", "summarise", "digest"] {
+    for command in ["run", "rerun", "merge", "summarise", "digest", "cost"] {
         let answer = place.line(&format!("campaign {command} --help"));
         assert_snapshot!(format!("help-{command}"), answer.conversation());
     }
+}
+
+/// The rate is this machine's; all else follows from it and the bytes.
+#[test]
+fn what_a_campaign_costs_follows_from_a_rate_and_bytes() {
+    let place = with_study(WHEELS);
+    let json = place.json("campaign cost study.toml --runs 1000000 --seconds 0.1");
+    assert_eq!(json["schema"], "grouser.campaign.cost.v1");
+    let row = &json["rows"][0];
+    assert_eq!((&row["study"], &row["shard_runs"]), (&"study.toml".into(), &8.into()));
+    assert_eq!(row["shards"], 125_000);
+    let (rate, bytes) = (number(&row["runs_per_core_s"]), number(&row["bytes_per_run"]));
+    let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-12 * expected;
+    assert!(near(number(&row["core_hours"]), 1e6 / rate / 3600.0), "{row}");
+    assert!(near(number(&row["gigabytes"]), 1e-3 * bytes), "{row}");
+    // A file's footer is most of so small a shard. The last one has half as many runs, so that bytes per
+    // run depend by 6 % on how many shards there was time for.
+    place.results("campaign run study.toml --out out");
+    let all: usize = shards(&place, "out").values().map(Vec::len).sum();
+    assert!((bytes / (all as f64 / 60.0) - 1.0).abs() < 0.1, "{bytes} of {all}");
 }
 
 #[test]
@@ -385,7 +405,7 @@ fn ctrl_c_leaves_a_folder_that_goes_on() {
     assert_eq!(output.status.code(), Some(130));
     let manifest: Value = serde_json::from_str(&place.read("out/manifest.json")).expect("JSON");
     let session = &manifest["sessions"][0];
-    assert_eq!(session["shards"].as_u64(), Some(shards(&place, "out").len() as u64));
+    assert_eq!(session["shards"], shards(&place, "out").len());
     assert!(session["ended"].is_string() && manifest["digest"].is_null(), "{manifest}");
     let unfinished = place.line("campaign summarise out");
     assert_eq!(unfinished.code(), 2, "{}", unfinished.conversation());

@@ -5,6 +5,8 @@ Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `
 (`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
 (`wheel_test`, `validate`, `calibrate`). A `Simulator` leads a rover step by step; ``grouser.gym``,
 imported by itself, has environments for Gymnasium.
+A `Campaign` puts what is not known exactly through a study, on one machine or on many
+(`grouser.campaign`).
 
 Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
 project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -21,6 +23,7 @@ Examples
 'completed'
 """
 
+from . import campaign
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._attitude_band import AttitudeBand
 from ._attitudes import AttitudeMap, Attitudes, attitude, attitude_map
@@ -28,6 +31,10 @@ from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
     CalibrationError,
+    CampaignDiskError,
+    CampaignError,
+    CampaignLockedError,
+    CampaignNotFoundError,
     DocumentError,
     DocumentNotFoundError,
     DocumentUnreadableError,
@@ -41,6 +48,7 @@ from ._studies import Trajectory, simulate
 from ._validation import Ranking, Validation, validate, validate_all
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
+from .campaign import Campaign
 
 __all__ = [
     "EARTH_GRAVITY",
@@ -51,6 +59,11 @@ __all__ = [
     "Attitudes",
     "Calibration",
     "CalibrationError",
+    "Campaign",
+    "CampaignDiskError",
+    "CampaignError",
+    "CampaignLockedError",
+    "CampaignNotFoundError",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
@@ -77,6 +90,7 @@ __all__ = [
     "attitude_map",
     "calibrate",
     "calibrate_plates",
+    "campaign",
     "rollout",
     "settle",
     "simulate",

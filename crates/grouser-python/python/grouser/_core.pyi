@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "CampaignFolder",
     "Document",
     "EARTH_GRAVITY",
+    "FAILED_STATUSES",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
     "REST_SPEED_M_S",
@@ -23,12 +25,21 @@ __all__ = [
     "attitude_map",
     "calibrate_plate_tests",
     "calibrate_wheel_tests",
+    "campaign_facts",
+    "campaign_manifest",
+    "campaign_row",
+    "campaign_shard",
+    "campaign_summary",
+    "check_shard",
+    "find_campaign",
     "find_document",
+    "merge_campaign",
     "not_carried",
     "presets",
     "read_document_file",
     "read_document_table",
     "read_document_text",
+    "read_shard",
     "rollout",
     "settle",
     "simulate",
@@ -36,6 +47,7 @@ __all__ = [
     "simulator_columns",
     "time_rollout",
     "time_settle",
+    "study_difference",
     "to_toml",
     "validate",
     "validate_all",
@@ -43,6 +55,7 @@ __all__ = [
 ]
 
 __version__: str
+FAILED_STATUSES: list[str]
 EARTH_GRAVITY: float
 MOON_GRAVITY: float
 MARS_GRAVITY: float
@@ -205,3 +218,39 @@ def calibrate_plate_tests(
     seed: int,
     steps: int | None,
 ) -> dict[str, Any]: ...
+
+_Part = tuple[int, int] | None
+
+@final
+class CampaignFolder:
+    def __new__(
+        cls, path: str | os.PathLike[str], campaign: Document, part: _Part
+    ) -> CampaignFolder: ...
+    def missing(self) -> NDArray[np.uint64]: ...
+    def faults(self) -> list[tuple[int, str]]: ...
+    def runs(self) -> tuple[int, int]: ...
+    def accept(self, shard: int, data: bytes) -> None: ...
+    def adopt(self, shard: int) -> None: ...
+    def pause(self) -> None: ...
+    def finish(self) -> tuple[str, int, int]: ...
+    def close(self) -> None: ...
+
+def find_campaign(study: str, settings: Sequence[str]) -> Document: ...
+def campaign_facts(campaign: Document) -> dict[str, Any]: ...
+def campaign_shard(campaign: Document, shard: int, threads: int) -> bytes: ...
+def campaign_row(campaign: Document, run: int) -> dict[str, Any]: ...
+def campaign_manifest(campaign: Document, part: _Part) -> str: ...
+def check_shard(campaign: Document, shard: int, data: bytes) -> None: ...
+def study_difference(theirs: str, ours: str) -> str: ...
+def read_shard(data: bytes, columns: Sequence[str]) -> dict[str, Any]: ...
+def merge_campaign(
+    target: str | os.PathLike[str],
+    campaign: Document,
+    folders: Sequence[str | os.PathLike[str]],
+) -> tuple[str, int, int]: ...
+def campaign_summary(
+    campaign: Document,
+    columns: Sequence[tuple[str, _Floats]],
+    counts: Sequence[tuple[int, int]],
+    shares: Sequence[float],
+) -> tuple[list[dict[str, Any]], list[tuple[float, float, float]]]: ...

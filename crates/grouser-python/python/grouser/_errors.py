@@ -131,3 +131,51 @@ class SimulationError(GrouserError, ArithmeticError):
 class CalibrationError(GrouserError, ArithmeticError):
     """A calibration that cannot be computed: no start gives finite predictions, for instance. That
     data leave a key open is a result."""
+
+
+class CampaignError(GrouserError):
+    """A campaign that cannot go on: a folder with another study, a shard that nobody can compute."""
+
+
+class CampaignLockedError(CampaignError, BlockingIOError):
+    """Another program writes to the folder."""
+
+    def __init__(self, message: str, folder: str | None = None) -> None:
+        super().__init__(message)
+        self.filename = folder
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.filename)
+
+
+class CampaignNotFoundError(CampaignError, FileNotFoundError):
+    """There is no campaign in the folder."""
+
+    def __init__(self, message: str, folder: str | None = None) -> None:
+        super().__init__(message)
+        self.errno = errno.ENOENT
+        self.filename = folder
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.filename)
+
+
+class CampaignDiskError(CampaignError, OSError):
+    """The disk is full or fails, or does not permit it. What was written before is kept."""
+
+    def __init__(self, message: str, number: int | None = None, file: str | None = None) -> None:
+        super().__init__(message)
+        self.errno = number
+        self.filename = file
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.errno, self.filename)

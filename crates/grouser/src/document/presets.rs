@@ -106,4 +106,5 @@ static PRESETS: &[Preset] = &[
     preset!(DataSet, "data/measurements", "cmu-single-wheel"),
     preset!(Campaign, "scenarios", "campaign-attitude"),
     preset!(Campaign, "scenarios", "campaign-traverse"),
+    preset!(Campaign, "scenarios", "campaign-wheel-test"),
 ];

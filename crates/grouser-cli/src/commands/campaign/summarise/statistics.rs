@@ -281,16 +281,16 @@ fn sensitivities(
         return Vec::new();
     };
     let record =
-        |(input, index): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
+        |(input, share): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
             SensitivityRecord {
                 quantity: column.name.clone(),
                 input: input.clone(),
-                first: index.first.value,
-                first_low: index.first.low,
-                first_high: index.first.high,
-                total: index.total.value,
-                total_low: index.total.low,
-                total_high: index.total.high,
+                first: share.first.value,
+                first_low: share.first.low,
+                first_high: share.first.high,
+                total: share.total.value,
+                total_low: share.total.low,
+                total_high: share.total.high,
                 points: found.points,
                 points_missing: found.missing,
             }

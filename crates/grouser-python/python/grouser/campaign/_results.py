@@ -1,0 +1,280 @@
+"""What a campaign has found, read from its folder or URL."""
+
+from __future__ import annotations
+
+import copy
+import functools
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core, _tables
+from .._errors import CampaignError, ParameterError
+from ._files import MANIFEST, RUNS, STUDY, Files, Location, files_of, is_url, need
+from ._study import Campaign
+from ._summary import Summary, summary_of
+from ._worker import file_name
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+
+
+class Results:
+    """The runs of a campaign that are there: a row each, a column for each input and result.
+
+    Nothing is locked, and a campaign may still be running: what is read is what was there when this
+    was made. The files are an ordinary Parquet data set; DuckDB, polars and pandas read
+    ``DIR/runs/*.parquet`` as it is.
+    """
+
+    def __init__(self, files: Files) -> None:
+        self._files = files
+        self._manifest: dict[str, Any] = json.loads(need(files, MANIFEST))
+        part = self._manifest["part"]
+        index, of = (part["index"], part["of"]) if part else (1, 1)
+        own = range(index - 1, self._manifest["shards"], of)
+        there = set(files.names(RUNS))
+        self._there = [shard for shard in own if file_name(shard) in there]
+        self._missing = len(own) - len(self._there)
+
+    @functools.cached_property
+    def campaign(self) -> Campaign:
+        """What was run, with everything in its place."""
+        return Campaign.from_toml(need(self._files, STUDY).decode())
+
+    @property
+    def location(self) -> str:
+        """The folder, or the URL."""
+        return self._files.location
+
+    @property
+    def digest(self) -> str | None:
+        """SHA-256 over the bytes of all shards in their order, written down when the last was there;
+        None before. It is the same whoever computed them."""
+        digest: str | None = self._manifest["digest"]
+        return digest
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether all shards are there."""
+        return self._missing == 0
+
+    @property
+    def manifest(self) -> dict[str, Any]:
+        """What the folder says of itself: study, version, seed, columns with their units, and when it
+        was computed; a copy."""
+        manifest: dict[str, Any] = copy.deepcopy(self._manifest)
+        return manifest
+
+    @property
+    def shard_count(self) -> int:
+        """How many shards are there."""
+        return len(self._there)
+
+    def count(self) -> tuple[dict[str, int], int]:
+        """How often each status is among the runs that are there, and how many bytes they have; read
+        shard by shard."""
+        statuses: Counter[str] = Counter()
+        size = 0
+        for _, data in self._shards():
+            statuses.update(_core.read_shard(data, ["status"])["status"])
+            size += len(data)
+        return dict(sorted(statuses.items())), size
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What a row has, in order."""
+        return tuple(column["name"] for column in self._manifest["columns"])
+
+    def __len__(self) -> int:
+        """How many runs are there."""
+        return sum(len(self.campaign.runs_of(shard)) for shard in self._there)
+
+    def column(self, name: str) -> NDArray[Any]:
+        """A column, shape (runs,): numbers with NaN where a run has none, or texts with None.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such column.
+        """
+        found: NDArray[Any] = self._columns([name])[name]
+        return found
+
+    def _columns(self, names: Sequence[str]) -> dict[str, NDArray[Any]]:
+        kinds = {column["name"]: column["kind"] for column in self._manifest["columns"]}
+        for name in names:
+            if name not in kinds:
+                raise ParameterError(
+                    f"there is no column {name!r}", "columns", None, ", ".join(kinds)
+                )
+        parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
+        for _, data in self._shards():
+            for name, values in _core.read_shard(data, list(names)).items():
+                parts[name].append(np.asarray(values, dtype=_DTYPES[kinds[name]]))
+        empty = {name: np.empty(0, dtype=_DTYPES[kinds[name]]) for name in names}
+        return {name: np.concatenate([empty[name], *parts[name]]) for name in names}
+
+    def _shards(self) -> Iterator[tuple[int, bytes]]:
+        """The shards that are there, in order: one at a time is in memory."""
+        for shard in self._there:
+            yield shard, need(self._files, f"{RUNS}/{file_name(shard)}")
+
+    def to_pandas(self, columns: Iterable[str] | None = None) -> pandas.DataFrame:
+        """A table with a row for each run.
+
+        Parameters
+        ----------
+        columns : names, optional
+            Which columns; all without. Memory is that of these.
+        """
+        return _tables.frame(self._columns(list(self.columns if columns is None else columns)))
+
+    def to_arrow(self, columns: Iterable[str] | None = None) -> pyarrow.Table:
+        """A table of Arrow with a row for each run, null where a run has no value.
+
+        Parameters
+        ----------
+        columns : names, optional
+            Which columns; all without.
+
+        Raises
+        ------
+        ImportError
+            Without pyarrow.
+        """
+        try:
+            import pyarrow
+            from pyarrow import parquet
+        except ImportError as error:
+            raise ImportError("tables of Arrow need pyarrow: pip install pyarrow") from error
+        names = list(self.columns if columns is None else columns)
+        tables = [
+            parquet.read_table(pyarrow.BufferReader(data), columns=names)
+            for _, data in self._shards()
+        ]
+        if not tables:
+            raise CampaignError(f"{self.location} has no shards yet")
+        # Each shard's footer tells its own number.
+        return pyarrow.concat_tables(table.replace_schema_metadata(None) for table in tables)
+
+    def row(self, run: int) -> dict[str, Any]:
+        """A run as it is stored: its row by column, None or NaN where there is no value.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such run, or its shard is not there.
+        """
+        shard = run // self._manifest["shard_runs"]
+        if run < 0 or shard not in self._there:
+            raise ParameterError(
+                f"run {run} is not there", "run", run, f"below {self._manifest['runs']}"
+            )
+        data = need(self._files, f"{RUNS}/{file_name(shard)}")
+        place = run - self.campaign.runs_of(shard).start
+        columns = _core.read_shard(data, list(self.columns))
+        return {name: _plain(values[place]) for name, values in columns.items()}
+
+    def rerun(self, run: int) -> dict[str, Any]:
+        """Computes a run anew, alone, whether it is there or not: its row by column, None where there is
+        no value.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such run.
+        """
+        return self.campaign.rerun(run)
+
+    def summarise(
+        self,
+        columns: Iterable[str] | None = None,
+        *,
+        quantiles: Sequence[float] = (0.025, 0.5, 0.975),
+    ) -> Summary:
+        """What the runs say together: how often each status is, with Wilson's intervals; mean, quantiles
+        and their confidence intervals for each result; convergence over the runs; Sobol indices, if the
+        campaign was laid out for them.
+
+        Parameters
+        ----------
+        columns : names, optional
+            Which results; all without.
+        quantiles : sequence of float
+            Their shares, between 0 and 1.
+
+        Raises
+        ------
+        CampaignError
+            If shards are missing: what is there then need not stand for all.
+        """
+        if not self.is_finished:
+            raise CampaignError(
+                f"{self.location} is not finished: {self._missing} of its shards are missing"
+            )
+        return summary_of(self, columns, quantiles)
+
+    def __repr__(self) -> str:
+        state = "finished" if self.is_finished else f"{self._missing} shards missing"
+        return f"<Results {self._manifest['name']!r} in {self.location}: {len(self)} runs, {state}>"
+
+
+#: NumPy's types for what stands in a column.
+_DTYPES: dict[str, Any] = {"float": np.float64, "whole": np.int64, "text": object}
+
+
+def _plain(value: Any) -> Any:
+    """Python's own number for NumPy's."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def results(location: Location, *, storage_options: Mapping[str, Any] | None = None) -> Results:
+    """The results in a folder or under a URL, finished or not.
+
+    Parameters
+    ----------
+    location : path or str
+        The folder, or a URL of fsspec.
+    storage_options : mapping, optional
+        What fsspec needs to reach the URL.
+
+    Raises
+    ------
+    CampaignNotFoundError
+        If there is no campaign.
+    """
+    return Results(files_of(location, storage_options))
+
+
+def merge(out: Location, parts: Sequence[Location]) -> Results:
+    """Brings the parts of an array of jobs together: their shards are copied to one folder, which is
+    then as if one process had computed all.
+
+    Parameters
+    ----------
+    out : path
+        The folder for all.
+    parts : sequence of paths
+        The parts' folders, in any order.
+
+    Raises
+    ------
+    CampaignError
+        If parts are unfinished, missing, twice there, or of another study. Nothing is written then.
+    CampaignNotFoundError
+        If a folder has no campaign.
+    """
+    if not parts:
+        raise ParameterError("there are no parts to merge", "parts", None, "at least one folder")
+    for location in (out, *parts):
+        if is_url(location):
+            raise ParameterError(f"{location} is no folder: parts are merged in folders", "parts")
+    study = results(parts[0]).campaign
+    _core.merge_campaign(out, study._document, list(parts))
+    return results(out)

@@ -1,0 +1,124 @@
+"""The description of a campaign."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .. import _core
+from .._descriptions import _Description
+from .._errors import ParameterError
+
+
+class Campaign(_Description):
+    """Many runs of one study over numbers that are not known exactly: ``study``, ``runs``, ``seed``,
+    ``shard_runs``, ``sampling``, ``sensitivity``, ``scenario`` or ``wheel_test``, and what is
+    uncertain: ``parameter``, ``correlation``, ``samples``, ``soil_uncertainty``. The guide on
+    campaigns explains them. Made and failing as `Soil` is.
+
+    What it is resolved to (``to_toml``) holds samples and all that it names: that one text is all a
+    worker needs.
+    """
+
+    __slots__ = ("_facts",)
+    _kind = "campaign"
+    _facts: dict[str, Any]
+
+    def _take(self, document: _core.Document) -> None:
+        super()._take(document)
+        object.__setattr__(self, "_facts", _core.campaign_facts(document))
+
+    @classmethod
+    def _of(cls, document: _core.Document) -> Campaign:
+        """The description that a document was read to."""
+        made = cls.__new__(cls)
+        made._take(document)
+        return made
+
+    @property
+    def row_count(self) -> int:
+        """How many runs there are: ``runs`` or, with ``sensitivity``, that many times two more than
+        there are inputs."""
+        count: int = self._facts["runs"]
+        return count
+
+    @property
+    def shard_count(self) -> int:
+        """How many shards there are: fixed by the document, not by who computes them."""
+        count: int = self._facts["shards"]
+        return count
+
+    @property
+    def sha256(self) -> str:
+        """SHA-256 of the resolved document: the campaign's name among all."""
+        name: str = self._facts["sha256"]
+        return name
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """What a row has, in order."""
+        return tuple(name for name, *_ in self._facts["columns"])
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The columns of what is drawn."""
+        return self._of_role("input")
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """The columns of results."""
+        return self._of_role("result")
+
+    @property
+    def units(self) -> dict[str, str | None]:
+        """The unit of each column; None for ratios and texts."""
+        return {name: unit for name, _, _, unit in self._facts["columns"]}
+
+    def _of_role(self, wanted: str) -> tuple[str, ...]:
+        return tuple(name for name, _, role, _ in self._facts["columns"] if role == wanted)
+
+    def runs_of(self, shard: int) -> range:
+        """The runs of a shard; none beyond the last."""
+        length: int = self._items["shard_runs"]
+        start = min(shard * length, self.row_count)
+        return range(start, min(start + length, self.row_count))
+
+    def shard(self, shard: int, *, threads: int = 0) -> bytes:
+        """Computes a shard.
+
+        Parameters
+        ----------
+        shard : int
+            Its number, from 0.
+        threads : int
+            How many to compute with; 0 for one on each core. The bytes are the same.
+
+        Returns
+        -------
+        bytes
+            A Parquet file.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such shard.
+        """
+        return _core.campaign_shard(
+            self._document, _whole("shard", shard), _whole("threads", threads)
+        )
+
+    def rerun(self, run: int) -> dict[str, Any]:
+        """Computes a single run: its row by column, None where there is no value.
+
+        Raises
+        ------
+        ParameterError
+            If there is no such run.
+        """
+        return _core.campaign_row(self._document, _whole("run", run))
+
+
+def _whole(name: str, value: int) -> int:
+    """A number that is not negative."""
+    if not 0 <= value < 2**63:
+        raise ParameterError(f"{name} is {value}, which counts nothing", name, value, "0 or more")
+    return value
