@@ -11,6 +11,7 @@ import re
 import shutil
 from pathlib import Path
 
+import grouser.campaign
 import grouser.gym
 import grouser.mujoco
 from sphinx.pycode import ModuleAnalyzer
@@ -20,15 +21,16 @@ from sphinx.util import logging
 def gather(app) -> None:
     # Pages of names that are gone would stay.
     shutil.rmtree(Path(app.srcdir, "reference", "generated", "python"), ignore_errors=True)
-    whole = ModuleAnalyzer.for_module("grouser")
-    whole.analyze()
-    for module in pkgutil.iter_modules(grouser.__path__):
-        if module.name == "_core":
-            continue
-        part = ModuleAnalyzer.for_module(f"grouser.{module.name}")
-        part.analyze()
-        for found in ("annotations", "attr_docs", "overloads", "tagorder"):
-            getattr(whole, found).update(getattr(part, found))
+    for package in (grouser, grouser.campaign):
+        whole = ModuleAnalyzer.for_module(package.__name__)
+        whole.analyze()
+        for module in pkgutil.iter_modules(package.__path__):
+            if module.name in ("_core", "__main__"):
+                continue
+            part = ModuleAnalyzer.for_module(f"{package.__name__}.{module.name}")
+            part.analyze()
+            for found in ("annotations", "attr_docs", "overloads", "tagorder"):
+                getattr(whole, found).update(getattr(part, found))
 
 
 def signature(app, what, name, thing, options, arguments, returns):
@@ -43,7 +45,7 @@ def signature(app, what, name, thing, options, arguments, returns):
 
 
 def from_below(app, env, node, inner):
-    """A name of `grouser` in the docstrings of `grouser.gym` and `grouser.mujoco`."""
+    """A name of `grouser` in the docstrings of the packages within it."""
     if node.get("refdomain") != "py" or node["reftarget"] not in grouser.__all__:
         return None
     whole = f"grouser.{node['reftarget']}"
@@ -57,6 +59,9 @@ def complete(app) -> None:
     told = set(
         re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M)
     )
-    names = {*grouser.__all__, *grouser.gym.__all__, *grouser.mujoco.__all__}
+    packages = (grouser, grouser.campaign, grouser.gym, grouser.mujoco)
+    names = {name for package in packages for name in package.__all__}
+    # A package within is told by its own names.
+    names -= {package.__name__.removeprefix("grouser.") for package in packages}
     for name in sorted(names - {a or b for a, b in told}):
         logging.getLogger(__name__).warning("reference/python.md leaves out %s", name)

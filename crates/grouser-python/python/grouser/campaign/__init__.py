@@ -46,3 +46,9 @@ __all__ = [
     "results",
     "run",
 ]
+
+# One canonical path for each name, in messages and in documentation; that of `Campaign` is
+# `grouser.Campaign`.
+for _thing in (Progress, Quantity, Results, Share, Summary, merge, results, run):
+    _thing.__module__ = __name__
+del _thing
