@@ -84,18 +84,18 @@ fn cost(
 }
 
 fn table(rows: &[CostRecord], runs: u64) -> String {
-    let mut text = format!(
+    let header = format!(
         "| study | runs per core and second | bytes per run | core-hours for {:e} runs | GB | shards |\n\
          |---|---|---|---|---|---|\n",
         runs as f64
     );
-    for row in rows {
+    let line = |row: &CostRecord| {
         let numbers = [row.runs_per_core_s, row.bytes_per_run, row.core_hours, row.gigabytes];
         let [rate, bytes, hours, gigabytes] = numbers.map(four_digits);
         let CostRecord { study, shards, shard_runs, .. } = row;
-        text += &format!(
+        format!(
             "| {study} | {rate} | {bytes} | {hours} | {gigabytes} | {shards} of {shard_runs} runs |\n"
-        );
-    }
-    text
+        )
+    };
+    std::iter::once(header).chain(rows.iter().map(line)).collect()
 }
