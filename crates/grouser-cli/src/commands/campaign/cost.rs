@@ -84,7 +84,7 @@ fn cost(
 }
 
 fn table(rows: &[CostRecord], runs: u64) -> String {
-    let head = format!(
+    let header = format!(
         "| study | runs per core and second | bytes per run | core-hours for {:e} runs | GB | shards |\n\
          |---|---|---|---|---|---|\n",
         runs as f64
@@ -97,5 +97,5 @@ fn table(rows: &[CostRecord], runs: u64) -> String {
             "| {study} | {rate} | {bytes} | {hours} | {gigabytes} | {shards} of {shard_runs} runs |\n"
         )
     };
-    head + &rows.iter().map(line).collect::<String>()
+    std::iter::once(header).chain(rows.iter().map(line)).collect()
 }
