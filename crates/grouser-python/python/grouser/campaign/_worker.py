@@ -23,7 +23,7 @@ class Writer(Protocol):
 @functools.lru_cache(maxsize=2)
 def _campaign(study: str) -> _core.Document:
     """A study that was read. Workers compute many shards of one."""
-    return _core.read_document_text("campaign", "study.toml", study, {})
+    return _core.read_document_text("campaign", "study.toml", study, {}, {})
 
 
 def file_name(shard: int) -> str:
