@@ -7,8 +7,8 @@
 //! 1. The document is read as any other, with the scenario, or the soil and the wheel, that it names.
 //! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from the
 //!    soil's own `[uncertainty]` if asked for; each key is a number of the resolved base (`inputs`).
-//! 3. It becomes a [`Plan`](crate::studies::campaign::Plan). A run puts the plan's values in the base
-//!    document's place of them, makes a domain's value of it, and computes (`rows`).
+//! 3. It becomes a [`Plan`]. A run puts the plan's values in the base document's place of them, makes
+//!    a domain's value of it, and computes (`rows`).
 //!
 //! The resolved document holds all of that in one text: samples, too. Its hash names the campaign.
 

@@ -150,7 +150,7 @@ def main(words: Sequence[str] | None = None) -> int:
     asked = _arguments(words)
     teller = _Teller(asked.format)
     try:
-        campaign = Campaign._of(_core.find_campaign(asked.study, asked.settings))
+        campaign = Campaign._of_document(_core.find_campaign(asked.study, asked.settings))
         results = run(
             campaign,
             out=asked.out,

@@ -53,8 +53,8 @@ def run(
         ``s3://bucket/campaign``, which has no lock.
     executor : optional
         Who computes. None: this process, on all cores. ``"processes"`` or ``"threads"``: as many of
-        this machine as `workers`. ``"dask"`` or ``"ray"``: the cluster at `scheduler`, or else workers
-        of this machine. Or an object: any executor of `concurrent.futures`, a client or cluster of
+        this machine as ``workers``. ``"dask"`` or ``"ray"``: the cluster at ``scheduler``, or else workers
+        of this machine. Or an object: any executor of ``concurrent.futures``, a client or cluster of
         Dask distributed, the module ``ray``; it is used as it is, and not shut down.
     scheduler : str, optional
         The address of a scheduler of Dask, or of a cluster of Ray.

@@ -28,7 +28,7 @@ class Campaign(_Description):
         object.__setattr__(self, "_facts", _core.campaign_facts(document))
 
     @classmethod
-    def _of(cls, document: _core.Document) -> Campaign:
+    def _of_document(cls, document: _core.Document) -> Campaign:
         """The description that a document was read to."""
         made = cls.__new__(cls)
         made._take(document)
