@@ -213,7 +213,7 @@ def endless(tmp_path: Path) -> subprocess.Popen[str]:
 def test_ctrl_c_is_heard_and_keeps_what_is_there(tmp_path: Path) -> None:
     with endless(tmp_path) as child:
         child.send_signal(signal.SIGINT)
-        _, error = child.communicate(timeout=60)
+        _, error = child.communicate(timeout=300)
         assert child.returncode == 130, error
     assert "the same command goes on" in error and "Traceback" not in error
     assert len(gr.campaign.results(tmp_path / "out")) >= 4
@@ -223,8 +223,8 @@ def test_workers_do_not_outlive_who_started_them(tmp_path: Path) -> None:
     with endless(tmp_path) as child:
         child.kill()
         # The workers hold its output open as long as they live.
-        child.communicate(timeout=60)
-    deadline = time.monotonic() + 60
+        child.communicate(timeout=300)
+    deadline = time.monotonic() + 300
     while time.monotonic() < deadline:
         try:
             os.killpg(child.pid, 0)
