@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 import os
 import subprocess
 from pathlib import Path
@@ -10,6 +11,9 @@ from typing import Any
 
 import matplotlib
 import pytest
+
+# Whoever runs this in the background may have it ignore Ctrl-C, and children would inherit that.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 matplotlib.use("Agg")
 
