@@ -16,6 +16,7 @@ mod rustdoc;
 mod schema;
 mod site;
 mod texts;
+mod tools;
 mod workspace;
 
 use std::process::ExitCode;
@@ -60,11 +61,11 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures", "--check"] => figures::check()?,
         ["instructions"] => instructions::write()?,
         ["python"] => {
-            let libtest::Count { passed, failed } = python::check()?;
-            println!("{passed} passed, {failed} failed");
-            failed == 0
+            let count = python::check()?;
+            println!("{count}");
+            count.failed == 0
         }
-        ["site"] => site::build()?,
+        ["site"] => site::build()?.failed == 0,
         ["python-times"] => {
             python::write_times()?;
             true

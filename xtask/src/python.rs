@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 use anyhow::{Context, Result, ensure};
 
 use crate::libtest::Count;
+use crate::tools::RENDERER;
 use crate::{markers, workspace};
 
 /// The package's folder.
@@ -110,11 +111,17 @@ fn build_wheel(python: &Path, folder: &Path) -> Result<PathBuf> {
     Ok(wheels.next().context("maturin made no wheel")??.path())
 }
 
+/// Tells MuJoCo, and what reads its variable, that nothing can be drawn.
+pub(crate) const WITHOUT_RENDERER: [(&str, &str); 1] = [("MUJOCO_GL", "disable")];
+
 /// Runs pytest in the package's folder, shows what it says, and counts.
 fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
     let mut command = Command::new(python);
-    command.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]).args(arguments);
+    command.args(["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]).args(arguments);
     command.current_dir(workspace::root().join(PACKAGE)).env("GROUSER_PROGRAM", program);
+    if !RENDERER.is_here() {
+        command.envs(WITHOUT_RENDERER);
+    }
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
     let mut last = String::new();
     if let Some(stdout) = child.stdout.take() {
@@ -141,10 +148,11 @@ fn count_of(line: &str, succeeded: bool) -> Count {
         0
     };
     let (passed, failed) = (before("passed"), before("failed") + before("error"));
+    let skipped = before("skipped") + before("deselected");
     // A run that ended badly without a failed test counts as one failure, and so does one without
     // any tests.
     let silent = failed == 0 && (!succeeded || passed == 0);
-    Count { passed, failed: failed + u64::from(silent) }
+    Count { passed, failed: failed + u64::from(silent), skipped }
 }
 
 fn types(python: &Path, arguments: &[&str]) -> Result<Count> {
@@ -167,13 +175,14 @@ mod tests {
     #[test]
     fn the_last_line_of_pytest_is_counted() {
         let counts = |line, succeeded| {
-            let Count { passed, failed } = count_of(line, succeeded);
-            (passed, failed)
+            let Count { passed, failed, skipped } = count_of(line, succeeded);
+            (passed, failed, skipped)
         };
-        assert_eq!(counts("59 passed in 21.33s", true), (59, 0));
-        assert_eq!(counts("7 failed, 52 passed, 1 warning in 21.33s", false), (52, 7));
-        assert_eq!(counts("1 passed, 2 errors in 0.1s", false), (1, 2));
-        assert_eq!(counts("no tests ran in 0.01s", true), (0, 1));
-        assert_eq!(counts("Segmentation fault", false), (0, 1));
+        assert_eq!(counts("59 passed in 21.33s", true), (59, 0, 0));
+        assert_eq!(counts("7 failed, 52 passed, 1 warning in 21.33s", false), (52, 7, 0));
+        assert_eq!(counts("1 passed, 2 errors in 0.1s", false), (1, 2, 0));
+        assert_eq!(counts("58 passed, 2 skipped, 3 deselected in 9s", true), (58, 0, 5));
+        assert_eq!(counts("no tests ran in 0.01s", true), (0, 1, 0));
+        assert_eq!(counts("Segmentation fault", false), (0, 1, 0));
     }
 }

@@ -6,6 +6,8 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result};
 
+use crate::libtest::Count;
+use crate::tools::RENDERER;
 use crate::{python, workspace};
 
 /// What builds the site, besides what the package is tested with.
@@ -18,11 +20,13 @@ const NEEDED: [&str; 6] = [
     "sphinx-copybutton",
 ];
 
-/// Builds the site into `target/site`; whether nothing was wrong.
+/// Builds the site into `target/site`, and counts it; without a renderer the notebook that draws
+/// MuJoCo's models is not run, and counted as skipped.
 ///
 /// A link or a name that leads nowhere, an error in a cell, anything else that Sphinx warns of: all
 /// are shown, and each fails the build.
-pub(crate) fn build() -> Result<bool> {
+pub(crate) fn build() -> Result<Count> {
+    let mut count = Count::default();
     let python = python::installed()?;
     python::install(&python, &NEEDED)?;
     let program = workspace::build_program()?;
@@ -37,7 +41,12 @@ pub(crate) fn build() -> Result<bool> {
     sphinx.arg("--conf-dir").arg(docs.join("site"));
     sphinx.arg("--doctree-dir").arg(workspace::target().join("site-doctrees"));
     sphinx.arg(&docs).arg(&site).env("GROUSER_PROGRAM", program).stdin(Stdio::null());
-    let built = sphinx.status().context("Sphinx did not start")?.success();
+    if !RENDERER.is_here() {
+        println!("{}", RENDERER.missing());
+        sphinx.envs(python::WITHOUT_RENDERER);
+        count += Count::skipped();
+    }
+    count += Count::one(sphinx.status().context("Sphinx did not start")?.success());
     println!("{}", site.join("index.html").display());
-    Ok(built)
+    Ok(count)
 }
