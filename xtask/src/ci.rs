@@ -8,7 +8,8 @@ use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::{
-    figures, instructions, measurements, python, rustdoc, schema, site, texts, tools, workspace,
+    crates, figures, instructions, measurements, python, rustdoc, schema, site, texts, tools,
+    workspace,
 };
 
 /// How much is tested.
@@ -37,6 +38,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("measurements", || Ok(Count::one(measurements::check()))),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
+        step("crates", crates::check),
         step("lints", || {
             let lint = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
             succeeds(workspace::cargo().args(lint))

@@ -2,11 +2,13 @@
 
 mod ci;
 mod cited;
+mod crates;
 mod diff;
 mod figures;
 mod hygiene;
 mod instructions;
 mod libtest;
+mod licence;
 mod links;
 mod markdown;
 mod markers;
@@ -33,6 +35,7 @@ cargo xtask CHORE
   python              build the Python package's wheel and test it in an environment of its own
   site                build the documentation site into target/site, and run its notebooks
   python-times        measure what Python costs, and write it into docs/performance.md
+  crates              check licences, features and advisories of the crates that we depend on
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -60,12 +63,9 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
         ["instructions"] => instructions::write()?,
-        ["python"] => {
-            let count = python::check()?;
-            println!("{count}");
-            count.failed == 0
-        }
-        ["site"] => site::build()?.failed == 0,
+        ["crates"] => good(crates::check()?),
+        ["python"] => good(python::check()?),
+        ["site"] => good(site::build()?),
         ["python-times"] => {
             python::write_times()?;
             true
@@ -74,4 +74,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };
     Ok(if done { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Whether nothing failed; prints the counts.
+fn good(count: libtest::Count) -> bool {
+    println!("{count}");
+    count.failed == 0
 }
