@@ -8,8 +8,8 @@ use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::{
-    crates, figures, instructions, measurements, python, rustdoc, schema, site, texts, tools,
-    workspace,
+    crates, figures, instructions, measurements, packages, python, rustdoc, schema, site, texts,
+    tools, workflows, workspace,
 };
 
 /// How much is tested.
@@ -60,7 +60,9 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
-        step("python", python::check),
+        step("packages", || packages::check(extent)),
+        step("python", || python::check(extent)),
+        step("workflows", || workflows::check().map(Count::one)),
         step("site", site::build),
         step("instructions", instructions::check),
     ];

@@ -1,5 +1,6 @@
 //! Chores of the workspace that need logic: `cargo xtask` lists them.
 
+mod alone;
 mod ci;
 mod cited;
 mod crates;
@@ -13,12 +14,15 @@ mod links;
 mod markdown;
 mod markers;
 mod measurements;
+mod packages;
 mod python;
+mod requirements;
 mod rustdoc;
 mod schema;
 mod site;
 mod texts;
 mod tools;
+mod workflows;
 mod workspace;
 
 use std::process::ExitCode;
@@ -29,13 +33,17 @@ const USAGE: &str = "\
 cargo xtask CHORE
 
   ci [--full]         everything that is checked; --full runs the slow tests too
+  alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
   instructions        count the instructions of the units of work anew (valgrind)
-  python              build the Python package's wheel and test it in an environment of its own
+  packages [--full]   try what is published, without publishing it; --full builds it from that alone
+  python [--lowest]   build the Python package's wheel and test it in an environment of its own;
+                      --lowest with the lowest versions of all that it requires
   site                build the documentation site into target/site, and run its notebooks
   python-times        measure what Python costs, and write it into docs/performance.md
   crates              check licences, features and advisories of the crates that we depend on
+  workflows           check the workflows of the code host
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -58,18 +66,23 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         }
         ["ci"] => ci::run(ci::Extent::Usual),
         ["ci", "--full"] => ci::run(ci::Extent::Full),
+        ["alone", options @ ..] => alone::check(options)?,
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
         ["instructions"] => instructions::write()?,
         ["crates"] => good(crates::check()?),
-        ["python"] => good(python::check()?),
+        ["packages"] => good(packages::check(ci::Extent::Usual)?),
+        ["packages", "--full"] => good(packages::check(ci::Extent::Full)?),
+        ["python"] => good(python::check(ci::Extent::Usual)?),
+        ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build()?),
         ["python-times"] => {
             python::write_times()?;
             true
         }
+        ["workflows"] => workflows::check()?,
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };

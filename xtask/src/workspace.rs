@@ -81,13 +81,12 @@ pub(crate) fn build_work() -> Result<PathBuf> {
     build(&format!("work{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Builds all that is measured and shown, at once: alone, each would choose other features of the
-/// libraries that they share, and have those built again. The Python package has no program; it is
-/// named so that its wheel, built afterwards, finds those libraries with the features it needs.
+/// Builds all that is measured and shown, at once: alone, the units of work would choose other features
+/// of the libraries that they share with the program.
 fn build(program: &str) -> Result<PathBuf> {
     let status = cargo()
         .args(["build", "--release", "--bins"])
-        .args(["-p", "grouser-cli", "-p", "grouser-bench", "-p", "grouser-python"])
+        .args(["-p", "grouser-cli", "-p", "grouser-bench"])
         .status()
         .context("cargo did not start")?;
     ensure!(status.success(), "`{program}` does not build");
