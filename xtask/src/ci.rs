@@ -26,6 +26,8 @@ struct Step {
     name: &'static str,
     count: Count,
     duration: Duration,
+    /// What the step's programs computed, on all cores together: on a busy machine the number that repeats.
+    computed: Option<Duration>,
 }
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
@@ -33,6 +35,8 @@ struct Step {
 /// The quick steps come first. All but the last seven share the build of the dev profile; the
 /// program is built once, in the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
+    // Fetching packages waits for the network more than it computes.
+    std::thread::spawn(python::environment);
     let steps = [
         step("tools", || Ok(tools::check())),
         step("measurements", || Ok(Count::one(measurements::check()))),
@@ -68,11 +72,12 @@ pub(crate) fn run(extent: Extent) -> bool {
     ];
     let mut total = Count::default();
     let heads = ["passed", "failed", "skipped"].map(|head| format!(" {head:>7}")).concat();
-    println!("\n{:<14}{heads} {:>9}", "step", "seconds");
-    for Step { name, count, duration } in steps {
+    println!("\n{:<14}{heads} {:>9} {:>9}", "step", "seconds", "CPU s");
+    for Step { name, count, duration, computed } in steps {
         let Count { passed, failed, skipped } = count;
         let numbers = [passed, failed, skipped].map(|number| format!(" {number:>7}")).concat();
-        println!("{name:<14}{numbers} {:>9.1}", duration.as_secs_f64());
+        let computed = computed.map_or("-".into(), |time| format!("{:.1}", time.as_secs_f64()));
+        println!("{name:<14}{numbers} {:>9.1} {computed:>9}", duration.as_secs_f64());
         total += count;
     }
     println!("\n{total}");
@@ -82,12 +87,24 @@ pub(crate) fn run(extent: Extent) -> bool {
 /// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
 fn step(name: &'static str, take: impl FnOnce() -> Result<Count>) -> Step {
     println!("\n── {name} ──");
-    let start = Instant::now();
+    let (start, before) = (Instant::now(), computed_by_children());
     let count = take().unwrap_or_else(|error| {
         println!("{error:#}");
         Count::one(false)
     });
-    Step { name, count, duration: start.elapsed() }
+    let computed =
+        computed_by_children().zip(before).map(|(now, before)| now.saturating_sub(before));
+    Step { name, count, duration: start.elapsed(), computed }
+}
+
+/// CPU time of all programs that this one started and that have ended, where the system is Linux.
+fn computed_by_children() -> Option<Duration> {
+    // The name of the program, in brackets, may hold blanks; after it come the third field and the next.
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |field: usize| fields.get(field - 3)?.parse::<u64>().ok();
+    // User's and system's time in hundredths of a second, fields 16 and 17 of proc(5).
+    Some(Duration::from_millis(10 * (ticks(16)? + ticks(17)?)))
 }
 
 fn succeeds(command: &mut Command) -> Result<Count> {

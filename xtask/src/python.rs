@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
 
 use crate::ci::Extent;
 use crate::libtest::Count;
 use crate::requirements::{self, Requirement};
 use crate::tools::RENDERER;
-use crate::{markers, workspace};
+use crate::{markers, site, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
@@ -91,19 +91,23 @@ pub(crate) fn installed() -> Result<PathBuf> {
     Ok(python)
 }
 
-/// The Python of an environment with all that builds and tests the package, but without it.
+/// The Python of an environment with all that builds and tests the package, but without it. Made once
+/// in a run; who asks meanwhile, waits.
 pub(crate) fn environment() -> Result<PathBuf> {
-    static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    if let Some(python) = PYTHON.get() {
-        return Ok(python.clone());
-    }
+    static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    let python = PYTHON.get_or_init(|| make_environment().map_err(|error| format!("{error:#}")));
+    python.clone().map_err(Error::msg)
+}
+
+fn make_environment() -> Result<PathBuf> {
     let python = made(&folder().join("environment"))?;
     let required = requirements()?.into_iter().filter(|one| one.extra != HEAVY);
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
     needed.extend([BUILDING, TYPES, YAML].map(String::from));
     needed.extend(TESTING.map(String::from));
+    needed.extend(site::NEEDED.map(String::from));
     install(&python, &needed)?;
-    Ok(PYTHON.get_or_init(|| python).clone())
+    Ok(python)
 }
 
 /// The package's manifest for cargo.

@@ -11,7 +11,7 @@ use crate::tools::RENDERER;
 use crate::{python, workspace};
 
 /// What builds the site, besides what the package is tested with.
-const NEEDED: [&str; 6] = [
+pub(crate) const NEEDED: [&str; 6] = [
     "sphinx>=8.1,<10",
     "myst-nb>=1.3,<2",
     "pydata-sphinx-theme>=0.16,<1",
@@ -28,7 +28,6 @@ const NEEDED: [&str; 6] = [
 pub(crate) fn build() -> Result<Count> {
     let mut count = Count::default();
     let python = python::installed()?;
-    python::install(&python, &NEEDED)?;
     let program = workspace::build_program()?;
     let (docs, site) = (workspace::root().join("docs"), workspace::target().join("site"));
     if site.exists() {
