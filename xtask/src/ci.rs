@@ -1,15 +1,17 @@
 //! Everything that is checked, in one run: every step is taken, and the end shows all failures.
 
+use std::fs;
 use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::{
-    crates, figures, instructions, measurements, packages, python, rustdoc, schema, site, texts,
-    tools, workflows, workspace,
+    crates, figures, measurements, packages, python, rustdoc, schema, texts, tools, workflows,
+    workspace,
 };
 
 /// How much is tested.
@@ -32,12 +34,12 @@ struct Step {
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
-/// The quick steps come first. All but the last seven share the build of the dev profile; the
-/// program is built once, in the release profile.
+/// The quick steps come first. Those up to the documentation share the build of the dev profile, the
+/// others that of the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
     // Fetching packages waits for the network more than it computes.
     std::thread::spawn(python::environment);
-    let steps = [
+    let mut steps = vec![
         step("tools", || Ok(tools::check())),
         step("measurements", || Ok(Count::one(measurements::check()))),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
@@ -65,11 +67,14 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
         step("packages", || packages::check(extent)),
-        step("python", || python::check(extent)),
-        step("workflows", || workflows::check().map(Count::one)),
-        step("site", site::build),
-        step("instructions", instructions::check),
+        step("wheel", || python::installed().map(|_| Count::one(true))),
     ];
+    // Each of these computes on one core for most of its time.
+    let site = Beside::start("site", &["site", "--as-it-is"]);
+    let instructions = Beside::start("instructions", &["instructions", "--check"]);
+    steps.push(step("python", || python::check(extent)));
+    steps.push(step("workflows", || workflows::check().map(Count::one)));
+    steps.extend([site.end(), instructions.end()]);
     let mut total = Count::default();
     let heads = ["passed", "failed", "skipped"].map(|head| format!(" {head:>7}")).concat();
     println!("\n{:<14}{heads} {:>9} {:>9}", "step", "seconds", "CPU s");
@@ -97,10 +102,48 @@ fn step(name: &'static str, take: impl FnOnce() -> Result<Count>) -> Step {
     Step { name, count, duration: start.elapsed(), computed }
 }
 
+/// A step that another process of this program takes, while we take others.
+struct Beside {
+    name: &'static str,
+    start: Instant,
+    /// The process, and the file that it prints to.
+    running: Result<(Child, PathBuf)>,
+}
+
+impl Beside {
+    /// * `arguments`: the chore, whose last line is its counts
+    fn start(name: &'static str, arguments: &[&str]) -> Self {
+        let run = || {
+            let folder = workspace::target().join("xtask");
+            fs::create_dir_all(&folder)?;
+            let path = folder.join(format!("{name}.txt"));
+            let file = fs::File::create(&path)?;
+            let mut chore = Command::new(std::env::current_exe()?);
+            chore.args(arguments).stdin(Stdio::null()).stdout(file.try_clone()?).stderr(file);
+            Ok((chore.spawn()?, path))
+        };
+        Self { name, start: Instant::now(), running: run() }
+    }
+
+    /// Waits for the step and shows what it printed.
+    fn end(self) -> Step {
+        let Self { name, start, running } = self;
+        let end = || {
+            let (mut child, path) = running?;
+            child.wait()?;
+            let printed = fs::read_to_string(path)?;
+            print!("{printed}");
+            Ok(Count::of_closing_line(&printed))
+        };
+        let ended = step(name, end);
+        Step { duration: start.elapsed(), ..ended }
+    }
+}
+
 /// CPU time of all programs that this one started and that have ended, where the system is Linux.
 fn computed_by_children() -> Option<Duration> {
     // The name of the program, in brackets, may hold blanks; after it come the third field and the next.
-    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field - 3)?.parse::<u64>().ok();
     // User's and system's time in hundredths of a second, fields 16 and 17 of proc(5).

@@ -23,6 +23,18 @@ impl Count {
         Self { skipped: 1, ..Self::default() }
     }
 
+    /// The counts of the last line that another process of this program printed, see `Display`; without
+    /// one, it failed.
+    pub(crate) fn of_closing_line(output: &str) -> Self {
+        let line = output.lines().last().unwrap_or_default();
+        let number_before = |word: &str| -> Option<u64> {
+            line.split(", ").find_map(|part| part.strip_suffix(word)?.parse().ok())
+        };
+        let counts = number_before(" passed").zip(number_before(" failed"));
+        let skipped = number_before(" skipped").unwrap_or(0);
+        counts.map_or(Self::one(false), |(passed, failed)| Self { passed, failed, skipped })
+    }
+
     /// The tests of a test run that ended well or not.
     ///
     /// A run that failed without a failed test (it did not compile, or a test program crashed)
@@ -111,5 +123,7 @@ test result: FAILED. 10 passed; 3 failed; 0 ignored; 0 measured; 0 filtered out;
         assert_eq!(count.to_string(), "3 passed, 1 failed");
         count += Count::skipped();
         assert_eq!(count.to_string(), "3 passed, 1 failed, 1 skipped");
+        assert_eq!(Count::of_closing_line(&format!("a\n{count}\n")), count);
+        assert_eq!(Count::of_closing_line("3 passed, 0 failed\nkilled"), Count::one(false));
     }
 }

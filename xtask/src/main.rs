@@ -36,11 +36,13 @@ cargo xtask CHORE
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
-  instructions        count the instructions of the units of work anew (valgrind)
+  instructions [--check]
+                      count the instructions of the units of work anew (valgrind), or only compare
   packages [--full]   try what is published, without publishing it; --full builds it from that alone
   python [--lowest]   build the Python package's wheel and test it in an environment of its own;
                       --lowest with the lowest versions of all that it requires
-  site                build the documentation site into target/site, and run its notebooks
+  site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is
+                      with the Python package that is installed already
   python-times        measure what Python costs, and write it into docs/performance.md
   crates              check licences, features and advisories of the crates that we depend on
   workflows           check the workflows of the code host
@@ -72,12 +74,14 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
         ["instructions"] => instructions::write()?,
+        ["instructions", "--check"] => good(instructions::check()?),
         ["crates"] => good(crates::check()?),
         ["packages"] => good(packages::check(ci::Extent::Usual)?),
         ["packages", "--full"] => good(packages::check(ci::Extent::Full)?),
         ["python"] => good(python::check(ci::Extent::Usual)?),
         ["python", "--lowest"] => good(python::check_lowest()?),
-        ["site"] => good(site::build()?),
+        ["site"] => good(site::build(&python::installed()?)?),
+        ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
         ["python-times"] => {
             python::write_times()?;
             true

@@ -91,6 +91,11 @@ pub(crate) fn installed() -> Result<PathBuf> {
     Ok(python)
 }
 
+/// The Python of that environment, as another process of this program has made it.
+pub(crate) fn as_it_is() -> PathBuf {
+    python_of(&folder().join("environment"))
+}
+
 /// The Python of an environment with all that builds and tests the package, but without it. Made once
 /// in a run; who asks meanwhile, waits.
 pub(crate) fn environment() -> Result<PathBuf> {
@@ -128,13 +133,17 @@ fn requirements() -> Result<Vec<Requirement>> {
 
 /// The Python of a virtual environment, made if it is not there.
 fn made(folder: &Path) -> Result<PathBuf> {
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let python = python_of(folder);
     if !python.exists() {
         let system = if cfg!(windows) { "python" } else { "python3" };
         let make = ["-m", "venv", "--clear"];
         done(Command::new(system).args(make).arg(folder), "no virtual environment can be made")?;
     }
     Ok(python)
+}
+
+fn python_of(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
 }
 
 /// Has pip fetch packages, by name.

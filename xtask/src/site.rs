@@ -2,6 +2,7 @@
 //! package, the program and the schemas, and its notebooks are run.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result};
@@ -25,9 +26,10 @@ pub(crate) const NEEDED: [&str; 6] = [
 ///
 /// A link or a name that leads nowhere, an error in a cell, anything else that Sphinx warns of: all
 /// are shown, and each fails the build.
-pub(crate) fn build() -> Result<Count> {
+///
+/// * `python`: that of an environment with the package installed
+pub(crate) fn build(python: &Path) -> Result<Count> {
     let mut count = Count::default();
-    let python = python::installed()?;
     let program = workspace::build_program()?;
     let (docs, site) = (workspace::root().join("docs"), workspace::target().join("site"));
     if site.exists() {
