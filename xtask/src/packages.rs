@@ -54,7 +54,7 @@ fn sources(python: &Path) -> Result<PathBuf> {
         fs::remove_dir_all(&folder).context("old sources")?;
     }
     let mut make = Command::new(python);
-    make.args(["-m", "maturin", "sdist", "--quiet", "--out"]).arg(&folder);
+    make.args(["-m", "maturin", "sdist", "--out"]).arg(&folder);
     make.arg("--manifest-path").arg(python::manifest());
     python::done(&mut make, "the sources of the Python package cannot be packed")?;
     let mut archives = fs::read_dir(&folder).context("the folder of the sources")?;
