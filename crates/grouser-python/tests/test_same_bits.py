@@ -11,7 +11,7 @@ from conftest import Program
 
 import grouser as gr
 
-DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
+DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 
 def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
