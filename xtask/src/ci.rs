@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, instructions, measurements, python, rustdoc, schema, site, texts, workspace};
+use crate::{figures, instructions, python, rustdoc, schema, site, texts, workspace};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,6 @@ struct Step {
 pub(crate) fn run(extent: Extent) -> bool {
     let steps = [
         step("tools", || Ok(Count::one(tools()))),
-        step("measurements", || Ok(Count::one(measurements::check()))),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
         step("lints", || {

@@ -10,7 +10,6 @@ mod libtest;
 mod links;
 mod markdown;
 mod markers;
-mod measurements;
 mod python;
 mod rustdoc;
 mod schema;

@@ -13,6 +13,8 @@ pub struct Preset {
     pub name: &'static str,
     /// The document, with its comments.
     pub text: &'static str,
+    /// The measured rows of a data set, as CSV; other kinds have none.
+    pub rows: Option<&'static str>,
 }
 
 /// All presets of a kind, in the order in which they are listed.
@@ -54,6 +56,13 @@ macro_rules! preset {
             kind: Kind::$kind,
             name: $name,
             text: include_str!(concat!("../../data/", $folder, "/", $name, ".toml")),
+            rows: None,
+        }
+    };
+    ($kind:ident, $folder:literal, $name:literal, $rows:literal) => {
+        Preset {
+            rows: Some(include_str!(concat!("../../data/", $folder, "/", $rows))),
+            ..preset!($kind, $folder, $name)
         }
     };
 }
@@ -103,7 +112,7 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "eq18-corrected"),
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
-    preset!(DataSet, "measurements", "cmu-single-wheel"),
+    preset!(DataSet, "measurements", "cmu-single-wheel", "cmu_single_wheel.csv"),
     preset!(Campaign, "campaigns", "campaign-attitude"),
     preset!(Campaign, "campaigns", "campaign-traverse"),
     preset!(Campaign, "campaigns", "campaign-wheel-test"),
