@@ -376,8 +376,12 @@ fn a_data_set_of_the_program_is_found_by_its_name() {
     place.write("rows.csv", rows);
     place.write("cmu-single-wheel", "not measurements");
     let judge = "validate --wheel cmu-smooth --soil direct-90 --where slip_angle_deg=0 --data";
-    let mut by_name = place.json(&format!("{judge} cmu-single-wheel"));
-    let by_path = place.json(&format!("{judge} rows.csv"));
+    let json = |data: &str| -> Value {
+        let answer = place.line(&format!("{judge} {data} --format json"));
+        assert!(answer.stderr.starts_with("note: `side_force_n`"), "{}", answer.stderr);
+        serde_json::from_str(&answer.stdout).expect("JSON")
+    };
+    let (mut by_name, by_path) = (json("cmu-single-wheel"), json("rows.csv"));
     assert_eq!(by_name["inputs"]["data"], "cmu-single-wheel");
     by_name["inputs"]["data"] = "rows.csv".into();
     assert_eq!(by_name, by_path);

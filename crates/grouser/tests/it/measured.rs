@@ -153,9 +153,22 @@ fn every_data_set_brings_the_rows_that_its_document_names() {
             let choice = Choice { conditions: case.conditions.clone(), wheel: None };
             let source = measurements::Source::preset(preset.name).expect("it has rows");
             let measured = source.read(&choice).unwrap_or_else(|error| panic!("{error}"));
-            assert!(measured.notes.is_empty(), "{:?}", measured.notes);
+            let unused = measured.notes.iter().find(|note| note.contains("is not used"));
+            assert_eq!(unused, None, "{}", preset.name);
         }
     }
+}
+
+/// The licence of the rows asks that its notice goes with every copy: so the document has it, which
+/// the program prints.
+#[test]
+fn the_notice_of_the_licence_goes_with_the_rows() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements");
+    let notice = fs::read_to_string(folder.join("LICENSE-cmu-single-wheel")).expect("it is there");
+    let preset = document::preset(Kind::DataSet, "cmu-single-wheel").expect("a data set");
+    let comments = preset.text.lines().filter_map(|line| line.strip_prefix('#'));
+    let comments: Vec<&str> = comments.map(str::trim).collect();
+    assert!(comments.join("\n").contains(notice.trim()), "{comments:?}");
 }
 
 /// A name is a data set of the program, else a file; a misspelt name is answered with the right one.
