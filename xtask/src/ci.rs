@@ -10,8 +10,7 @@ use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::{
-    crates, figures, measurements, packages, python, rustdoc, schema, texts, tools, workflows,
-    workspace,
+    crates, figures, packages, python, rustdoc, schema, texts, tools, workflows, workspace,
 };
 
 /// How much is tested.
@@ -41,7 +40,6 @@ pub(crate) fn run(extent: Extent) -> bool {
     std::thread::spawn(python::environment);
     let mut steps = vec![
         step("tools", || Ok(tools::check())),
-        step("measurements", || Ok(Count::one(measurements::check()))),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
         step("crates", crates::check),

@@ -13,7 +13,6 @@ mod licence;
 mod links;
 mod markdown;
 mod markers;
-mod measurements;
 mod packages;
 mod python;
 mod requirements;

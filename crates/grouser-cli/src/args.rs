@@ -374,17 +374,18 @@ pub(crate) enum SideWord {
 
 #[derive(Debug, Args)]
 #[command(
-    override_usage = "grouser validate --data FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+    override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
                       grouser validate --all [--data-dir DIR] [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
                   other; every cell weighs the same. docs/guide/data.md tells the columns of FILE.csv, \
                   docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
-    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
     #[arg(
         long,
-        value_name = "FILE.csv",
+        value_name = "NAME|FILE.csv",
         required_unless_present = "all",
         requires = "wheel",
         requires = "soil"
@@ -400,10 +401,10 @@ pub(crate) struct ValidateArgs {
     /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// Rank every theory, with its own soils, on every data set in a folder.
+    /// Rank every theory, with its own soils, on every data set that comes with the program.
     #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
-    /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
+    /// Rank on the data sets of a folder instead (docs/guide/data.md tells how a document describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
     #[command(flatten)]
@@ -420,10 +421,11 @@ pub(crate) struct ValidateArgs {
                         The same command goes on with a run that was interrupted."
 )]
 pub(crate) struct CalibrateArgs {
-    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
     #[arg(
         long,
-        value_name = "FILE.csv",
+        value_name = "NAME|FILE.csv",
         required_unless_present = "plates",
         requires = "wheel",
         requires = "fit"

@@ -158,7 +158,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     let words = AimWords { target: target.clone(), propose, load_n, slip_ratio, slip_angle_deg };
     let (label, file) = (data.display().to_string(), name_of(&data));
     let found = listening(py, move |cancelled| {
-        let measured = measurements::read(&data, &choice)?;
+        let measured = measurements::Source::find(&data)?.read(&choice)?;
         let family = SoilFamily::new(&soil, &keys_of(keys)?).map_err(Failure::Fit)?;
         let aim = words.aim(&measured.tests.trials).map_err(Failure::Aim)?;
         let listener = Listener::new(cancelled);

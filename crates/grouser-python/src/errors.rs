@@ -95,7 +95,7 @@ fn facts(problem: &Problem) -> Facts {
 pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
     let (message, file) = (error.to_string(), file.to_owned());
     match error.problem() {
-        MeasurementProblem::NoSuchFile => {
+        MeasurementProblem::NoSuchFile | MeasurementProblem::NoSuchDataSetOrFile => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
         MeasurementProblem::Folder | MeasurementProblem::Unreadable(_) => {
@@ -180,7 +180,7 @@ pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
             classes::DocumentNotFoundError::new_err((message, file, none))
         }
         RankingError::NoDataSet { folder, .. } => {
-            let hint = "docs/guide/data.md tells where public data sets are".to_owned();
+            let hint = "docs/guide/data.md tells how a document describes a data set".to_owned();
             let file = folder.display().to_string();
             classes::DocumentNotFoundError::new_err((message, file, Some(hint)))
         }

@@ -44,7 +44,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     let folder = OutputFolder::for_args(&args.output)?;
     let stand = inputs::stand(soil, wheel, &args.setting)?;
     let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.to_owned()) };
-    let measured = measurements::read(data, &choice)?;
+    let measured = measurements::Source::find(data)?.read(&choice)?;
     for note in &measured.notes {
         output::tell(&format!("note: {note}"));
     }

@@ -31,7 +31,7 @@ pub struct DataSetDocument {
     /// What is assumed, each as `key: why this value`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assumed: Vec<String>,
-    /// The file, in whatever folder measurements are kept.
+    /// The CSV file with its rows, from the folder of this document.
     pub file: String,
     /// Gravity where it was measured [m/s²].
     #[serde(default = "earth")]

@@ -19,6 +19,7 @@ mod error;
 mod import;
 mod notes;
 mod row;
+mod source;
 pub(super) mod table;
 
 use std::collections::HashMap;
@@ -30,6 +31,7 @@ pub use columns::{Column, Meaning};
 pub use condition::Condition;
 pub use error::{MeasurementError, MeasurementProblem};
 pub use import::{Layout, Mapping, SlipDefinition, import};
+pub use source::Source;
 
 use crate::studies::measurement::{Cell, Quantity, Trial, WheelTests};
 use notes::LeftOut;

@@ -20,6 +20,9 @@ pub enum MeasurementProblem {
     /// A path that leads nowhere.
     #[error("there is no such file")]
     NoSuchFile,
+    /// A word that is neither a data set of the program nor a file.
+    #[error("there is no such data set and no such file")]
+    NoSuchDataSetOrFile,
     /// A folder where a file should be.
     #[error("this is a folder, not a file")]
     Folder,
