@@ -3,6 +3,7 @@
 mod bad_input;
 mod calibrate;
 mod campaign;
+mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;

@@ -17,6 +17,7 @@ mod marginals;
 mod numbers;
 mod rows;
 mod sections;
+mod statistics;
 mod table;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -28,6 +29,7 @@ pub use sections::{
     CampaignDocument, CampaignSchema, ParameterSection, SampleRows, SamplesSection, SamplingWord,
     StudyWord, WheelTestSection,
 };
+pub use statistics::{Frequencies, QuantityStatistics};
 pub use table::{Cell, Column, ColumnKind, Role, Table, Values, unit};
 
 use self::inputs::Prepared;
