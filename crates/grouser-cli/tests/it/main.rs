@@ -6,6 +6,7 @@ mod campaign;
 mod card;
 mod contract;
 mod conversations;
+mod hostile;
 mod import;
 mod program;
 mod scrambled;

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::measurements::{self, Choice, MeasurementError};
+use super::measurements::{self, Choice, Limits, MeasurementError};
 use super::validation::GroupRecord;
 use super::{
-    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, presets,
+    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, place_of, presets,
     read_data_set,
 };
 use crate::contact::Theory;
@@ -83,21 +83,35 @@ pub enum RankingError {
 
 /// Every theory on every data set in a folder: data set by data set and part by part, best first.
 ///
+/// * `limits`: how much of each file is read
+///
 /// # Errors
 /// [`RankingError`] for a folder, a document or a file that cannot be used.
-pub fn rank_all(folder: &Path) -> Result<Vec<RankedTheory>, RankingError> {
+pub fn rank_all(folder: &Path, limits: Limits) -> Result<Vec<RankedTheory>, RankingError> {
     let mut all = Vec::new();
-    for (set, file) in data_sets(folder)? {
+    for DataSet { set, file, named_at } in data_sets(folder)? {
         for case in &set.value {
-            all.extend(rank(&set, case, &file)?);
+            let ranked = rank(&set, case, &file, limits);
+            all.extend(ranked.map_err(|error| match &named_at {
+                Some(place) => error.named_at(place.clone()),
+                None => error,
+            })?);
         }
     }
     Ok(all)
 }
 
+/// A data set, and its file.
+struct DataSet {
+    set: LoadedDataSet,
+    file: PathBuf,
+    /// Where a document of the folder names the file; presets are no files to look at.
+    named_at: Option<String>,
+}
+
 /// The data sets whose files are in a folder: those that are presets, and those that documents in
 /// the folder describe.
-fn data_sets(folder: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, RankingError> {
+fn data_sets(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
     if !folder.is_dir() {
         return Err(RankingError::NoSuchFolder(folder.to_owned()));
     }
@@ -115,8 +129,13 @@ fn data_sets(folder: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, RankingErro
     for source in sources {
         let set = read_data_set(&source, &Overrides::none())?;
         let file = folder.join(&set.document.file);
-        if file.exists() {
-            sets.push((set, file));
+        // Of a link to nothing the reading says so.
+        if file.symlink_metadata().is_ok() {
+            let named_at = match &source {
+                Source::File(_) => Some(place_of(&source, "file")?.to_string()),
+                _ => None,
+            };
+            sets.push(DataSet { set, file, named_at });
         } else if let Source::File(document) = source {
             return Err(RankingError::NoSuchFile { document, file });
         }
@@ -133,8 +152,9 @@ fn rank(
     set: &LoadedDataSet,
     case: &DataSetCase,
     file: &Path,
+    limits: Limits,
 ) -> Result<Vec<RankedTheory>, MeasurementError> {
-    let choice = Choice { conditions: case.conditions.clone(), wheel: None };
+    let choice = Choice { conditions: case.conditions.clone(), wheel: None, limits };
     let measured = measurements::read(file, &choice)?;
     let mut all = Vec::new();
     for (name, soil) in &case.soils {

@@ -23,7 +23,7 @@ fn data_file() -> Option<PathBuf> {
 /// The trials of a wheel at slip angles up to 75°: 90° is another regime.
 fn trials(file: &std::path::Path, kind: &str) -> Measurements {
     let conditions = vec![Condition::parse("slip_angle_deg!=90").expect("a condition")];
-    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")) };
+    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")), ..Choice::default() };
     measurements::read(file, &choice).unwrap_or_else(|error| panic!("{error}"))
 }
 

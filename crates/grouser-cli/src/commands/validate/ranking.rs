@@ -26,7 +26,7 @@ struct Results<'a> {
 
 pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let entries = rank_all(&data_folder(args)?)?;
+    let entries = rank_all(&data_folder(args)?, args.read.limits())?;
     let inputs = json!({ "data_sets": entries.iter().map(|it| &it.data_set).collect::<std::collections::BTreeSet<_>>() });
     let answer = Answer::new("validate", inputs, Results { rows: &entries });
     let text = text_of(&entries);
