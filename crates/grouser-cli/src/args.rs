@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::calibration::STEPS;
-use grouser::document::measurements::{Condition, Mapping};
+use grouser::document::measurements::{Condition, Limits, Mapping};
 use grouser::document::{FitKey, Kind};
 use grouser_store::Part;
 
@@ -81,6 +81,20 @@ pub(crate) struct OutputArgs {
     /// Replace files of the same names in DIR.
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
+}
+
+/// How much of a file of measurements is read.
+#[derive(Debug, Args)]
+pub(crate) struct ReadArgs {
+    /// The most rows that are read of a file of measurements, and 256 bytes for each.
+    #[arg(long, value_name = "N", default_value_t = Limits::ROWS)]
+    pub(crate) max_rows: usize,
+}
+
+impl ReadArgs {
+    pub(crate) fn limits(&self) -> Limits {
+        Limits { rows: self.max_rows }
+    }
 }
 
 /// What most commands can change about their documents.
@@ -327,6 +341,8 @@ pub(crate) struct CardArgs {
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) measured: Option<PathBuf>,
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
@@ -408,6 +424,8 @@ pub(crate) struct ValidateArgs {
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
@@ -482,6 +500,8 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0,15,30,45", allow_hyphen_values = true)]
     pub(crate) candidate_slip_angle_deg: Numbers,
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
@@ -532,6 +552,8 @@ pub(crate) struct ImportArgs {
     /// Lines before the header.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skip_lines: usize,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
     /// Write to a file instead of the standard output.
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) out: Option<PathBuf>,

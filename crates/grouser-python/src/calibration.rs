@@ -150,7 +150,8 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     steps: Option<u64>,
     cross_validate: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let choice = Choice { conditions: conditions_of(&conditions)?, wheel: wheel_label };
+    let conditions = conditions_of(&conditions)?;
+    let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
     let (theory, gravity) = theory_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.document.clone(), wheel.wheel()?.value);
     let sampling = sampling_of(seed, steps)?;

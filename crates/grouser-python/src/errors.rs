@@ -46,7 +46,7 @@ pub(crate) fn of_document(error: &DocumentError, arguments: &[String]) -> PyErr 
             let hint = error.hint().map(str::to_owned);
             classes::DocumentNotFoundError::new_err((message, place.document.clone(), hint))
         }
-        Problem::Folder | Problem::Unreadable { .. } => {
+        Problem::Folder | Problem::NotAFile(_) | Problem::Unreadable { .. } => {
             classes::DocumentUnreadableError::new_err((message, place.document.clone()))
         }
         _ if arguments.contains(&place.document) => {
@@ -98,7 +98,9 @@ pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
         MeasurementProblem::NoSuchFile | MeasurementProblem::NoSuchDataSetOrFile => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
-        MeasurementProblem::Folder | MeasurementProblem::Unreadable(_) => {
+        MeasurementProblem::Folder
+        | MeasurementProblem::NotAFile(_)
+        | MeasurementProblem::Unreadable(_) => {
             classes::DocumentUnreadableError::new_err((message, file))
         }
         problem => {

@@ -33,7 +33,9 @@ mod check;
 pub mod checkpoint;
 mod data_set;
 mod error;
+pub mod escape;
 pub mod experiment;
+pub mod file;
 pub mod measurements;
 mod overrides;
 pub mod plates;
@@ -337,6 +339,12 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
     Ok(kind)
 }
 
+/// Where a document has a key, with the tables it stands in.
+fn place_of(source: &Source, key: &str) -> Result<Place, DocumentError> {
+    let tree = text::parse(&source.read()?)?;
+    Ok(Place::of(tree.origin_of(key)))
+}
+
 /// Gravities by name, with their values [m/s²].
 pub const GRAVITIES: [(&str, f64); 3] =
     [("earth", EARTH_GRAVITY), ("moon", MOON_GRAVITY), ("mars", MARS_GRAVITY)];
@@ -527,7 +535,8 @@ fn note_birthplace(kind: Kind, tree: &Node, overrides: &Overrides, assumed: &mut
     }
 }
 
-/// A missing file is the fault of the document that names it.
+/// A missing file is the fault of the document that names it; of any other fault it says where the
+/// file is named.
 fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> DocumentError {
     match (error.problem(), source) {
         (Problem::NoSuchFile, Source::File(path))
@@ -539,6 +548,6 @@ fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> Documen
             let hint = (!is_whole).then(|| format!("looked for {}", path.display()));
             error.seen_from(origin).with_hint(hint)
         }
-        _ => error,
+        _ => error.named_by(origin),
     }
 }

@@ -7,6 +7,7 @@ mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;
+mod hostile;
 mod import;
 mod program;
 mod scrambled;

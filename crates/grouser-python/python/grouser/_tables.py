@@ -16,17 +16,28 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Endings of names and the units that they stand for, longer ones first.
+#: Endings of names and the units that they stand for, longer ones first: the table of the library,
+#: `UNITS` in `document/campaign/table.rs`; a test compares them.
 _UNITS = {
+    "_m_per_m": "m/m",
     "_j_per_m": "J/m",
+    "_per_rad2_m": "m/rad²",
+    "_per_rad_m": "m/rad",
+    "_kg_m2.xx": "kg·m²",
+    "_kg_m2.yy": "kg·m²",
+    "_kg_m2.zz": "kg·m²",
+    "_kg_m2": "kg·m²",
+    "_kg_m3": "kg/m³",
+    "_m_s2": "m/s²",
     "_rad_s": "rad/s",
     "_deg_s": "°/s",
-    "_m_s2": "m/s²",
     "_m_s": "m/s",
+    "_s_m": "s/m",
     "_deg": "°",
     "_kpa": "kPa",
-    "_nm": "N·m",
+    "_kg": "kg",
     "_mm": "mm",
+    "_nm": "N·m",
     "_n": "N",
     "_m": "m",
     "_s": "s",

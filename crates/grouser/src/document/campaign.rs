@@ -30,7 +30,7 @@ pub use sections::{
     StudyWord, WheelTestSection,
 };
 pub use statistics::{Frequencies, QuantityStatistics};
-pub use table::{Cell, Column, ColumnKind, Role, Table, Values, unit};
+pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
 
 use self::inputs::Prepared;
 use self::rows::Base;

@@ -10,6 +10,10 @@ use crate::studies::calibration::posterior::Ensemble;
 
 const MAGIC: &[u8] = b"grouser posterior 1\n";
 
+/// The largest file of a state that is read [bytes]: that of ten keys after a hundred thousand steps
+/// has about a gigabyte.
+pub const LARGEST: u64 = 4 << 30;
+
 /// Why a state cannot be taken up again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CheckpointError {

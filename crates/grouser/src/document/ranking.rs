@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::measurements::{self, Choice, MeasurementError};
+use super::measurements::{self, Choice, Limits, MeasurementError};
 use super::validation::GroupRecord;
 use super::{
-    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, presets,
+    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, place_of, presets,
     read_data_set,
 };
 use crate::contact::Theory;
@@ -85,30 +85,42 @@ pub enum RankingError {
 /// Every theory on every data set of a folder, or without a folder on those that come with the
 /// program: data set by data set and part by part, best first.
 ///
+/// * `limits`: how much of each file is read
+///
 /// # Errors
 /// [`RankingError`] for a folder, a document or a file that cannot be used.
-pub fn rank_all(folder: Option<&Path>) -> Result<Vec<RankedTheory>, RankingError> {
+pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Vec<RankedTheory>, RankingError> {
     let sets = match folder {
         Some(folder) => data_sets_in(folder)?,
         None => data_sets_of_the_program()?,
     };
     let mut all = Vec::new();
-    for (set, rows) in sets {
+    for DataSet { set, rows, named_at } in sets {
         for case in &set.value {
-            all.extend(rank(&set, case, &rows)?);
+            let ranked = rank(&set, case, &rows, limits);
+            all.extend(ranked.map_err(|error| match &named_at {
+                Some(place) => error.named_at(place.clone()),
+                None => error,
+            })?);
         }
     }
     Ok(all)
 }
 
 /// A data set, and where its rows are.
-type DataSet = (LoadedDataSet, measurements::Source);
+struct DataSet {
+    set: LoadedDataSet,
+    rows: measurements::Source,
+    /// Where a document of the folder names the file; presets are no files to look at.
+    named_at: Option<String>,
+}
 
 fn data_sets_of_the_program() -> Result<Vec<DataSet>, RankingError> {
     let mut sets = Vec::new();
     for preset in presets(Kind::DataSet) {
         if let Some(rows) = measurements::Source::preset(preset.name) {
-            sets.push((read_data_set(&Source::Preset(preset), &Overrides::none())?, rows));
+            let set = read_data_set(&Source::Preset(preset), &Overrides::none())?;
+            sets.push(DataSet { set, rows, named_at: None });
         }
     }
     Ok(sets)
@@ -117,23 +129,27 @@ fn data_sets_of_the_program() -> Result<Vec<DataSet>, RankingError> {
 /// The data sets whose files are in a folder: those that documents in the folder describe, and
 /// those of the program of whose file a copy is there that no document claims.
 fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
-    let documents = documents_in(folder)?;
     let mut own = Vec::new();
-    for document in documents {
-        let set = read_data_set(&Source::file(&document), &Overrides::none())?;
+    for document in documents_in(folder)? {
+        let source = Source::file(&document);
+        let set = read_data_set(&source, &Overrides::none())?;
         let file = folder.join(&set.document.file);
-        if !file.exists() {
+        // Of a link to nothing the reading says so.
+        if file.symlink_metadata().is_err() {
             return Err(RankingError::NoSuchFile { document, file });
         }
-        own.push((set, measurements::Source::File(file)));
+        let named_at = Some(place_of(&source, "file")?.to_string());
+        own.push(DataSet { set, rows: measurements::Source::File(file), named_at });
     }
     let mut sets = Vec::new();
     for preset in presets(Kind::DataSet) {
         let set = read_data_set(&Source::Preset(preset), &Overrides::none())?;
-        let rows = measurements::Source::File(folder.join(&set.document.file));
-        let is_claimed = own.iter().any(|(_, claimed)| *claimed == rows);
-        if !is_claimed && folder.join(&set.document.file).exists() {
-            sets.push((set, rows));
+        let file = folder.join(&set.document.file);
+        let is_there = file.symlink_metadata().is_ok();
+        let rows = measurements::Source::File(file);
+        let is_claimed = own.iter().any(|claimed| claimed.rows == rows);
+        if is_there && !is_claimed {
+            sets.push(DataSet { set, rows, named_at: None });
         }
     }
     sets.extend(own);
@@ -165,8 +181,9 @@ fn rank(
     set: &LoadedDataSet,
     case: &DataSetCase,
     rows: &measurements::Source,
+    limits: Limits,
 ) -> Result<Vec<RankedTheory>, MeasurementError> {
-    let choice = Choice { conditions: case.conditions.clone(), wheel: None };
+    let choice = Choice { conditions: case.conditions.clone(), wheel: None, limits };
     let measured = rows.read(&choice)?;
     let mut all = Vec::new();
     for (name, soil) in &case.soils {

@@ -93,10 +93,10 @@ impl Attitude {
         self.torque() / radius * (self.yaw - self.course).cos() * rim_over_hub
     }
 
-    /// Way downhill for a metre along the contour, −tan χ [-]: 0 on a level traverse.
+    /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a level traverse.
     #[must_use]
     pub fn drift(&self) -> f64 {
-        0.0 - self.course.tan()
+        0.0 - self.course.sin()
     }
 
     /// Power of the motors at a rim speed ω r_s [m/s], ΣT ω [W].

@@ -19,7 +19,7 @@ fn rows() -> measurements::Source {
 /// The trials of a wheel at slip angles up to 75°: 90° is another regime.
 fn trials(kind: &str) -> Measurements {
     let conditions = vec![Condition::parse("slip_angle_deg!=90").expect("a condition")];
-    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")) };
+    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")), ..Choice::default() };
     rows().read(&choice).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -134,7 +134,11 @@ fn every_trial_is_read_with_its_own_slip() {
 fn the_slip_angles_kept_for_examination_are_not_here() {
     for angle in ["30", "60"] {
         let conditions = vec![Condition::parse(&format!("slip_angle_deg={angle}")).expect("one")];
-        let error = rows().read(&Choice { conditions, wheel: Some("cmu-smooth".to_owned()) });
+        let error = rows().read(&Choice {
+            conditions,
+            wheel: Some("cmu-smooth".to_owned()),
+            ..Choice::default()
+        });
         let message = error.expect_err("no such row").to_string();
         assert!(message.starts_with("preset cmu-single-wheel: has no row"), "{message}");
     }
@@ -150,7 +154,7 @@ fn every_data_set_brings_the_rows_that_its_document_names() {
         let file = fs::read_to_string(folder.join(&set.document.file)).expect("it is there");
         assert_eq!(preset.rows, Some(file.as_str()), "{}", preset.name);
         for case in &set.value {
-            let choice = Choice { conditions: case.conditions.clone(), wheel: None };
+            let choice = Choice { conditions: case.conditions.clone(), ..Choice::default() };
             let source = measurements::Source::preset(preset.name).expect("it has rows");
             let measured = source.read(&choice).unwrap_or_else(|error| panic!("{error}"));
             let unused = measured.notes.iter().find(|note| note.contains("is not used"));
@@ -198,7 +202,7 @@ fn the_published_wheel_tests_are_read() {
         ("viper-trec-grc3", 18, 171.7, [0.089, 0.8197], vec![pull]),
     ] {
         let conditions = vec![Condition::parse(&format!("wheel={wheel}")).expect("a condition")];
-        let measured = measurements::read(&file, &Choice { conditions, wheel: None })
+        let measured = measurements::read(&file, &Choice { conditions, ..Choice::default() })
             .unwrap_or_else(|error| panic!("{error}"));
         let trials = &measured.tests.trials;
         assert_eq!(trials.len(), points, "{wheel}");

@@ -121,7 +121,7 @@ fn rows_are_chosen_by_conditions_and_by_the_wheels_name() {
                 smooth,0,0,20,1\nsmooth,15,0,20,2\nbars,0,0,20,3\n";
     let choose = |conditions: &[&str], wheel: Option<&str>| {
         let conditions = conditions.iter().map(|text| Condition::parse(text).unwrap()).collect();
-        let choice = Choice { conditions, wheel: wheel.map(str::to_owned) };
+        let choice = Choice { conditions, wheel: wheel.map(str::to_owned), ..Choice::default() };
         read_from("a.csv", text.as_bytes(), &choice)
             .map(|measured| measured.lines)
             .map_err(|error| error.to_string())

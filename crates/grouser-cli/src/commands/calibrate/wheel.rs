@@ -33,7 +33,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let checkpoint = Checkpoint::open(args, problem.settings.to_string())?;
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
-    report::tell_note(solved);
+    report::tell_notes(solved);
     let answer = Answer::new("calibrate", problem.settings.clone(), found.results(&args.target));
     let text = report::text(&found, &args.target);
     if let Some(mut folder) = folder {
@@ -55,15 +55,18 @@ fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
         return Err(Failure::Usage("--data and --wheel go together".into()));
     };
     let stand = inputs::stand(&args.soil, wheel, &args.setting)?;
-    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.clone()) };
+    let limits = args.read.limits();
+    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.clone()), limits };
     let rows = measurements::Source::find(data)?;
-    let measured = rows.read(&choice)?;
+    // Read once: of a pipe there is no second time.
+    let bytes = rows.bytes(limits)?;
+    let measured = measurements::read_from(&rows.label(), &*bytes, &choice)?;
     for note in &measured.notes {
         output::tell(&format!("note: {note}"));
     }
     let family = SoilFamily::new(&stand.soil.document, &args.fit)
         .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;
-    let settings = settings(args, (data, &rows.bytes()?), &stand, &family);
+    let settings = settings(args, (data, &bytes), &stand, &family);
     let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     Ok(Problem { file, stand, measured, family, settings })
 }

@@ -21,7 +21,7 @@ struct Results<'a> {
 
 pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let entries = rank_all(args.data_dir.as_deref())?;
+    let entries = rank_all(args.data_dir.as_deref(), args.read.limits())?;
     let inputs = json!({ "data_sets": entries.iter().map(|it| &it.data_set).collect::<std::collections::BTreeSet<_>>() });
     let answer = Answer::new("validate", inputs, Results { rows: &entries });
     let text = text_of(&entries);

@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use super::super::Kind;
 use super::super::check::nearest;
 use super::super::presets::{preset, presets};
+use super::super::{Kind, escape};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
-use super::{Choice, Measurements, read, read_from};
+use super::{Choice, Limits, Measurements, read_bytes, read_from};
 
 /// Where the rows of measured wheel tests are.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,31 +49,32 @@ impl Source {
         Some(Self::Preset { name: preset.name, rows: preset.rows? })
     }
 
+    /// What messages call it.
+    #[must_use]
+    pub fn label(&self) -> String {
+        match self {
+            Self::Preset { name, .. } => format!("preset {name}"),
+            Self::File(path) => escape::path(path),
+        }
+    }
+
     /// Reads the rows.
     ///
     /// # Errors
     /// [`MeasurementError`] with file and line for whatever is not as [`columns`](super::columns)
     /// says, and if no row is left.
     pub fn read(&self, choice: &Choice) -> Result<Measurements, MeasurementError> {
-        match self {
-            Self::Preset { name, rows } => {
-                read_from(&format!("preset {name}"), rows.as_bytes(), choice)
-            }
-            Self::File(path) => read(path, choice),
-        }
+        read_from(&self.label(), &*self.bytes(choice.limits)?, choice)
     }
 
-    /// The bytes of the CSV, to tell whether rows are still the same.
+    /// The bytes of the CSV, as [`read_bytes`] reads them from a file.
     ///
     /// # Errors
-    /// [`MeasurementError`] for a file that cannot be read.
-    pub fn bytes(&self) -> Result<Cow<'static, [u8]>, MeasurementError> {
+    /// [`MeasurementError`] for a file that cannot be read, or is too large.
+    pub fn bytes(&self, limits: Limits) -> Result<Cow<'static, [u8]>, MeasurementError> {
         match self {
             Self::Preset { rows, .. } => Ok(Cow::Borrowed(rows.as_bytes())),
-            Self::File(path) => {
-                let failed = |error| MeasurementError::io(&path.display().to_string(), &error);
-                std::fs::read(path).map(Cow::Owned).map_err(failed)
-            }
+            Self::File(path) => read_bytes(path, limits).map(Cow::Owned),
         }
     }
 }

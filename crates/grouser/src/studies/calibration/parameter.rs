@@ -98,6 +98,13 @@ impl Parameter {
         position.clamp(0.0, 1.0)
     }
 
+    /// Whether a value is at a bound: nearer than any search starts. The coordinate has no slope
+    /// there, so that nothing of first order says how sure the value is.
+    #[must_use]
+    pub fn is_at_bound(&self, value: f64) -> bool {
+        !(START_MARGIN..=1.0 - START_MARGIN).contains(&self.position_of(value))
+    }
+
     /// The coordinate from which a search starts.
     #[must_use]
     pub fn start_coordinate(&self) -> f64 {
