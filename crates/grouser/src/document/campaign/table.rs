@@ -51,7 +51,7 @@ impl Column {
 #[must_use]
 pub fn unit(name: &str) -> Option<&'static str> {
     // Longer ends first: `_m_per_m` is no `_m`.
-    const UNITS: [(&str, &str); 22] = [
+    const UNITS: [(&str, &str); 23] = [
         ("_m_per_m", "m/m"),
         ("_j_per_m", "J/m"),
         ("_per_rad2_m", "m/rad²"),
@@ -63,6 +63,7 @@ pub fn unit(name: &str) -> Option<&'static str> {
         ("_kg_m3", "kg/m³"),
         ("_m_s2", "m/s²"),
         ("_rad_s", "rad/s"),
+        ("_deg_s", "°/s"),
         ("_m_s", "m/s"),
         ("_deg", "°"),
         ("_kpa", "kPa"),
