@@ -19,7 +19,7 @@ def deepest(soils: list[gr.Soil], load_n: float) -> float:
 def drift(slope_deg: float) -> float:
     run: gr.Trajectory = gr.simulate(gr.Scenario(slope_deg=slope_deg), duration_s=5.0)
     y_m: NDArray[np.float64] = run.y_m
-    return float(y_m[-1]) if run.outcome == "completed" else float("nan")
+    return float(-y_m[-1] / run.x_m[-1]) if run.outcome == "completed" else float("nan")
 
 
 def fitted(file: Path) -> gr.Soil:
