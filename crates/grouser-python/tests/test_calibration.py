@@ -197,7 +197,7 @@ def test_tables_and_pictures(found: gr.Calibration, plates_file: Path) -> None:
     import matplotlib.pyplot as plt
 
     data = found.to_xarray()
-    assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["1", "m"]
+    assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["", "m"]
     assert data.fit.sel(key="soil.shear.longitudinal_m") == found.fit[1]
     plates = gr.calibrate_plates(plates_file, "dry-sand", plate_law="bekker", point_fit=True)
     for result in (found, plates):

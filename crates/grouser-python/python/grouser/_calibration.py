@@ -158,7 +158,8 @@ class Calibration(_tables.Tabular):
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``key`` (with its ``unit``), with ``samples`` over ``sample`` and ``key``, and
+        """A dataset over ``key`` (with the ``unit`` that its name ends with; empty for a ratio, and for a
+        modulus whose unit goes with the sinkage exponent), with ``samples`` over ``sample`` and ``key``, and
         ``chains`` over ``chain`` (with its ``ensemble``), ``draw`` and ``key``."""
         data = _tables.dataset(("key",), self._parameters(), {"key": list(self.key)})
         for name in data.data_vars:
@@ -166,7 +167,7 @@ class Calibration(_tables.Tabular):
                 # Their units differ from key to key.
                 data[name].attrs.clear()
         names = [key.removeprefix("soil.") for key in self.key]
-        data = data.assign_coords(unit=("key", [_tables.unit_of(name) for name in names]))
+        data = data.assign_coords(unit=("key", [_core.unit_of(name) or "" for name in names]))
         data["correlations"] = (("key", "other_key"), self.correlations)
         if self.samples is not None:
             data["samples"] = (("sample", "key"), self.samples)
