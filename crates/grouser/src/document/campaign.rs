@@ -28,7 +28,7 @@ pub use sections::{
     CampaignDocument, CampaignSchema, ParameterSection, SampleRows, SamplesSection, SamplingWord,
     StudyWord, WheelTestSection,
 };
-pub use table::{Cell, Column, ColumnKind, Role, Table, Values, unit};
+pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
 
 use self::inputs::Prepared;
 use self::rows::Base;
