@@ -119,7 +119,7 @@ def validation_of(found: dict[str, Any]) -> Validation:
 
 @dataclass(frozen=True, eq=False)
 class Ranking(_tables.Tabular):
-    """Theories beside measurements, in the words of ``grouser validate --all``: a mapping for each
+    """Theories beside measurements, in the words of the program's ranking: a mapping for each
     theory with a soil on a part of a data set, best first.
 
     It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``score`` (root mean square error

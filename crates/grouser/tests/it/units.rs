@@ -1,4 +1,5 @@
-//! A word has one unit, wherever a table says it: in the library, in Python, in the documents.
+//! A word has one unit, wherever a table says it: in the library and in the documents. (The Python package
+//! asks the library.)
 
 use std::fs;
 use std::path::Path;
@@ -8,21 +9,6 @@ use grouser::document::campaign::{UNITS, unit};
 fn file_of_the_repository(path: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
     fs::read_to_string(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()))
-}
-
-#[test]
-fn python_has_the_units_of_the_library() {
-    let python = file_of_the_repository("crates/grouser-python/python/grouser/_tables.py");
-    let (_, table) = python.split_once("_UNITS = {\n").expect("the table");
-    let (table, _) = table.split_once("}\n").expect("its end");
-    let entries: Vec<(&str, &str)> = table
-        .lines()
-        .map(|line| {
-            let mut texts = line.split('"').skip(1).step_by(2);
-            (texts.next().expect("an end"), texts.next().expect("a unit"))
-        })
-        .collect();
-    assert_eq!(entries, UNITS);
 }
 
 /// A longer end that stood behind a shorter one would never be found.
