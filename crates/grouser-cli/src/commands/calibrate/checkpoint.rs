@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use grouser::document::checkpoint::{CheckpointError, from_bytes, to_bytes};
+use grouser::document::checkpoint::{from_bytes, to_bytes};
 use grouser::studies::calibration::PosteriorState;
 
 use crate::args::CalibrateArgs;
@@ -64,13 +64,11 @@ impl Checkpoint {
                 Ok(Some(state))
             }
             Err(_) if force => Ok(None),
-            Err(error @ (CheckpointError::Damaged | CheckpointError::Foreign)) => {
-                Err(Failure::Usage(format!(
-                    "{} cannot be gone on from: {error}\nhint: choose another folder, or add \
+            Err(error) => Err(Failure::Usage(format!(
+                "{} cannot be gone on from: {error}\nhint: choose another folder, or add \
                      --force to start anew",
-                    self.file.display()
-                )))
-            }
+                self.file.display()
+            ))),
         }
     }
 
