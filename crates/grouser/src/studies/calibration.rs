@@ -52,6 +52,7 @@ pub use solution::{Observer, Posterior, Sampling, Solution, Work};
 pub use wheel_calibration::{WheelCalibration, WheelFindings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
 
+use crate::elementary::wide;
 use crate::error::ParameterError;
 
 /// An experiment, and the parameters that it is asked about.
@@ -219,7 +220,7 @@ impl<'a> Calibration<'a> {
             observations.iter().zip(predictions).zip(variances)
         {
             let residual = observation.value - prediction;
-            log_density -= 0.5 * (residual * residual / variance + variance.ln());
+            log_density -= 0.5 * (residual * residual / variance + wide::ln(variance));
         }
         if log_density.is_finite() { log_density } else { f64::NEG_INFINITY }
     }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::document::checkpoint::{CheckpointError, LARGEST, from_bytes, to_bytes};
+use grouser::document::checkpoint::{LARGEST, from_bytes, to_bytes};
 use grouser::document::file::FileProblem;
 use grouser::document::{self, escape};
 use grouser::studies::calibration::PosteriorState;
@@ -65,12 +65,10 @@ impl Checkpoint {
                 Ok(Some(state))
             }
             Err(_) if force => Ok(None),
-            Err(error @ (CheckpointError::Damaged | CheckpointError::Foreign)) => {
-                Err(Failure::Usage(format!(
-                    "{shown} cannot be gone on from: {error}\nhint: choose another folder, or add \
-                     --force to start anew"
-                )))
-            }
+            Err(error) => Err(Failure::Usage(format!(
+                "{shown} cannot be gone on from: {error}\nhint: choose another folder, or add \
+                 --force to start anew"
+            ))),
         }
     }
 

@@ -12,6 +12,7 @@ use super::name_of;
 use super::notes::LeftOut;
 use super::table::other_delimiter;
 use crate::contact::Slip;
+use crate::elementary::wide;
 use crate::studies::measurement::{PerQuantity, Quantity, Reading};
 use crate::units::Vec2;
 
@@ -286,7 +287,7 @@ impl Cells<'_> {
         let total = self.number(Meaning::TotalSlip)?;
         let speeds = (self.number(Meaning::RimSpeed)?, self.number(Meaning::TravelSpeed)?);
         if let (Some((_, rim)), Some((_, travel))) = speeds {
-            let (sin, cos) = slip_angle.sin_cos();
+            let (sin, cos) = wide::sin_cos(slip_angle);
             let slip = Slip::of_motion(rim, Vec2::new(travel * cos, travel * sin));
             self.check_slip(ratio, slip.ratio)?;
             self.check_slip(total, slip.total())?;
@@ -298,7 +299,7 @@ impl Cells<'_> {
         let why = "a trial needs its slip, or the speeds of rim and hub";
         let (_, total) = self.needed(Meaning::TotalSlip, why)?;
         let (rim, travel) = if total >= 0.0 { (1.0, 1.0 - total) } else { (1.0 + total, 1.0) };
-        let (sin, cos) = slip_angle.sin_cos();
+        let (sin, cos) = wide::sin_cos(slip_angle);
         Ok(Slip::of_motion(rim, Vec2::new(travel * cos, travel * sin)))
     }
 
