@@ -4,6 +4,7 @@ mod ci;
 mod cited;
 mod diff;
 mod figures;
+mod fuzz;
 mod hygiene;
 mod instructions;
 mod libtest;
@@ -28,6 +29,8 @@ cargo xtask CHORE
   ci [--full]         everything that is checked; --full runs the slow tests too
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
+  fuzz [--cases N] [--seed N] [--only N] [--program FILE]
+                      damaged and hostile input for every command, under limits of memory and time
   instructions        count the instructions of the units of work anew (valgrind)
   python              build the Python package's wheel and test it in an environment of its own
   site                build the documentation site into target/site, and run its notebooks
@@ -58,6 +61,11 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
+        ["fuzz", options @ ..] => {
+            let libtest::Count { passed, failed } = fuzz::check(fuzz::Plan::parse(options)?)?;
+            println!("{passed} passed, {failed} failed");
+            failed == 0
+        }
         ["instructions"] => instructions::write()?,
         ["python"] => {
             let libtest::Count { passed, failed } = python::check()?;
