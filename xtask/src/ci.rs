@@ -10,7 +10,7 @@ use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::{
-    crates, figures, packages, python, rustdoc, schema, texts, tools, workflows, workspace,
+    crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, workflows, workspace,
 };
 
 /// How much is tested.
@@ -20,6 +20,15 @@ pub(crate) enum Extent {
     Usual,
     /// Those too.
     Full,
+}
+
+impl Extent {
+    fn fuzz(self) -> fuzz::Plan {
+        match self {
+            Self::Usual => fuzz::Plan::usual(),
+            Self::Full => fuzz::Plan::full(),
+        }
+    }
 }
 
 /// A step that was taken.
@@ -64,6 +73,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
+        step("fuzz", || fuzz::check(&extent.fuzz())),
         step("packages", || packages::check(extent)),
         step("wheel", || python::installed().map(|_| Count::one(true))),
     ];

@@ -6,6 +6,7 @@ mod cited;
 mod crates;
 mod diff;
 mod figures;
+mod fuzz;
 mod hygiene;
 mod instructions;
 mod libtest;
@@ -35,6 +36,8 @@ cargo xtask CHORE
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
+  fuzz [--cases N] [--seed N] [--only N] [--program FILE]
+                      damaged and hostile input for every command, under limits of memory and time
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
   packages [--full]   try what is published, without publishing it; --full builds it from that alone
@@ -72,6 +75,11 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
+        ["fuzz", options @ ..] => {
+            let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
+            println!("{count}");
+            count.failed == 0
+        }
         ["instructions"] => instructions::write()?,
         ["instructions", "--check"] => good(instructions::check()?),
         ["crates"] => good(crates::check()?),
