@@ -162,8 +162,7 @@ mod tests {
         let campaign = campaign();
         let all = 0..campaign.runs();
         let values: Vec<Option<f64>> = all.clone().map(|run| Some(run as f64)).collect();
-        let found =
-            QuantityStatistics::of(&campaign, std::slice::from_ref(&all), &values, &[0.5]);
+        let found = QuantityStatistics::of(&campaign, std::slice::from_ref(&all), &values, &[0.5]);
         // Of 32 runs, 0, 1, 4, 5 … 28, 29.
         assert_eq!(found.samples, 16);
         let summary = found.summary.unwrap();
