@@ -123,7 +123,7 @@ def test_program_and_package_say_the_same(
         steps = [step for step in theirs["convergence"] if step["quantity"] == it.name]
         assert [step["runs"] for step in steps] == [step["runs"] for step in it.convergence]
         assert [step["mean_low"] for step in steps] == [step["mean_low"] for step in it.convergence]
-        medians = [dict((at[0], at[1:]) for at in step["quantiles"])[0.5] for step in it.convergence]
+        medians = [{at[0]: at[1:] for at in step["quantiles"]}[0.5] for step in it.convergence]
         assert [(step["p50"], step["p50_low"], step["p50_high"]) for step in steps] == medians
     indices = {(it["quantity"], it["input"]): it for it in theirs["sensitivities"]}
     assert bool(indices) == sensitivity

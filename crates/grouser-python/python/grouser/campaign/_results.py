@@ -150,9 +150,7 @@ class Results:
             )
 
     def _bytes(self, shard: int) -> bytes:
-        return need(
-            self._files, f"{RUNS}/{file_name(shard)}", self._checked.most_bytes(shard)
-        )
+        return need(self._files, f"{RUNS}/{file_name(shard)}", self._checked.most_bytes(shard))
 
     def _read(self, shard: int, data: bytes, columns: Sequence[str]) -> dict[str, Any]:
         """Columns of a shard that is as it was written."""

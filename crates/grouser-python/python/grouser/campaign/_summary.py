@@ -132,9 +132,7 @@ def summary_of(
         values = [(name, np.ascontiguousarray(column)) for name, column in columns.items()]
         for told in _core.campaign_summary(campaign._document, runs, values, shares):
             quantities[told["quantity"]] = _quantity(told)
-    return Summary(
-        said["samples"], _shares(said["status"]), _shares(said["outcome"]), quantities
-    )
+    return Summary(said["samples"], _shares(said["status"]), _shares(said["outcome"]), quantities)
 
 
 #: How much of the columns is in memory at once: each pass over the files brings that many, and checks them.
