@@ -6,6 +6,7 @@ use grouser::contact::Theory;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
+    escape,
 };
 use grouser::studies::card::Rule;
 
@@ -148,7 +149,7 @@ pub(crate) fn uncertain_soil<'s>(
     check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
     let soil = scenario.document.soil.inline();
     let Some(uncertain) = soil.and_then(|soil| soil.uncertain()) else {
-        let name = soil.map_or("unnamed", |soil| soil.name.as_str());
+        let name = escape::line(soil.map_or("unnamed", |soil| soil.name.as_str()));
         return Err(Failure::Usage(format!(
             "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
              hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \

@@ -80,7 +80,7 @@ fn no_cell_of_csv_is_a_formula_and_our_own_files_can_be_read() {
     let answer = place.line("import theirs.csv --column load_n=W --out ours.csv");
     assert_eq!(answer.code(), 0, "{}", answer.stderr);
     let ours = place.read("ours.csv");
-    assert!(ours.contains("\n'=cmd|' /C calc'!A0,17,-0.2,9\n"), "{ours}");
+    assert!(ours.contains("\n17,'=cmd|' /C calc'!A0,-0.2,9\n"), "{ours}");
     // Again, the apostrophe neither doubles nor is part of the label.
     let answer = place.line("import ours.csv --out again.csv");
     assert_eq!((answer.code(), place.read("again.csv")), (0, ours));
