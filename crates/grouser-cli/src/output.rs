@@ -13,6 +13,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::hints;
 
 /// Writes text to the standard output.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
@@ -50,7 +51,8 @@ pub(crate) fn tell(text: &str) {
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {
-        let _ = writeln!(stderr(), "{}: {failure}", failure.label());
+        let message = hints::with_flags(&failure.to_string());
+        let _ = writeln!(stderr(), "{}: {message}", failure.label());
     }
 }
 

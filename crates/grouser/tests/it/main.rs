@@ -13,6 +13,7 @@ mod kernel;
 mod laws;
 mod measured;
 mod measurements;
+mod messages;
 mod million;
 mod paper;
 mod reference;
