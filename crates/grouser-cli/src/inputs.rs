@@ -44,7 +44,7 @@ impl From<MeasurementError> for Failure {
 /// The scenario of a traverse.
 pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     let source = scenario_source("traverse", args.scenario.as_deref())?;
-    let mut overrides = Overrides::parse(&args.setting.settings)?;
+    let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
     scenario_settings(&mut overrides, &args.setting, &args.balance)?;
     let texts = [
         ("--rover", "scenario.rover", &args.rover),
@@ -124,7 +124,7 @@ fn balanced(
     balance: &BalanceArgs,
 ) -> Result<LoadedScenario, Failure> {
     let source = scenario_source(command, scenario)?;
-    let mut overrides = Overrides::parse(&setting.settings)?;
+    let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
@@ -169,7 +169,7 @@ fn refuse_sampled_keys(
     if soil.is_some_and(SoilDocument::is_sampled) {
         let keys: Vec<&str> = uncertain.keys().collect();
         let hint = "the samples give this key a value in every draw";
-        Overrides::parse(&setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
+        Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
     }
     Ok(())
 }
@@ -243,7 +243,7 @@ pub(crate) fn soil(
     name: &str,
     setting: &SettingArgs,
 ) -> Result<(document::LoadedSoil, f64), Failure> {
-    let overrides = Overrides::parse(&setting.settings)?;
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Soil])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
     let mut scenario = Overrides::none();
@@ -268,7 +268,7 @@ pub(crate) fn stand(
     wheel: &str,
     setting: &SettingArgs,
 ) -> Result<StandInputs, Failure> {
-    let overrides = Overrides::parse(&setting.settings)?;
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;

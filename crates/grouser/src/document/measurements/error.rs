@@ -166,7 +166,7 @@ impl MeasurementError {
     pub(in crate::document) fn whole(file: &str, problem: MeasurementProblem) -> Self {
         let hint = match &problem {
             MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
-                format!("choose with --where wheel={label}, or a --wheel whose name ends so")
+                format!("choose by the condition wheel={label}, or a wheel whose name ends so")
             }),
             _ => None,
         };
