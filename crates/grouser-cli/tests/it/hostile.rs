@@ -147,10 +147,8 @@ fn a_higher_limit_of_rows_reads_more() {
 #[test]
 fn calibrate_refuses_more_cells_than_it_can_fit() {
     let place = Place::new();
-    let mut text = "load_n,slip_ratio,sinkage_mm\n".to_owned();
-    for row in 0..10_001 {
-        text += &format!("17,{},9\n", f64::from(row) * 1e-5);
-    }
+    let rows = (0..10_001).map(|row| format!("17,{},9\n", f64::from(row) * 1e-5));
+    let text = "load_n,slip_ratio,sinkage_mm\n".to_owned() + &rows.collect::<String>();
     place.write("many.csv", text);
     let answer = place.line(
         "calibrate --data many.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa --point-fit",
