@@ -53,21 +53,21 @@ impl Overrides {
         for setting in settings {
             let setting = setting.as_ref();
             let content = if flag.is_empty() { String::new() } else { format!("{flag} ") };
-            overrides.set(setting, argument(content + setting))?;
+            overrides.set(setting, &argument(content + setting))?;
         }
         Ok(overrides)
     }
 
     /// Adds one `document.key=value`, with which a text ends.
-    fn set(&mut self, setting: &str, text: Arc<Text>) -> Result<(), DocumentError> {
+    fn set(&mut self, setting: &str, text: &Arc<Text>) -> Result<(), DocumentError> {
         let Some((key, value)) = setting.split_once('=') else {
             let problem = Problem::Malformed("not of the form document.key=value");
             return Err(DocumentError::whole(&text.label, problem)
                 .with_hint("for instance soil.cohesion_kpa=0.5".to_owned()));
         };
         let start = text.content.len() - value.len();
-        let value = parse_value(&text, start)?;
-        self.add(&text, key.trim(), value, true)
+        let value = parse_value(text, start)?;
+        self.add(text, key.trim(), value, true)
     }
 
     /// Adds one `key = value` of a caller that is no command line. Messages quote the whole of it as

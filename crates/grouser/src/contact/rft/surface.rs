@@ -186,8 +186,7 @@ impl FrontHalf {
             cos: [0.0; LANES],
             exposure: [Exposure::BARE; LANES],
         };
-        for lane in 0..LANES {
-            let (node, weight) = nodes[lane];
+        for (lane, (node, weight)) in nodes.iter().enumerate() {
             let (sinh, cosh) = elementary::sinh_cosh(node * arc.end);
             rays.width[lane] = weight * arc.end * arc.layer * cosh;
             rays.angle[lane] = arc.layer * sinh;
