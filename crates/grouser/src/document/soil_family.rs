@@ -195,7 +195,7 @@ impl SoilFamily {
 fn no_start(numbers: &SoilNumbers, path: &str) -> String {
     if range(Kind::Soil, path).is_some() {
         return format!(
-            "soil.{path} is not set by this soil: give it a value to start from by setting \
+            "soil.{path} is not set by this soil: give it a value to start from by the setting \
              soil.{path}=VALUE"
         );
     }
@@ -239,7 +239,7 @@ fn parameter(
     if !(lower..=upper).contains(&start) {
         return Err(format!(
             "{name}={lower}:{upper}: the soil's own value, {start}, must lie between the bounds; \
-             give it another by setting {name}=VALUE"
+             give it another by the setting {name}=VALUE"
         ));
     }
     let scale =
@@ -287,7 +287,7 @@ mod tests {
         for (key, part) in [
             ("soil.cohesion", "cohesion_kpa"),
             ("soil.bulldozing.law", "no number"),
-            ("soil.rft.scale", "by setting soil.rft.scale=VALUE"),
+            ("soil.rft.scale", "by the setting soil.rft.scale=VALUE"),
             ("soil.friction_angle_deg=40:50", "must lie between"),
             ("soil.friction_angle_deg=30:90", "within 5 to 60"),
             ("soil.friction_angle_deg=45:30", "must rise"),
