@@ -9,6 +9,7 @@ mod documents;
 mod extended;
 mod floors;
 mod given;
+mod integration;
 mod kernel;
 mod laws;
 mod measured;
