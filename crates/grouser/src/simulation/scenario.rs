@@ -43,7 +43,11 @@ pub struct Numerics {
 impl Default for Numerics {
     fn default() -> Self {
         let approach = Approach::Dynamic;
-        Self { approach, integrator: Integrator::Adaptive { tolerance: 1e-6 }, sample_interval: 0.1 }
+        Self {
+            approach,
+            integrator: Integrator::Adaptive { tolerance: 1e-6 },
+            sample_interval: 0.1,
+        }
     }
 }
 

@@ -345,9 +345,9 @@ fn check_mirrored(original: &Scenario, mirrored: &Scenario, yaw_of: impl Fn(f64)
     let (original, mirrored) = (run(original), run(mirrored));
     let (here, there) = (&original.last().state, &mirrored.last().state);
     let expected = Vec2::new(-here.position.x, here.position.y);
-    // The steps may differ in their last bits: a hundredth of the integrator's tolerance.
-    assert!((there.position - expected).norm() < 1e-8, "{} and {expected}", there.position);
-    assert!((there.yaw - yaw_of(here.yaw)).abs() < 1e-8);
+    // A tenth of the integrator's tolerance: yaws differ in size, and so do the errors they may have.
+    assert!((there.position - expected).norm() < 1e-7, "{} and {expected}", there.position);
+    assert!((there.yaw - yaw_of(here.yaw)).abs() < 1e-7);
 }
 
 /// A rover with its wheels mirrored from front to back, driven backward, turned the other way.

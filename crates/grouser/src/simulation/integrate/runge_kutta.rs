@@ -40,9 +40,8 @@ fn stepped(equations: &Equations<'_>, y: &[f64; SIZE], h: f64) -> Option<[f64; S
     let k_2 = rates_at(equations, &moved(y, &k_1, 0.5 * h))?;
     let k_3 = rates_at(equations, &moved(y, &k_2, 0.5 * h))?;
     let k_4 = rates_at(equations, &moved(y, &k_3, h))?;
-    let there: [f64; SIZE] = std::array::from_fn(|i| {
-        y[i] + h / 6.0 * (k_1[i] + 2.0 * k_2[i] + 2.0 * k_3[i] + k_4[i])
-    });
+    let there: [f64; SIZE] =
+        std::array::from_fn(|i| y[i] + h / 6.0 * (k_1[i] + 2.0 * k_2[i] + 2.0 * k_3[i] + k_4[i]));
     there.iter().all(|part| part.is_finite()).then_some(there)
 }
 
