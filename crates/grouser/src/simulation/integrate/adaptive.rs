@@ -219,9 +219,10 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
         let rates = known.or_else(|| (self.rates_at)(&from)).ok_or_else(nowhere)?;
         let outlook = way.map_or_else(|| self.first_outlook(&from, &rates), |way| way.next);
         let Outlook { mut span, implicit, .. } = outlook;
-        let linear = match implicit {
-            true => Some(Linear::at(&from, rates, &self.rates_at).ok_or_else(nowhere)?),
-            false => None,
+        let linear = if implicit {
+            Some(Linear::at(&from, rates, &self.rates_at).ok_or_else(nowhere)?)
+        } else {
+            None
         };
         let mut most = GROWTH.1;
         loop {
@@ -303,9 +304,10 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
         let dying = first / second;
         let excess = SHARE * first * dying / self.tolerance;
         let span = dying * pow(excess.max(f64::EPSILON), -0.2);
-        // Not a number where both derivatives are out of bounds.
+        // Neither is a number where both derivatives are out of bounds.
         let span = if span < LONGEST_FIRST { span } else { LONGEST_FIRST };
-        Outlook::first(span, !(span <= STIFF * dying))
+        let mild = span <= STIFF * dying;
+        Outlook::first(span, !mild)
     }
 }
 
