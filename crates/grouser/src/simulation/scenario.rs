@@ -43,7 +43,11 @@ pub struct Numerics {
 impl Default for Numerics {
     fn default() -> Self {
         let approach = Approach::Dynamic;
-        Self { approach, integrator: Integrator::Bdf { tolerance: 1e-6 }, sample_interval: 0.1 }
+        Self {
+            approach,
+            integrator: Integrator::Adaptive { tolerance: 1e-6 },
+            sample_interval: 0.1,
+        }
     }
 }
 
@@ -61,8 +65,9 @@ pub enum Approach {
 /// What carries the motion through time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
-    /// Implicit, of variable order and step: slip settles within milliseconds, runs last minutes.
-    Bdf {
+    /// Of order 5 with steps of its own, explicit while slip settles within milliseconds, and implicit
+    /// in the minutes that follow.
+    Adaptive {
         /// Relative tolerance of a step [-].
         tolerance: f64,
     },
@@ -115,7 +120,7 @@ impl Scenario {
         }
         positive("sample interval [s]", self.numerics.sample_interval)?;
         match self.numerics.integrator {
-            Integrator::Bdf { tolerance } => positive("tolerance", tolerance),
+            Integrator::Adaptive { tolerance } => positive("tolerance", tolerance),
             Integrator::Rk4 { step } => positive("step [s]", step),
         }
     }
