@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use grouser::document::campaign::{Campaign, CampaignDocument, Cell, Values};
+use grouser::document::campaign::{Campaign, Cell, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::studies::campaign::sensitivity::{Sensitivity, SobolIndex};
 use grouser::studies::campaign::summary::{Convergence, Estimate, Quantile, Summary};
@@ -25,28 +25,18 @@ use crate::interrupt::listening;
 /// A campaign that was read, and what its folder knows it by.
 pub(crate) struct LoadedCampaign {
     campaign: Arc<Campaign>,
-    document: CampaignDocument,
     study: Study,
 }
 
 impl LoadedCampaign {
-    /// # Panics
-    /// Never: the resolved document was written by the type that reads it here.
     pub(crate) fn read(source: &Source, overrides: &Overrides) -> Result<Self, DocumentError> {
         let campaign = document::read_campaign(source, overrides)?;
         let study = Study::of(&campaign);
-        let document =
-            toml::from_str(campaign.resolved()).expect("the resolved document is a document");
-        Ok(Self { campaign: Arc::new(campaign), document, study })
+        Ok(Self { campaign: Arc::new(campaign), study })
     }
 
     pub(crate) fn campaign(&self) -> &Campaign {
         &self.campaign
-    }
-
-    /// With everything in its place.
-    pub(crate) fn document(&self) -> &CampaignDocument {
-        &self.document
     }
 }
 
@@ -322,9 +312,9 @@ pub(crate) fn campaign_summary<'py>(
     counts: Vec<(usize, usize)>,
     shares: Vec<f64>,
 ) -> PyResult<(Bound<'py, PyList>, Bound<'py, PyList>)> {
-    let LoadedCampaign { campaign, document, .. } = campaign.campaign()?;
+    let LoadedCampaign { campaign, .. } = campaign.campaign()?;
     let factors = campaign.factors().to_vec();
-    let inputs = document.sensitivity.then_some(factors.len());
+    let inputs = campaign.is_sensitivity().then_some(factors.len());
     let seed = campaign.seed();
     let mut quantities = Vec::new();
     for (name, values) in &columns {

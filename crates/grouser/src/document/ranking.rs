@@ -88,7 +88,7 @@ pub enum RankingError {
 pub fn rank_all(folder: &Path) -> Result<Vec<RankedTheory>, RankingError> {
     let mut all = Vec::new();
     for (set, file) in data_sets(folder)? {
-        for case in &set.value {
+        for case in &set.value.cases {
             all.extend(rank(&set, case, &file)?);
         }
     }
@@ -114,7 +114,7 @@ fn data_sets(folder: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, RankingErro
     let mut sets = Vec::new();
     for source in sources {
         let set = read_data_set(&source, &Overrides::none())?;
-        let file = folder.join(&set.document.file);
+        let file = folder.join(&set.value.file);
         if file.exists() {
             sets.push((set, file));
         } else if let Source::File(document) = source {
@@ -150,11 +150,11 @@ fn rank(
                 wheel: case.wheel.value,
                 soil: soil.value,
                 theory,
-                gravity: set.document.gravity_m_s2,
+                gravity: set.value.gravity,
             };
             let validation = study.run();
             all.push(RankedTheory {
-                data_set: set.document.name.clone(),
+                data_set: set.document.name().to_owned(),
                 case: case.name.clone(),
                 rank: 0,
                 model: theory.name(),

@@ -8,6 +8,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde_json::Value as Json;
+
 use super::Companion;
 use super::error::{DocumentError, Problem, number};
 
@@ -224,16 +226,16 @@ impl Node {
     }
 
     /// The tree without its origins.
-    pub(super) fn to_toml(&self) -> toml::Value {
+    pub(super) fn to_json(&self) -> Json {
         match &self.value {
-            Value::String(string) | Value::Date(string) => toml::Value::String(string.clone()),
-            Value::Integer(integer) => toml::Value::Integer(*integer),
-            Value::Float(float) => toml::Value::Float(*float),
-            Value::Boolean(boolean) => toml::Value::Boolean(*boolean),
-            Value::List(nodes) => toml::Value::Array(nodes.iter().map(Self::to_toml).collect()),
-            Value::Table(entries) => toml::Value::Table(
-                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_toml())).collect(),
-            ),
+            Value::String(string) | Value::Date(string) => Json::from(string.as_str()),
+            Value::Integer(integer) => Json::from(*integer),
+            Value::Float(float) => Json::from(*float),
+            Value::Boolean(boolean) => Json::from(*boolean),
+            Value::List(nodes) => nodes.iter().map(Self::to_json).collect(),
+            Value::Table(entries) => {
+                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_json())).collect()
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grouser::document::SoilDocument;
+use grouser::document::Document;
 use grouser::document::calibration::{PlateProblem, Solved};
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::plates::{self, PlateMeasurements};
@@ -64,7 +64,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
 fn settings(
     args: &CalibrateArgs,
     file: &Path,
-    soil: &SoilDocument,
+    soil: &Document,
     gravity: f64,
 ) -> Result<Value, Failure> {
     let bytes = std::fs::read(file).map_err(Failure::at("cannot read", file))?;
