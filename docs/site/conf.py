@@ -40,8 +40,9 @@ nb_execution_mode = "force"
 nb_execution_show_tb = True
 nb_execution_timeout = 300
 nb_output_stderr = "warn"
-# MuJoCo draws without a display.
-os.environ.setdefault("MUJOCO_GL", "egl")
+# MuJoCo draws without a display. Where it cannot (`cargo xtask site` finds out), its notebook is shown, not run.
+if os.environ.setdefault("MUJOCO_GL", "egl") == "disable":
+    nb_execution_excludepatterns = ["notebooks/mujoco.md"]
 os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
 
 # Types stand in the text of the docstrings, with shapes and units.

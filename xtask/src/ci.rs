@@ -1,13 +1,17 @@
 //! Everything that is checked, in one run: every step is taken, and the end shows all failures.
 
+use std::fs;
 use std::io::{BufRead, BufReader};
-use std::process::{Command, Output, Stdio};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
 use crate::libtest::Count;
-use crate::{figures, instructions, measurements, python, rustdoc, schema, site, texts, workspace};
+use crate::{
+    crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, workflows, workspace,
+};
 
 /// How much is tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,23 +22,36 @@ pub(crate) enum Extent {
     Full,
 }
 
+impl Extent {
+    fn fuzz(self) -> fuzz::Plan {
+        match self {
+            Self::Usual => fuzz::Plan::usual(),
+            Self::Full => fuzz::Plan::full(),
+        }
+    }
+}
+
 /// A step that was taken.
 struct Step {
     name: &'static str,
     count: Count,
     duration: Duration,
+    /// What the step's programs computed, on all cores together: on a busy machine the number that repeats.
+    computed: Option<Duration>,
 }
 
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
-/// The quick steps come first. All but the last seven share the build of the dev profile; the
-/// program is built once, in the release profile.
+/// The quick steps come first. Those up to the documentation share the build of the dev profile, the
+/// others that of the release profile.
 pub(crate) fn run(extent: Extent) -> bool {
-    let steps = [
-        step("tools", || Ok(Count::one(tools()))),
-        step("measurements", || Ok(Count::one(measurements::check()))),
+    // Fetching packages waits for the network more than it computes.
+    std::thread::spawn(python::environment);
+    let mut steps = vec![
+        step("tools", || Ok(tools::check())),
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
+        step("crates", crates::check),
         step("lints", || {
             let lint = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
             succeeds(workspace::cargo().args(lint))
@@ -56,88 +73,89 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
-        step("python", python::check),
-        step("site", || site::build().map(Count::one)),
-        step("instructions", || instructions::check().map(Count::one)),
+        step("fuzz", || fuzz::check(&extent.fuzz())),
+        step("packages", || packages::check(extent)),
+        step("wheel", || python::installed().map(|_| Count::one(true))),
     ];
+    // Each of these computes on one core for most of its time.
+    let site = Beside::start("site", &["site", "--as-it-is"]);
+    let instructions = Beside::start("instructions", &["instructions", "--check"]);
+    steps.push(step("python", || python::check(extent)));
+    steps.push(step("workflows", || workflows::check().map(Count::one)));
+    steps.extend([site.end(), instructions.end()]);
     let mut total = Count::default();
-    println!("\n{:<14} {:>7} {:>7} {:>9}", "step", "passed", "failed", "seconds");
-    for Step { name, count, duration } in steps {
-        let Count { passed, failed } = count;
-        println!("{name:<14} {passed:>7} {failed:>7} {:>9.1}", duration.as_secs_f64());
+    let heads = ["passed", "failed", "skipped"].map(|head| format!(" {head:>7}")).concat();
+    println!("\n{:<14}{heads} {:>9} {:>9}", "step", "seconds", "CPU s");
+    for Step { name, count, duration, computed } in steps {
+        let Count { passed, failed, skipped } = count;
+        let numbers = [passed, failed, skipped].map(|number| format!(" {number:>7}")).concat();
+        let computed = computed.map_or("-".into(), |time| format!("{:.1}", time.as_secs_f64()));
+        println!("{name:<14}{numbers} {:>9.1} {computed:>9}", duration.as_secs_f64());
         total += count;
     }
-    println!("\n{} passed, {} failed", total.passed, total.failed);
+    println!("\n{total}");
     total.failed == 0
 }
 
 /// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
 fn step(name: &'static str, take: impl FnOnce() -> Result<Count>) -> Step {
     println!("\n── {name} ──");
-    let start = Instant::now();
+    let (start, before) = (Instant::now(), computed_by_children());
     let count = take().unwrap_or_else(|error| {
         println!("{error:#}");
         Count::one(false)
     });
-    Step { name, count, duration: start.elapsed() }
+    let computed =
+        computed_by_children().zip(before).map(|(now, before)| now.saturating_sub(before));
+    Step { name, count, duration: start.elapsed(), computed }
 }
 
-/// Whether all that the other steps need is here, after fetching what is not: the place for
-/// whatever a check needs and the toolchain does not bring.
-fn tools() -> bool {
-    let mut complete = true;
-    for (component, subcommand) in [("rustfmt", "fmt"), ("clippy", "clippy")] {
-        let present = || {
-            let mut probe = workspace::cargo();
-            probe.args([subcommand, "--version"]).stdout(Stdio::null()).stderr(Stdio::null());
-            probe.status().is_ok_and(|status| status.success())
+/// A step that another process of this program takes, while we take others.
+struct Beside {
+    name: &'static str,
+    start: Instant,
+    /// The process, and the file that it prints to.
+    running: Result<(Child, PathBuf)>,
+}
+
+impl Beside {
+    /// * `arguments`: the chore, whose last line is its counts
+    fn start(name: &'static str, arguments: &[&str]) -> Self {
+        let run = || {
+            let folder = workspace::target().join("xtask");
+            fs::create_dir_all(&folder)?;
+            let path = folder.join(format!("{name}.txt"));
+            let file = fs::File::create(&path)?;
+            let mut chore = Command::new(std::env::current_exe()?);
+            chore.args(arguments).stdin(Stdio::null()).stdout(file.try_clone()?).stderr(file);
+            Ok((chore.spawn()?, path))
         };
-        if !present() {
-            println!("{component} is missing, trying to add it to the toolchain");
-            // Without rustup this fails, and the second look says so.
-            let _ = Command::new("rustup").args(["component", "add", component]).status();
-        }
-        let found = present();
-        println!("{component}: {}", if found { "found" } else { "missing" });
-        complete &= found;
+        Self { name, start: Instant::now(), running: run() }
     }
-    complete & valgrind() & renderer()
-}
 
-/// Whether instructions can be counted, after fetching what counts them.
-fn valgrind() -> bool {
-    from_system("valgrind", &["valgrind"], || {
-        let mut probe = Command::new("valgrind");
-        probe.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
-        probe.status().is_ok_and(|status| status.success())
-    })
-}
-
-/// Whether MuJoCo can draw without a display, after fetching what draws. Elsewhere than on Linux the
-/// system does.
-fn renderer() -> bool {
-    from_system("renderer (Mesa's EGL)", &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"], || {
-        let libraries = Command::new("/sbin/ldconfig").arg("-p").output();
-        let listed =
-            |output: Output| String::from_utf8_lossy(&output.stdout).contains("libEGL_mesa.so");
-        !cfg!(target_os = "linux") || libraries.is_ok_and(listed)
-    })
-}
-
-/// Whether something of the system's is there, after trying to install its packages.
-fn from_system(what: &str, packages: &[&str], present: impl Fn() -> bool) -> bool {
-    if !present() {
-        println!("{what} is missing, trying to install it");
-        for arguments in [&["update"][..], &[&["install", "--yes"], packages].concat()] {
-            let mut install = Command::new("apt-get");
-            install.args(["--quiet=2"]).args(arguments).stdout(Stdio::null());
-            // Where it fails, the second look says so.
-            let _ = install.status();
-        }
+    /// Waits for the step and shows what it printed.
+    fn end(self) -> Step {
+        let Self { name, start, running } = self;
+        let end = || {
+            let (mut child, path) = running?;
+            child.wait()?;
+            let printed = fs::read_to_string(path)?;
+            print!("{printed}");
+            Ok(Count::of_closing_line(&printed))
+        };
+        let ended = step(name, end);
+        Step { duration: start.elapsed(), ..ended }
     }
-    let found = present();
-    println!("{what}: {}", if found { "found" } else { "missing: install it" });
-    found
+}
+
+/// CPU time of all programs that this one started and that have ended, where the system is Linux.
+fn computed_by_children() -> Option<Duration> {
+    // The name of the program, in brackets, may hold blanks; after it come the third field and the next.
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |field: usize| fields.get(field - 3)?.parse::<u64>().ok();
+    // User's and system's time in hundredths of a second, fields 16 and 17 of proc(5).
+    Some(Duration::from_millis(10 * (ticks(16)? + ticks(17)?)))
 }
 
 fn succeeds(command: &mut Command) -> Result<Count> {

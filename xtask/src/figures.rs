@@ -9,19 +9,12 @@ use anyhow::{Context, Result};
 
 use crate::diff;
 use crate::markers::{self, Block, Kind, Piece};
-use crate::{measurements, workspace};
+use crate::workspace;
 
-/// Writes every block and picture anew, but for those that need measurements that are not here.
+/// Writes every block and picture anew.
 pub(crate) fn write() -> Result<bool> {
     let mut written = 0;
-    let files = made_files(Measurements::Anew)?;
-    for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
-        println!(
-            "{path} cannot be refreshed without measurements: set {} (docs/guide/data.md)",
-            measurements::VARIABLE
-        );
-    }
-    for file in files {
+    for file in made_files(Measurements::Anew)? {
         if !file.differences.is_empty() {
             let path = workspace::root().join(&file.path);
             if let Some(folder) = path.parent() {
@@ -42,20 +35,12 @@ pub(crate) fn write() -> Result<bool> {
 pub(crate) fn check() -> Result<bool> {
     let files = made_files(Measurements::AsTheyAre)?;
     let stale: Vec<&MadeFile> = files.iter().filter(|file| !file.differences.is_empty()).collect();
-    let mut complete = stale.is_empty();
-    for path in files.iter().filter(|file| file.needs_measurements).map(|file| &file.path) {
-        println!(
-            "{path} cannot be checked without measurements: set {} (docs/guide/data.md)",
-            measurements::VARIABLE
-        );
-        complete = false;
-    }
     for file in &stale {
         println!("{} is stale; `cargo xtask figures` refreshes it", file.path);
         println!("{}", file.differences.join("\n"));
     }
     println!("{} files with made parts, {} stale", files.len(), stale.len());
-    Ok(complete)
+    Ok(stale.is_empty())
 }
 
 /// A file that the program makes, or makes parts of.
@@ -65,8 +50,6 @@ struct MadeFile {
     should: String,
     /// Where it is something else, for people.
     differences: Vec<String>,
-    /// Whether a part of it needs measurements that are not here, and was left as it is.
-    needs_measurements: bool,
 }
 
 /// What becomes of what was measured on some machine at some time.
@@ -92,16 +75,9 @@ fn made_files(measurements: Measurements) -> Result<Vec<MadeFile>> {
     for (path, pieces) in sources {
         let mut should = String::new();
         let mut differences = Vec::new();
-        let mut needs_measurements = false;
         for piece in pieces {
             match piece {
                 Piece::Text(text) => should.push_str(&text),
-                Piece::Made(block)
-                    if block.needs_measurements() && measurements::folder().is_none() =>
-                {
-                    needs_measurements = true;
-                    should.push_str(&block.content);
-                }
                 Piece::Made(block)
                     if block.kind == Kind::Measurement
                         && measurements == Measurements::AsTheyAre =>
@@ -126,7 +102,7 @@ fn made_files(measurements: Measurements) -> Result<Vec<MadeFile>> {
                 }
             }
         }
-        files.push(MadeFile { path, should, differences, needs_measurements });
+        files.push(MadeFile { path, should, differences });
     }
     Ok(files)
 }
@@ -156,8 +132,8 @@ struct Maker {
 
 impl Maker {
     fn output(&self, block: &Block) -> Result<String> {
-        let output = workspace::output_of(&self.program, &block.arguments())?;
-        Ok(markers::as_markdown(&output, &block.arguments()))
+        let output = workspace::output_of(&self.program, &block.arguments)?;
+        Ok(markers::as_markdown(&output, &block.arguments))
     }
 
     /// The picture that a block of a document links to: the file of the same name among those
@@ -166,13 +142,13 @@ impl Maker {
         let target = markers::picture_of(&block.content)?;
         let path = Path::new(document).parent().unwrap_or(Path::new("")).join(target);
         let name = path.file_name().context("the image link names no file")?;
-        let made = file_below(&self.folder(&block.arguments())?, name)?
+        let made = file_below(&self.folder(&block.arguments)?, name)?
             .with_context(|| format!("the command writes no file {}", name.display()))?;
         let should = fs::read_to_string(&made)?;
         let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
         let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };
         let path = path.display().to_string();
-        Ok(MadeFile { path, should, differences, needs_measurements: false })
+        Ok(MadeFile { path, should, differences })
     }
 
     /// Runs a command with `--out` a fresh folder, once, and returns that folder.

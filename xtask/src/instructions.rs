@@ -11,6 +11,8 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 
+use crate::libtest::Count;
+use crate::tools::VALGRIND;
 use crate::workspace;
 
 const FILE: &str = "crates/grouser-bench/instructions.txt";
@@ -39,8 +41,13 @@ pub(crate) fn write() -> Result<bool> {
     Ok(true)
 }
 
-/// Whether the counts are those of the file; prints both.
-pub(crate) fn check() -> Result<bool> {
+/// Whether the counts are those of the file; prints both. Skipped where nothing can count, and where
+/// the counts of the file belong to another machine.
+pub(crate) fn check() -> Result<Count> {
+    if !VALGRIND.is_here() {
+        println!("{}", VALGRIND.missing());
+        return Ok(Count::skipped());
+    }
     let text = fs::read_to_string(workspace::root().join(FILE)).context(FILE)?;
     let kept = Counts::of_text(&text)?;
     let now = count()?;
@@ -57,7 +64,7 @@ pub(crate) fn check() -> Result<bool> {
         let verdict = if fits { "" } else { "  <- `cargo xtask instructions` refreshes the file" };
         println!("{key:<26} {before:>12.0} {count:>12.0} {:>+7.1} %{verdict}", 100.0 * change);
     }
-    Ok(same || !judged)
+    Ok(if judged { Count::one(same) } else { Count::skipped() })
 }
 
 impl Counts {

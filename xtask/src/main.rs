@@ -1,21 +1,28 @@
 //! Chores of the workspace that need logic: `cargo xtask` lists them.
 
+mod alone;
 mod ci;
 mod cited;
+mod crates;
 mod diff;
 mod figures;
+mod fuzz;
 mod hygiene;
 mod instructions;
 mod libtest;
+mod licence;
 mod links;
 mod markdown;
 mod markers;
-mod measurements;
+mod packages;
 mod python;
+mod requirements;
 mod rustdoc;
 mod schema;
 mod site;
 mod texts;
+mod tools;
+mod workflows;
 mod workspace;
 
 use std::process::ExitCode;
@@ -26,12 +33,21 @@ const USAGE: &str = "\
 cargo xtask CHORE
 
   ci [--full]         everything that is checked; --full runs the slow tests too
+  alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write what the program makes inside the Markdown files, or only compare
-  instructions        count the instructions of the units of work anew (valgrind)
-  python              build the Python package's wheel and test it in an environment of its own
-  site                build the documentation site into target/site, and run its notebooks
+  fuzz [--cases N] [--seed N] [--only N] [--program FILE]
+                      damaged and hostile input for every command, under limits of memory and time
+  instructions [--check]
+                      count the instructions of the units of work anew (valgrind), or only compare
+  packages [--full]   try what is published, without publishing it; --full builds it from that alone
+  python [--lowest]   build the Python package's wheel and test it in an environment of its own;
+                      --lowest with the lowest versions of all that it requires
+  site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is
+                      with the Python package that is installed already
   python-times        measure what Python costs, and write it into docs/performance.md
+  crates              check licences, features and advisories of the crates that we depend on
+  workflows           check the workflows of the code host
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
 
@@ -54,23 +70,38 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         }
         ["ci"] => ci::run(ci::Extent::Usual),
         ["ci", "--full"] => ci::run(ci::Extent::Full),
+        ["alone", options @ ..] => alone::check(options)?,
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
         ["figures", "--check"] => figures::check()?,
-        ["instructions"] => instructions::write()?,
-        ["python"] => {
-            let libtest::Count { passed, failed } = python::check()?;
-            println!("{passed} passed, {failed} failed");
-            failed == 0
+        ["fuzz", options @ ..] => {
+            let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
+            println!("{count}");
+            count.failed == 0
         }
-        ["site"] => site::build()?,
+        ["instructions"] => instructions::write()?,
+        ["instructions", "--check"] => good(instructions::check()?),
+        ["crates"] => good(crates::check()?),
+        ["packages"] => good(packages::check(ci::Extent::Usual)?),
+        ["packages", "--full"] => good(packages::check(ci::Extent::Full)?),
+        ["python"] => good(python::check(ci::Extent::Usual)?),
+        ["python", "--lowest"] => good(python::check_lowest()?),
+        ["site"] => good(site::build(&python::installed()?)?),
+        ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
         ["python-times"] => {
             python::write_times()?;
             true
         }
+        ["workflows"] => workflows::check()?,
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),
     };
     Ok(if done { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Whether nothing failed; prints the counts.
+fn good(count: libtest::Count) -> bool {
+    println!("{count}");
+    count.failed == 0
 }

@@ -7,7 +7,6 @@
 use anyhow::{Context, Result, bail};
 
 use crate::markdown::Fences;
-use crate::measurements;
 
 /// What a block shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,32 +23,12 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Block {
     pub(crate) kind: Kind,
-    /// What the program `grouser` is told, as it is written.
-    arguments: Vec<String>,
+    /// What the program `grouser` is asked.
+    pub(crate) arguments: Vec<String>,
     /// Line of the first marker, from 1.
     pub(crate) line: usize,
     /// What stands between the markers.
     pub(crate) content: String,
-}
-
-impl Block {
-    /// Whether its command reads measurements, which are not in the repository.
-    pub(crate) fn needs_measurements(&self) -> bool {
-        let has = |word: &str| self.arguments.iter().any(|argument| argument == word);
-        let names = self.arguments.iter().any(|argument| argument.contains(&folder_variable()));
-        names || has("validate") && has("--all") && !has("--data-dir")
-    }
-
-    /// What the program is told, with the folder of measurements in the place of its variable.
-    pub(crate) fn arguments(&self) -> Vec<String> {
-        let folder = measurements::folder().unwrap_or_default().display().to_string();
-        self.arguments.iter().map(|it| it.replace(&folder_variable(), &folder)).collect()
-    }
-}
-
-/// The folder of measurements as a shell would have it.
-fn folder_variable() -> String {
-    format!("${}", measurements::VARIABLE)
 }
 
 /// A piece of a Markdown file.
@@ -255,18 +234,6 @@ between
         let written = with_measured(markdown, "python-times", "1 s\n").expect("its block");
         assert!(written.contains("```text\n1 s\n```\n<!-- end -->\nb\n"), "{written}");
         assert!(!written.contains("old") && with_measured("a", "python-times", "1").is_err());
-    }
-
-    #[test]
-    fn rankings_and_blocks_that_name_the_folder_need_measurements() {
-        let of = |arguments: &str| {
-            let markdown = format!("<!-- made by: {COMMAND}{arguments} -->\n{END}\n");
-            blocks(&markdown)[0].needs_measurements()
-        };
-        assert!(of("validate --all") && of("validate --all --format csv"));
-        assert!(of("calibrate --data $GROUSER_DATA_DIR/a.csv"));
-        assert!(!of("validate --data data/a.csv --wheel hakuto --soil toyoura"));
-        assert!(!of("validate --all --data-dir examples") && !of("attitude"));
     }
 
     #[test]

@@ -1,42 +1,43 @@
 //! The Python package: built as a wheel, installed into an environment of its own, and tested there
 //! as its users have it.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Error, Result, ensure};
 
+use crate::ci::Extent;
 use crate::libtest::Count;
-use crate::{markers, workspace};
+use crate::requirements::{self, Requirement};
+use crate::tools::RENDERER;
+use crate::{markers, site, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
 
-/// What builds and tests the package, by name: where from is for pip's own settings to say.
-const NEEDED: [&str; 14] = [
-    "maturin>=1.16,<2",
-    "numpy",
-    "pandas",
-    "xarray",
-    "matplotlib",
-    "mujoco>=3.4",
-    "pyarrow",
-    "gymnasium>=1.1",
-    "distributed",
-    "fsspec",
-    "ray",
-    "pytest>=8",
-    "hypothesis>=6",
-    "mypy>=1.10",
-];
+/// What builds and tests the package besides what it requires itself, by name: where from is for pip's
+/// own settings to say.
+const BUILDING: &str = "maturin>=1.16,<2";
+const TESTING: [&str; 2] = ["pytest>=8", "hypothesis>=6"];
+const TYPES: &str = "mypy>=1.10";
+/// What reads the workflows.
+const YAML: &str = "pyyaml>=6";
+/// An extra that only `ci --full` installs: its package is larger than all others together, and starting
+/// its workers takes longest of all tests. Without it those tests are skipped.
+const HEAVY: &str = "ray";
 
 /// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of its
-/// docstrings, and its types.
-pub(crate) fn check() -> Result<Count> {
+/// docstrings, and its types. `Extent::Full` tests the extra `ray` too, and the lower bounds of all.
+pub(crate) fn check(extent: Extent) -> Result<Count> {
     let python = installed()?;
+    if extent == Extent::Full {
+        let heavy = requirements()?.into_iter().filter(|one| one.extra == HEAVY);
+        install(&python, &heavy.map(|one| one.text).collect::<Vec<_>>())?;
+    }
     let program = workspace::build_program()?;
     let mut count = pytest(&python, &program, &["tests"])?;
     count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
@@ -45,7 +46,22 @@ pub(crate) fn check() -> Result<Count> {
     // The package's own half; what it draws and tabulates with need not be typed.
     let own = ["-m", "mypy", "--strict", "--ignore-missing-imports", "--package", "grouser"];
     count += types(&python, &own)?;
+    if extent == Extent::Full {
+        count += check_lowest()?;
+    }
     Ok(count)
+}
+
+/// Counts the package's tests in an environment that has exactly the lower bounds of what the package
+/// and its extras require.
+pub(crate) fn check_lowest() -> Result<Count> {
+    let folder = folder().join("lowest");
+    let python = made(&folder)?;
+    let mut needed: Vec<String> = requirements()?.iter().map(Requirement::lowest).collect();
+    needed.extend(TESTING.map(String::from));
+    install(&python, &needed)?;
+    install_wheel(&python, &wheel()?)?;
+    pytest(&python, &workspace::build_program()?, &["tests"])
 }
 
 /// The file that says what Python costs.
@@ -66,55 +82,114 @@ pub(crate) fn write_times() -> Result<()> {
 
 /// The Python of an environment that has the package as it is now, built once in a run.
 pub(crate) fn installed() -> Result<PathBuf> {
-    static PYTHON: OnceLock<PathBuf> = OnceLock::new();
-    if let Some(python) = PYTHON.get() {
-        return Ok(python.clone());
+    static INSTALLED: OnceLock<()> = OnceLock::new();
+    let python = environment()?;
+    if INSTALLED.get().is_none() {
+        install_wheel(&python, &wheel()?)?;
+        INSTALLED.get_or_init(|| ());
     }
-    let folder = workspace::target().join("python");
-    let python = environment(&folder.join("environment"))?;
-    let wheel = build_wheel(&python, &folder.join("wheels"))?;
-    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
-    done(Command::new(&python).args(install).arg(&wheel), "the wheel cannot be installed")?;
-    Ok(PYTHON.get_or_init(|| python).clone())
+    Ok(python)
 }
 
-/// An environment with all that is needed, and its Python.
-fn environment(folder: &Path) -> Result<PathBuf> {
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+/// The Python of that environment, as another process of this program has made it.
+pub(crate) fn as_it_is() -> PathBuf {
+    python_of(&folder().join("environment"))
+}
+
+/// The Python of an environment with all that builds and tests the package, but without it. Made once
+/// in a run; who asks meanwhile, waits.
+pub(crate) fn environment() -> Result<PathBuf> {
+    static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    let python = PYTHON.get_or_init(|| make_environment().map_err(|error| format!("{error:#}")));
+    python.clone().map_err(Error::msg)
+}
+
+fn make_environment() -> Result<PathBuf> {
+    let python = made(&folder().join("environment"))?;
+    let required = requirements()?.into_iter().filter(|one| one.extra != HEAVY);
+    let mut needed: Vec<String> = required.map(|one| one.text).collect();
+    needed.extend([BUILDING, TYPES, YAML].map(String::from));
+    needed.extend(TESTING.map(String::from));
+    needed.extend(site::NEEDED.map(String::from));
+    install(&python, &needed)?;
+    Ok(python)
+}
+
+/// The package's manifest for cargo.
+pub(crate) fn manifest() -> PathBuf {
+    workspace::root().join(PACKAGE).join("Cargo.toml")
+}
+
+fn folder() -> PathBuf {
+    workspace::target().join("python")
+}
+
+fn requirements() -> Result<Vec<Requirement>> {
+    let path = workspace::root().join(PACKAGE).join("pyproject.toml");
+    let found = requirements::of_project(&fs::read_to_string(path).context("pyproject.toml")?);
+    ensure!(!found.is_empty(), "pyproject.toml requires nothing");
+    Ok(found)
+}
+
+/// The Python of a virtual environment, made if it is not there.
+fn made(folder: &Path) -> Result<PathBuf> {
+    let python = python_of(folder);
     if !python.exists() {
         let system = if cfg!(windows) { "python" } else { "python3" };
         let make = ["-m", "venv", "--clear"];
         done(Command::new(system).args(make).arg(folder), "no virtual environment can be made")?;
     }
-    install(&python, &NEEDED)?;
     Ok(python)
 }
 
+fn python_of(environment: &Path) -> PathBuf {
+    environment.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+}
+
 /// Has pip fetch packages, by name.
-pub(crate) fn install(python: &Path, packages: &[&str]) -> Result<()> {
+pub(crate) fn install(python: &Path, packages: &[impl AsRef<OsStr>]) -> Result<()> {
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
     let command = &mut Command::new(python);
     done(command.args(install).args(packages), "pip cannot install what is needed")
 }
 
-/// The wheel, optimised.
-fn build_wheel(python: &Path, folder: &Path) -> Result<PathBuf> {
-    if folder.exists() {
-        fs::remove_dir_all(folder).context("old wheels")?;
-    }
-    let mut build = Command::new(python);
-    build.args(["-m", "maturin", "build", "--release", "--quiet", "--out"]).arg(folder);
-    build.arg("--manifest-path").arg(workspace::root().join(PACKAGE).join("Cargo.toml"));
-    done(&mut build, "the wheel does not build")?;
-    let mut wheels = fs::read_dir(folder).context("the folder of the wheel")?;
-    Ok(wheels.next().context("maturin made no wheel")??.path())
+fn install_wheel(python: &Path, wheel: &Path) -> Result<()> {
+    let install = ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"];
+    done(Command::new(python).args(install).arg(wheel), "the wheel cannot be installed")
 }
+
+/// The wheel, optimised, built once in a run.
+fn wheel() -> Result<PathBuf> {
+    static WHEEL: OnceLock<PathBuf> = OnceLock::new();
+    if let Some(wheel) = WHEEL.get() {
+        return Ok(wheel.clone());
+    }
+    let wheels = folder().join("wheels");
+    if wheels.exists() {
+        fs::remove_dir_all(&wheels).context("old wheels")?;
+    }
+    let mut build = Command::new(environment()?);
+    build.args(["-m", "maturin", "build", "--release", "--quiet", "--out"]).arg(&wheels);
+    build.arg("--manifest-path").arg(manifest());
+    done(&mut build, "the wheel does not build")?;
+    let mut made = fs::read_dir(wheels).context("the folder of the wheel")?;
+    let wheel = made.next().context("maturin made no wheel")??.path();
+    let megabytes = fs::metadata(&wheel)?.len() as f64 / 1e6;
+    println!("wheel: {megabytes:.1} MB");
+    Ok(WHEEL.get_or_init(|| wheel).clone())
+}
+
+/// Tells MuJoCo, and what reads its variable, that nothing can be drawn.
+pub(crate) const WITHOUT_RENDERER: [(&str, &str); 1] = [("MUJOCO_GL", "disable")];
 
 /// Runs pytest in the package's folder, shows what it says, and counts.
 fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
     let mut command = Command::new(python);
-    command.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]).args(arguments);
+    command.args(["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]).args(arguments);
     command.current_dir(workspace::root().join(PACKAGE)).env("GROUSER_PROGRAM", program);
+    if !RENDERER.is_here() {
+        command.envs(WITHOUT_RENDERER);
+    }
     let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn()?;
     let mut last = String::new();
     if let Some(stdout) = child.stdout.take() {
@@ -141,10 +216,11 @@ fn count_of(line: &str, succeeded: bool) -> Count {
         0
     };
     let (passed, failed) = (before("passed"), before("failed") + before("error"));
+    let skipped = before("skipped") + before("deselected");
     // A run that ended badly without a failed test counts as one failure, and so does one without
     // any tests.
     let silent = failed == 0 && (!succeeded || passed == 0);
-    Count { passed, failed: failed + u64::from(silent) }
+    Count { passed, failed: failed + u64::from(silent), skipped }
 }
 
 fn types(python: &Path, arguments: &[&str]) -> Result<Count> {
@@ -153,7 +229,8 @@ fn types(python: &Path, arguments: &[&str]) -> Result<Count> {
     Ok(Count::one(command.status().context("mypy did not start")?.success()))
 }
 
-fn done(command: &mut Command, otherwise: &str) -> Result<()> {
+/// Runs a command at the root; an error if it fails.
+pub(crate) fn done(command: &mut Command, otherwise: &str) -> Result<()> {
     command.current_dir(workspace::root()).stdin(Stdio::null());
     let status = command.status().with_context(|| otherwise.to_owned())?;
     ensure!(status.success(), "{otherwise}");
@@ -167,13 +244,14 @@ mod tests {
     #[test]
     fn the_last_line_of_pytest_is_counted() {
         let counts = |line, succeeded| {
-            let Count { passed, failed } = count_of(line, succeeded);
-            (passed, failed)
+            let Count { passed, failed, skipped } = count_of(line, succeeded);
+            (passed, failed, skipped)
         };
-        assert_eq!(counts("59 passed in 21.33s", true), (59, 0));
-        assert_eq!(counts("7 failed, 52 passed, 1 warning in 21.33s", false), (52, 7));
-        assert_eq!(counts("1 passed, 2 errors in 0.1s", false), (1, 2));
-        assert_eq!(counts("no tests ran in 0.01s", true), (0, 1));
-        assert_eq!(counts("Segmentation fault", false), (0, 1));
+        assert_eq!(counts("59 passed in 21.33s", true), (59, 0, 0));
+        assert_eq!(counts("7 failed, 52 passed, 1 warning in 21.33s", false), (52, 7, 0));
+        assert_eq!(counts("1 passed, 2 errors in 0.1s", false), (1, 2, 0));
+        assert_eq!(counts("58 passed, 2 skipped, 3 deselected in 9s", true), (58, 0, 5));
+        assert_eq!(counts("no tests ran in 0.01s", true), (0, 1, 0));
+        assert_eq!(counts("Segmentation fault", false), (0, 1, 0));
     }
 }

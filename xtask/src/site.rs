@@ -2,14 +2,17 @@
 //! package, the program and the schemas, and its notebooks are run.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result};
 
+use crate::libtest::Count;
+use crate::tools::RENDERER;
 use crate::{python, workspace};
 
 /// What builds the site, besides what the package is tested with.
-const NEEDED: [&str; 6] = [
+pub(crate) const NEEDED: [&str; 6] = [
     "sphinx>=8.1,<10",
     "myst-nb>=1.3,<2",
     "pydata-sphinx-theme>=0.16,<1",
@@ -18,13 +21,15 @@ const NEEDED: [&str; 6] = [
     "sphinx-copybutton",
 ];
 
-/// Builds the site into `target/site`; whether nothing was wrong.
+/// Builds the site into `target/site`, and counts it; without a renderer the notebook that draws
+/// MuJoCo's models is not run, and counted as skipped.
 ///
 /// A link or a name that leads nowhere, an error in a cell, anything else that Sphinx warns of: all
 /// are shown, and each fails the build.
-pub(crate) fn build() -> Result<bool> {
-    let python = python::installed()?;
-    python::install(&python, &NEEDED)?;
+///
+/// * `python`: that of an environment with the package installed
+pub(crate) fn build(python: &Path) -> Result<Count> {
+    let mut count = Count::default();
     let program = workspace::build_program()?;
     let (docs, site) = (workspace::root().join("docs"), workspace::target().join("site"));
     if site.exists() {
@@ -37,7 +42,12 @@ pub(crate) fn build() -> Result<bool> {
     sphinx.arg("--conf-dir").arg(docs.join("site"));
     sphinx.arg("--doctree-dir").arg(workspace::target().join("site-doctrees"));
     sphinx.arg(&docs).arg(&site).env("GROUSER_PROGRAM", program).stdin(Stdio::null());
-    let built = sphinx.status().context("Sphinx did not start")?.success();
+    if !RENDERER.is_here() {
+        println!("{}", RENDERER.missing());
+        sphinx.envs(python::WITHOUT_RENDERER);
+        count += Count::skipped();
+    }
+    count += Count::one(sphinx.status().context("Sphinx did not start")?.success());
     println!("{}", site.join("index.html").display());
-    Ok(built)
+    Ok(count)
 }

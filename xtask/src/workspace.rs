@@ -5,8 +5,6 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
 
-use crate::measurements;
-
 /// The folder of the workspace's `Cargo.toml`.
 pub(crate) fn root() -> PathBuf {
     let manifest_dir = std::env::var_os("CARGO_MANIFEST_DIR")
@@ -25,15 +23,7 @@ pub(crate) fn cargo() -> Command {
         }
     }
     command.env_remove("CARGO_MANIFEST_DIR").env_remove("CARGO_MANIFEST_PATH");
-    tell_of_measurements(&mut command);
     command
-}
-
-/// Tests and the program find the measurements where we do.
-fn tell_of_measurements(command: &mut Command) {
-    if let Some(folder) = measurements::folder() {
-        command.env(measurements::VARIABLE, folder);
-    }
 }
 
 /// Files of the repository, as paths from its root: those under version control and new ones
@@ -81,13 +71,12 @@ pub(crate) fn build_work() -> Result<PathBuf> {
     build(&format!("work{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Builds all that is measured and shown, at once: alone, each would choose other features of the
-/// libraries that they share, and have those built again. The Python package has no program; it is
-/// named so that its wheel, built afterwards, finds those libraries with the features it needs.
+/// Builds all that is measured and shown, at once: alone, the units of work would choose other features
+/// of the libraries that they share with the program.
 fn build(program: &str) -> Result<PathBuf> {
     let status = cargo()
         .args(["build", "--release", "--bins"])
-        .args(["-p", "grouser-cli", "-p", "grouser-bench", "-p", "grouser-python"])
+        .args(["-p", "grouser-cli", "-p", "grouser-bench"])
         .status()
         .context("cargo did not start")?;
     ensure!(status.success(), "`{program}` does not build");
@@ -104,9 +93,7 @@ pub(crate) fn target() -> PathBuf {
 /// Runs the program at the root and returns what it prints.
 pub(crate) fn output_of(program: &Path, arguments: &[String]) -> Result<String> {
     let said = || format!("`grouser {}`", arguments.join(" "));
-    let mut command = Command::new(program);
-    tell_of_measurements(&mut command);
-    let output = command
+    let output = Command::new(program)
         .args(arguments)
         .current_dir(root())
         .stdin(Stdio::null())

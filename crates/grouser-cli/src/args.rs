@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::calibration::STEPS;
-use grouser::document::measurements::{Condition, Mapping};
+use grouser::document::measurements::{Condition, Limits, Mapping};
 use grouser::document::{FitKey, Kind};
 use grouser_store::Part;
 
@@ -81,6 +81,20 @@ pub(crate) struct OutputArgs {
     /// Replace files of the same names in DIR.
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
+}
+
+/// How much of a file of measurements is read.
+#[derive(Debug, Args)]
+pub(crate) struct ReadArgs {
+    /// The most rows that are read of a file of measurements, and 256 bytes for each.
+    #[arg(long, value_name = "N", default_value_t = Limits::ROWS)]
+    pub(crate) max_rows: usize,
+}
+
+impl ReadArgs {
+    pub(crate) fn limits(&self) -> Limits {
+        Limits { rows: self.max_rows }
+    }
 }
 
 /// What most commands can change about their documents.
@@ -327,6 +341,8 @@ pub(crate) struct CardArgs {
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) measured: Option<PathBuf>,
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
@@ -374,17 +390,18 @@ pub(crate) enum SideWord {
 
 #[derive(Debug, Args)]
 #[command(
-    override_usage = "grouser validate --data FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+    override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
                       grouser validate --all [--data-dir DIR] [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
                   other; every cell weighs the same. docs/guide/data.md tells the columns of FILE.csv, \
                   docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
-    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
     #[arg(
         long,
-        value_name = "FILE.csv",
+        value_name = "NAME|FILE.csv",
         required_unless_present = "all",
         requires = "wheel",
         requires = "soil"
@@ -400,12 +417,14 @@ pub(crate) struct ValidateArgs {
     /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// Rank every theory, with its own soils, on every data set in a folder.
+    /// Rank every theory, with its own soils, on every data set that comes with the program.
     #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
-    /// The folder for --all; without it that of the environment variable GROUSER_DATA_DIR.
+    /// Rank on the data sets of a folder instead (docs/guide/data.md tells how a document describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
@@ -420,10 +439,11 @@ pub(crate) struct ValidateArgs {
                         The same command goes on with a run that was interrupted."
 )]
 pub(crate) struct CalibrateArgs {
-    /// A file of measured wheel tests (CSV; docs/guide/data.md tells its columns).
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
     #[arg(
         long,
-        value_name = "FILE.csv",
+        value_name = "NAME|FILE.csv",
         required_unless_present = "plates",
         requires = "wheel",
         requires = "fit"
@@ -480,6 +500,8 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0,15,30,45", allow_hyphen_values = true)]
     pub(crate) candidate_slip_angle_deg: Numbers,
     #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
@@ -530,6 +552,8 @@ pub(crate) struct ImportArgs {
     /// Lines before the header.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) skip_lines: usize,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
     /// Write to a file instead of the standard output.
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) out: Option<PathBuf>,

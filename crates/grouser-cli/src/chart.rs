@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use grouser::document::escape;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
@@ -128,7 +129,7 @@ impl Series {
                     .with_color(colour)
                     .with_stroke_width(1.8)
                     .with_line_style(style)
-                    .with_legend(self.name.as_str()),
+                    .with_legend(label(&self.name)),
             )
         };
         let marks = |shape: MarkerShape| {
@@ -137,7 +138,7 @@ impl Series {
                 .with_color(colour)
                 .with_size(4.5)
                 .with_marker(shape)
-                .with_legend(self.name.as_str());
+                .with_legend(label(&self.name));
             Plot::Scatter(if self.error_bars.is_empty() {
                 plot
             } else {
@@ -212,8 +213,8 @@ impl Grid {
                 let own: Vec<Plot> = chart.series.iter().map(Series::to_small_plot).collect();
                 layouts.push(
                     Layout::auto_from_plots(&own)
-                        .with_x_label(chart.x_label.as_str())
-                        .with_y_label(chart.y_label.as_str())
+                        .with_x_label(label(&chart.x_label))
+                        .with_y_label(label(&chart.y_label))
                         .with_label_size(10)
                         .with_tick_size(8)
                         .with_ticks(4)
@@ -252,9 +253,9 @@ impl Chart {
 /// The layout of a drawing as wide as a page.
 fn layout_of(plots: &[Plot], [title, x_label, y_label]: [&str; 3]) -> Layout {
     Layout::auto_from_plots(plots)
-        .with_title(title)
-        .with_x_label(x_label)
-        .with_y_label(y_label)
+        .with_title(label(title))
+        .with_x_label(label(x_label))
+        .with_y_label(label(y_label))
         .with_width(760.0)
         .with_height(430.0)
         .with_title_size(15)
@@ -262,6 +263,12 @@ fn layout_of(plots: &[Plot], [title, x_label, y_label]: [&str; 3]) -> Layout {
         .with_tick_size(12)
         .with_body_size(12)
         .with_font_family(FONTS)
+}
+
+/// A text of a drawing on one line, its hidden characters written out. The library escapes what means
+/// something in XML, and would take what stands between two dollar signs for mathematics.
+fn label(text: &str) -> String {
+    escape::line(text).replace('$', "\\$")
 }
 
 /// A drawing that a page may make larger or smaller: the library names its size, but no view box.

@@ -20,6 +20,8 @@ pub(crate) mod wheel_test;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::output::json;
+
 /// A JSON output: what it is, who made it, from what, and the results.
 #[derive(Serialize)]
 pub(crate) struct Answer<R> {
@@ -38,11 +40,11 @@ impl<R: Serialize> Answer<R> {
 
     /// The text of a line.
     pub(crate) fn to_line(&self) -> String {
-        serde_json::to_string(self).expect("text keys, and writing to memory") + "\n"
+        json::line(self) + "\n"
     }
 
     /// The text for a file.
     pub(crate) fn to_text(&self) -> String {
-        serde_json::to_string_pretty(self).expect("text keys, and writing to memory") + "\n"
+        json::text(self) + "\n"
     }
 }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use grouser::document::escape;
+
 use crate::interrupt;
 
 /// Why a command did not do what it was asked to.
@@ -71,7 +73,7 @@ impl Failure {
         path: &'a Path,
     ) -> impl FnOnce(std::io::Error) -> Self + 'a {
         move |error| Self::Environment {
-            what: format!("{operation} {}", path.display()),
+            what: format!("{operation} {}", escape::path(path)),
             source: without_path(error),
         }
     }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use grouser::contact::Theory;
-use grouser::document::measurements::MeasurementError;
+use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
@@ -28,7 +28,11 @@ impl From<DocumentError> for Failure {
 
 impl From<MeasurementError> for Failure {
     fn from(error: MeasurementError) -> Self {
-        if error.is_environment() {
+        if let MeasurementProblem::TooLarge(excess) = error.problem()
+            && excess.can_be_raised()
+        {
+            Self::Usage(format!("{error}\nhint: --max-rows N raises the limit"))
+        } else if error.is_environment() {
             Self::Run(error.to_string())
         } else {
             Self::Usage(error.to_string())

@@ -3,28 +3,33 @@
 
 pub(crate) mod file;
 pub(crate) mod folder;
+pub(crate) mod json;
 pub(crate) mod rows;
 
 use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
 use std::path::Path;
 use std::time::Duration;
 
+use grouser::document::escape;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
 
-/// Writes text to the standard output.
+/// Writes text to the standard output. Names and cells may hold what steers a terminal: it is
+/// written out here, whatever the text is made of.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = stdout().lock();
-    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(failed_to_print)
+    stdout
+        .write_all(escape::visible(text).as_bytes())
+        .and_then(|()| stdout.flush())
+        .map_err(failed_to_print)
 }
 
 /// Writes JSON to the standard output, without keeping the text: that of a long run is large.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let mut stdout = BufWriter::new(stdout().lock());
-    serde_json::to_writer_pretty(&mut stdout, value)
-        .map_err(std::io::Error::from)
+    json::write(&mut stdout, value)
         .and_then(|()| writeln!(stdout))
         .and_then(|()| stdout.flush())
         .map_err(failed_to_print)
@@ -44,13 +49,14 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
 /// Says something beside the results, to the standard error.
 pub(crate) fn tell(text: &str) {
     // Whoever cannot hear it still gets the results.
-    let _ = writeln!(stderr(), "{text}");
+    let _ = writeln!(stderr(), "{}", escape::visible(text));
 }
 
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {
-        let _ = writeln!(stderr(), "{}: {failure}", failure.label());
+        let text = failure.to_string();
+        let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&text));
     }
 }
 

@@ -15,11 +15,13 @@
 //! ```
 
 mod font;
+mod markup;
 mod pdf;
 mod png;
 mod svg;
 
 pub use font::{Face, width, wrap};
+pub use markup::{is_hidden, markup};
 pub use png::PIXELS_PER_MM;
 
 /// A place on the page, or a way across it: to the right, and down [mm].
@@ -154,7 +156,7 @@ impl Text {
     #[must_use]
     pub fn new(content: impl Into<String>, size: f64) -> Self {
         Self {
-            content: content.into(),
+            content: markup::visible(&content.into()),
             size,
             face: Face::Regular,
             grey: BLACK,
@@ -217,7 +219,7 @@ impl Sheet {
     /// An empty page of a size [mm].
     #[must_use]
     pub fn new(title: &str, width: f64, height: f64) -> Self {
-        Self { title: title.to_owned(), width, height, items: Vec::new() }
+        Self { title: markup::visible(title), width, height, items: Vec::new() }
     }
 
     /// What the page is called.

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use crate::font::{Face, Step};
-use crate::{Grey, Item, Place, Shape, Sheet, Text};
+use crate::{Grey, Item, Place, Shape, Sheet, Text, markup};
 
 pub(crate) fn write(sheet: &Sheet) -> String {
     let [width, height] = [sheet.width, sheet.height].map(short);
-    let title = escaped(&sheet.title);
+    let title = markup(&sheet.title);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
          viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{title}</title>\n<defs>\n"
@@ -84,7 +84,7 @@ fn write_text(svg: &mut String, text: &Text, at: Place) {
          fill-opacity=\"0\">{}</text></g>",
         short(text.size),
         short(text.width()),
-        escaped(&text.content)
+        markup(&text.content)
     );
 }
 
@@ -119,8 +119,4 @@ fn colour(grey: Grey) -> String {
 fn short(length: f64) -> String {
     let text = format!("{length:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -148,7 +148,8 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     steps: Option<u64>,
     cross_validate: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let choice = Choice { conditions: conditions_of(&conditions)?, wheel: wheel_label };
+    let conditions = conditions_of(&conditions)?;
+    let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
     let (theory, gravity) = theory_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.document.clone(), wheel.wheel()?.value);
     let sampling = sampling_of(seed, steps)?;
@@ -156,7 +157,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     let words = AimWords { target: target.clone(), propose, load_n, slip_ratio, slip_angle_deg };
     let (label, file) = (data.display().to_string(), name_of(&data));
     let found = listening(py, move |cancelled| {
-        let measured = measurements::read(&data, &choice)?;
+        let measured = measurements::Source::find(&data)?.read(&choice)?;
         let family = SoilFamily::new(&soil, &keys_of(keys)?).map_err(Failure::Fit)?;
         let aim = words.aim(&measured.tests.trials).map_err(Failure::Aim)?;
         let listener = Listener::new(cancelled);

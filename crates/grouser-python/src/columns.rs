@@ -1,5 +1,6 @@
 //! Records as columns: a list of rows in the words of the door becomes an array for each key.
 
+use grouser::document::campaign;
 use grouser::document::study::WheelRecord;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -38,6 +39,12 @@ wheel_columns!(
     motion_resistance_n,
     max_normal_stress_kpa,
 );
+
+/// The unit that a name ends with, by the library's table; `None` for a ratio, a count or a text.
+#[pyfunction]
+pub(crate) fn unit_of(name: &str) -> Option<&'static str> {
+    campaign::unit(name)
+}
 
 /// A dictionary of columns: numbers as arrays, with NaN where there is none; texts as lists, with
 /// `None`.

@@ -46,7 +46,7 @@ pub(crate) fn of_document(error: &DocumentError, arguments: &[String]) -> PyErr 
             let hint = error.hint().map(str::to_owned);
             classes::DocumentNotFoundError::new_err((message, place.document.clone(), hint))
         }
-        Problem::Folder | Problem::Unreadable { .. } => {
+        Problem::Folder | Problem::NotAFile(_) | Problem::Unreadable { .. } => {
             classes::DocumentUnreadableError::new_err((message, place.document.clone()))
         }
         _ if arguments.contains(&place.document) => {
@@ -95,10 +95,12 @@ fn facts(problem: &Problem) -> Facts {
 pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
     let (message, file) = (error.to_string(), file.to_owned());
     match error.problem() {
-        MeasurementProblem::NoSuchFile => {
+        MeasurementProblem::NoSuchFile | MeasurementProblem::NoSuchDataSetOrFile => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
-        MeasurementProblem::Folder | MeasurementProblem::Unreadable(_) => {
+        MeasurementProblem::Folder
+        | MeasurementProblem::NotAFile(_)
+        | MeasurementProblem::Unreadable(_) => {
             classes::DocumentUnreadableError::new_err((message, file))
         }
         problem => {
@@ -180,7 +182,7 @@ pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
             classes::DocumentNotFoundError::new_err((message, file, none))
         }
         RankingError::NoDataSet { folder, .. } => {
-            let hint = "docs/guide/data.md tells where public data sets are".to_owned();
+            let hint = "docs/guide/data.md tells how a document describes a data set".to_owned();
             let file = folder.display().to_string();
             classes::DocumentNotFoundError::new_err((message, file, Some(hint)))
         }

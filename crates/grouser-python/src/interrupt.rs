@@ -9,6 +9,8 @@ use std::time::Duration;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
+use crate::threads;
+
 /// How often Python is asked for signals: a Ctrl-C is heard at once, as people feel it.
 const PATIENCE: Duration = Duration::from_millis(50);
 
@@ -22,7 +24,8 @@ impl Cancelled {
     }
 }
 
-/// Does work in a thread of its own, without Python's lock. On a signal that Python makes an
+/// Does work in a thread of its own, without Python's lock; what it shares among threads goes to
+/// those of [`threads`]. On a signal that Python makes an
 /// exception of, such as Ctrl-C, that exception is returned; the work is told, and what it is in the
 /// middle of is left to end by itself.
 pub(crate) fn listening<T: Send + 'static>(
@@ -31,8 +34,8 @@ pub(crate) fn listening<T: Send + 'static>(
 ) -> PyResult<T> {
     let cancelled = Cancelled::default();
     let (sender, receiver) = channel();
-    let told = cancelled.clone();
-    thread::spawn(move || drop(sender.send(work(&told))));
+    let (told, pool) = (cancelled.clone(), threads::pool(py)?);
+    thread::spawn(move || drop(sender.send(pool.install(|| work(&told)))));
     let mut waiting = receiver;
     loop {
         let (answer, again) = py.detach(move || (waiting.recv_timeout(PATIENCE), waiting));

@@ -4,8 +4,9 @@
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
 //! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), lends the reaction to other engines ([`time_step`]) and hands tables on
-//! ([`arrow`]), without Python's lock and with an ear for Ctrl-C ([`interrupt`]). Nothing here
-//! computes physics, and nothing below knows of Python.
+//! ([`arrow`]), without Python's lock, with threads that a forked process has too ([`threads`]), and
+//! with an ear for Ctrl-C ([`interrupt`]). Nothing here computes physics, and nothing below knows of
+//! Python.
 
 mod arrow;
 mod calibration;
@@ -17,6 +18,7 @@ mod interrupt;
 mod rollouts;
 mod simulators;
 mod studies;
+mod threads;
 mod time_step;
 mod validation;
 mod values;
@@ -34,6 +36,8 @@ mod _core {
         CampaignFolder, campaign_facts, campaign_manifest, campaign_row, campaign_shard,
         campaign_summary, check_shard, find_campaign, merge_campaign, read_shard, study_difference,
     };
+    #[pymodule_export]
+    use super::columns::unit_of;
     #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,

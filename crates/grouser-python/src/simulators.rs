@@ -13,6 +13,7 @@ use crate::columns::{WHEEL_COLUMNS, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
 use crate::studies::{SAMPLE_FIELDS, WHEEL_FIELDS, wheel_names};
+use crate::threads;
 use crate::wheels::check;
 
 /// Rovers between two looks for signals: a small part of a second.
@@ -262,11 +263,14 @@ impl Simulators {
         let mut told = Ok(());
         let mut start = 0;
         while start < self.radii.len() {
+            let pool = threads::pool(py)?;
             let done: Vec<_> = py.detach(|| {
+                // Locked out here: a thread of the pool that waits for others takes up their work.
                 let mut rovers = self.lock();
                 let batch = rovers.iter_mut().enumerate().skip(start).take(BATCH);
                 let batch: Vec<(usize, &mut Led)> = batch.collect();
-                batch.into_par_iter().map(|(place, led)| act(led, place)).collect()
+                let act = |(place, led): (usize, &mut Led)| act(led, place);
+                pool.install(|| batch.into_par_iter().map(act).collect())
             });
             told = told.and(done.into_iter().collect::<Result<(), SimulationError>>());
             py.check_signals()?;

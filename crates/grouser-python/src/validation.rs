@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use grouser::document::measurements::{self, Choice, Condition, Measurements};
+use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
 use grouser::document::ranking::rank_all;
 use grouser::document::validation::{CellRecord, GroupRecord, trials};
 use grouser::studies::validation::{Validation, ValidationStudy};
@@ -32,12 +32,12 @@ pub(crate) fn validate<'py>(
     conditions: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
-    let choice = Choice { conditions, wheel: wheel_label };
+    let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
     let (theory, gravity) = theory_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
     let file = data.display().to_string();
     let found = listening(py, move |_| {
-        let measured = measurements::read(&data, &choice)?;
+        let measured = measurements::Source::find(&data)?.read(&choice)?;
         let study = ValidationStudy { tests: &measured.tests, wheel, soil, theory, gravity };
         let validation = study.run();
         Ok((measured, validation))
@@ -75,10 +75,11 @@ pub(crate) fn validation_to_python<'py>(
     Ok(dict)
 }
 
-/// Every theory on every data set in a folder, best first: a record for each.
+/// Every theory on every data set of a folder, or of the program, best first: a record for each.
 #[pyfunction]
-pub(crate) fn validate_all(py: Python<'_>, folder: PathBuf) -> PyResult<Bound<'_, PyList>> {
-    let ranked = listening(py, move |_| rank_all(&folder))?;
+#[pyo3(signature = (folder))]
+pub(crate) fn validate_all(py: Python<'_>, folder: Option<PathBuf>) -> PyResult<Bound<'_, PyList>> {
+    let ranked = listening(py, move |_| rank_all(folder.as_deref(), Limits::default()))?;
     let ranked = ranked.map_err(|error| errors::of_ranking(&error))?;
     let records = ranked.iter().map(|one| in_words(py, one));
     PyList::new(py, records.collect::<PyResult<Vec<_>>>()?)

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::columns::{WHEEL_COLUMNS, wheel_row};
 use crate::descriptions::Document;
-use crate::errors;
+use crate::{errors, threads};
 
 /// Wheels between two looks for signals, to begin with: a part of a second for the slowest theory.
 const FIRST_BATCH: usize = 64;
@@ -128,7 +128,7 @@ fn evaluate(
             let end = (start + batch).min(count);
             let share = (batch / SHARES).clamp(1, SHARE);
             let begun = Instant::now();
-            py.detach(|| {
+            threads::detached(py, || {
                 let places = (start..end).into_par_iter().with_min_len(share);
                 let rows: Vec<Row> = places.map(&one).collect();
                 cells.par_chunks_mut(count).enumerate().for_each(|(column, cells)| {
@@ -136,7 +136,7 @@ fn evaluate(
                         *cell = row[column];
                     }
                 });
-            });
+            })?;
             if begun.elapsed() < *BATCH_TIME.start() {
                 batch = (2 * batch).min(LARGEST_BATCH);
             } else if begun.elapsed() > *BATCH_TIME.end() {
@@ -215,7 +215,7 @@ pub(crate) fn time_settle<'py>(
     let count = inputs.pressed.len();
     let wheels: Vec<_> =
         (0..count).map(|it| (stand.contact(&inputs, it), inputs.pressed[it])).collect();
-    Ok(py.detach(|| {
+    threads::detached(py, || {
         let start = std::time::Instant::now();
         let one = |((contact, theory), load): &((Contact, Theory), f64)| {
             settle_one(theory.model(), contact, *load)
@@ -224,7 +224,7 @@ pub(crate) fn time_settle<'py>(
         let seconds = start.elapsed().as_secs_f64();
         drop(settled);
         seconds
-    }))
+    })
 }
 
 /// The forces on wheels at given sinkages. Its last row is that sinkage once more.

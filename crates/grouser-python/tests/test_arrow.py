@@ -12,7 +12,7 @@ import pytest
 
 import grouser as gr
 
-DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
+DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 READINGS = DATA / "simulated-wheel-test" / "toyoura-20n.csv"
 
 

@@ -65,6 +65,49 @@ def test_the_truth_is_found_within_its_uncertainty(found: gr.Calibration) -> Non
     assert (found.message is None) == (found.outcome == "determined")
 
 
+def own_effective_samples(chains: Any) -> float:
+    """Samples over Sokal's integrated autocorrelation time, with lags counted along each chain and
+    deviations from the mean of all, as docs/guide/calibration.md writes it."""
+    away = chains - chains.mean()
+    variance, steps, time = (away**2).sum() / (away.size - 1), chains.shape[1], 1.0
+    for lag in range(1, steps // 2):
+        time += 2.0 * (away[:, :-lag] * away[:, lag:]).mean() / variance
+        if lag >= 5.0 * time:
+            break
+    return float(chains.size / max(time, 1.0))
+
+
+def own_r_hat(chains: Any, walkers: int) -> float:
+    """Split R-hat of the ensembles."""
+    ensembles = chains.reshape(-1, walkers, chains.shape[1])
+    middle = chains.shape[1] // 2
+    halves = [half.ravel() for it in ensembles for half in (it[:, :middle], it[:, middle:])]
+    within = np.mean([half.var(ddof=1) for half in halves])
+    between = np.var([half.mean() for half in halves], ddof=1)
+    n = ensembles[0].size // 2
+    return float(np.sqrt((within * (n - 1) / n + between) / within))
+
+
+def test_chains_say_of_themselves_what_the_library_says(found: gr.Calibration) -> None:
+    """R-hat and effective samples from the chains alone. Taken flat, as one chain in the order of
+    the samples, they would look several times as good."""
+    chains, samples, sampler = found.chains, found.samples, found.sampler
+    assert chains is not None and samples is not None and sampler is not None
+    walkers = sampler["walkers"]
+    assert chains.shape == (sampler["ensembles"] * walkers, chains.shape[1], len(found.key))
+    for k in range(len(found.key)):
+        assert np.sort(chains[..., k].ravel()).tobytes() == np.sort(samples[:, k]).tobytes()
+        own = own_effective_samples(chains[..., k])
+        assert own == pytest.approx(found.effective_samples[k], rel=1e-9)
+        assert own_r_hat(chains[..., k], walkers) == pytest.approx(found.r_hat[k], rel=1e-9)
+        assert own_effective_samples(samples[None, :, k]) > 2.0 * own
+    # The first walker's second step is one row of all walkers further on.
+    assert (chains[0, 1] == samples[walkers]).all() and (chains[1, 0] == samples[1]).all()
+    data = found.to_xarray()
+    assert data["chains"].dims == ("chain", "draw", "key")
+    assert data["ensemble"].values[[0, walkers - 1, walkers]].tolist() == [0, 0, 1]
+
+
 def check_same_as_program(found: gr.Calibration, told: dict[str, Any]) -> None:
     assert list(found.key) == [row["key"] for row in told["rows"]]
     for name in told["rows"][0].keys() - {"key"}:
@@ -115,7 +158,12 @@ def test_a_point_fit_has_no_samples(stand_file: Path) -> None:
     soil = gr.Soil("toyoura", **START)
     bounds = {"shear.longitudinal_m": (0.001, 0.2), "pressure_sinkage.k_phi": None}
     fit = gr.calibrate(stand_file, soil, "hakuto", fit=bounds, point_fit=True)
-    assert fit.samples is None and fit.sampler is None and np.isnan(fit.r_hat).all()
+    assert (
+        fit.samples is None
+        and fit.chains is None
+        and fit.sampler is None
+        and np.isnan(fit.r_hat).all()
+    )
     assert (fit.lower[0], fit.upper[0]) == (0.001, 0.2)
     assert not fit.soil.files and "fitted by Grouser" in fit.soil.source
     with pytest.raises(gr.ParameterError, match="no samples"):
@@ -149,7 +197,7 @@ def test_tables_and_pictures(found: gr.Calibration, plates_file: Path) -> None:
     import matplotlib.pyplot as plt
 
     data = found.to_xarray()
-    assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["1", "m"]
+    assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["", "m"]
     assert data.fit.sel(key="soil.shear.longitudinal_m") == found.fit[1]
     plates = gr.calibrate_plates(plates_file, "dry-sand", plate_law="bekker", point_fit=True)
     for result in (found, plates):

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 import grouser as gr
 
-DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
+DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 #: What may be raised. A panic would be none of these, and so is a thread that ended without an answer
 #: (RuntimeError); a TypeError is for what is no value of a document at all, a ValueError for what

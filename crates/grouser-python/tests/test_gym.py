@@ -156,6 +156,114 @@ def test_what_cannot_be_asked_says_what_can() -> None:
             env.step(action)
 
 
+@pytest.mark.parametrize(
+    "scenario",
+    [{"soil": "dry-sand", "slope_deg": 7.0}, gr.Scenario(soil="dry-sand", slope_deg=7.0)],
+)
+def test_soil_and_slope_of_a_scenario_count(scenario: Any) -> None:
+    """As if they had been given as arguments."""
+    env = gymnasium.make(LEVEL, scenario=scenario).unwrapped
+    asked = gymnasium.make(LEVEL, soil="dry-sand", slope_deg=(7.0, 7.0)).unwrapped
+    usual = gymnasium.make(LEVEL, slope_deg=(7.0, 7.0)).unwrapped
+    action = np.array([0.6, 0.1])
+    for one in (env, asked, usual):
+        assert one.reset(seed=3)[1]["slope_deg"] == 7.0
+    seen = [one.step(action)[0].tobytes() for one in (env, asked, usual)]
+    assert seen[0] == seen[1] != seen[2]
+
+
+def test_what_a_scenario_leaves_open_is_as_usual() -> None:
+    """A mapping gives single keys; beside a whole scenario arguments give another soil or slope."""
+    one = gymnasium.make(LEVEL, scenario={"gravity_m_s2": gr.EARTH_GRAVITY})
+    assert one.reset(seed=5)[0].tobytes() == gymnasium.make(LEVEL).reset(seed=5)[0].tobytes()
+    run = gr.Scenario(soil="dry-sand")
+    two = gymnasium.make(LEVEL, scenario=run, soil="toyoura-uncertain", slope_deg=(5.0, 15.0))
+    assert two.reset(seed=5)[0].tobytes() == one.reset(seed=5)[0].tobytes()
+
+
+@pytest.mark.parametrize(
+    ("settings", "said"),
+    [
+        (
+            {"scenario": {"soil": "dry-sand"}, "soil": "toyoura"},
+            "soil is given twice: 'toyoura' as an argument, 'dry-sand' by the scenario",
+        ),
+        (
+            {"scenario": {"slope_deg": 8.0}, "slope_deg": (5.0, 6.0)},
+            r"slope_deg is given twice: \(5.0, 6.0\) as an argument, 8.0 by",
+        ),
+        ({"scenario": {"drive": {"law": "eq18"}}}, "has drive, which does not count"),
+        ({"scenario": {"duration_s": 5.0}}, "has duration_s, which does not count"),
+        ({"scenario": {"start": {"yaw_deg": 5.0}}}, "has start.yaw_deg, which does not count"),
+    ],
+)
+def test_what_a_scenario_contradicts_is_refused(settings: dict[str, Any], said: str) -> None:
+    for make in (gymnasium.make, gymnasium.make_vec):
+        with pytest.raises(gr.ParameterError, match=said):
+            make(LEVEL, **settings)
+
+
+def test_options_of_a_reset_take_the_place_of_draws() -> None:
+    env = gymnasium.make(LEVEL)
+    drawn, drawn_info = env.reset(seed=9)
+    found, info = env.reset(seed=9, options={"yaw_deg": 4.0})
+    assert found[1] == pytest.approx(4.0, abs=1e-12) != drawn[1]
+    assert info["slope_deg"] == drawn_info["slope_deg"]
+    found, info = env.reset(seed=9, options={"slope_deg": 12.5})
+    assert info["slope_deg"] == 12.5 and found[1] == drawn[1]
+    # Wheels start with the slip that their soil gives them.
+    action, seen = np.array([0.6, 0.0]), {}
+    for seed, soil_seed in ((1, 7), (2, 7), (1, 8), (1, None)):
+        where = {"slope_deg": 10.0, "yaw_deg": 0.0, "soil_seed": soil_seed}
+        env.reset(seed=seed, options=where)
+        seen[seed, soil_seed] = env.step(action)[0].tobytes()
+    assert seen[1, 7] == seen[2, 7] and len(set(seen.values())) == 3
+    nominal = gymnasium.make(LEVEL, soil="toyoura", slope_deg=(10.0, 10.0))
+    nominal.reset(seed=1, options={"yaw_deg": 0.0})
+    assert nominal.step(action)[0].tobytes() == seen[1, None]
+
+
+def test_options_of_many_are_one_value_or_one_each() -> None:
+    envs = gymnasium.make_vec(LEVEL, num_envs=2)
+    for yaw in (3.0, [3.0, -3.0]):
+        found = envs.reset(seed=1, options={"yaw_deg": yaw, "soil_seed": [1, None]})[0]
+        np.testing.assert_allclose(found[:, 1], yaw, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"slop_deg": 5.0}, "no option 'slop_deg'; it has slope_deg, yaw_deg, soil_seed"),
+        ({"slope_deg": 70.0}, "slope_deg is 70.*, it must be from 0 to 60"),
+        ({"yaw_deg": [1.0, 2.0, 3.0]}, "option yaw_deg must be one value"),
+        ({"soil_seed": 1.5}, "soil_seed is of type float"),
+    ],
+)
+def test_options_that_there_are_not_are_refused(options: dict[str, Any], said: str) -> None:
+    single, several = gymnasium.make(LEVEL), gymnasium.make_vec(LEVEL, num_envs=2)
+    for env in (single, several):
+        with pytest.raises(gr.ParameterError, match=said):
+            env.reset(seed=1, options=options)
+
+
+def test_a_fallback_to_dynamic_is_reported() -> None:
+    """Sharp turns have no steady state; the level line does, and a dynamic run has no need of one."""
+    steady: Any = gymnasium.make(LEVEL, scenario={"simulation": "quasi-steady"})
+    dynamic: Any = gymnasium.make(LEVEL)
+    for env, action, falls in (
+        (steady, [0.0, 1.0], True),
+        (steady, [0.6, 0.0], False),
+        (dynamic, [0.0, 1.0], False),
+    ):
+        _, info = env.reset(seed=1)
+        assert info["fallback_to_dynamic"] is False
+        for _ in range(10):
+            info = env.step(np.array(action))[4]
+        assert info["fallback_to_dynamic"] is falls
+        # A new episode begins as it was asked to.
+        assert env.reset(seed=1)[1]["fallback_to_dynamic"] is False
+
+
 def test_a_missing_gymnasium_is_told_with_what_to_install() -> None:
     script = """
         import sys

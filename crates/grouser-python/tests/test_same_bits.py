@@ -11,7 +11,7 @@ from conftest import Program
 
 import grouser as gr
 
-DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
+DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 
 def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
@@ -139,12 +139,26 @@ def test_ranking_of_all_theories(program: Program, tmp_path: Path) -> None:
     assert ranking.plot().get_xlabel() and repr(ranking).startswith("<Ranking")
 
 
-def test_folders_without_data_sets(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("GROUSER_DATA_DIR", raising=False)
-    with pytest.raises(gr.ParameterError, match="GROUSER_DATA_DIR"):
-        gr.validate_all()
+def test_ranking_on_the_data_sets_of_the_program(program: Program) -> None:
+    rows = program("validate", "--all")["rows"]
+    ranking = gr.validate_all()
+    assert list(ranking.rows) == rows
+    assert {row["data_set"] for row in ranking.rows} == {"CMU single wheel"}
+
+
+def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
+    wheel, where = "cmu-smooth", "slip_angle_deg=15"
+    told = program(
+        "validate", "--data", "cmu-single-wheel", "--soil", "direct-90", "--wheel", wheel,
+        "--where", where,
+    )  # fmt: skip
+    assert gr.validate("cmu-single-wheel", "direct-90", wheel, where=where).overall == told["overall"]
+    with pytest.raises(gr.DocumentNotFoundError, match="did you mean `cmu-single-wheel`"):
+        gr.validate("cmu-single-whel", "direct-90", wheel)
+
+
+def test_folders_without_data_sets(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="no such folder"):
         gr.validate_all(tmp_path / "none")
-    monkeypatch.setenv("GROUSER_DATA_DIR", str(tmp_path))
     with pytest.raises(gr.DocumentNotFoundError, match="no known data set"):
-        gr.validate_all()
+        gr.validate_all(tmp_path)

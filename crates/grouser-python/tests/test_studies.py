@@ -14,7 +14,7 @@ import pytest
 
 import grouser as gr
 
-DATA = Path(__file__).resolve().parents[3] / "data" / "experiments"
+DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 
 def test_a_run_has_its_samples_and_its_wheels() -> None:

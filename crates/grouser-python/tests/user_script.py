@@ -16,10 +16,10 @@ def deepest(soils: list[gr.Soil], load_n: float) -> float:
     return float(sinkage.max())
 
 
-def drift(slope_deg: float) -> float:
+def downhill_m(slope_deg: float) -> float:
     run: gr.Trajectory = gr.simulate(gr.Scenario(slope_deg=slope_deg), duration_s=5.0)
     y_m: NDArray[np.float64] = run.y_m
-    return float(y_m[-1]) if run.outcome == "completed" else float("nan")
+    return float(-y_m[-1]) if run.outcome == "completed" else float("nan")
 
 
 def fitted(file: Path) -> gr.Soil:
@@ -52,7 +52,7 @@ def main() -> None:
     print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
     try:
-        print(deepest([soil], 17.0), drift(10.0), limit, ends.outcome[0], led([gr.Scenario()]))
+        print(deepest([soil], 17.0), downhill_m(10.0), limit, ends.outcome[0], led([gr.Scenario()]))
     except gr.ParameterError as error:
         print(error.name, error.value, error.expected)
 

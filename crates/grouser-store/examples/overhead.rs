@@ -61,7 +61,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         folder.accept(shard, &bytes)?;
         whole += start.elapsed();
 
-        let table = grouser_store::shard::read_bytes(bytes, &["yaw_deg"])?;
+        let identity = Study::of(&campaign).identity(shard);
+        let checked = grouser_store::shard::Checked::open(&identity, bytes.into())
+            .map_err(|fault| fault.to_string())?;
+        let table = checked.table(&["yaw_deg"])?;
         let same = matches!(table.column("yaw_deg"), Some(Values::Float(told)) if *told == yaws);
         assert!(same, "shard {shard}: the campaign's yaws are not the solver's");
         memory_before = memory_before.or_else(peak_memory_mb);

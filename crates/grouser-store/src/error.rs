@@ -3,6 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::shards::ShardSet;
+
 /// Why a folder cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -39,13 +41,36 @@ pub enum StoreError {
     /// There is no campaign to read.
     #[error("{} holds no campaign: it has no manifest.json", .0.display())]
     NoCampaign(PathBuf),
-    /// The manifest cannot be understood.
-    #[error("{}: {problem}", file.display())]
+    /// The manifest is not as it was written.
+    #[error(
+        "{}: {problem}\nhint: going on with the same study in this folder checks every shard and writes the manifest anew",
+        file.display()
+    )]
     Manifest {
         /// The manifest.
         file: PathBuf,
         /// What is wrong with it.
         problem: String,
+    },
+    /// The manifest is from before manifests carried a hash.
+    #[error(
+        "{}: it is of an earlier form, without a hash of itself, so that a change of it would not be noticed\nhint: going on with the same study in this folder checks every shard and writes the manifest anew",
+        .0.display()
+    )]
+    OldManifest(PathBuf),
+    /// The study in a folder is not the one that its manifest names.
+    #[error(
+        "{}: its SHA-256 is not that of the study whose runs are here: it was changed or damaged\nhint: going on with the same study in this folder writes it anew",
+        .0.display()
+    )]
+    StudyChanged(PathBuf),
+    /// A shard's file is not as it was written, or not in its place.
+    #[error("{}: {fault}\nhint: going on with the campaign in this folder computes the shard anew", file.display())]
+    Damaged {
+        /// The shard's file.
+        file: PathBuf,
+        /// What is wrong with it.
+        fault: ShardFault,
     },
     /// The folder has the results of another study.
     #[error(
@@ -93,10 +118,10 @@ pub enum StoreError {
         fault: ShardFault,
     },
     /// Shards that were not computed yet.
-    #[error("{} of {all} shards are missing: {}", shards.len(), listed(shards))]
+    #[error("{} of {all} shards are missing: {shards}", shards.len())]
     Missing {
-        /// Their numbers.
-        shards: Vec<u64>,
+        /// Which ones.
+        shards: ShardSet,
         /// How many there should be.
         all: u64,
     },
@@ -105,8 +130,8 @@ pub enum StoreError {
     Unfinished {
         /// The folder.
         folder: PathBuf,
-        /// The numbers of what is missing.
-        shards: Vec<u64>,
+        /// What is missing.
+        shards: ShardSet,
     },
     /// Two folders have the same shard.
     #[error("{} and {} both have shard {shard}\nhint: leave one of them out", first.display(), second.display())]
@@ -153,6 +178,22 @@ pub enum ShardFault {
     /// It ends too early, or bits of it have changed.
     #[error("the file is truncated or damaged")]
     Damaged,
+    /// It is not there, or no longer.
+    #[error("there is no such file")]
+    Absent,
+    /// A link to a device, a pipe, a folder: something that is not to be read to its end.
+    #[error("it is no regular file")]
+    NotRegular,
+    /// No shard of so many rows and columns is that long.
+    #[error(
+        "the file has {bytes} bytes, more than the {most} that a shard of this campaign may have"
+    )]
+    TooLarge {
+        /// As it is.
+        bytes: u64,
+        /// As it may be.
+        most: u64,
+    },
     /// It is a shard of another study, another version, or has another number.
     #[error("the file is that of another {0}")]
     Foreign(&'static str),
@@ -167,10 +208,26 @@ pub enum ShardFault {
 }
 
 impl StoreError {
-    /// Whether the disk, its permissions or another program are in the way: nobody asked wrongly.
+    /// Whether the disk, its permissions or another program are in the way, or files are damaged: the
+    /// request itself is right.
     #[must_use]
     pub fn is_environment(&self) -> bool {
-        matches!(self, Self::Disk { .. } | Self::Locked(_) | Self::Parquet(_))
+        matches!(
+            self,
+            Self::Disk { .. } | Self::Locked(_) | Self::Parquet(_) | Self::OtherDigest { .. }
+        ) || self.mendable_folder().is_some()
+    }
+
+    /// The folder in which going on with the campaign mends what is wrong.
+    #[must_use]
+    pub fn mendable_folder(&self) -> Option<&Path> {
+        match self {
+            Self::Manifest { file, .. } | Self::OldManifest(file) | Self::StudyChanged(file) => {
+                file.parent()
+            }
+            Self::Damaged { file, .. } => file.parent()?.parent(),
+            _ => None,
+        }
     }
 
     /// A failed operation on a file or folder.
@@ -178,14 +235,4 @@ impl StoreError {
         let path = path.to_owned();
         move |source| Self::Disk { operation, path, source }
     }
-}
-
-/// The first few of some numbers.
-fn listed(shards: &[u64]) -> String {
-    const SHOWN: usize = 8;
-    let mut words: Vec<String> = shards.iter().take(SHOWN).map(u64::to_string).collect();
-    if shards.len() > SHOWN {
-        words.push("…".into());
-    }
-    words.join(", ")
 }

@@ -1,15 +1,15 @@
 //! The folder that a campaign writes: one program at a time, one file for each shard.
 
-use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use sha2::{Digest as _, Sha256};
+use grouser::document::campaign::Table;
 
 use crate::error::{ShardFault, StoreError};
 use crate::manifest::{self, Manifest, Part, Session};
-use crate::study::{Study, VERSION, difference, hex};
+use crate::results::{self, MOST_STUDY_BYTES};
+use crate::shards::ShardSet;
+use crate::study::{Study, VERSION, difference};
 use crate::{place, shard, time};
 
 /// Where the shards are.
@@ -24,8 +24,10 @@ pub struct Folder {
     path: PathBuf,
     study: Study,
     manifest: Manifest,
-    missing: BTreeSet<u64>,
+    missing: ShardSet,
     faults: Vec<(u64, ShardFault)>,
+    /// Files beside the shards that were written anew.
+    mended: Vec<&'static str>,
     /// Whether this program has a session in the manifest.
     in_session: bool,
     /// Held as long as the folder is open; a kill releases it, too. None on disks without locks.
@@ -45,7 +47,8 @@ pub struct Finished {
 
 impl Folder {
     /// Opens a folder to go on with a campaign, or makes it. What killed programs left unfinished is
-    /// removed, and every shard that is there is checked, to the last bit: damaged ones are missing.
+    /// removed, and every shard that is there is checked, to the last bit: damaged ones are missing. A
+    /// manifest or study that was damaged is [written anew](Self::mended).
     ///
     /// On network disks the lock is as good as theirs: NFS before version 4 may have none.
     ///
@@ -54,6 +57,19 @@ impl Folder {
     /// # Errors
     /// [`StoreError`] if it is somebody else's folder, or the disk fails.
     pub fn open(path: &Path, study: &Study, part: Option<Part>) -> Result<Self, StoreError> {
+        Self::open_watched(path, study, part, &mut |_, _| {})
+    }
+
+    /// The same, telling how many of the shards that are there are checked, and of how many.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn open_watched(
+        path: &Path,
+        study: &Study,
+        part: Option<Part>,
+        checked: &mut dyn FnMut(u64, u64),
+    ) -> Result<Self, StoreError> {
         if path.exists() && !path.is_dir() {
             return Err(StoreError::NotAFolder(path.to_owned()));
         }
@@ -61,60 +77,62 @@ impl Folder {
         let runs = path.join(RUNS);
         fs::create_dir_all(path).map_err(StoreError::at("make the folder", path))?;
         let lock = lock(path)?;
-        let manifest = match Manifest::read(path)? {
-            Some(manifest) => {
-                check_identity(path, &manifest, study, part)?;
-                manifest
-            }
-            None => begin(path, study, part)?,
-        };
+        let (manifest, mended) = own_files(path, study, part)?;
         fs::create_dir_all(&runs).map_err(StoreError::at("make the folder", &runs))?;
         place::remove_unfinished(path)?;
         place::remove_unfinished(&runs)?;
-        let missing = manifest.own_shards().collect();
+        let missing = manifest.all();
         let (path, study) = (path.to_owned(), study.clone());
+        let faults = Vec::new();
         let mut folder =
-            Self { path, study, manifest, missing, faults: Vec::new(), in_session: false, lock };
-        folder.check_shards()?;
+            Self { path, study, manifest, missing, faults, mended, in_session: false, lock };
+        folder.check_shards(checked)?;
         Ok(folder)
     }
 
     /// Finds out which shards are there and whole.
-    fn check_shards(&mut self) -> Result<(), StoreError> {
+    fn check_shards(&mut self, checked: &mut dyn FnMut(u64, u64)) -> Result<(), StoreError> {
         let runs = self.path.join(RUNS);
-        for name in place::names(&runs)?.iter().filter(|name| name.ends_with(".parquet")) {
-            let file = runs.join(name);
-            let Some(shard) = shard::number_of(name).filter(|shard| self.missing.contains(shard))
-            else {
-                return Err(StoreError::UnknownShard(file));
+        let mut names = place::names(&runs)?;
+        names.retain(|name| name.ends_with(".parquet"));
+        for (done, name) in names.iter().enumerate() {
+            checked(done as u64, names.len() as u64);
+            let shard = shard::number_of(name).filter(|shard| self.missing.contains(*shard));
+            let Some(shard) = shard else {
+                return Err(StoreError::UnknownShard(runs.join(name)));
             };
-            let bytes = fs::read(&file).map_err(StoreError::at("read", &file))?;
-            match shard::check(&self.study, shard, &bytes) {
-                Ok(()) => drop(self.missing.remove(&shard)),
+            match self.check_shard(shard)? {
+                Ok(()) => drop(self.missing.remove(shard)),
                 Err(fault) => self.faults.push((shard, fault)),
             }
         }
         Ok(())
     }
 
-    /// The shards that are not there yet, in order.
+    /// What is wrong with the file of a shard, if anything.
+    fn check_shard(&self, shard: u64) -> Result<Result<(), ShardFault>, StoreError> {
+        let file = self.path.join(RUNS).join(shard::file_name(shard));
+        let identity = self.study.identity(shard);
+        let read = place::read(&file, identity.most_bytes())?;
+        Ok(read.and_then(|bytes| shard::Checked::open(&identity, bytes.into()).map(drop)))
+    }
+
+    /// The shards that are not there yet.
     #[must_use]
-    pub fn missing(&self) -> Vec<u64> {
-        self.missing.iter().copied().collect()
+    pub fn missing(&self) -> &ShardSet {
+        &self.missing
     }
 
     /// Runs of the shards that are there.
     #[must_use]
     pub fn runs_done(&self) -> u64 {
-        let there = self.manifest.own_shards().filter(|shard| !self.missing.contains(shard));
-        there.map(|shard| self.manifest.runs_of(shard)).map(|runs| runs.end - runs.start).sum()
+        self.manifest.runs_in(&self.missing.others())
     }
 
     /// Runs of all shards that belong here.
     #[must_use]
     pub fn runs(&self) -> u64 {
-        let own = self.manifest.own_shards().map(|shard| self.manifest.runs_of(shard));
-        own.map(|runs| runs.end - runs.start).sum()
+        self.manifest.runs_in(&self.manifest.all())
     }
 
     /// Shards whose files were there when the folder was opened, but not as they should be. They
@@ -122,6 +140,13 @@ impl Folder {
     #[must_use]
     pub fn faults(&self) -> &[(u64, ShardFault)] {
         &self.faults
+    }
+
+    /// Names of files beside the shards that were damaged when the folder was opened, or of an earlier form,
+    /// and were written anew. A manifest that was damaged has lost its sessions.
+    #[must_use]
+    pub fn mended(&self) -> &[&'static str] {
+        &self.mended
     }
 
     /// Whether a second program would be kept out: not every disk has locks.
@@ -150,7 +175,7 @@ impl Folder {
         if let Some(fault) = fault {
             return Err(StoreError::Shard { shard, fault });
         }
-        if !self.missing.contains(&shard) {
+        if !self.missing.contains(shard) {
             return Ok(());
         }
         self.begin_session()?;
@@ -165,13 +190,10 @@ impl Folder {
     /// [`StoreError::Shard`] if its file is not that of a shard that belongs here, or
     /// [`StoreError::Disk`] if there is none; the shard is missing then as before.
     pub fn adopt(&mut self, shard: u64) -> Result<(), StoreError> {
-        if !self.missing.contains(&shard) {
+        if !self.missing.contains(shard) {
             return Ok(());
         }
-        let file = self.path.join(RUNS).join(shard::file_name(shard));
-        let bytes = fs::read(&file).map_err(StoreError::at("read", &file))?;
-        shard::check(&self.study, shard, &bytes)
-            .map_err(|fault| StoreError::Shard { shard, fault })?;
+        self.check_shard(shard)?.map_err(|fault| StoreError::Shard { shard, fault })?;
         self.begin_session()?;
         self.count(shard);
         Ok(())
@@ -179,7 +201,7 @@ impl Folder {
 
     /// Notes that a shard is there.
     fn count(&mut self, shard: u64) {
-        self.missing.remove(&shard);
+        self.missing.remove(shard);
         if let Some(session) = self.manifest.sessions.last_mut() {
             session.shards += 1;
         }
@@ -212,14 +234,27 @@ impl Folder {
     /// Computes the digest and writes it to the manifest.
     ///
     /// # Errors
-    /// [`StoreError::Missing`] if shards are; [`StoreError::OtherDigest`] if the campaign was finished
-    /// before, with other bytes.
+    /// [`StoreError::Missing`] if shards are; [`StoreError::Damaged`] if one is not as it was taken in;
+    /// [`StoreError::OtherDigest`] if the campaign was finished before, with other bytes.
     pub fn finish(&mut self) -> Result<Finished, StoreError> {
+        self.finish_reading(&[], &mut |_, _| {})
+    }
+
+    /// The same, giving some columns of every shard away on the way: all files are read for the digest.
+    ///
+    /// # Errors
+    /// As [`finish`](Self::finish), and [`StoreError::NoColumn`].
+    pub fn finish_reading(
+        &mut self,
+        columns: &[&str],
+        each: &mut dyn FnMut(u64, Table),
+    ) -> Result<Finished, StoreError> {
         if !self.missing.is_empty() {
-            let all = self.manifest.own_shards().count() as u64;
-            return Err(StoreError::Missing { shards: self.missing(), all });
+            let all = self.manifest.own_count();
+            return Err(StoreError::Missing { shards: self.missing.clone(), all });
         }
-        let finished = digest(&self.path, &self.manifest)?;
+        let all = self.manifest.all();
+        let finished = results::read(&self.path, &self.manifest, &all, columns, each)?;
         match &self.manifest.digest {
             Some(recorded) if *recorded != finished.digest => {
                 return Err(StoreError::OtherDigest {
@@ -238,26 +273,6 @@ impl Folder {
         }
         Ok(finished)
     }
-}
-
-/// SHA-256 over the files of all shards that belong to a folder.
-pub(crate) fn digest(path: &Path, manifest: &Manifest) -> Result<Finished, StoreError> {
-    let (mut hash, mut shards, mut bytes) = (Sha256::new(), 0, 0);
-    let mut buffer = vec![0; 1 << 20];
-    for shard in manifest.own_shards() {
-        let file = path.join(RUNS).join(shard::file_name(shard));
-        let mut reader = File::open(&file).map_err(StoreError::at("read", &file))?;
-        loop {
-            let read = reader.read(&mut buffer).map_err(StoreError::at("read", &file))?;
-            if read == 0 {
-                break;
-            }
-            hash.update(&buffer[..read]);
-            bytes += read as u64;
-        }
-        shards += 1;
-    }
-    Ok(Finished { digest: hex(&hash.finalize()), shards, bytes })
 }
 
 /// Takes the folder for this program alone, until it closes the folder or ends in any way.
@@ -318,6 +333,46 @@ fn check_identity(
         });
     }
     Ok(())
+}
+
+/// The manifest and the study of a folder: as they are, or written anew, with the names of those.
+fn own_files(
+    path: &Path,
+    study: &Study,
+    part: Option<Part>,
+) -> Result<(Manifest, Vec<&'static str>), StoreError> {
+    let written = place::read(&path.join(STUDY), MOST_STUDY_BYTES);
+    let has_study = written.is_ok_and(|it| it.is_ok_and(|bytes| bytes == study.text.as_bytes()));
+    match Manifest::read(path) {
+        Ok(None) => Ok((begin(path, study, part)?, Vec::new())),
+        Ok(Some(manifest)) => {
+            check_identity(path, &manifest, study, part)?;
+            let mut mended = Vec::new();
+            if !has_study {
+                place::put(&path.join(STUDY), study.text.as_bytes())?;
+                mended.push(STUDY);
+            }
+            if !manifest.is_of(study, part) {
+                return Ok((begin(path, study, part)?, [mended, vec![manifest::FILE]].concat()));
+            }
+            Ok((manifest, mended))
+        }
+        Err(StoreError::OldManifest(file)) => {
+            let old = Manifest::read_old(path)?.ok_or(StoreError::OldManifest(file))?;
+            check_identity(path, &old, study, part)?;
+            let renewed = old.renewed();
+            if !has_study || !renewed.is_of(study, part) {
+                return Ok((begin(path, study, part)?, vec![STUDY, manifest::FILE]));
+            }
+            renewed.write(path)?;
+            Ok((renewed, vec![manifest::FILE]))
+        }
+        // Without a manifest, the study that is there says whether it is this one.
+        Err(StoreError::Manifest { .. }) if has_study => {
+            Ok((begin(path, study, part)?, vec![manifest::FILE]))
+        }
+        Err(error) => Err(error),
+    }
 }
 
 /// The first files of a folder; the manifest last, for with it the folder is a campaign's.

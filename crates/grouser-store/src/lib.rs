@@ -14,8 +14,8 @@
 //!
 //! Shards are computed one by one, in any order, anywhere: [`shard_bytes`] makes one, [`Folder::missing`]
 //! tells which are wanted, [`Folder::accept`] takes them in. A file appears under its name only when it
-//! is whole and on disk (written beside, synced, renamed), and carries a hash of its own bytes. Neither
-//! a clock nor a random number goes into a shard: the [`digest`](Folder::finish) over all of them is
+//! is whole and on disk (written beside, synced, renamed), and carries a hash of its own bytes, which every
+//! reader checks; so does the manifest, and the study is held against the manifest's hash of it. Neither a clock nor a random number goes into a shard: the [`digest`](Folder::finish) over all of them is
 //! that of the campaign, however it was computed.
 
 mod error;
@@ -25,9 +25,12 @@ mod merge;
 mod place;
 mod results;
 pub mod shard;
+mod shards;
 mod study;
 mod time;
 
+#[cfg(test)]
+mod damage;
 #[cfg(test)]
 mod tests;
 
@@ -36,7 +39,8 @@ pub use folder::{Finished, Folder};
 pub use manifest::{ColumnRecord, Manifest, Part, Session};
 pub use merge::merge;
 pub use results::Results;
-pub use study::{Study, difference};
+pub use shards::ShardSet;
+pub use study::{Study, difference, sha256};
 
 use grouser::document::campaign::Campaign;
 

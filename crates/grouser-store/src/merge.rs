@@ -1,22 +1,22 @@
 //! Brings the parts of an array of jobs together.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::StoreError;
 use crate::folder::{Finished, Folder};
 use crate::results::Results;
+use crate::shards::{Progression, ShardSet};
 use crate::study::{Study, VERSION, difference};
 
 /// Copies the shards of several folders to one, which is then as if one program had computed all.
-/// Interrupted, it goes on where it stopped.
+/// Interrupted, it goes on where it stopped. Each shard is checked to the last bit on its way.
 ///
 /// * `copied`: told after every shard how many there are now, and of how many
 ///
 /// # Errors
 /// [`StoreError`] before anything is written if a folder has another study or version, is not
-/// finished, or shards are missing or twice.
+/// finished, or shards are missing or twice; [`StoreError::Damaged`] on the way.
 pub fn merge(
     target: &Path,
     study: &Study,
@@ -26,16 +26,17 @@ pub fn merge(
     let parts = folders.iter().map(|folder| part(study, folder)).collect::<Result<Vec<_>, _>>()?;
     let shards = owners(&parts, folders)?;
     let all = study.shards();
-    let missing: Vec<u64> = (0..all).filter(|shard| !shards.contains_key(shard)).collect();
+    let mut missing = ShardSet::all(Progression::of(all, None));
+    for shard in shards.keys() {
+        missing.remove(*shard);
+    }
     if !missing.is_empty() {
         return Err(StoreError::Missing { shards: missing, all });
     }
     let mut folder = Folder::open(target, study, None)?;
-    for shard in folder.missing() {
-        let file = parts[shards[&shard]].file(shard);
-        let bytes = fs::read(&file).map_err(StoreError::at("read", &file))?;
-        folder.accept(shard, &bytes)?;
-        copied(all - folder.missing().len() as u64, all);
+    for shard in folder.missing().clone().iter() {
+        folder.accept(shard, &parts[shards[&shard]].bytes(shard)?)?;
+        copied(all - folder.missing().len(), all);
     }
     folder.finish()
 }
@@ -48,7 +49,8 @@ fn part(study: &Study, folder: &Path) -> Result<Results, StoreError> {
     Ok(results)
 }
 
-/// Which folder has which shard, by its place in the list.
+/// Which folder has which shard, by its place in the list. The parts are finished, so that there are no more
+/// shards than files.
 fn owners(parts: &[Results], folders: &[PathBuf]) -> Result<BTreeMap<u64, usize>, StoreError> {
     let mut shards: BTreeMap<u64, usize> = BTreeMap::new();
     for (place, part) in parts.iter().enumerate() {
@@ -72,5 +74,5 @@ fn check_identity(folder: &Path, study: &Study, results: &Results) -> Result<(),
         let (theirs, ours) = (manifest.version.clone(), VERSION.to_owned());
         return Err(StoreError::OtherVersion { folder, theirs, ours });
     }
-    Ok(())
+    results.require_study(study)
 }

@@ -1,10 +1,10 @@
 //! Files that are whole, or not there.
 
 use std::fs::{self, File};
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use crate::error::StoreError;
+use crate::error::{ShardFault, StoreError};
 
 /// What names of unfinished files contain. They start with a dot, too: readers of data sets leave
 /// such files out.
@@ -32,6 +32,29 @@ fn write(path: &Path, content: &[u8]) -> std::io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(content)?;
     file.sync_all()
+}
+
+/// All of a file, which is looked at before it is opened: a pipe or a device has no end.
+///
+/// * `most`: bytes that it may have
+///
+/// # Errors
+/// The outer one of the disk; the inner one of a file that is not to be read.
+pub(crate) fn read(path: &Path, most: u64) -> Result<Result<Vec<u8>, ShardFault>, StoreError> {
+    let failed = || StoreError::at("read", path);
+    let about = fs::metadata(path).map_err(failed())?;
+    if !about.is_file() {
+        return Ok(Err(ShardFault::NotRegular));
+    }
+    let too_large = |bytes: u64| Ok(Err(ShardFault::TooLarge { bytes, most }));
+    if about.len() > most {
+        return too_large(about.len());
+    }
+    let mut bytes = Vec::with_capacity(usize::try_from(about.len()).unwrap_or(0));
+    let file = File::open(path).map_err(failed())?;
+    // It may grow meanwhile; one byte more than allowed tells.
+    file.take(most.saturating_add(1)).read_to_end(&mut bytes).map_err(failed())?;
+    if bytes.len() as u64 > most { too_large(bytes.len() as u64) } else { Ok(Ok(bytes)) }
 }
 
 /// The name of an unfinished file: only one process writes to a folder at a time, and on disks

@@ -1,41 +1,75 @@
-//! A campaign's folder, for reading: one column after another, so that memory holds no more than that.
+//! A campaign's folder, for reading: each shard is read once, checked to the last bit, and given away column by
+//! column, so that memory holds no more than one of them.
 
-use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use bytes::Bytes;
 use grouser::document::campaign::{Cell, Table, Values};
+use parquet::errors::ParquetError;
+use sha2::{Digest as _, Sha256};
 
-use crate::error::StoreError;
-use crate::folder::{Finished, RUNS, STUDY, digest};
+use crate::error::{ShardFault, StoreError};
+use crate::folder::{Finished, RUNS, STUDY};
 use crate::manifest::Manifest;
-use crate::{place, shard};
+use crate::place;
+use crate::shard::{self, Checked};
+use crate::shards::ShardSet;
+use crate::study::{Study, hex, sha256};
+
+/// The most bytes of a resolved study: samples are in it.
+pub(crate) const MOST_STUDY_BYTES: u64 = 1 << 30;
 
 /// The results in a folder. Nothing is locked: a campaign may be writing there.
+///
+/// Nothing that is read is taken on trust: the manifest carries a hash of itself and one of the study, a shard
+/// one of itself; and where all shards are there, the digest over them is held against the manifest's.
 #[derive(Clone, Debug)]
 pub struct Results {
     path: PathBuf,
     manifest: Manifest,
     study: String,
-    missing: Vec<u64>,
+    missing: ShardSet,
 }
 
 impl Results {
     /// Those of a folder, finished or not.
     ///
     /// # Errors
-    /// [`StoreError::NoCampaign`], or that the folder cannot be read.
+    /// [`StoreError::NoCampaign`]; [`StoreError::Manifest`], [`StoreError::OldManifest`] or
+    /// [`StoreError::StudyChanged`] if the folder's own files are not as they were written; or that the folder
+    /// cannot be read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let manifest = Manifest::read(path)?;
         let manifest = manifest.ok_or_else(|| StoreError::NoCampaign(path.to_owned()))?;
         let file = path.join(STUDY);
-        let study = fs::read_to_string(&file).map_err(StoreError::at("read", &file))?;
-        let there: BTreeSet<u64> = place::names(&path.join(RUNS))?
-            .iter()
-            .filter_map(|name| shard::number_of(name))
-            .collect();
-        let missing = manifest.own_shards().filter(|shard| !there.contains(shard)).collect();
+        let study = place::read(&file, MOST_STUDY_BYTES)?.unwrap_or_default();
+        let is_right = sha256(&study) == manifest.study_sha256;
+        let study = String::from_utf8(study).ok().filter(|_| is_right);
+        let study = study.ok_or(StoreError::StudyChanged(file))?;
+        let mut missing = manifest.all();
+        for name in place::names(&path.join(RUNS))? {
+            if let Some(shard) = shard::number_of(&name) {
+                missing.remove(shard);
+            }
+        }
         Ok(Self { path: path.to_owned(), manifest, study, missing })
+    }
+
+    /// That the manifest is that of a study, in all that it says of it.
+    ///
+    /// # Errors
+    /// [`StoreError::StudyChanged`] if the study is another one, [`StoreError::Manifest`] if the manifest says
+    /// something else of it.
+    pub fn require_study(&self, study: &Study) -> Result<(), StoreError> {
+        if study.hash != self.manifest.study_sha256 {
+            return Err(StoreError::StudyChanged(self.study_file()));
+        }
+        if self.manifest.is_of(study, self.manifest.part) {
+            return Ok(());
+        }
+        let problem = "it does not say what the study says".to_owned();
+        Err(StoreError::Manifest { file: self.path.join(crate::manifest::FILE), problem })
     }
 
     /// What the folder says of itself.
@@ -58,7 +92,7 @@ impl Results {
 
     /// The shards that belong here and are not there.
     #[must_use]
-    pub fn missing(&self) -> &[u64] {
+    pub fn missing(&self) -> &ShardSet {
         &self.missing
     }
 
@@ -73,12 +107,38 @@ impl Results {
         Err(StoreError::Unfinished { folder: self.path.clone(), shards: self.missing.clone() })
     }
 
+    /// Reads the shards that are there, each once and in order: some columns of each, and at the end the
+    /// digest over all bytes.
+    ///
+    /// * `each`: gets a shard's number and columns
+    ///
+    /// # Errors
+    /// [`StoreError::Damaged`] for the first shard that is not as it was written;
+    /// [`StoreError::OtherDigest`] if all are, and are not those that the campaign was finished with.
+    pub fn read(
+        &self,
+        columns: &[&str],
+        each: &mut dyn FnMut(u64, Table),
+    ) -> Result<Finished, StoreError> {
+        let finished = read(&self.path, &self.manifest, &self.missing.others(), columns, each)?;
+        let recorded = self.manifest.digest.as_ref().filter(|_| self.missing.is_empty());
+        match recorded {
+            Some(recorded) if *recorded != finished.digest => Err(StoreError::OtherDigest {
+                folder: self.path.clone(),
+                recorded: recorded.clone(),
+                found: finished.digest,
+            }),
+            _ => Ok(finished),
+        }
+    }
+
     /// The digest, computed from the files.
     ///
     /// # Errors
-    /// [`StoreError::Disk`], also if a shard is missing.
+    /// As [`read`](Self::read), and [`StoreError::Unfinished`] if a shard is missing.
     pub fn digest(&self) -> Result<Finished, StoreError> {
-        digest(&self.path, &self.manifest)
+        self.require_all()?;
+        self.read(&[], &mut |_, _| {})
     }
 
     /// The file of a shard.
@@ -87,38 +147,50 @@ impl Results {
         self.path.join(RUNS).join(shard::file_name(shard))
     }
 
+    /// The bytes of a shard, checked.
+    pub(crate) fn bytes(&self, shard: u64) -> Result<Bytes, StoreError> {
+        Ok(bytes(&self.path, &self.manifest, shard)?.0)
+    }
+
     /// Some columns of a shard.
     ///
     /// # Errors
-    /// [`StoreError`] if it is not there, or not whole, or has no such column.
+    /// [`StoreError::Damaged`] if it is not there or not as it was written, [`StoreError::NoColumn`].
     pub fn shard(&self, shard: u64, columns: &[&str]) -> Result<Table, StoreError> {
-        let path = self.file(shard);
-        let file = File::open(&path).map_err(StoreError::at("read", &path))?;
-        shard::read(file, columns)
+        bytes(&self.path, &self.manifest, shard)?.1.table(columns)
     }
 
-    /// A column of all shards that are there, in the order of the runs.
+    /// Columns of all shards that are there, in the order of the runs, and the digest.
     ///
     /// # Errors
-    /// [`StoreError`] if a shard is not whole, or has no such column.
-    pub fn column(&self, name: &str) -> Result<Values, StoreError> {
-        let mut all: Option<Values> = None;
-        for shard in self.manifest.own_shards().filter(|shard| !self.missing.contains(shard)) {
-            for (_, more) in self.shard(shard, &[name])?.columns {
-                match &mut all {
-                    None => all = Some(more),
-                    Some(values) => shard::append(values, more),
+    /// As [`read`](Self::read), and [`StoreError::NoColumn`].
+    pub fn columns(&self, names: &[&str]) -> Result<(Vec<Values>, Finished), StoreError> {
+        let mut all: Vec<Values> = Vec::new();
+        let mut fits = true;
+        let finished = self.read(names, &mut |_, table| {
+            let more = table.columns.into_iter().map(|(_, values)| values);
+            if all.is_empty() {
+                all = more.collect();
+            } else {
+                for (values, more) in all.iter_mut().zip(more) {
+                    fits &= shard::append(values, more);
                 }
             }
+        })?;
+        if !fits {
+            return Err(ParquetError::General("a column changes its type".into()).into());
         }
-        all.ok_or_else(|| StoreError::NoColumn(name.to_owned()))
+        match names.get(all.len()) {
+            Some(name) => Err(StoreError::NoColumn((*name).to_owned())),
+            None => Ok((all, finished)),
+        }
     }
 
     /// The row of a run, as it is stored.
     ///
     /// # Errors
-    /// [`StoreError::NoRun`] if the campaign has no such run, or [`StoreError`] if its shard is not
-    /// there.
+    /// [`StoreError::NoRun`] if the campaign has no such run, or [`StoreError::Damaged`] if its shard is not
+    /// there or not as it was written.
     pub fn row(&self, run: u64) -> Result<Vec<(String, Cell)>, StoreError> {
         let runs = self.manifest.runs;
         if run >= runs {
@@ -137,4 +209,39 @@ impl Results {
         let cells = columns.into_iter().map(|(name, values)| Some((name, cell(values)?)));
         cells.collect::<Option<_>>().ok_or(StoreError::NoRun { run, runs })
     }
+}
+
+/// Reads shards, each once and in order; the digest is over them.
+pub(crate) fn read(
+    path: &Path,
+    manifest: &Manifest,
+    shards: &ShardSet,
+    columns: &[&str],
+    each: &mut dyn FnMut(u64, Table),
+) -> Result<Finished, StoreError> {
+    let (mut hash, mut bytes_read) = (Sha256::new(), 0);
+    for shard in shards.iter() {
+        let (bytes, checked) = bytes(path, manifest, shard)?;
+        hash.update(&bytes);
+        bytes_read += bytes.len() as u64;
+        each(shard, checked.table(columns)?);
+    }
+    Ok(Finished { digest: hex(&hash.finalize()), shards: shards.len(), bytes: bytes_read })
+}
+
+/// A shard's file, checked.
+fn bytes(path: &Path, manifest: &Manifest, shard: u64) -> Result<(Bytes, Checked), StoreError> {
+    let file = path.join(RUNS).join(shard::file_name(shard));
+    let identity = manifest.identity(shard);
+    let checked = match place::read(&file, identity.most_bytes()) {
+        Ok(read) => read.and_then(|bytes| {
+            let bytes = Bytes::from(bytes);
+            Checked::open(&identity, bytes.clone()).map(|checked| (bytes, checked))
+        }),
+        Err(StoreError::Disk { source, .. }) if source.kind() == ErrorKind::NotFound => {
+            Err(ShardFault::Absent)
+        }
+        Err(error) => return Err(error),
+    };
+    checked.map_err(|fault| StoreError::Damaged { file, fault })
 }

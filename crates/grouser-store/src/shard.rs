@@ -16,7 +16,7 @@ use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Ty
 use parquet::errors::{ParquetError, Result as ParquetResult};
 use parquet::file::metadata::{FileMetaData, KeyValue};
 use parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
-use parquet::file::reader::{ChunkReader, FileReader as _, SerializedFileReader};
+use parquet::file::reader::{FileReader as _, SerializedFileReader};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::{ColumnPath, Type};
 use serde_json::json;
@@ -58,7 +58,8 @@ pub fn number_of(name: &str) -> Option<u64> {
 /// The bytes of a shard's file.
 ///
 /// # Errors
-/// [`StoreError::Parquet`] if the table is not one of the study's columns and the shard's rows.
+/// [`StoreError::Parquet`] if the table is not one of the study's columns and the shard's rows;
+/// [`StoreError::Shard`] if its texts are so long that no reader would take it ([`Identity::most_bytes`]).
 pub fn encode(study: &Study, shard: u64, table: &Table) -> Result<Vec<u8>, StoreError> {
     let runs = study.runs_of(shard);
     let fits = table.columns.len() == study.columns.len()
@@ -78,6 +79,10 @@ pub fn encode(study: &Study, shard: u64, table: &Table) -> Result<Vec<u8>, Store
     }
     group.close()?;
     let mut file = writer.into_inner()?;
+    let (bytes, most) = (file.len() as u64, study.identity(shard).most_bytes());
+    if bytes > most {
+        return Err(StoreError::Shard { shard, fault: ShardFault::TooLarge { bytes, most } });
+    }
     sign(&mut file);
     Ok(file)
 }
@@ -191,79 +196,116 @@ fn write_as<T: DataType, V>(
 
 // ---- Reading ----
 
+/// What a shard's file has to say of itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity {
+    pub(crate) study_sha256: String,
+    pub(crate) version: String,
+    pub(crate) shard: u64,
+    pub(crate) rows: u64,
+    pub(crate) columns: Vec<ColumnRecord>,
+}
+
+impl Identity {
+    /// The most bytes that its file may have: numbers take eight and what Parquet adds, texts such as
+    /// reasons a kilobyte on average at most. [`encode`] writes none that is longer.
+    #[must_use]
+    pub fn most_bytes(&self) -> u64 {
+        const FILE: u64 = 1 << 20;
+        const COLUMN: u64 = 1 << 14;
+        const NUMBER: u64 = 32;
+        const TEXT: u64 = 1 << 10;
+        let texts = self.columns.iter().filter(|column| column.kind == "text").count() as u64;
+        let columns = self.columns.len() as u64;
+        let row = texts.saturating_mul(TEXT).saturating_add((columns - texts) * NUMBER);
+        let names: u64 = self.columns.iter().map(|column| column.name.len() as u64).sum();
+        let fixed = FILE + columns * COLUMN + names.saturating_mul(16);
+        self.rows.saturating_mul(row).saturating_add(fixed)
+    }
+}
+
+/// A shard's file that was checked.
+pub struct Checked {
+    reader: SerializedFileReader<Bytes>,
+    rows: usize,
+}
+
 /// That a file is a shard of a study, to the last bit as it was written.
 ///
 /// # Errors
 /// [`ShardFault`], whatever is wrong first.
 pub fn check(study: &Study, shard: u64, file: &[u8]) -> Result<(), ShardFault> {
+    Checked::open(&study.identity(shard), Bytes::copy_from_slice(file)).map(drop)
+}
+
+impl Checked {
+    /// That a file is the shard that it should be, to the last bit as it was written.
+    ///
+    /// # Errors
+    /// [`ShardFault`], whatever is wrong first.
+    pub fn open(identity: &Identity, file: Bytes) -> Result<Self, ShardFault> {
+        check_hash(&file)?;
+        let reader = SerializedFileReader::new(file).map_err(|_| ShardFault::Damaged)?;
+        let about = reader.metadata().file_metadata();
+        let expected = [
+            (SCHEMA_KEY, SCHEMA, "kind"),
+            (STUDY_KEY, identity.study_sha256.as_str(), "study"),
+            (VERSION_KEY, identity.version.as_str(), "version"),
+            (SHARD_KEY, &identity.shard.to_string(), "number"),
+            (COLUMNS_KEY, &json!(identity.columns).to_string(), "set of columns"),
+        ];
+        for (key, value, what) in expected {
+            if told(about, key) != Some(value) {
+                return Err(ShardFault::Foreign(what));
+            }
+        }
+        let (found, expected) = (about.num_rows().cast_unsigned(), identity.rows);
+        if found != expected {
+            return Err(ShardFault::Rows { found, expected });
+        }
+        // One group has all rows: whoever made something else made no shard.
+        let groups = reader.metadata().row_groups();
+        let rows: u64 = groups.iter().map(|group| group.num_rows().cast_unsigned()).sum();
+        if groups.len() > 1 || rows != expected {
+            return Err(ShardFault::Rows { found: rows, expected });
+        }
+        let rows = usize::try_from(rows).map_err(|_| ShardFault::Damaged)?;
+        Ok(Self { reader, rows })
+    }
+
+    /// The values of some columns.
+    ///
+    /// # Errors
+    /// [`StoreError::NoColumn`], or whatever Parquet's reader finds wrong.
+    pub fn table(&self, columns: &[&str]) -> Result<Table, StoreError> {
+        let schema = self.reader.metadata().file_metadata().schema_descr_ptr();
+        let mut table = Table { columns: Vec::new() };
+        for name in columns {
+            let mut places = schema.columns().iter();
+            let place = places
+                .position(|column| column.name() == *name)
+                .ok_or_else(|| StoreError::NoColumn((*name).to_owned()))?;
+            let group = self.reader.get_row_group(0)?;
+            let values = column_values(group.get_column_reader(place)?, self.rows)?;
+            table.columns.push(((*name).to_owned(), values));
+        }
+        Ok(table)
+    }
+}
+
+/// That a file's hash of itself is right.
+fn check_hash(file: &[u8]) -> Result<(), ShardFault> {
     let place = hash_place(file).ok_or(ShardFault::Damaged)?;
     let (before, rest) = file.split_at(place);
     let (hash, after) = rest.split_at(HASH_DIGITS);
     let found =
         Sha256::new().chain_update(before).chain_update(ZEROS).chain_update(after).finalize();
-    if hex(&found).as_bytes() != hash {
-        return Err(ShardFault::Damaged);
-    }
-    let reader = SerializedFileReader::new(Bytes::copy_from_slice(file));
-    let reader = reader.map_err(|_| ShardFault::Damaged)?;
-    let about = reader.metadata().file_metadata();
-    let expected = [
-        (SCHEMA_KEY, SCHEMA, "kind"),
-        (STUDY_KEY, study.hash.as_str(), "study"),
-        (VERSION_KEY, VERSION, "version"),
-        (SHARD_KEY, &shard.to_string(), "number"),
-    ];
-    for (key, value, what) in expected {
-        if told(about, key) != Some(value) {
-            return Err(ShardFault::Foreign(what));
-        }
-    }
-    let (found, runs) = (about.num_rows().cast_unsigned(), study.runs_of(shard));
-    let expected = runs.end - runs.start;
-    if found == expected { Ok(()) } else { Err(ShardFault::Rows { found, expected }) }
+    if hex(&found).as_bytes() == hash { Ok(()) } else { Err(ShardFault::Damaged) }
 }
 
 fn told<'m>(about: &'m FileMetaData, key: &str) -> Option<&'m str> {
     let pairs = about.key_value_metadata()?;
     pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
-}
-
-/// The values of some columns of a shard.
-///
-/// * `file`: an open file, or [`Bytes`]
-///
-/// # Errors
-/// [`StoreError::NoColumn`], or whatever Parquet's reader finds wrong.
-pub fn read<R: ChunkReader + 'static>(file: R, columns: &[&str]) -> Result<Table, StoreError> {
-    let reader = SerializedFileReader::new(file)?;
-    let schema = reader.metadata().file_metadata().schema_descr_ptr();
-    let mut table = Table { columns: Vec::new() };
-    for name in columns {
-        let mut places = schema.columns().iter();
-        let place = places
-            .position(|column| column.name() == *name)
-            .ok_or_else(|| StoreError::NoColumn((*name).to_owned()))?;
-        let mut values: Option<Values> = None;
-        for group in 0..reader.num_row_groups() {
-            let group = reader.get_row_group(group)?;
-            let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-            let more = column_values(group.get_column_reader(place)?, rows)?;
-            match &mut values {
-                None => values = Some(more),
-                Some(values) => append(values, more),
-            }
-        }
-        table.columns.push(((*name).to_owned(), values.unwrap_or(Values::Float(Vec::new()))));
-    }
-    Ok(table)
-}
-
-/// The values of some columns of a shard's bytes.
-///
-/// # Errors
-/// As [`read`].
-pub fn read_bytes(file: Vec<u8>, columns: &[&str]) -> Result<Table, StoreError> {
-    read(Bytes::from(file), columns)
 }
 
 fn column_values(reader: ColumnReader, rows: usize) -> Result<Values, StoreError> {
@@ -300,13 +342,13 @@ fn read_as<T: DataType, V>(
     Ok(levels.into_iter().map(value).collect())
 }
 
-/// More rows to a column.
-pub(crate) fn append(values: &mut Values, more: Values) {
+/// More rows to a column; whether they are of its kind.
+pub(crate) fn append(values: &mut Values, more: Values) -> bool {
     match (values, more) {
         (Values::Float(values), Values::Float(more)) => values.extend(more),
         (Values::Whole(values), Values::Whole(more)) => values.extend(more),
         (Values::Text(values), Values::Text(more)) => values.extend(more),
-        // All shards of a study have the same schema.
-        _ => {}
+        _ => return false,
     }
+    true
 }

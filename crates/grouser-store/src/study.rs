@@ -7,6 +7,9 @@ use std::ops::Range;
 use grouser::document::campaign::{Campaign, Column};
 use sha2::{Digest as _, Sha256};
 
+use crate::manifest::ColumnRecord;
+use crate::shard::Identity;
+
 /// The version of the program: another one may compute other numbers.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -50,12 +53,31 @@ impl Study {
         self.runs.div_ceil(self.shard_runs.max(1))
     }
 
+    /// What a shard's file has to say of itself.
+    #[must_use]
+    pub fn identity(&self, shard: u64) -> Identity {
+        let runs = self.runs_of(shard);
+        Identity {
+            study_sha256: self.hash.clone(),
+            version: VERSION.to_owned(),
+            shard,
+            rows: runs.end - runs.start,
+            columns: self.columns.iter().map(ColumnRecord::from).collect(),
+        }
+    }
+
     /// The runs of a shard.
     #[must_use]
     pub fn runs_of(&self, shard: u64) -> Range<u64> {
         let start = shard.saturating_mul(self.shard_runs).min(self.runs);
         start..start.saturating_add(self.shard_runs).min(self.runs)
     }
+}
+
+/// SHA-256 of bytes, as `sha256sum` prints it.
+#[must_use]
+pub fn sha256(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
 }
 
 /// Bytes as the hexadecimal digits that `sha256sum` prints.

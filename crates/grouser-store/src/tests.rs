@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser::document::campaign::{Cell, Column, ColumnKind, Role, Table, Values};
 use sha2::{Digest as _, Sha256};
 
-use crate::shard::{check, encode, file_name, read};
+use crate::shard::{Checked, check, encode, file_name};
 use crate::study::{Study, hex};
 use crate::{Folder, Part, Results, ShardFault, StoreError, merge};
 
@@ -15,7 +15,7 @@ fn column(name: &str, kind: ColumnKind, role: Role) -> Column {
 }
 
 /// A study of 25 runs in shards of 4.
-fn study(text: &str) -> Study {
+pub(crate) fn study(text: &str) -> Study {
     Study {
         name: "tiny".into(),
         text: text.into(),
@@ -32,7 +32,7 @@ fn study(text: &str) -> Study {
     }
 }
 
-fn table(study: &Study, shard: u64) -> Table {
+pub(crate) fn table(study: &Study, shard: u64) -> Table {
     let runs = || study.runs_of(shard);
     let stuck = |run: &u64| run % 3 == 1;
     let float = |run: u64| (run as f64).sqrt();
@@ -48,18 +48,22 @@ fn table(study: &Study, shard: u64) -> Table {
     Table { columns: names.zip(columns).collect() }
 }
 
-fn bytes(study: &Study, shard: u64) -> Vec<u8> {
+pub(crate) fn bytes(study: &Study, shard: u64) -> Vec<u8> {
     encode(study, shard, &table(study, shard)).unwrap()
 }
 
+pub(crate) fn numbers(folder: &Folder) -> Vec<u64> {
+    folder.missing().iter().collect()
+}
+
 fn fill(folder: &mut Folder, study: &Study) {
-    for shard in folder.missing() {
+    for shard in folder.missing().clone().iter() {
         folder.accept(shard, &bytes(study, shard)).unwrap();
     }
 }
 
 /// A finished folder and its digest.
-fn finished(path: &Path, study: &Study, part: Option<Part>) -> String {
+pub(crate) fn finished(path: &Path, study: &Study, part: Option<Part>) -> String {
     let mut folder = Folder::open(path, study, part).unwrap();
     fill(&mut folder, study);
     folder.finish().unwrap().digest
@@ -71,7 +75,8 @@ fn what_is_written_is_read() {
     let names: Vec<&str> = study.columns.iter().map(|column| column.name.as_str()).collect();
     for shard in 0..study.shards() {
         let file = bytes::Bytes::from(bytes(&study, shard));
-        assert_eq!(read(file, &names).unwrap(), table(&study, shard));
+        let checked = Checked::open(&study.identity(shard), file).unwrap();
+        assert_eq!(checked.table(&names).unwrap(), table(&study, shard));
     }
 }
 
@@ -141,7 +146,7 @@ fn a_folder_goes_on_where_it_was_left() {
     fs::write(path.join(".manifest.json.partial-77"), "{").unwrap();
     let mut folder = Folder::open(&path, &study, None).unwrap();
     assert_eq!(folder.faults(), [(1, ShardFault::Damaged), (5, ShardFault::Damaged)]);
-    assert_eq!((folder.missing(), folder.runs_done()), (vec![1, 2, 3, 4, 5], 5));
+    assert_eq!((numbers(&folder), folder.runs_done()), (vec![1, 2, 3, 4, 5], 5));
     fill(&mut folder, &study);
     assert_eq!(folder.finish().unwrap().digest, digest);
     let unfinished = |folder: &Path| {
@@ -160,12 +165,12 @@ fn a_shard_that_is_in_its_place_already_is_adopted() {
     let digest = finished(&place.path().join("whole"), &study, None);
     let path = place.path().join("shared");
     let mut folder = Folder::open(&path, &study, None).unwrap();
-    for shard in folder.missing() {
+    for shard in folder.missing().clone().iter() {
         let file = path.join("runs").join(file_name(shard));
         assert!(matches!(folder.adopt(shard), Err(StoreError::Disk { .. })));
         fs::write(&file, "half").unwrap();
         assert!(matches!(folder.adopt(shard), Err(StoreError::Shard { .. })));
-        assert!(folder.missing().contains(&shard));
+        assert!(folder.missing().contains(shard));
         fs::write(&file, bytes(&study, shard)).unwrap();
         folder.adopt(shard).unwrap();
     }
@@ -180,7 +185,7 @@ fn a_finished_folder_is_left_as_it_is() {
     let manifest = || fs::read(place.path().join("manifest.json")).unwrap();
     let before = manifest();
     let mut folder = Folder::open(place.path(), &study, None).unwrap();
-    assert_eq!((folder.missing(), folder.runs_done()), (vec![], 25));
+    assert_eq!((numbers(&folder), folder.runs_done()), (vec![], 25));
     assert_eq!(folder.finish().unwrap().digest, digest);
     assert_eq!(manifest(), before);
 }
@@ -227,12 +232,12 @@ fn shards_that_do_not_belong_are_not_accepted() {
     let (study, place) = (study("a = 1"), tempfile::tempdir().unwrap());
     let part = Part { index: 2, of: 3 };
     let mut folder = Folder::open(place.path(), &study, Some(part)).unwrap();
-    assert_eq!(folder.missing(), [1, 4]);
+    assert_eq!(numbers(&folder), [1, 4]);
     for (shard, file) in [(1, bytes(&study, 4)), (0, bytes(&study, 0)), (4, Vec::new())] {
         let error = folder.accept(shard, &file).unwrap_err();
         assert!(matches!(error, StoreError::Shard { .. }), "{error}");
     }
-    assert_eq!(folder.missing(), [1, 4]);
+    assert_eq!(numbers(&folder), [1, 4]);
 }
 
 #[test]
@@ -261,11 +266,13 @@ fn rows_and_columns_are_found() {
     let (study, place) = (study("a = 1"), tempfile::tempdir().unwrap());
     finished(place.path(), &study, None);
     let results = Results::open(place.path()).unwrap();
-    let runs = results.column("run").unwrap();
-    assert_eq!(runs, Values::Whole((0..25).map(Some).collect()));
+    let (columns, finished) = results.columns(&["run", "status"]).unwrap();
+    assert_eq!(columns[0], Values::Whole((0..25).map(Some).collect()));
+    assert_eq!((columns[1].len(), &finished), (25, &results.digest().unwrap()));
+    assert_eq!(Some(finished.digest), results.manifest().digest);
     let row = results.row(13).unwrap();
     assert_eq!(row[0], ("run".into(), Cell::Whole(Some(13))));
     assert_eq!(row[3], ("sinkage_mm".into(), Cell::Float(None)));
     assert!(matches!(results.row(25), Err(StoreError::NoRun { run: 25, runs: 25 })));
-    assert!(matches!(results.column("slip"), Err(StoreError::NoColumn(_))));
+    assert!(matches!(results.columns(&["slip"]), Err(StoreError::NoColumn(_))));
 }

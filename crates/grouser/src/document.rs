@@ -35,8 +35,10 @@ pub mod checkpoint;
 mod data_set;
 mod describe;
 mod error;
+pub mod escape;
 pub mod experiment;
 mod field;
+pub mod file;
 mod loaded;
 pub mod measurements;
 mod notes;
@@ -259,6 +261,12 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
     Ok(kind)
 }
 
+/// Where a document has a key, with the tables it stands in.
+fn place_of(source: &Source, key: &str) -> Result<Place, DocumentError> {
+    let tree = text::parse(&source.read()?)?;
+    Ok(Place::of(tree.origin_of(key)))
+}
+
 /// Gravities by name, with their values [m/s²].
 pub const GRAVITIES: [(&str, f64); 3] =
     [("earth", EARTH_GRAVITY), ("moon", MOON_GRAVITY), ("mars", MARS_GRAVITY)];
@@ -417,7 +425,8 @@ fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
         .ok_or_else(|| check::unknown_tag(&tags, &entry.node))
 }
 
-/// A missing file is the fault of the document that names it.
+/// A missing file is the fault of the document that names it; of any other fault it says where the
+/// file is named.
 fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> DocumentError {
     match (error.problem(), source) {
         (Problem::NoSuchFile, Source::File(path))
@@ -429,6 +438,6 @@ fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> Documen
             let hint = (!is_whole).then(|| format!("looked for {}", path.display()));
             error.seen_from(origin).with_hint(hint)
         }
-        _ => error,
+        _ => error.named_by(origin),
     }
 }

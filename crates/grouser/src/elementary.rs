@@ -5,8 +5,16 @@
 //! multiply-add, so that the bits do not depend on which. (The functions of the standard library are
 //! the platform's: their last bits differ between systems and processors.) The polynomials are
 //! fits at Chebyshev points with 60 digits, rounded.
+//!
+//! [`wide`] has the functions of any argument that the rest of the library computes with. Nothing of
+//! ours calls the platform's; a test reads the sources (`tests/it/floors.rs`). The
+//! one library that does is the sampler of posteriors (hammer-and-sample), for the logarithm with which
+//! it decides whether a walker takes a step: a last digit that differs there would decide otherwise
+//! once in 10¹⁵ steps.
 
 #![expect(clippy::inline_always, reason = "a call in the lanes' loop would end its vectors")]
+
+pub(crate) mod wide;
 
 use std::f64::consts::{FRAC_PI_2, LOG2_E};
 
@@ -96,6 +104,22 @@ pub(crate) fn sin(x: f64) -> f64 {
     x + x * z * (low + z4 * high)
 }
 
+/// sinh x and cosh x for x from 0 to 700, to 2 ulp.
+#[inline(always)]
+pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
+    let z = x * x;
+    let (z2, z4) = (z * z, (z * z) * (z * z));
+    // Taylor's series up to x¹⁹/19!.
+    let low = (0.166_666_666_666_666_66 + 0.008_333_333_333_333_333 * z)
+        + z2 * (0.000_198_412_698_412_698_4 + 2.755_731_922_398_589e-6 * z);
+    let high = (2.505_210_838_544_172e-8 + 1.605_904_383_682_161_3e-10 * z)
+        + z2 * (7.647_163_731_819_816e-13 + 2.811_457_254_345_520_6e-15 * z);
+    let series = x + x * z * (low + z4 * (high + z4 * 8.220_635_246_624_33e-18));
+    let grown = exp(x);
+    let fallen = 1.0 / grown;
+    (if x < 1.0 { series } else { 0.5 * (grown - fallen) }, 0.5 * (grown + fallen))
+}
+
 /// asin x for x from 0 to 1, to 2 ulp.
 #[inline(always)]
 pub(crate) fn asin(x: f64) -> f64 {
@@ -121,18 +145,18 @@ mod tests {
     use super::*;
 
     /// |a − b| in units of the last place of b.
-    fn ulps(a: f64, b: f64) -> f64 {
+    pub(super) fn ulps(a: f64, b: f64) -> f64 {
         if a == b { 0.0 } else { (a - b).abs() / (b.abs().next_up() - b.abs()) }
     }
 
     /// Many numbers between two, evenly.
-    fn evenly(low: f64, high: f64) -> impl Iterator<Item = f64> {
+    pub(super) fn evenly(low: f64, high: f64) -> impl Iterator<Item = f64> {
         const COUNT: u32 = 200_000;
         (0..=COUNT).map(move |k| low + (high - low) * (f64::from(k) / f64::from(COUNT)))
     }
 
     /// Largest error against a function of the standard library, which has 1 ulp itself at most.
-    fn largest_error(
+    pub(super) fn largest_error(
         ours: impl Fn(f64) -> f64,
         theirs: impl Fn(f64) -> f64,
         at: impl Iterator<Item = f64>,
@@ -229,6 +253,8 @@ mod tests {
         assert!(largest_error(sin, f64::sin, evenly(-FRAC_PI_2, FRAC_PI_2)) <= 2.0);
         assert!(largest_error(asin, f64::asin, evenly(0.0, 1.0)) <= 3.0);
         let cos = |x| sin_cos(x).1;
+        assert!(largest_error(|x| sinh_cosh(x).0, f64::sinh, evenly(0.0, 20.0)) <= 3.0);
+        assert!(largest_error(|x| sinh_cosh(x).1, f64::cosh, evenly(0.0, 20.0)) <= 3.0);
         let most = evenly(-FRAC_PI_2, FRAC_PI_2).map(|x| (cos(x) - x.cos()).abs());
         assert!(most.fold(0.0, f64::max) <= 2.3e-16);
     }

@@ -16,6 +16,7 @@ pub mod campaign;
 pub mod card;
 pub mod comparison;
 pub mod measurement;
+mod normal;
 mod random;
 pub mod reproduction;
 pub mod simulated_test;

@@ -35,10 +35,23 @@ impl From<StoreError> for Failure {
             StoreError::Disk { operation, path, source } => {
                 Self::at(&format!("cannot {operation}"), &path)(source)
             }
-            error if error.is_environment() => Self::Run(error.to_string()),
+            error if error.is_environment() => Self::Run(with_command(&error)),
             error => Self::Usage(error.to_string()),
         }
     }
+}
+
+/// What is wrong with a folder and, where going on mends it, the command that does.
+fn with_command(error: &StoreError) -> String {
+    let Some(folder) = error.mendable_folder() else { return error.to_string() };
+    // A folder whose study is damaged cannot say which it was.
+    let study = match error {
+        StoreError::StudyChanged(_) => "STUDY".to_owned(),
+        _ => folder.join("study.toml").display().to_string(),
+    };
+    let part = Results::open(folder).ok().and_then(|results| results.manifest().part);
+    let part = part.map_or(String::new(), |part| format!(" --shard {part}"));
+    format!("{error}: `grouser campaign run {study} --out {}{part}`", folder.display())
 }
 
 /// The campaign of an argument.
@@ -60,12 +73,7 @@ fn stored(folder: &Path) -> Result<(Results, Campaign), Failure> {
             folder.display()
         )));
     }
-    if Study::of(&campaign).hash() != results.manifest().study_sha256 {
-        return Err(Failure::Usage(format!(
-            "{} is not the study that the folder's runs are of: it was changed",
-            results.study_file().display()
-        )));
-    }
+    results.require_study(&Study::of(&campaign))?;
     Ok((results, campaign))
 }
 

@@ -8,10 +8,11 @@ mod words;
 use std::path::Path;
 
 use grouser::document::card::{CardRecord, MeasuredRecord, RuleRecord};
+use grouser::document::escape;
 use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy};
-use grouser_page::Sheet;
+use grouser_page::{Sheet, markup};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -58,7 +59,10 @@ const STEEPEST_DEG: u8 = 60;
 pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let target = args.out.as_deref().map(|out| Target::of(out, args.force)).transpose()?;
     let inputs = inputs::card(args)?;
-    let measured = args.measured.as_deref().map(measured::read).transpose()?.unwrap_or_default();
+    let measured = match &args.measured {
+        Some(file) => measured::read(file, args.read.limits())?,
+        None => Vec::new(),
+    };
     let soils = soils(args, &inputs)?;
     let card = compute(args, &inputs, &soils, &measured)?;
     let records = shown(CardRecord::of(&card), &measured);
@@ -210,12 +214,11 @@ impl Form {
 
 /// A page that prints on one sheet.
 fn html(sheet: &Sheet) -> String {
-    let (title, svg) = (sheet.title(), sheet.to_svg());
-    let escaped = title.replace('&', "&amp;").replace('<', "&lt;");
+    let (title, svg) = (markup(sheet.title()), sheet.to_svg());
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
-         <meta name=\"generator\" content=\"Grouser {}\">\n<title>{escaped}</title>\n<style>\n\
+         <meta name=\"generator\" content=\"Grouser {}\">\n<title>{title}</title>\n<style>\n\
          @page {{ size: A4; margin: 0 }}\nbody {{ margin: 0 }}\n\
          svg {{ display: block; width: 100%; max-width: 210mm; height: auto; margin: 0 auto }}\n\
          @media print {{ svg {{ width: 210mm; height: 296.9mm }} }}\n\
@@ -248,7 +251,7 @@ impl<'a> Target<'a> {
         };
         let ending = ending.to_string_lossy().to_lowercase();
         let Some((_, form)) = FORMS.iter().find(|(known, _)| *known == ending) else {
-            let shown = out.display();
+            let shown = escape::path(out);
             return Err(Failure::Usage(format!(
                 "--out {shown}: a card ends in .html, .pdf, .png or .svg; a name without an \
                  ending is a folder for all of them"

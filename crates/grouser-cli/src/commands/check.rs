@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use grouser::document::{self, Source};
+use grouser::document::{self, Source, escape};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         match document::check(&Source::file(path)) {
             Ok(kind) => {
                 // Writing to a string does not fail.
-                let _ = writeln!(good, "{}: a valid {kind} document", path.display());
+                let _ = writeln!(good, "{}: a valid {kind} document", escape::path(path));
             }
             Err(error) => {
                 let failure = Failure::from(error);

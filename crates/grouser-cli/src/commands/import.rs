@@ -1,7 +1,8 @@
 //! `grouser import`: another laboratory's CSV as ours.
 
+use grouser::document::escape;
 use grouser::document::measurements::{
-    self, Choice, Layout, MeasurementError, MeasurementProblem, SlipDefinition, import,
+    self, Choice, Layout, Limits, MeasurementError, MeasurementProblem, SlipDefinition, import,
 };
 use grouser::studies::measurement::Quantity;
 
@@ -22,11 +23,12 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
             SlipWord::Rim => SlipDefinition::Rim,
             SlipWord::Hub => SlipDefinition::Hub,
         },
+        limits: args.read.limits(),
     };
-    let label = args.file.display().to_string();
-    let file = measurements::open(&args.file)?;
-    let text = import(&label, file, &args.columns, &layout)?;
-    check(&label, &text)?;
+    let label = escape::path(&args.file);
+    let bytes = measurements::read_bytes(&args.file, layout.limits)?;
+    let text = import(&label, bytes.as_slice(), &args.columns, &layout)?;
+    check(&label, &text, layout.limits)?;
     match &args.out {
         Some(out) => file::write(out, text.as_bytes()),
         None => output::print(&text),
@@ -34,10 +36,13 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
 }
 
 /// That the new file can be read, and what is in it.
-fn check(label: &str, text: &str) -> Result<(), Failure> {
+fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let label = format!("{label} as imported");
+    // Numbers that are converted may have more digits, and so more bytes.
+    let limits = Limits { rows: limits.rows.saturating_mul(4) };
+    let choice = Choice { limits, ..Choice::default() };
     // Rows of several wheels are no fault here.
-    let measured = match measurements::read_from(&label, text.as_bytes(), &Choice::default()) {
+    let measured = match measurements::read_from(&label, text.as_bytes(), &choice) {
         Ok(measured) => measured,
         Err(error) if error.is_of_several_wheels() => return Ok(()),
         Err(error) => return Err(of_import(&label, error)),

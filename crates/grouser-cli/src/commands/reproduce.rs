@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use grouser::document::{self, LoadedScenario, Overrides, Source, experiment};
+use grouser::document::{self, LoadedScenario, Overrides, Source, escape, experiment, file};
 use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError};
 
 use super::traverse::sample_csv;
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
         "{}\n{}\n\nreport: {}\n",
         tables::attitudes(&study).to_text(),
         tables::limit_sentence(&study),
-        target.join(REPORT).display()
+        escape::path(&target.join(REPORT))
     ))
 }
 
@@ -83,7 +83,10 @@ fn open_folder(args: &ReproduceArgs) -> Result<(PathBuf, OutputFolder), Failure>
 
 /// Whether a file is a report that this program wrote.
 fn is_ours(report: &Path) -> bool {
-    std::fs::read_to_string(report).is_ok_and(|html| html.contains(page::GENERATOR))
+    /// A report has about half a megabyte.
+    const LARGEST: u64 = 1 << 26;
+    let marks = |html: &[u8]| String::from_utf8_lossy(html).contains(page::GENERATOR);
+    file::read(report, LARGEST).is_ok_and(|html| marks(&html))
 }
 
 fn run_with_bar(plan: &Plan) -> Result<Reproduction, Failure> {

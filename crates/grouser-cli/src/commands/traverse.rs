@@ -17,6 +17,8 @@ use crate::output::{self, Format};
 /// Columns of the table on a terminal.
 const COLUMNS: [&str; 8] =
     ["time_s", "x_m", "y_m", "yaw_deg", "slip_ratio", "slip_angle_deg", "sinkage_mm", "power_w"];
+/// The outcome of a run that came to its end.
+const COMPLETED: &str = "completed";
 /// Lines of that table, besides the start.
 const LINES: usize = 10;
 
@@ -35,8 +37,20 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     }
     match args.output.format {
         Format::Table => output::print(&table(&record)),
-        Format::Csv => output::print(&sample_csv(&record.samples)?),
+        Format::Csv => {
+            tell_end(&record);
+            output::print(&sample_csv(&record.samples)?)
+        }
         Format::Json => output::print_json(&answer),
+    }
+}
+
+/// Rows of numbers do not say that a run ended early, or why.
+fn tell_end(record: &TrajectoryRecord) {
+    if record.outcome != COMPLETED {
+        let (outcome, time) = (record.outcome, four_digits(record.end.time_s));
+        let reason = record.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+        output::tell(&format!("note: {outcome} after {time} s{reason}"));
     }
 }
 

@@ -43,8 +43,12 @@ struct Results<'a> {
 fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let stand = inputs::stand(soil, wheel, &args.setting)?;
-    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.to_owned()) };
-    let measured = measurements::read(data, &choice)?;
+    let choice = Choice {
+        conditions: args.conditions.clone(),
+        wheel: Some(wheel.to_owned()),
+        limits: args.read.limits(),
+    };
+    let measured = measurements::Source::find(data)?.read(&choice)?;
     for note in &measured.notes {
         output::tell(&format!("note: {note}"));
     }

@@ -1,7 +1,12 @@
 //! A single output file: written beside and renamed, never over an old one unless told to.
 
+#[cfg(unix)]
+use std::fs::Permissions;
 use std::io::Write as _;
 use std::path::Path;
+
+use grouser::document::{self, escape};
+use tempfile::NamedTempFile;
 
 use crate::failure::Failure;
 use crate::interrupt;
@@ -9,11 +14,17 @@ use crate::interrupt;
 /// That a file may be written: it is not there yet, or may be replaced.
 pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
     if out.is_dir() {
-        let out = out.display();
+        let out = escape::path(out);
         return Err(Failure::Usage(format!("{out} is a folder, not a file")));
     }
+    if let Some(missing) = document::file::broken_link(out) {
+        let (out, missing) = (escape::path(out), escape::path(&missing));
+        return Err(Failure::Usage(format!(
+            "{out} is a link to {missing}, which does not exist: choose another name"
+        )));
+    }
     if out.exists() && !may_replace {
-        let out = out.display();
+        let out = escape::path(out);
         return Err(Failure::Usage(format!(
             "{out} exists already: choose another name, or add --force to replace it"
         )));
@@ -21,7 +32,8 @@ pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes beside and renames, so that the file is whole or not there.
+/// Writes beside and renames, so that the file is whole or not there. It has the permissions of the
+/// file that it replaces, or those of any new file.
 pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
     let _not_now = interrupt::not_now();
     let folder = match out.parent() {
@@ -29,7 +41,25 @@ pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
         _ => Path::new("."),
     };
     let failed = || Failure::at("cannot write", out);
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed())?;
+    let mut file = new_file(folder).map_err(failed())?;
     file.write_all(content).map_err(failed())?;
+    if let Ok(replaced) = out.metadata() {
+        file.as_file().set_permissions(replaced.permissions()).map_err(failed())?;
+    }
+    file.as_file().sync_all().map_err(failed())?;
     file.persist(out).map(drop).map_err(|error| failed()(error.error))
+}
+
+/// A file without a name yet. Of their own, temporary files are for their owner alone.
+#[cfg(unix)]
+fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt as _;
+    /// What every new file may be, before the user's mask.
+    const FOR_ALL: u32 = 0o666;
+    tempfile::Builder::new().permissions(Permissions::from_mode(FOR_ALL)).tempfile_in(folder)
+}
+
+#[cfg(not(unix))]
+fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+    NamedTempFile::new_in(folder)
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 
-use grouser::document::Loaded;
+use grouser::document::{Loaded, escape, file};
 use tempfile::TempDir;
 
 use crate::args::OutputArgs;
@@ -46,7 +46,14 @@ impl OutputFolder {
 
     /// Prepares for writing to a folder: what would fail later fails now, and nothing is made yet.
     pub(crate) fn open(target: &Path, old_files: OldFiles) -> Result<Self, Failure> {
-        let shown = target.display();
+        let shown = escape::path(target);
+        if let Some(missing) = file::broken_link(target) {
+            let missing = escape::path(&missing);
+            return Err(Failure::Usage(format!(
+                "{shown} is a link to {missing}, which does not exist: make that folder, or name \
+                 another"
+            )));
+        }
         if target.symlink_metadata().is_ok() && !target.is_dir() {
             return Err(Failure::Usage(format!(
                 "{shown} is a file: the output needs a folder, a new one or an empty one"
@@ -101,11 +108,11 @@ impl OutputFolder {
             let place = self.target.join(name);
             let above = place.parent().filter(|above| above.exists() && !above.is_dir());
             if let Some(file) = above {
-                let file = file.display();
+                let file = escape::path(file);
                 return Err(Failure::Usage(format!("{file} is a file where a folder has to be")));
             }
             if place.is_dir() {
-                let folder = place.display();
+                let folder = escape::path(&place);
                 return Err(Failure::Usage(format!("{folder} is a folder where a file has to be")));
             }
         }
@@ -131,12 +138,12 @@ fn split_at_existing(target: &Path) -> Result<(PathBuf, PathBuf), Failure> {
     if !base.is_dir() {
         return Err(Failure::Run(format!(
             "cannot make the folder {}: {} is a file",
-            target.display(),
-            base.display()
+            escape::path(target),
+            escape::path(&base)
         )));
     }
     if missing.components().any(|step| step == Component::ParentDir) {
-        let shown = target.display();
+        let shown = escape::path(target);
         return Err(Failure::Usage(format!("{shown} leads through a folder that does not exist")));
     }
     // `a/./b` is `a/b`.

@@ -2,6 +2,7 @@
 
 use std::borrow::Borrow;
 
+use grouser::document::escape;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -52,7 +53,8 @@ pub(crate) fn csv<M: Borrow<Map<String, Value>>>(
     let failed = |error: csv::Error| Failure::Run(format!("CSV: {error}"));
     let mut writer = csv::Writer::from_writer(Vec::new());
     if !columns.is_empty() {
-        writer.write_record(columns).map_err(failed)?;
+        let names = columns.iter().map(|column| escape::cell(column).into_owned());
+        writer.write_record(names).map_err(failed)?;
     }
     for row in rows {
         let row = row.borrow();
@@ -95,11 +97,11 @@ fn flatten(prefix: &str, map: Map<String, Value>, into: &mut Map<String, Value>)
     }
 }
 
-/// A value with every digit.
+/// A value with every digit; a text so that no spreadsheet computes it.
 fn exact(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
-        Value::String(text) => text.clone(),
+        Value::String(text) => escape::cell(text).into_owned(),
         other => other.to_string(),
     }
 }
@@ -147,8 +149,13 @@ fn trimmed(text: &str) -> String {
     }
 }
 
-/// Columns under their headers: numbers to the right, words to the left.
+/// Columns under their headers: numbers to the right, words to the left, each cell on its line.
 pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
+    let shown = |cells: &[String]| -> Vec<String> {
+        cells.iter().map(|cell| escape::line(cell).into_owned()).collect()
+    };
+    let header = &shown(header);
+    let rows: &[Vec<String>] = &rows.iter().map(|row| shown(row)).collect::<Vec<_>>();
     let width_of = |column: usize| {
         let cells = rows.iter().map(|row| row[column].chars().count());
         cells.chain([header[column].chars().count()]).max().unwrap_or(0)

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use grouser_page::markup as escaped;
+
 use super::figures::Figure;
 use super::tables::Table;
 
@@ -105,6 +107,30 @@ impl Page {
     }
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+#[cfg(test)]
+mod tests {
+    use grouser::document::escape;
+
+    use super::*;
+
+    /// The page knows nothing of the library, and has the rule a second time.
+    #[test]
+    fn page_and_terminal_hide_the_same_characters() {
+        for character in '\0'..=char::MAX {
+            let (page, text) = (grouser_page::is_hidden(character), escape::is_hidden(character));
+            assert_eq!(page, text, "{character:?}");
+        }
+    }
+
+    #[test]
+    fn data_neither_begins_nor_ends_an_element() {
+        let mut page = Page::new("a</title><script>");
+        page.list(["]]>\u{202e}\u{1b}[2J\0"]);
+        page.grid("\"'>", &["<th>".to_owned()], &[vec!["&amp;".to_owned()]]);
+        let html = page.to_html();
+        assert!(html.contains("<title>a&lt;/title&gt;&lt;script&gt;</title>"), "{html}");
+        assert!(html.contains("<li>]]&gt;\\u{202e}\\u{1b}[2J\\u{0}</li>"), "{html}");
+        assert!(html.contains("<caption>&quot;&#39;&gt;</caption>"), "{html}");
+        assert!(html.contains("<th>&lt;th&gt;</th>") && html.contains("<td>&amp;amp;</td>"));
+    }
 }

@@ -62,6 +62,25 @@ fn the_truth_is_found_within_its_uncertainty() {
     }
 }
 
+/// A data set of the program by its name, and its file by a path, give the same soil.
+#[test]
+fn a_data_set_of_the_program_is_fitted_by_its_name() {
+    let place = Place::new();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    fs::copy(format!("{data}/cmu_single_wheel.csv"), place.file("rows.csv")).expect("it is there");
+    let fit = "calibrate --wheel cmu-smooth --soil direct-90 --where slip_angle_deg=0 \
+               --fit soil.shear.longitudinal_m --point-fit --data";
+    let by_name = json(&place, &format!("{fit} cmu-single-wheel"));
+    let by_path = json(&place, &format!("{fit} rows.csv"));
+    assert_eq!(by_name["rows"], by_path["rows"]);
+    let (inputs, of_path) = (&by_name["inputs"], &by_path["inputs"]);
+    assert_eq!(
+        (&inputs["data"], &of_path["data"]),
+        (&"cmu-single-wheel".into(), &"rows.csv".into())
+    );
+    assert_eq!(inputs["data_fingerprint"], of_path["data_fingerprint"]);
+}
+
 #[test]
 fn the_folder_holds_a_soil_that_other_commands_take() {
     let place = with_test();

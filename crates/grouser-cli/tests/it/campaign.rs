@@ -205,7 +205,7 @@ fn other_programs_have_words_to_rely_on() {
     let html = place.read("report/report.html");
     assert!(html.contains("sinkage_mm: distribution") && html.contains("<svg"));
     let manifest: Value = serde_json::from_str(&place.read("out/manifest.json")).expect("JSON");
-    assert_eq!(manifest["schema"], "grouser.campaign.manifest.v1");
+    assert_eq!(manifest["schema"], "grouser.campaign.manifest.v2");
     assert_eq!(manifest["digest"], summary["digest"]);
     assert_eq!(manifest["sessions"][0]["shards"], 8);
 }

@@ -3,9 +3,11 @@
 mod bad_input;
 mod calibrate;
 mod campaign;
+mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;
+mod hostile;
 mod import;
 mod program;
 mod scrambled;

@@ -68,7 +68,7 @@ impl Place {
     fn prepare(&self, command: &mut Command) {
         command.current_dir(self.path()).stdin(Stdio::null());
         let colours = ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"];
-        for name in colours.into_iter().chain(["COLUMNS", "GROUSER_DATA_DIR", "RUST_BACKTRACE"]) {
+        for name in colours.into_iter().chain(["COLUMNS", "RUST_BACKTRACE"]) {
             command.env_remove(name);
         }
     }

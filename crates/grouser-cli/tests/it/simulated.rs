@@ -5,7 +5,7 @@ use crate::program::{Place, keys, number};
 /// The command in the file's own description makes the file.
 #[test]
 fn the_simulated_experiment_is_fresh() {
-    let folder = "../../data/experiments/simulated-wheel-test";
+    let folder = "../grouser/data/experiments/simulated-wheel-test";
     let read = |name: &str| {
         std::fs::read_to_string(format!("{folder}/{name}")).unwrap_or_else(|it| panic!("{it}"))
     };

@@ -181,6 +181,9 @@ fn wrong_validations() {
             "validate --data test.csv --wheel hakuto",
             "validate --wheel hakuto --soil toyoura",
             "validate --data none.csv --wheel hakuto --soil toyoura",
+            "validate --data cmu-single-weel --wheel hakuto --soil toyoura",
+            "validate --data stand --wheel hakuto --soil toyoura",
+            "validate --data cmu-single-wheel --wheel hakuto --soil toyoura",
             "validate --data . --wheel hakuto --soil toyoura",
             "validate --data test.csv --wheel hakutto --soil toyoura",
             "validate --data test.csv --wheel hakuto --soil toyora",
@@ -191,7 +194,6 @@ fn wrong_validations() {
             "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=7",
             "validate --data two.csv --wheel hakuto --soil toyoura",
             "validate --data test.csv --all",
-            "validate --all",
             "validate --all --data-dir none",
             "validate --all --data-dir .",
             "validate --all --data-dir . --model bekker",
@@ -325,18 +327,66 @@ fn a_ranking_as_a_table_as_csv_and_in_a_folder() {
     assert!(svg.contains("<svg"));
 }
 
+/// Without a folder those that come with the program are ranked: the theory that was fitted to them
+/// comes first, and each case of each data set is there.
 #[test]
-fn the_environment_names_the_folder_unless_a_flag_does() {
+fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
     let place = with_data_set();
-    let by_flag = place.results("validate --all --data-dir lab");
-    let run = |variable: &str, arguments: &[&str]| {
-        let mut command = place.command(arguments);
-        let output = command.env("GROUSER_DATA_DIR", variable).output();
-        let output = output.expect("the program starts");
-        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    let json = place.json("validate --all");
+    assert_eq!(json["inputs"]["data_sets"], serde_json::json!(["CMU single wheel"]));
+    let rows = json["rows"].as_array().expect("rows");
+    let first = rows.iter().filter(|row| row["rank"] == 1);
+    let best: Vec<[&Value; 3]> =
+        first.map(|row| [&row["case"], &row["model"], &row["soil"]]).collect();
+    assert_eq!(
+        best,
+        [
+            ["smooth", "extended", "cmu-direct90-smooth"],
+            ["grousers", "extended", "cmu-direct90-grouser"]
+        ]
+    );
+    let own = place.json("validate --all --data-dir lab");
+    assert_eq!(own["inputs"]["data_sets"], serde_json::json!(["Our stand"]));
+}
+
+/// A copy of the file of a data set of the program is ranked as that data set; where a document in
+/// the folder claims the file, once and as the document says.
+#[test]
+fn a_copy_of_the_programs_file_is_ranked_once() {
+    let place = with_data_set();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    let rows = std::fs::read(format!("{data}/cmu_single_wheel.csv")).expect("it is there");
+    place.write("lab/cmu_single_wheel.csv", rows);
+    let both = place.json("validate --all --data-dir lab");
+    let names = serde_json::json!(["CMU single wheel", "Our stand"]);
+    assert_eq!(both["inputs"]["data_sets"], names);
+    let document = place.results("presets cmu-single-wheel");
+    place.write("lab/cmu.toml", document.replace("CMU single wheel", "Theirs"));
+    let claimed = place.json("validate --all --data-dir lab");
+    assert_eq!(claimed["inputs"]["data_sets"], serde_json::json!(["Our stand", "Theirs"]));
+}
+
+/// A data set of the program by its name, and its file by a path, are the same rows; the name goes
+/// before a file that is called so.
+#[test]
+fn a_data_set_of_the_program_is_found_by_its_name() {
+    let place = Place::new();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    let rows = std::fs::read(format!("{data}/cmu_single_wheel.csv")).expect("it is there");
+    place.write("rows.csv", rows);
+    place.write("cmu-single-wheel", "not measurements");
+    let judge = "validate --wheel cmu-smooth --soil direct-90 --where slip_angle_deg=0 --data";
+    let json = |data: &str| -> Value {
+        let answer = place.line(&format!("{judge} {data} --format json"));
+        assert!(answer.stderr.starts_with("note: `side_force_n`"), "{}", answer.stderr);
+        serde_json::from_str(&answer.stdout).expect("JSON")
     };
-    assert_eq!(run("lab", &["validate", "--all"]), (Some(0), by_flag.clone()));
-    assert_eq!(run("none", &["validate", "--all", "--data-dir", "lab"]), (Some(0), by_flag));
+    let (mut by_name, by_path) = (json("cmu-single-wheel"), json("rows.csv"));
+    assert_eq!(by_name["inputs"]["data"], "cmu-single-wheel");
+    by_name["inputs"]["data"] = "rows.csv".into();
+    assert_eq!(by_name, by_path);
+    let wrong = place.line(&format!("{judge} ./cmu-single-wheel"));
+    assert_eq!(wrong.code(), 2, "{}", wrong.stdout);
 }
 
 #[test]

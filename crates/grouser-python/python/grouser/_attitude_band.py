@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from . import _core, _tables
+from ._arrays import Floats
 from ._descriptions import Scenario
-from ._wheels import Floats
 
 
 @dataclass(frozen=True, eq=False)

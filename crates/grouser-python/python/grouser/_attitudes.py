@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
+from ._arrays import Floats, line, number, whole_number
 from ._attitude_band import AttitudeBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
-from ._studies import columns_of, line, scenario_of, soil_of
-from ._wheels import Floats, number, whole_number
+from ._studies import columns_of, scenario_of, soil_of
 
 if TYPE_CHECKING:
     import pandas

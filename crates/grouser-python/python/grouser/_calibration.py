@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
+from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
 from ._errors import ParameterError
-from ._studies import columns_of, line, soil_of
+from ._studies import columns_of, soil_of
 from ._validation import Validation, validation_of
-from ._wheels import Floats, number, setting, whole_number
+from ._wheels import setting
 
 if TYPE_CHECKING:
     import pandas
@@ -79,7 +80,9 @@ class Calibration(_tables.Tabular):
     narrowing: Floats
     """Standard deviation over the one before any data [-]: near 1 the data say nothing."""
     samples: Floats | None
-    """Samples of the posterior, shape (samples, keys), chain by chain."""
+    """Samples of the posterior, shape (samples, keys): ensemble by ensemble, step by step, walker by
+    walker. Neighbours are of different walkers, so that whoever takes them for one chain finds them
+    independent, which they are not: `chains` has the order in time."""
     correlations: Floats
     """Correlation of each key with each other [-], shape (keys, keys)."""
     discrepancies: Mapping[str, Any]
@@ -118,6 +121,24 @@ class Calibration(_tables.Tabular):
     ``measured_pressure_kpa``, ``pressure_kpa``."""
 
     @property
+    def chains(self) -> Floats | None:
+        """The same samples as the walkers went, shape (chains, steps, keys): a chain is one walker,
+        and ``sampler["walkers"]`` neighbouring chains are one ensemble. None for a ``point_fit``.
+
+        Their effective samples agree with `effective_samples`. Walkers of one ensemble lead each
+        other, ensembles do not: `r_hat` compares ensembles, whose samples are
+        ``samples.reshape(sampler["ensembles"], -1, len(key))``. ``docs/guide/python.md`` does both
+        with ArviZ.
+        """
+        if self.samples is None or self.sampler is None:
+            return None
+        ensembles, walkers = self.sampler["ensembles"], self.sampler["walkers"]
+        steps = self.samples.reshape(ensembles, -1, walkers, len(self.key))
+        return np.ascontiguousarray(steps.swapaxes(1, 2)).reshape(
+            ensembles * walkers, -1, len(self.key)
+        )
+
+    @property
     def best(self) -> dict[str, float]:
         """Least squares by key."""
         return dict(zip(self.key, self.fit.tolist()))
@@ -137,17 +158,23 @@ class Calibration(_tables.Tabular):
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``key`` (with its ``unit``), and over ``sample`` and ``key``."""
+        """A dataset over ``key`` (with the ``unit`` that its name ends with; empty for a ratio, and for a
+        modulus whose unit goes with the sinkage exponent), with ``samples`` over ``sample`` and ``key``, and
+        ``chains`` over ``chain`` (with its ``ensemble``), ``draw`` and ``key``."""
         data = _tables.dataset(("key",), self._parameters(), {"key": list(self.key)})
         for name in data.data_vars:
             if name not in _RATIOS:
                 # Their units differ from key to key.
                 data[name].attrs.clear()
         names = [key.removeprefix("soil.") for key in self.key]
-        data = data.assign_coords(unit=("key", [_tables.unit_of(name) for name in names]))
+        data = data.assign_coords(unit=("key", [_core.unit_of(name) or "" for name in names]))
         data["correlations"] = (("key", "other_key"), self.correlations)
         if self.samples is not None:
             data["samples"] = (("sample", "key"), self.samples)
+        if self.chains is not None and self.sampler is not None:
+            data["chains"] = (("chain", "draw", "key"), self.chains)
+            ensemble = np.arange(len(self.chains)) // self.sampler["walkers"]
+            data = data.assign_coords(ensemble=("chain", ensemble))
         return data.assign_attrs(self._notes())
 
     def _parameters(self) -> dict[str, Any]:
@@ -246,7 +273,7 @@ def calibrate(
     candidate_slip_angle_deg: ArrayLike = (0.0, 15.0, 30.0, 45.0),
 ) -> Calibration:
     """Fits numbers of a soil to a file of measured wheel tests: bounded least squares from several
-    starts, then an affine-invariant ensemble sampler. The same bits as ``grouser calibrate``.
+    starts, then an affine-invariant ensemble sampler. The same bits as the program's calibration.
 
     Parameters
     ----------
@@ -349,8 +376,8 @@ def calibrate_plates(
     steps: int = 400,
     seed: int = 1,
 ) -> Calibration:
-    """Fits the moduli of a pressure-sinkage law to curves of a plate test. The same bits as
-    ``grouser calibrate --plates``.
+    """Fits the moduli of a pressure-sinkage law to curves of a plate test. The same bits as the
+    program's calibration from plate tests.
 
     Parameters
     ----------

@@ -49,6 +49,7 @@ __all__ = [
     "time_settle",
     "study_difference",
     "to_toml",
+    "unit_of",
     "validate",
     "validate_all",
     "wheel_forces",
@@ -115,6 +116,7 @@ class Simulators:
     def words(self) -> list[tuple[str | None, str | None, str]]: ...
 
 def simulator_columns() -> tuple[list[str], list[str]]: ...
+def unit_of(name: str) -> str | None: ...
 def arrow_stream(
     columns: Sequence[tuple[str, str | None, Any]], notes: dict[str, str]
 ) -> object: ...
@@ -196,7 +198,7 @@ def validate(
     wheel_label: str | None,
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
-def validate_all(folder: str | os.PathLike[str]) -> list[dict[str, Any]]: ...
+def validate_all(folder: str | os.PathLike[str] | None) -> list[dict[str, Any]]: ...
 def calibrate_wheel_tests(
     data: str | os.PathLike[str],
     soil: Document,

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
+from ._arrays import Floats, broadcast
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import SAMPLE, columns_of, scenario_of
-from ._wheels import Floats, Soils, numbers, soils_of
+from ._wheels import Soils, soils_of
 
 if TYPE_CHECKING:
     import pandas
@@ -128,7 +129,7 @@ def rollout(
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
 
-    The arguments broadcast against each other as those of NumPy's ufuncs do; what is not given is the
+    The arguments broadcast against each other as those of `settle` do; what is not given is the
     scenario's own. Runs that differ in these keys alone need no description each, which is far
     cheaper. They keep their order, and each has the bits that it has alone, for any number of cores.
 
@@ -179,28 +180,19 @@ def rollout(
         "gravity_m_s2": gravity_m_s2,
         "duration_s": duration_s,
     }
-    arrays = {name: numbers(name, it) for name, it in given.items() if it is not None}
-    try:
-        index, soil_index, *whole = np.broadcast_arrays(places, soil_places, *arrays.values())
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ParameterError(
-            f"shapes do not broadcast: {shapes}, scenarios {places.shape}, soil {soil_places.shape}"
-        ) from None
-
-    def flat(array: Any) -> Any:
-        return np.ascontiguousarray(array).ravel()
-
+    varied = {name: it for name, it in given.items() if it is not None}
+    arrays, (index, soil_index), shape = broadcast(
+        varied, {"scenarios": places, "soil": soil_places}
+    )
     found = _core.rollout(
         [run._document for run in runs],
-        flat(index) if len(runs) > 1 else None,
+        index if len(runs) > 1 else None,
         [one._document for one in soils],
-        flat(soil_index) if len(soils) > 1 else None,
-        {name: flat(array) for name, array in zip(arrays, whole)},
+        soil_index if len(soils) > 1 else None,
+        dict(zip(varied, arrays)),
         index.size,
         trajectories,
     )
-    shape = index.shape
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
     message = np.array(found.pop("reason"), dtype=object).reshape(shape)
     samples = found.pop("samples", None)

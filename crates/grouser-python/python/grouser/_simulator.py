@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
+from ._arrays import Floats, mask as mask_of, number, numbers
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError, SimulationError
-from ._wheels import Floats, number, numbers
 
 #: What commands may be: speeds of wheels or of their rims.
 Commands = Literal["wheel_speed_rad_s", "speed_m_s"]
@@ -48,8 +48,8 @@ class SimulatorBatch:
     >>> slopes = [5.0, 10.0, 15.0]
     >>> rovers = gr.SimulatorBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="speed_m_s")
     >>> state = rovers.step(0.06, 1.0)
-    >>> drift = state[:, rovers.STATE.index("y_m")].tolist()
-    >>> state.shape, drift[0] > drift[1] > drift[2]      # steeper slopes, more drift downhill
+    >>> uphill = state[:, rovers.STATE.index("y_m")].tolist()
+    >>> state.shape, uphill[0] > uphill[1] > uphill[2]      # steeper slopes, more drift downhill
     ((3, 6), True)
     """
 
@@ -178,14 +178,7 @@ class SimulatorBatch:
     def _mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:
             return np.ones(len(self), dtype=np.bool_)
-        array = np.asarray(mask)
-        if array.dtype != np.bool_ or array.shape != (len(self),):
-            raise ParameterError(
-                f"mask is of dtype {array.dtype} and shape {array.shape}, it must be bool and "
-                f"({len(self)},)",
-                "mask",
-            )
-        return np.ascontiguousarray(array)
+        return mask_of("mask", mask, len(self))
 
     def _column(self, name: str) -> Floats:
         return self._rows[:, _SAMPLES.index(name)].copy()

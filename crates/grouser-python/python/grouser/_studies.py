@@ -6,13 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import ArrayLike
-
 from . import _core, _tables
+from ._arrays import Floats
 from ._descriptions import Scenario, Soil, Source
-from ._errors import ParameterError
-from ._wheels import Floats, numbers
 
 if TYPE_CHECKING:
     import pandas
@@ -193,11 +189,3 @@ def scenario_of(scenario: Any, changes: dict[str, Any]) -> Scenario:
 
 def soil_of(soil: Any) -> Soil:
     return soil if isinstance(soil, Soil) else Soil(soil)
-
-
-def line(name: str, values: ArrayLike) -> Floats:
-    """Numbers in a row; one number is a row of one."""
-    array = numbers(name, values)
-    if array.ndim > 1:
-        raise ParameterError(f"{name} has shape {array.shape}, it must be one row", name)
-    return np.ascontiguousarray(np.atleast_1d(array))

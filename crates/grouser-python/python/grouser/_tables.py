@@ -1,4 +1,4 @@
-"""Results for pandas and xarray: units come from names, and stand nowhere else."""
+"""Results for pandas and xarray. Units come from names, by the library's one table."""
 
 from __future__ import annotations
 
@@ -16,36 +16,13 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Endings of names and the units that they stand for, longer ones first.
-_UNITS = {
-    "_j_per_m": "J/m",
-    "_rad_s": "rad/s",
-    "_deg_s": "°/s",
-    "_m_s2": "m/s²",
-    "_m_s": "m/s",
-    "_deg": "°",
-    "_kpa": "kPa",
-    "_nm": "N·m",
-    "_mm": "mm",
-    "_n": "N",
-    "_m": "m",
-    "_s": "s",
-    "_w": "W",
-    "_j": "J",
-}
-
-
 #: What a quantile of a quantity ends with: ``yaw_deg_p2_5``.
 _QUANTILE = re.compile(r"_p\d+(_\d)?$")
 
 
 def unit_of(name: str) -> str:
-    """The unit in a name; 1 for ratios."""
-    name = _QUANTILE.sub("", name)
-    for ending, unit in _UNITS.items():
-        if name.endswith(ending):
-            return unit
-    return "1"
+    """The unit in a name, by the library's table; 1 for ratios."""
+    return _core.unit_of(_QUANTILE.sub("", name)) or "1"
 
 
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
@@ -139,7 +116,9 @@ def axes_or_new(axes: Axes | None) -> Axes:
 
 def label(name: str) -> str:
     """A name for an axis: ``drawbar_pull_n`` is "drawbar pull [N]"."""
-    unit = unit_of(name)
-    ending = next((ending for ending in _UNITS if name.endswith(ending)), "")
-    words = name.removesuffix(ending).replace("_", " ")
-    return words if unit == "1" else f"{words} [{unit}]"
+    unit, words = unit_of(name), name.split("_")
+    if unit == "1":
+        return " ".join(words)
+    # The shortest end with this unit is the unit's own.
+    count = next(k for k in range(1, len(words)) if unit_of("_".join(["", *words[-k:]])) == unit)
+    return f"{' '.join(words[:-count])} [{unit}]"

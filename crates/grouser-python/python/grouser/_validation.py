@@ -11,7 +11,6 @@ import numpy as np
 
 from . import _core, _tables
 from ._descriptions import Soil, Source, Wheel
-from ._errors import ParameterError
 from ._wheels import setting
 
 if TYPE_CHECKING:
@@ -81,7 +80,8 @@ def validate(
     Parameters
     ----------
     data : str or path
-        A CSV file in the layout of ``docs/guide/data.md``.
+        A data set that comes with Grouser, such as ``"cmu-single-wheel"``, or a CSV file in the
+        layout of ``docs/guide/data.md``.
     soil, wheel, gravity_m_s2, model
         As for `settle`; one soil.
     where : sequence of str
@@ -119,7 +119,7 @@ def validation_of(found: dict[str, Any]) -> Validation:
 
 @dataclass(frozen=True, eq=False)
 class Ranking(_tables.Tabular):
-    """Theories beside measurements, in the words of ``grouser validate --all``: a mapping for each
+    """Theories beside measurements, in the words of the program's ranking: a mapping for each
     theory with a soil on a part of a data set, best first.
 
     It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``score`` (root mean square error
@@ -172,13 +172,14 @@ class Ranking(_tables.Tabular):
 
 
 def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
-    """Ranks every theory, with its own soils, on every data set in a folder.
+    """Ranks every theory, with its own soils, on every data set that comes with Grouser, or on those
+    of a folder.
 
     Parameters
     ----------
     folder : str or path, optional
-        Where the files are; without it the folder of the environment variable ``GROUSER_DATA_DIR``.
-        ``docs/guide/data.md`` tells where public data sets are, and how to describe your own.
+        Where your own data sets are, instead of those that come with Grouser; ``docs/guide/data.md``
+        tells how to describe them.
 
     Returns
     -------
@@ -186,16 +187,10 @@ def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
 
     Raises
     ------
-    ParameterError
-        If neither says which folder.
     DocumentNotFoundError
         If the folder is not there, or no known data set in it.
     DocumentError
         For a document or a file of measurements that cannot be used.
     """
-    place = os.environ.get("GROUSER_DATA_DIR") if folder is None else os.fspath(folder)
-    if place is None:
-        raise ParameterError(
-            "folder is needed, or the environment variable GROUSER_DATA_DIR", "folder"
-        )
+    place = None if folder is None else os.fspath(folder)
     return Ranking(tuple(_core.validate_all(place)))

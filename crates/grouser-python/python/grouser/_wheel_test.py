@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
+from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
-from ._studies import line, soil_of
-from ._wheels import Floats, Settled, number, setting, settle, whole_number
+from ._studies import soil_of
+from ._wheels import Settled, setting, settle
 
 if TYPE_CHECKING:
     import pandas

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
+from ._arrays import Floats, broadcast, number
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-Floats = NDArray[np.float64]
 #: One soil, or a sequence that broadcasts with the other arguments.
 Soils = Union[Soil, Source, Sequence[Any], NDArray[np.object_]]
 
@@ -139,7 +139,8 @@ def settle(
 ) -> Settled:
     """The smallest sinkages at which the soil carries wheels (F_z = load), and the forces there.
 
-    The arguments broadcast against each other as those of NumPy's ufuncs do. Wheels are shared
+    The arguments broadcast against each other as those of NumPy's ufuncs do, by the order of their
+    axes: DataArrays of xarray must all have the same dimensions and coordinates. Wheels are shared
     among all cores, without Python's lock, and each has the bits that it has alone.
 
     Parameters
@@ -166,7 +167,8 @@ def settle(
     Raises
     ------
     ParameterError
-        For a value that is no number or out of its range, or shapes that do not broadcast.
+        For a value that is no number, masked or out of its range, for shapes that do not broadcast,
+        and for DataArrays over different dimensions.
     DocumentNotFoundError
         If there is no such soil or wheel.
 
@@ -248,17 +250,10 @@ class _Stand:
 
     def broadcast(self, inputs: dict[str, ArrayLike]) -> tuple[list[Floats], tuple[int, ...]]:
         """The arguments at their common shape, flat."""
-        arrays: list[Any] = [numbers(name, values) for name, values in inputs.items()]
-        try:
-            *whole, index = np.broadcast_arrays(*arrays, self._places)
-        except ValueError:
-            shapes = ", ".join(f"{name} {np.shape(a)}" for name, a in zip(inputs, arrays))
-            raise ParameterError(
-                f"shapes do not broadcast: {shapes}, soil {self._places.shape}"
-            ) from None
+        arrays, (index,), shape = broadcast(inputs, {"soil": self._places})
         if len(self._soils) > 1:
-            self.index = np.ascontiguousarray(index, dtype=np.int64).ravel()
-        return [np.ascontiguousarray(array).ravel() for array in whole], index.shape
+            self.index = index
+        return arrays, shape
 
 
 def setting(gravity_m_s2: float, model: str | None) -> Scenario:
@@ -274,40 +269,6 @@ def setting(gravity_m_s2: float, model: str | None) -> Scenario:
 def _setting(gravity_m_s2: float, model: str | None) -> Scenario:
     named: dict[str, Any] = {} if model is None else {"model": model}
     return Scenario(gravity_m_s2=gravity_m_s2, **named)
-
-
-def number(name: str, value: Any) -> float:
-    """One real number."""
-    array = numbers(name, value)
-    if array.ndim:
-        raise ParameterError(f"{name} has shape {array.shape}, it must be one number", name)
-    return float(array)
-
-
-def whole_number(name: str, value: Any, *, most: int = 2**64 - 1) -> int:
-    """One whole number that is not negative."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        given = type(value).__name__
-        raise ParameterError(f"{name} is of type {given}, it must be a whole number", name)
-    if not 0 <= value <= most:
-        raise ParameterError(
-            f"{name} is {value}, it must be from 0 to {most}", name, None, f"from 0 to {most}"
-        )
-    return int(value)
-
-
-def numbers(name: str, values: ArrayLike) -> Floats:
-    """Real numbers as an array; anything else says what was expected."""
-    try:
-        array = np.asarray(values)
-    except ValueError:
-        raise ParameterError(f"{name} is ragged, it must be an array of numbers", name) from None
-    if array.dtype.kind not in "fiu":
-        # NumPy gives an empty list of no type the type of a number.
-        raise ParameterError(
-            f"{name} has dtype {array.dtype}, it must be real numbers", name, None, "real numbers"
-        )
-    return array.astype(np.float64)
 
 
 def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:

@@ -20,7 +20,7 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -36,10 +36,10 @@ except ImportError as error:
         "grouser.gym needs Gymnasium: pip install grouser[gym]", name="gymnasium"
     ) from error
 
+from ._arrays import Floats, mask as mask_of, number, numbers, whole_number
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
 from ._simulator import SimulatorBatch
-from ._wheels import Floats, number, numbers
 
 __all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv"]
 
@@ -50,6 +50,16 @@ MAX_EPISODE_STEPS = 120
 
 #: What a reset draws the start's yaw from [°].
 START_YAW_DEG = (-10.0, 10.0)
+#: The soil and the least and steepest slope [°] where neither an argument nor the scenario names any.
+USUAL_SOIL, USUAL_SLOPE_DEG = "toyoura-uncertain", (5.0, 15.0)
+#: Keys of a scenario that an environment has no use for, and why.
+_UNUSED = {
+    "drive": "actions turn the wheels",
+    "duration_s": "max_episode_steps ends an episode",
+    "sample_interval_s": "dt_s is the interval",
+}
+#: What a reset may be given instead of what it draws.
+_OPTIONS = ("slope_deg", "yaw_deg", "soil_seed")
 #: An offset from the line that costs as much as the fastest progress earns [m]: about a wheel's
 #: radius.
 LINE_M = 0.1
@@ -75,13 +85,13 @@ class _Traverses:
         count: int,
         *,
         scenario: Scenario | Source | None = None,
-        soil: Soil | Source = "toyoura-uncertain",
-        slope_deg: Sequence[float] = (5.0, 15.0),
+        soil: Soil | Source | None = None,
+        slope_deg: Sequence[float] | None = None,
         max_speed_m_s: float = 0.1,
         dt_s: float = 0.5,
     ) -> None:
-        low, high = _pair("slope_deg", slope_deg)
-        self.slopes = (low, high)
+        run, slopes = _start_of(scenario, soil, slope_deg)
+        self.slopes = slopes
         self.fastest = number("max_speed_m_s", max_speed_m_s)
         if not 0.0 < self.fastest <= 10.0:
             raise ParameterError(
@@ -90,9 +100,6 @@ class _Traverses:
                 self.fastest,
             )
         self.dt_s = number("dt_s", dt_s)
-        run = Scenario(scenario, soil=soil, slope_deg=high)
-        # What a reset draws must be allowed at both ends, and is found out here.
-        run.replace(slope_deg=low)
         self.rovers = SimulatorBatch([run] * count, commands="speed_m_s")
         # Wheels on the left side are those with y > 0 in the body frame.
         left = [mount["position_m"][1] > 0.0 for mount in run.rover.mount]
@@ -100,17 +107,29 @@ class _Traverses:
         bounds = np.array([*_ROVER_BOUNDS, *np.repeat(_WHEEL_BOUNDS, len(left))])
         self.observation_space = gymnasium.spaces.Box(-bounds, bounds, dtype=np.float64)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), dtype=np.float64)
-        self.slope_deg = np.full(count, high)
+        self.slope_deg = np.full(count, slopes[1])
 
-    def reset(self, which: NDArray[np.bool_], randoms: Sequence[np.random.Generator]) -> None:
-        """Draws slope, yaw and soil, in this order, of each rover from its own generator."""
-        seeds = [0] * len(randoms)
-        yaws = np.zeros(len(randoms))
+    def reset(
+        self,
+        which: NDArray[np.bool_],
+        randoms: Sequence[np.random.Generator],
+        options: Mapping[str, Any],
+    ) -> None:
+        """Draws slope, yaw and soil, in this order, of each rover from its own generator; what the
+        options give takes the place of what was drawn."""
+        count = len(randoms)
+        given_slopes, given_yaws, given_seeds = (_given(name, options, count) for name in _OPTIONS)
+        slopes, yaws = self.slope_deg.copy(), np.zeros(count)
+        seeds: list[int | None] = [0] * count
         for k in _places(which):
-            self.slope_deg[k] = randoms[k].uniform(*self.slopes)
+            slopes[k] = randoms[k].uniform(*self.slopes)
             yaws[k] = randoms[k].uniform(*START_YAW_DEG)
             seeds[k] = int(randoms[k].integers(2**63))
-        self.rovers.reset(seed=seeds, slope_deg=self.slope_deg, yaw_deg=yaws, mask=which)
+            slopes[k] = slopes[k] if given_slopes is None else given_slopes[k]
+            yaws[k] = yaws[k] if given_yaws is None else given_yaws[k]
+            seeds[k] = seeds[k] if given_seeds is None else given_seeds[k]
+        self.rovers.reset(seed=seeds, slope_deg=slopes, yaw_deg=yaws, mask=which)
+        self.slope_deg = slopes
 
     def step(
         self, actions: ArrayLike, which: NDArray[np.bool_]
@@ -148,6 +167,7 @@ class _Traverses:
             "slope_deg": float(self.slope_deg[k]),
             "energy_j": float(self.rovers.energy_j[k]),
             "outcome": self.rovers.outcome[k],
+            "fallback_to_dynamic": self.rovers.simulation[k] not in ("dynamic", "quasi-steady"),
         }
 
 
@@ -173,16 +193,27 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     **Termination**: the rover gets stuck, slides, tips over, or is more than 0.5 m off the line.
     ``gymnasium.make`` truncates after 120 steps, a minute.
 
-    **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None while under way).
+    **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None while under way),
+    ``fallback_to_dynamic``: whether a quasi-steady episode met velocities without a steady state, and
+    has been computed dynamically since. Sharp turns do that to most episodes.
+
+    **Options** of a reset, each instead of what it would draw: ``slope_deg`` [°], ``yaw_deg`` [°] and
+    ``soil_seed``, a whole number that decides on the soil, or None for the soil as its document says.
+    What is not given is drawn as it would be without options.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is some four times as fast.
-    soil : Soil, name, path or mapping
-        The soil; without ``[uncertainty]`` it is the same in every episode.
-    slope_deg : (float, float)
-        Least and steepest slope [°].
+        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is quicker to compute as
+        long as there is a steady state. A mapping gives single keys, and its ``soil`` and
+        ``slope_deg`` count as if they were arguments; of all others, which have every key, soil and
+        slope count where there is no argument for them. Its drive, duration, sample interval and
+        yaw at the start do not count, and a mapping must not have them.
+    soil : Soil, name, path or mapping, optional
+        The soil, ``toyoura-uncertain`` if nothing names one; without ``[uncertainty]`` it is the same
+        in every episode.
+    slope_deg : (float, float), optional
+        Least and steepest slope [°]; 5 to 15 if nothing names one.
     max_speed_m_s : float
         The fastest rim [m/s].
     dt_s : float
@@ -193,7 +224,8 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `grouser.Scenario`.
+        As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give, or
+        that does not count.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]
@@ -202,8 +234,8 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
         self,
         *,
         scenario: Scenario | Source | None = None,
-        soil: Soil | Source = "toyoura-uncertain",
-        slope_deg: Sequence[float] = (5.0, 15.0),
+        soil: Soil | Source | None = None,
+        slope_deg: Sequence[float] | None = None,
         max_speed_m_s: float = 0.1,
         dt_s: float = 0.5,
         render_mode: None = None,
@@ -223,9 +255,10 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Floats, dict[str, Any]]:
-        """Starts an episode; the seed decides on slope, yaw and soil. There are no options."""
+        """Starts an episode; the seed decides on slope, yaw and soil, where ``options`` does not."""
+        given = _options_of(options, _OPTIONS)
         super().reset(seed=seed)
-        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random])
+        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
         return self._traverses.observations()[0], self._traverses.info(0)
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
@@ -287,28 +320,28 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     ) -> tuple[Floats, dict[str, Any]]:
         """Starts episodes; sub-environment k of a single seed has ``seed + k``.
 
-        ``options["reset_mask"]``, an array of bool, says which of them; all without.
+        ``options["reset_mask"]``, an array of bool, says which of them; all without. The other
+        options are those of `LevelTraverseEnv`: one value, or one for each sub-environment.
         """
+        given = _options_of(options, (*_OPTIONS, "reset_mask"))
         seeds = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else seed
         if seeds is not None and len(seeds) != self.num_envs:
             raise ParameterError(f"{len(seeds)} seeds for {self.num_envs} environments", "seed")
         which = np.ones(self.num_envs, dtype=np.bool_)
-        if options is not None and "reset_mask" in options:
-            which = np.asarray(options["reset_mask"])
-            if which.dtype != np.bool_ or which.shape != (self.num_envs,) or not which.any():
-                raise ParameterError(
-                    f"reset_mask must be {self.num_envs} bools, one of them True", "reset_mask"
-                )
+        if "reset_mask" in given:
+            which = mask_of("reset_mask", given["reset_mask"], self.num_envs)
+            if not which.any():
+                raise ParameterError("reset_mask has no True, it must have one", "reset_mask")
         if not self._randoms:
             self._randoms = [seeding.np_random()[0] for _ in range(self.num_envs)]
         for k in _places(which):
             if seeds is not None and seeds[k] is not None:
                 self._randoms[k] = seeding.np_random(seeds[k])[0]
-        self._start(which)
+        self._start(which, given)
         return self._traverses.observations(), self._infos({}, which)
 
-    def _start(self, which: NDArray[np.bool_]) -> None:
-        self._traverses.reset(which, self._randoms)
+    def _start(self, which: NDArray[np.bool_], options: Mapping[str, Any]) -> None:
+        self._traverses.reset(which, self._randoms, options)
         self._steps[which] = 0
         self._ended[which] = False
 
@@ -330,7 +363,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         if self._longest is not None:
             truncated = (self._steps >= self._longest) & ~again
         if again.any():
-            self._start(again)
+            self._start(again, {})
         infos: dict[str, Any] = {}
         self._ended = terminated | truncated
         if self.autoreset_mode is AutoresetMode.SAME_STEP and self._ended.any():
@@ -338,7 +371,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
             for k in _places(self._ended):
                 final = {"final_obs": last[k], "final_info": self._traverses.info(k)}
                 infos = self._add_info(infos, final, k)
-            self._start(self._ended.copy())
+            self._start(self._ended.copy(), {})
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         infos = self._infos(infos, everyone)
         return self._traverses.observations(), rewards, terminated, truncated, infos
@@ -352,6 +385,89 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
 def _places(which: NDArray[np.bool_]) -> list[int]:
     places: list[int] = np.flatnonzero(which).tolist()
     return places
+
+
+def _start_of(
+    scenario: Scenario | Source | None,
+    soil: Soil | Source | None,
+    slope_deg: Sequence[float] | None,
+) -> tuple[Scenario, tuple[float, float]]:
+    """The run on the steepest slope, and the least and steepest slope [°]."""
+    if isinstance(scenario, Mapping):
+        _check_keys(scenario, {"soil": soil, "slope_deg": slope_deg})
+    run = Scenario(scenario)
+    # A mapping and nothing at all leave what they do not name to the environment.
+    named = {} if scenario is None else scenario if isinstance(scenario, Mapping) else run.to_dict()
+    if soil is None and "soil" not in named:
+        soil = USUAL_SOIL
+    if slope_deg is None:
+        only = float(run.slope_deg)
+        slope_deg = (only, only) if "slope_deg" in named else USUAL_SLOPE_DEG
+    low, high = _pair("slope_deg", slope_deg)
+    whole = soil if isinstance(soil, Soil) or soil is None else Soil(soil)
+    changes: dict[str, Any] = {} if whole is None else {"soil": whole}
+    # What a reset draws must be allowed at both ends, and is found out here.
+    run.replace(**changes, slope_deg=low)
+    return run.replace(**changes, slope_deg=high), (low, high)
+
+
+def _check_keys(scenario: Mapping[str, Any], arguments: Mapping[str, Any]) -> None:
+    """That a mapping gives nothing twice, and nothing that does not count."""
+    for name, value in arguments.items():
+        if value is not None and name in scenario:
+            raise ParameterError(
+                f"{name} is given twice: {_words(value)} as an argument, {_words(scenario[name])} by "
+                "the scenario; give it once",
+                name,
+            )
+    for name, why in _UNUSED.items():
+        if name in scenario:
+            raise ParameterError(f"the scenario has {name}, which does not count: {why}", name)
+    start = scenario.get("start")
+    if isinstance(start, Mapping) and "yaw_deg" in start:
+        raise ParameterError(
+            "the scenario has start.yaw_deg, which does not count: every reset draws the yaw, or "
+            "takes it from its option yaw_deg",
+            "start.yaw_deg",
+        )
+
+
+def _words(value: Any) -> str:
+    return f"the soil {value.name!r}" if isinstance(value, Soil) else repr(value)
+
+
+def _options_of(options: Mapping[str, Any] | None, known: Sequence[str]) -> Mapping[str, Any]:
+    """Options of a reset, all of them known."""
+    for name in options or {}:
+        if name not in known:
+            listed = ", ".join(known)
+            raise ParameterError(
+                f"a reset has no option {name!r}; it has {listed}", str(name), None, listed
+            )
+    return options or {}
+
+
+def _given(name: str, options: Mapping[str, Any], count: int) -> list[Any] | None:
+    """An option's value for each rover; None where it is not given."""
+    if name not in options:
+        return None
+    value = options[name]
+    if name == "soil_seed":
+        several = isinstance(value, Sequence) or isinstance(value, np.ndarray)
+        seeds = list(value) if several else [value] * count
+        _check_count(name, len(seeds), count)
+        return [None if it is None else whole_number(name, it, most=2**63 - 1) for it in seeds]
+    array = numbers(name, value)
+    if array.ndim:
+        _check_count(name, len(array) if array.ndim == 1 else -1, count)
+    values: list[Any] = np.broadcast_to(array, (count,)).tolist()
+    return values
+
+
+def _check_count(name: str, found: int, count: int) -> None:
+    if found != count:
+        each = "one value" if count == 1 else f"one value, or {count} in a row"
+        raise ParameterError(f"the option {name} must be {each}", name, None, each)
 
 
 def _pair(name: str, values: Sequence[float]) -> tuple[float, float]:

@@ -17,6 +17,7 @@ use super::bulldozing::{self, WallResistance};
 use super::forces::WheelForces;
 use super::model::{Contact, WheelSoilModel, from_both_sides};
 use super::patch::ContactPatch;
+use crate::elementary::wide::{exp_m1, hypot};
 use crate::soil::Shear;
 
 /// Bekker's closed-form theory of a rigid wheel.
@@ -41,7 +42,7 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
     let normal_force = b * pressure * length * mean_pressure(n);
     let compaction = b * pressure * h / (n + 1.0);
 
-    let strength = b * length * soil.cohesion + normal_force * soil.friction_angle.tan();
+    let strength = b * length * soil.cohesion + normal_force * soil.friction();
     let (thrust, side_shear) = shear_forces(contact, length, strength);
 
     // ∫ R_b over the parabola: its mean depth is 2/3 h, its mean square 8/15 h².
@@ -77,11 +78,11 @@ fn shear_forces(contact: &Contact, length: f64, strength: f64) -> (f64, f64) {
         Shear::Isotropic { modulus } => (modulus.at(slip.angle), modulus.at(slip.angle)),
     };
     let (i_x, i_y) = (slip.rim - slip.forward, slip.lateral);
-    let slip_size = i_x.hypot(i_y);
+    let slip_size = hypot(i_x, i_y);
     if slip_size == 0.0 {
         return (0.0, 0.0);
     }
-    let mobilised = mean_mobilised(length * (i_x / k_x).hypot(i_y / k_y));
+    let mobilised = mean_mobilised(length * hypot(i_x / k_x, i_y / k_y));
     (strength * mobilised * i_x / slip_size, -strength * mobilised * i_y / slip_size)
 }
 
@@ -92,7 +93,7 @@ fn mean_mobilised(largest: f64) -> f64 {
     if largest < SMALL {
         largest / 2.0 - largest * largest / 6.0 + largest.powi(3) / 24.0
     } else {
-        1.0 + (-largest).exp_m1() / largest
+        1.0 + exp_m1(-largest) / largest
     }
 }
 
@@ -104,11 +105,12 @@ fn mean_pressure(n: f64) -> f64 {
     const STEPS: u32 = 10;
     let descent: f64 =
         (0..STEPS).map(|step| n + f64::from(step)).map(|m| (m + 1.5) / (m + 1.0)).product();
-    let w = 1.0 / (n + f64::from(STEPS) + 0.75).powi(2);
+    let end = n + f64::from(STEPS) + 0.75;
+    let w = 1.0 / (end * end);
     let series = 1.0
         - w * (1.0 / 64.0
             - w * (21.0 / 8192.0 - w * (671.0 / 524_288.0 - w * 180_323.0 / 134_217_728.0)));
-    0.5 * std::f64::consts::PI.sqrt() * descent * w.powf(0.25) * series
+    0.5 * std::f64::consts::PI.sqrt() * descent * series / end.sqrt()
 }
 
 impl WallResistance {

@@ -102,7 +102,7 @@ pub fn flank_load(
     for lane in 0..LANES {
         let (share, width) = (EVEN.share[lane], EVEN.width[lane]);
         let point = RimPoint::new(start + share * span, 0.0);
-        let (sin, cos) = (point.sin, point.cos());
+        let (sin, cos) = (point.sin, point.cosine());
         let depth = r * (surface - point.height);
         let strip = width * span * resistance.at(depth) * (r - depth * cos);
         force[lane] = strip;

@@ -317,7 +317,7 @@ impl Search<'_> {
         }
         let best = self.peak_around(best, STEP, axle);
         if best.1 < 0.0 {
-            let capacity = (self.load * best.1.exp()).max(0.0);
+            let capacity = (self.load * elementary::exp(best.1)).max(0.0);
             return Err(SettleError::SunkToAxle { load: self.load, capacity });
         }
         let mut shallower = best;

@@ -26,6 +26,7 @@ use super::ishigami;
 use super::kernel::InstructionSet;
 use super::model::{Contact, WheelSoilModel, from_both_sides};
 use super::stress::Response;
+use crate::elementary::{self, wide};
 
 /// The classical theory with the terms of [`crate::soil::Extended`].
 #[derive(Clone, Copy, Debug)]
@@ -102,14 +103,14 @@ fn response(contact: &Contact) -> Response {
         exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
         friction: terms
             .rim_friction_angle
-            .map_or(classical.friction, |delta| classical.friction.min(delta.tan())),
+            .map_or(classical.friction, |delta| classical.friction.min(wide::tan(delta))),
     }
 }
 
 /// The flank's load: larger than a bare wall's, and fading as the wheel slips or skids.
 fn heaped(contact: &Contact, bare: &FlankLoad) -> FlankLoad {
     let terms = &contact.soil.extended.flank;
-    let fading = (-terms.fading * contact.slip.total().abs()).exp();
+    let fading = elementary::exp(-terms.fading * contact.slip.total().abs());
     FlankLoad { force: bare.force * (terms.pressure_factor * fading), ..*bare }
 }
 
@@ -123,7 +124,7 @@ fn face_friction(contact: &Contact, flank: &FlankLoad) -> WheelForces {
     let (across, _) = bulldozing::shares(contact.soil.bulldozing, slip);
     let below = flank.below_hub / contact.wheel.shearing_radius();
     let sliding = slip.rim * below - slip.forward;
-    let speed = sliding.hypot(slip.lateral).hypot(slip.creep());
+    let speed = wide::hypot(wide::hypot(sliding, slip.lateral), slip.creep());
     if speed == 0.0 {
         return WheelForces::default();
     }
@@ -143,7 +144,7 @@ fn face_friction(contact: &Contact, flank: &FlankLoad) -> WheelForces {
 /// about the axle.
 fn soil_in_front(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
     let slip = &contact.slip;
-    let travel = slip.forward.hypot(slip.lateral);
+    let travel = wide::hypot(slip.forward, slip.lateral);
     let skid = (-slip.total()).max(0.0);
     if travel == 0.0 || skid == 0.0 {
         return WheelForces::default();

@@ -1,5 +1,6 @@
 //! Slip ratio and slip angle: how a wheel's rim moves against the soil ([FourWheel], Eqs 15-17).
 
+use crate::elementary::wide::{atan2, hypot, tan};
 use crate::units::Vec2;
 
 /// A wheel slower than this is at rest [m/s]. Source: ours.
@@ -26,7 +27,7 @@ pub const CREEP_SPEED: f64 = 1e-6;
 pub fn slip_ratio(rim_speed: f64, hub_velocity: Vec2) -> f64 {
     let v_x = hub_velocity.x;
     let faster = rim_speed.abs().max(v_x.abs());
-    (rim_speed - v_x) / faster.hypot(CREEP_SPEED)
+    (rim_speed - v_x) / hypot(faster, CREEP_SPEED)
 }
 
 /// Slip angle, *β* [rad]: positive while the hub moves to the left; −π/2 to π/2.
@@ -40,7 +41,7 @@ pub fn slip_ratio(rim_speed: f64, hub_velocity: Vec2) -> f64 {
 /// * `hub_velocity`: velocity of the hub [m/s] in the wheel frame (x forward, y left)
 #[must_use]
 pub fn slip_angle(hub_velocity: Vec2) -> f64 {
-    hub_velocity.y.atan2(hub_velocity.x.abs().hypot(CREEP_SPEED))
+    atan2(hub_velocity.y, hypot(hub_velocity.x, CREEP_SPEED))
 }
 
 /// How a rim moves against the soil, in ratios of speeds: all that a rate-independent theory needs.
@@ -76,7 +77,7 @@ impl Slip {
     /// * `hub_velocity`: velocity of the hub [m/s] in the wheel frame (x forward, y left)
     #[must_use]
     pub fn of_motion(rim_speed: f64, hub_velocity: Vec2) -> Self {
-        let rim_size = rim_speed.hypot(CREEP_SPEED);
+        let rim_size = hypot(rim_speed, CREEP_SPEED);
         let v_x = hub_velocity.x;
         Self {
             ratio: slip_ratio(rim_speed, hub_velocity),
@@ -84,7 +85,7 @@ impl Slip {
             rim: rim_speed / rim_size,
             forward: v_x / rim_size,
             lateral: hub_velocity.y / rim_size,
-            sideways: hub_velocity.y / hub_velocity.y.hypot(CREEP_SPEED),
+            sideways: hub_velocity.y / hypot(hub_velocity.y, CREEP_SPEED),
             entering_side: (rim_speed + v_x) / (rim_speed.abs() + v_x.abs()).max(CREEP_SPEED),
         }
     }
@@ -102,7 +103,7 @@ impl Slip {
         let s = slip_ratio;
         // The faster of rim and hub moves at 1 m/s.
         let (rim_speed, v_x) = if s >= 0.0 { (1.0, 1.0 - s) } else { (1.0 + s, 1.0) };
-        let v_y = slip_angle.tan() * f64::abs(v_x);
+        let v_y = tan(slip_angle) * f64::abs(v_x);
         let motion = Self::of_motion(rim_speed, Vec2::new(v_x, v_y));
         // Spinning on the spot, the motion alone no longer tells the slip angle.
         // And on a stand the smallest slip angle has a side.
@@ -120,8 +121,8 @@ impl Slip {
     /// wheel pushed sideways as one that skids. A wheel at rest has *S* = 0.
     #[must_use]
     pub fn total(&self) -> f64 {
-        let (rim, travel) = (self.rim.abs(), self.forward.hypot(self.lateral));
-        (rim - travel) / rim.max(travel).hypot(self.creep())
+        let (rim, travel) = (self.rim.abs(), hypot(self.forward, self.lateral));
+        (rim - travel) / hypot(rim.max(travel), self.creep())
     }
 
     /// [`CREEP_SPEED`] over the rim's speed [-]: what keeps ratios finite at rest.

@@ -50,7 +50,7 @@ impl RimPoint {
 
     /// cos θ [-].
     #[inline(always)]
-    pub(super) fn cos(&self) -> f64 {
+    pub(super) fn cosine(&self) -> f64 {
         1.0 - self.height
     }
 }
@@ -386,6 +386,6 @@ impl StressField {
     #[inline(always)]
     fn slip_velocity(&self, point: &RimPoint) -> (f64, f64) {
         let Slip { rim, forward, lateral, .. } = self.law.slip;
-        (rim - forward * point.cos(), lateral)
+        (rim - forward * point.cosine(), lateral)
     }
 }

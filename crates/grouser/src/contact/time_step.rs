@@ -27,6 +27,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::forces::WheelForces;
 use super::model::{Contact, WheelSoilModel};
 use super::slip::{CREEP_SPEED, Slip};
+use crate::elementary::wide;
 use crate::soil::Soil;
 use crate::units::Vec2;
 use crate::wheel::Wheel;
@@ -122,7 +123,7 @@ impl TimeStep<'_> {
         while best.residual.amax() > AGREED * self.rest_speed && rounds < MOST_ROUNDS {
             rounds += 1;
             let Some(step) = self.jacobian(wheels, &best).lu().solve(&best.residual) else { break };
-            let shorter = |halvings| &best.motion - &step * 0.5_f64.powi(halvings);
+            let shorter = |halvings| &best.motion - &step * wide::powi(0.5, halvings);
             let nearer = (0..MOST_HALVINGS)
                 .map(|halvings| self.attempt(wheels, shorter(halvings)))
                 .find(|next| next.residual.norm() < best.residual.norm());

@@ -34,8 +34,8 @@ pub struct ParameterRecord {
     pub upper: f64,
     /// Least squares.
     pub fit: f64,
-    /// Its standard deviation, to first order.
-    pub fit_std: f64,
+    /// Its standard deviation, to first order; at a bound it is not known.
+    pub fit_std: Option<f64>,
     /// Mean of the posterior.
     pub mean: Option<f64>,
     /// Its standard deviation.
@@ -72,7 +72,7 @@ impl ParameterRecord {
             lower: parameter.lower,
             upper: parameter.upper,
             fit: fit.values[place],
-            fit_std,
+            fit_std: (!parameter.is_at_bound(fit.values[place])).then_some(fit_std),
             mean: of(|it| it.mean),
             std: of(|it| it.deviation),
             p2_5: of(|it| it.lower),

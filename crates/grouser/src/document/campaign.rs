@@ -16,6 +16,7 @@ mod inputs;
 mod marginals;
 mod rows;
 mod sections;
+mod statistics;
 mod table;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,7 +26,8 @@ use rayon::prelude::*;
 pub use rows::FAILED;
 pub use sections::Study;
 pub(super) use sections::{Settings, Stand};
-pub use table::{Cell, Column, ColumnKind, Role, Table, Values, unit};
+pub use statistics::{Frequencies, QuantityStatistics};
+pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
 
 use self::inputs::Prepared;
 use self::rows::Base;

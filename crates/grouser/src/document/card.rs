@@ -94,13 +94,13 @@ pub struct CardRecord {
     pub power_w_p50: Option<f64>,
     /// Its 97.5 % quantile [W].
     pub power_w_p97_5: Option<f64>,
-    /// Way downhill for a metre along the contour at yaw 0 [-].
+    /// Drift per metre travelled at yaw 0 [m/m], positive downhill.
     pub downhill_m_per_m: Option<f64>,
-    /// 2.5 % quantile of it [-].
+    /// 2.5 % quantile of it [m/m].
     pub downhill_m_per_m_p2_5: Option<f64>,
-    /// Its median [-].
+    /// Its median [m/m].
     pub downhill_m_per_m_p50: Option<f64>,
-    /// Its 97.5 % quantile [-].
+    /// Its 97.5 % quantile [m/m].
     pub downhill_m_per_m_p97_5: Option<f64>,
     /// Share of the draws with a level traverse [-].
     pub probability_level: Option<f64>,

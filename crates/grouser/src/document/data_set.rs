@@ -9,14 +9,14 @@ use super::field::Inner;
 use super::measurements::Condition;
 use super::text::{Node, Value};
 use super::{
-    Kind, Loaded, LoadedDataSet, LoadedSoil, LoadedWheel, Overrides, Source, Written, read_soil,
-    read_wheel, written,
+    Kind, Loaded, LoadedDataSet, LoadedSoil, LoadedWheel, Overrides, Source, Written, blame_name,
+    read_soil, read_wheel, written,
 };
 
 /// A file of measured wheel tests, and the wheels and soils in it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataSet {
-    /// The file, in whatever folder measurements are kept.
+    /// The CSV file with its rows, from the folder of this document.
     pub file: String,
     /// Gravity where it was measured, *g* [m/s²].
     pub gravity: f64,
@@ -66,13 +66,20 @@ impl CaseSection {
     fn read(&self, node: &Node) -> Result<DataSetCase, DocumentError> {
         let none = Overrides::none();
         let find = |kind: Kind, key: &str, name: &str| {
-            let origin = node.origin_of(key);
-            Source::find_from(&origin.text.folder, kind, name)
-                .map_err(|error| error.seen_from(origin))
+            let origin = node.origin_of(key).clone();
+            let source = Source::find_from(&origin.text.folder, kind, name)
+                .map_err(|error| error.seen_from(&origin))?;
+            Ok((source, origin))
         };
-        let soil = |name: &String| {
-            let loaded = read_soil(&find(Kind::Soil, "soils", name)?, &none)?;
+        let soil = |(place, name): (usize, &String)| {
+            let (source, origin) = find(Kind::Soil, &format!("soils.{place}"), name)?;
+            let loaded =
+                read_soil(&source, &none).map_err(|error| blame_name(error, &origin, &source))?;
             Ok((name.clone(), loaded))
+        };
+        let wheel = || {
+            let (source, origin) = find(Kind::Wheel, "wheel", &self.wheel)?;
+            read_wheel(&source, &none).map_err(|error| blame_name(error, &origin, &source))
         };
         let condition = |text: &String| {
             Condition::parse(text).map_err(|_| {
@@ -87,8 +94,8 @@ impl CaseSection {
         Ok(DataSetCase {
             name: self.name.clone(),
             conditions: self.conditions.iter().map(condition).collect::<Result<_, _>>()?,
-            wheel: read_wheel(&find(Kind::Wheel, "wheel", &self.wheel)?, &none)?,
-            soils: self.soils.iter().map(soil).collect::<Result<_, DocumentError>>()?,
+            wheel: wheel()?,
+            soils: self.soils.iter().enumerate().map(soil).collect::<Result<_, DocumentError>>()?,
         })
     }
 }

@@ -5,8 +5,9 @@ use std::fmt;
 use std::io;
 use std::ops::Range;
 
-use super::Kind;
+use super::file::FileProblem;
 use super::text::{Origin, Text};
+use super::{Kind, escape};
 use crate::error::ParameterError;
 use crate::studies::uncertainty::{Contradiction, NothingAccepted};
 
@@ -25,6 +26,8 @@ struct Parts {
     place: Place,
     problem: Problem,
     hint: Option<String>,
+    /// Where another document names the one that is wrong.
+    named_at: Option<Place>,
 }
 
 /// Where in a document something stands.
@@ -71,6 +74,9 @@ pub enum Problem {
     /// A folder where a file should be.
     #[error("this is a folder, not a file")]
     Folder,
+    /// A link without a file, a device, a pipe with a name.
+    #[error("{0}")]
+    NotAFile(FileProblem),
     /// The disk, or permission for it, failed.
     #[error("cannot be read: {message}")]
     Unreadable {
@@ -79,8 +85,8 @@ pub enum Problem {
         /// The system's words.
         message: String,
     },
-    /// More than a document can be.
-    #[error("is larger than {limit} bytes, which no document is")]
+    /// More than a document, or a table of samples, may be.
+    #[error("is larger than {limit} bytes, the most that is read")]
     TooLarge {
         /// The most that is read.
         limit: u64,
@@ -227,6 +233,20 @@ pub enum Problem {
     Malformed(&'static str),
 }
 
+impl From<FileProblem> for Problem {
+    fn from(problem: FileProblem) -> Self {
+        match problem {
+            FileProblem::NoSuchFile => Self::NoSuchFile,
+            FileProblem::Folder => Self::Folder,
+            FileProblem::TooLarge { limit } => Self::TooLarge { limit },
+            FileProblem::Unreadable { kind, message } => Self::Unreadable { kind, message },
+            FileProblem::BrokenLink { .. } | FileProblem::NotAFile { .. } => {
+                Self::NotAFile(problem)
+            }
+        }
+    }
+}
+
 /// A number as messages write it: without hundreds of zeros.
 pub(super) fn number(value: f64) -> String {
     let size = value.abs();
@@ -237,13 +257,16 @@ pub(super) fn number(value: f64) -> String {
 impl DocumentError {
     /// An error at a spot of a text.
     pub(super) fn at(origin: &Origin, problem: Problem) -> Self {
-        Self { parts: Box::new(Parts { place: Place::of(origin), problem, hint: None }) }
+        Self::of(Place::of(origin), problem)
     }
 
     /// An error that concerns a text as a whole.
     pub(super) fn whole(document: impl Into<String>, problem: Problem) -> Self {
-        let place = Place { document: document.into(), spot: None };
-        Self { parts: Box::new(Parts { place, problem, hint: None }) }
+        Self::of(Place { document: document.into(), spot: None }, problem)
+    }
+
+    fn of(place: Place, problem: Problem) -> Self {
+        Self { parts: Box::new(Parts { place, problem, hint: None, named_at: None }) }
     }
 
     /// The same with a hint.
@@ -255,6 +278,16 @@ impl DocumentError {
     /// The same, told where another document names the one that is wrong.
     pub(super) fn seen_from(mut self, origin: &Origin) -> Self {
         self.parts.place = Place::of(origin);
+        self
+    }
+
+    /// The same, with the spot where another document names the one that is wrong. Arguments have no
+    /// lines to look at, and show the name themselves.
+    pub(super) fn named_by(mut self, origin: &Origin) -> Self {
+        let names_itself = self.parts.place.document == origin.text.label;
+        if self.parts.named_at.is_none() && !origin.text.is_argument && !names_itself {
+            self.parts.named_at = Some(Place::of(origin));
+        }
         self
     }
 
@@ -271,6 +304,12 @@ impl DocumentError {
     #[must_use]
     pub fn place(&self) -> &Place {
         &self.parts.place
+    }
+
+    /// Where another document names the one that is wrong, if one does.
+    #[must_use]
+    pub fn named_at(&self) -> Option<&Place> {
+        self.parts.named_at.as_ref()
     }
 
     /// What it is.
@@ -294,7 +333,7 @@ impl DocumentError {
 }
 
 impl Place {
-    fn of(origin: &Origin) -> Self {
+    pub(super) fn of(origin: &Origin) -> Self {
         Self { document: origin.text.label.clone(), spot: Some(Spot::of(origin)) }
     }
 }
@@ -326,7 +365,7 @@ impl Excerpt {
             .chars()
             .skip(skipped)
             .take(WIDTH)
-            .map(|c| if c.is_control() { ' ' } else { c })
+            .map(|c| if escape::is_hidden(c) { ' ' } else { c })
             .collect();
         let mark_from = from - skipped;
         let room = WIDTH.saturating_sub(mark_from).max(1);
@@ -336,7 +375,7 @@ impl Excerpt {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.document)?;
+        f.write_str(&escape::line(&self.document))?;
         match &self.spot {
             Some(Spot { line, column, excerpt: Some(_) }) => write!(f, ":{line}:{column}"),
             _ => Ok(()),
@@ -344,17 +383,24 @@ impl fmt::Display for Place {
     }
 }
 
+/// Characters of a problem or a hint: a key may be as long as a document.
+const LONGEST_MESSAGE: usize = 2000;
+
 impl fmt::Display for DocumentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place(), self.problem())?;
+        let problem = self.problem().to_string();
+        write!(f, "{}: {}", self.place(), escape::short_line(&problem, LONGEST_MESSAGE))?;
         if let Some(Spot { line, excerpt: Some(excerpt), .. }) = &self.place().spot {
             let margin = " ".repeat(line.to_string().len());
             let Excerpt { shown, mark_from, mark_width } = excerpt;
             let mark = format!("{}{}", " ".repeat(*mark_from), "^".repeat(*mark_width));
             write!(f, "\n{margin} |\n{line} | {}\n{margin} | {mark}", shown.trim_end())?;
         }
+        if let Some(place) = self.named_at() {
+            write!(f, "\nthe file is named by {place}")?;
+        }
         match self.hint() {
-            Some(hint) => write!(f, "\nhint: {hint}"),
+            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST_MESSAGE)),
             None => Ok(()),
         }
     }

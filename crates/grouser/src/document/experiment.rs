@@ -39,7 +39,7 @@ impl From<Table4Row> for MeasuredTraverse {
 /// Never: the table comes with the program.
 #[must_use]
 pub fn table_4() -> Vec<MeasuredTraverse> {
-    let text = include_str!("../../../../data/experiments/hakuto-slope/table4.csv");
+    let text = include_str!("../../data/experiments/hakuto-slope/table4.csv");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows = reader.deserialize::<Table4Row>();
     rows.map(|row| row.expect("the embedded table is well formed").into()).collect()

@@ -59,12 +59,9 @@ impl<V> Loaded<V> {
     /// Noll, Vo) of 64 bits. It tells documents apart that differ by chance, not by intent.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
-        const START: u64 = 0xcbf2_9ce4_8422_2325;
-        const PRIME: u64 = 0x0000_0100_0000_01b3;
         let toml = self.to_toml();
         let companions = self.companions.iter().flat_map(|companion| companion.content.bytes());
-        let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(PRIME);
-        toml.bytes().chain(companions).fold(START, mix)
+        super::checkpoint::fnv_1a(toml.bytes().chain(companions))
     }
 }
 

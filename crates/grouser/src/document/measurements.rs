@@ -17,12 +17,13 @@ pub mod columns;
 mod condition;
 mod error;
 mod import;
+mod limits;
 mod notes;
 mod row;
+mod source;
 pub(super) mod table;
 
 use std::collections::HashMap;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
@@ -30,13 +31,13 @@ pub use columns::{Column, Meaning};
 pub use condition::Condition;
 pub use error::{MeasurementError, MeasurementProblem};
 pub use import::{Layout, Mapping, SlipDefinition, import};
+pub use limits::{Excess, Limits};
+pub use source::Source;
 
+use super::{escape, file};
 use crate::studies::measurement::{Cell, Quantity, Trial, WheelTests};
 use notes::LeftOut;
 use row::{Header, Row, Taken};
-
-/// The most rows that are read: a test stand makes thousands.
-pub const MOST_ROWS: usize = 4_000_000;
 
 /// Which rows of a file are wanted.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +49,8 @@ pub struct Choice {
     /// The label `smooth` in the column `wheel` belongs to wheels called `smooth`, `cmu-smooth`,
     /// `cmu_smooth` or `wheels/smooth.toml`.
     pub wheel: Option<String>,
+    /// How much of the file is read.
+    pub limits: Limits,
 }
 
 /// A measurement file that was read.
@@ -67,19 +70,51 @@ pub struct Measurements {
 /// [`MeasurementError`] with file and line for whatever is not as [`columns`] says, and if no row
 /// is left.
 pub fn read(path: &Path, choice: &Choice) -> Result<Measurements, MeasurementError> {
-    read_from(&path.display().to_string(), open(path)?, choice)
+    let bytes = read_bytes(path, choice.limits)?;
+    read_from(&escape::path(path), bytes.as_slice(), choice)
 }
 
-/// Opens a measurement file.
+/// The bytes of a measurement file.
+///
+/// A regular file is read, and a pipe that is open already, as `/dev/stdin` or `/dev/fd/N`. A device
+/// is refused, and so is a pipe with a name, which would wait until somebody writes.
 ///
 /// # Errors
-/// [`MeasurementError`] if there is none, or if it may not be read.
-pub fn open(path: &Path) -> Result<File, MeasurementError> {
-    let label = path.display().to_string();
-    if path.is_dir() {
-        return Err(MeasurementError::whole(&label, MeasurementProblem::Folder));
+/// [`MeasurementError`] if there is no file, if it may not be read, or if it is too large.
+pub fn read_bytes(path: &Path, limits: Limits) -> Result<Vec<u8>, MeasurementError> {
+    let read = file::read(path, limits.bytes());
+    read.map_err(|problem| MeasurementError::whole(&escape::path(path), problem.into()))
+}
+
+/// A table of texts, for columns that no trial has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextTable {
+    /// The names of its columns.
+    pub header: Vec<String>,
+    /// Its rows, each with the line in which it starts.
+    pub rows: Vec<(u64, Vec<String>)>,
+}
+
+/// Reads a table from a file, its cells trimmed.
+///
+/// # Errors
+/// [`MeasurementError`] with file and line for what is no table, or is too large.
+pub fn read_texts(path: &Path, limits: Limits) -> Result<TextTable, MeasurementError> {
+    let (bytes, label) = (read_bytes(path, limits)?, escape::path(path));
+    let mut table = table::Table::new(&label, bytes.as_slice(), b',', limits);
+    let header = table.header()?.iter().map(name_of).collect();
+    let (mut rows, mut record) = (Vec::new(), csv::StringRecord::new());
+    while table.next_row(&mut record)? {
+        let line = record.position().map_or(0, csv::Position::line);
+        rows.push((line, record.iter().map(|text| escape::plain(text).to_owned()).collect()));
     }
-    File::open(path).map_err(|error| MeasurementError::io(&label, &error))
+    Ok(TextTable { header, rows })
+}
+
+/// A column's name: without the mark that some programs begin a text with, and without the
+/// apostrophe that keeps a spreadsheet from computing it.
+fn name_of(cell: &str) -> String {
+    escape::plain(cell.trim_start_matches('\u{feff}')).to_owned()
 }
 
 /// Reads measurements from anywhere.
@@ -93,22 +128,16 @@ pub fn read_from(
     source: impl Read,
     choice: &Choice,
 ) -> Result<Measurements, MeasurementError> {
-    let mut reader = table::reader(source, b',');
-    let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
-    let header = Header::new(label, &header, &choice.conditions)?;
+    let mut table = table::Table::new(label, source, b',', choice.limits);
+    let header = Header::new(label, &table.header()?, &choice.conditions)?;
     let mut rows: Vec<Row> = Vec::new();
     let mut left_out: Option<LeftOut> = None;
     let mut record = csv::StringRecord::new();
-    let failed = |error: csv::Error| MeasurementError::csv(label, &error);
-    while table::next_row(&mut reader, &mut record).map_err(failed)? {
+    while table.next_row(&mut record)? {
         match header.row(&record)? {
             Taken::Row(row) => rows.push(row),
             Taken::Unwanted => {}
             Taken::NotOk(row) => left_out = Some(left_out.map_or(row, LeftOut::and_another)),
-        }
-        if rows.len() > MOST_ROWS {
-            let problem = MeasurementProblem::TooManyRows { most: MOST_ROWS };
-            return Err(MeasurementError::whole(label, problem));
         }
     }
     let rows = of_one_wheel(label, rows, choice)?;
@@ -124,6 +153,8 @@ pub fn read_from(
     notes.extend(other_wheel(&rows, choice));
     notes.extend(left_out.iter().map(LeftOut::note));
     notes.extend(notes::suspicions(&rows));
+    // They quote what the file says.
+    let notes = notes.iter().map(|note| escape::line(note).into_owned()).collect();
     Ok(Measurements { lines: rows.iter().map(|row| row.line).collect(), notes, tests: tests(rows) })
 }
 

@@ -6,8 +6,9 @@
 use std::io::Read;
 use std::path::Path;
 
-use super::measurements::table::{self, other_delimiter};
-use super::measurements::{MeasurementError, MeasurementProblem as Problem, open};
+use super::escape;
+use super::measurements::table::{Table, other_delimiter};
+use super::measurements::{Limits, MeasurementError, MeasurementProblem as Problem, read_bytes};
 use crate::studies::calibration::PlateCurve;
 use crate::studies::calibration::plate_test::PlatePoint;
 
@@ -45,23 +46,28 @@ pub struct PlateMeasurements {
 /// # Errors
 /// [`MeasurementError`] with file and line for whatever is not as it should be.
 pub fn read(path: &Path) -> Result<PlateMeasurements, MeasurementError> {
-    read_from(&path.display().to_string(), open(path)?)
+    let limits = Limits::default();
+    read_from(&escape::path(path), read_bytes(path, limits)?.as_slice(), limits)
 }
 
 /// Reads curves from anywhere.
 ///
 /// * `label`: what messages call the source
+/// * `limits`: how much of it is read
 ///
 /// # Errors
 /// As for [`read`].
-pub fn read_from(label: &str, source: impl Read) -> Result<PlateMeasurements, MeasurementError> {
-    let mut reader = table::reader(source, b',');
-    let failed = |error: csv::Error| MeasurementError::csv(label, &error);
-    let header: Vec<String> = reader.headers().map_err(failed)?.iter().map(str::to_owned).collect();
+pub fn read_from(
+    label: &str,
+    source: impl Read,
+    limits: Limits,
+) -> Result<PlateMeasurements, MeasurementError> {
+    let mut table = Table::new(label, source, b',', limits);
+    let header: Vec<String> = table.header()?.iter().map(str::to_owned).collect();
     let places = places(label, &header)?;
     let mut curves: Vec<PlateCurve> = Vec::new();
     let mut record = csv::StringRecord::new();
-    while table::next_row(&mut reader, &mut record).map_err(failed)? {
+    while table.next_row(&mut record)? {
         let line = record.position().map_or(0, csv::Position::line);
         let wrong = |problem| MeasurementError::at(label, line, problem);
         if record.iter().eq(header.iter().map(String::as_str)) {
@@ -124,7 +130,7 @@ fn number(column: &Column, text: &str) -> Result<f64, Problem> {
     let Column { name, to_si, least, most } = *column;
     let column = name.to_owned();
     let Ok(value) = text.parse::<f64>() else {
-        return Err(Problem::NotANumber { column, value: text.to_owned() });
+        return Err(Problem::NotANumber { column, value: escape::short_line(text, 60) });
     };
     if !(least..=most).contains(&value) {
         return Err(Problem::OutOfRange { column, value, least, most });
@@ -138,7 +144,7 @@ fn notes(header: &[String], curves: &[PlateCurve]) -> Vec<String> {
     let known = |name: &String| name.is_empty() || COLUMNS.iter().any(|it| it.name == name);
     let unknown = header.iter().filter(|name| !known(name));
     let mut notes: Vec<String> =
-        unknown.map(|name| format!("column `{name}` is not used")).collect();
+        unknown.map(|name| format!("column `{}` is not used", escape::line(name))).collect();
     let points = || curves.iter().flat_map(|curve| &curve.points);
     if points().all(|point| point.sinkage < TINY) {
         notes.push("all sinkages are below 0.2 mm: are they in metres?".to_owned());
@@ -156,14 +162,14 @@ mod tests {
     const HEADER: &str = "plate_width_mm,sinkage_mm,pressure_kpa";
 
     fn refusal(text: &str) -> String {
-        read_from("plates.csv", text.as_bytes()).unwrap_err().to_string()
+        read_from("plates.csv", text.as_bytes(), Limits::default()).unwrap_err().to_string()
     }
 
     #[test]
     fn curves_are_read_in_si_width_by_width() {
         let text =
             format!("{HEADER},pressure_std_kpa,by\r\n50,1,2,,a\r\n100,3,4,0.5,b\r\n50,2,3,,c");
-        let found = read_from("plates.csv", text.as_bytes()).unwrap();
+        let found = read_from("plates.csv", text.as_bytes(), Limits::default()).unwrap();
         let [narrow, wide] = &found.curves[..] else { panic!("{found:?}") };
         assert_eq!((narrow.width, narrow.points.len(), wide.points.len()), (0.05, 2, 1));
         assert_eq!((wide.points[0].sinkage, wide.points[0].pressure), (0.003, 4000.0));

@@ -1,4 +1,4 @@
-//! The documents that come with the program: those of `data/` and `scenarios/`.
+//! The documents that come with the program: those of the crate's folder `data/`.
 
 use super::{Kind, Overrides, Source, written};
 
@@ -11,6 +11,8 @@ pub struct Preset {
     pub name: &'static str,
     /// The document, with its comments.
     pub text: &'static str,
+    /// The measured rows of a data set, as CSV; other kinds have none.
+    pub rows: Option<&'static str>,
 }
 
 /// All presets of a kind, in the order in which they are listed.
@@ -40,45 +42,52 @@ macro_rules! preset {
         Preset {
             kind: Kind::$kind,
             name: $name,
-            text: include_str!(concat!("../../../../", $folder, "/", $name, ".toml")),
+            text: include_str!(concat!("../../data/", $folder, "/", $name, ".toml")),
+            rows: None,
+        }
+    };
+    ($kind:ident, $folder:literal, $name:literal, $rows:literal) => {
+        Preset {
+            rows: Some(include_str!(concat!("../../data/", $folder, "/", $rows))),
+            ..preset!($kind, $folder, $name)
         }
     };
 }
 
 static PRESETS: &[Preset] = &[
-    preset!(Soil, "data/soils", "toyoura"),
-    preset!(Soil, "data/soils", "toyoura-uncertain"),
-    preset!(Soil, "data/soils", "toyoura-as-printed"),
-    preset!(Soil, "data/soils", "toyoura-lab-2007"),
-    preset!(Soil, "data/soils", "toyoura-lab-2012"),
-    preset!(Soil, "data/soils", "simulant-2007"),
-    preset!(Soil, "data/soils", "lunar-nominal"),
-    preset!(Soil, "data/soils", "lunar-umd"),
-    preset!(Soil, "data/soils", "lunar-chrono"),
-    preset!(Soil, "data/soils", "hit-lss1"),
-    preset!(Soil, "data/soils", "mars-simulant"),
-    preset!(Soil, "data/soils", "mars-regolith"),
-    preset!(Soil, "data/soils", "mars-sand"),
-    preset!(Soil, "data/soils", "mines-lunar"),
-    preset!(Soil, "data/soils", "dry-sand"),
-    preset!(Soil, "data/soils", "clay"),
-    preset!(Soil, "data/soils", "direct-90"),
-    preset!(Soil, "data/soils", "direct-90-grousers"),
-    preset!(Soil, "data/soils", "cmu-direct90-smooth"),
-    preset!(Soil, "data/soils", "cmu-direct90-grouser"),
-    preset!(Soil, "data/soils", "krex-granite"),
-    preset!(Soil, "data/soils", "mit-rig-a"),
-    preset!(Soil, "data/soils", "mit-rig-b"),
-    preset!(Wheel, "data/wheels", "hakuto"),
-    preset!(Wheel, "data/wheels", "el-dorado-2"),
-    preset!(Wheel, "data/wheels", "jfr-2007"),
-    preset!(Wheel, "data/wheels", "lab-2007"),
-    preset!(Wheel, "data/wheels", "cmu-smooth"),
-    preset!(Wheel, "data/wheels", "cmu-grouser"),
-    preset!(Wheel, "data/wheels", "mit-rig"),
-    preset!(Rover, "data/rovers", "hakuto"),
-    preset!(Rover, "data/rovers", "hakuto-flight"),
-    preset!(Rover, "data/rovers", "el-dorado-2"),
+    preset!(Soil, "soils", "toyoura"),
+    preset!(Soil, "soils", "toyoura-uncertain"),
+    preset!(Soil, "soils", "toyoura-as-printed"),
+    preset!(Soil, "soils", "toyoura-lab-2007"),
+    preset!(Soil, "soils", "toyoura-lab-2012"),
+    preset!(Soil, "soils", "simulant-2007"),
+    preset!(Soil, "soils", "lunar-nominal"),
+    preset!(Soil, "soils", "lunar-umd"),
+    preset!(Soil, "soils", "lunar-chrono"),
+    preset!(Soil, "soils", "hit-lss1"),
+    preset!(Soil, "soils", "mars-simulant"),
+    preset!(Soil, "soils", "mars-regolith"),
+    preset!(Soil, "soils", "mars-sand"),
+    preset!(Soil, "soils", "mines-lunar"),
+    preset!(Soil, "soils", "dry-sand"),
+    preset!(Soil, "soils", "clay"),
+    preset!(Soil, "soils", "direct-90"),
+    preset!(Soil, "soils", "direct-90-grousers"),
+    preset!(Soil, "soils", "cmu-direct90-smooth"),
+    preset!(Soil, "soils", "cmu-direct90-grouser"),
+    preset!(Soil, "soils", "krex-granite"),
+    preset!(Soil, "soils", "mit-rig-a"),
+    preset!(Soil, "soils", "mit-rig-b"),
+    preset!(Wheel, "wheels", "hakuto"),
+    preset!(Wheel, "wheels", "el-dorado-2"),
+    preset!(Wheel, "wheels", "jfr-2007"),
+    preset!(Wheel, "wheels", "lab-2007"),
+    preset!(Wheel, "wheels", "cmu-smooth"),
+    preset!(Wheel, "wheels", "cmu-grouser"),
+    preset!(Wheel, "wheels", "mit-rig"),
+    preset!(Rover, "rovers", "hakuto"),
+    preset!(Rover, "rovers", "hakuto-flight"),
+    preset!(Rover, "rovers", "el-dorado-2"),
     preset!(Scenario, "scenarios", "traverse-10-deg"),
     preset!(Scenario, "scenarios", "traverse-10-deg-compensated"),
     preset!(Scenario, "scenarios", "traverse-10-deg-torque"),
@@ -90,8 +99,8 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "eq18-corrected"),
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
-    preset!(DataSet, "data/measurements", "cmu-single-wheel"),
-    preset!(Campaign, "scenarios", "campaign-attitude"),
-    preset!(Campaign, "scenarios", "campaign-traverse"),
-    preset!(Campaign, "scenarios", "campaign-wheel-test"),
+    preset!(DataSet, "measurements", "cmu-single-wheel", "cmu_single_wheel.csv"),
+    preset!(Campaign, "campaigns", "campaign-attitude"),
+    preset!(Campaign, "campaigns", "campaign-traverse"),
+    preset!(Campaign, "campaigns", "campaign-wheel-test"),
 ];

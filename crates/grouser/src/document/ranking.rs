@@ -1,14 +1,15 @@
-//! Every theory on every data set in a folder, best first.
+//! Every theory on every data set, best first: on those that come with the program, or on those of
+//! a folder.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::measurements::{self, Choice, MeasurementError};
+use super::measurements::{self, Choice, Limits, MeasurementError};
 use super::validation::GroupRecord;
 use super::{
-    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, presets,
+    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, place_of, presets,
     read_data_set,
 };
 use crate::contact::Theory;
@@ -81,23 +82,86 @@ pub enum RankingError {
     Measurements(#[from] MeasurementError),
 }
 
-/// Every theory on every data set in a folder: data set by data set and part by part, best first.
+/// Every theory on every data set of a folder, or without a folder on those that come with the
+/// program: data set by data set and part by part, best first.
+///
+/// * `limits`: how much of each file is read
 ///
 /// # Errors
 /// [`RankingError`] for a folder, a document or a file that cannot be used.
-pub fn rank_all(folder: &Path) -> Result<Vec<RankedTheory>, RankingError> {
+pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Vec<RankedTheory>, RankingError> {
+    let sets = match folder {
+        Some(folder) => data_sets_in(folder)?,
+        None => data_sets_of_the_program()?,
+    };
     let mut all = Vec::new();
-    for (set, file) in data_sets(folder)? {
+    for DataSet { set, rows, named_at } in sets {
         for case in &set.value.cases {
-            all.extend(rank(&set, case, &file)?);
+            let ranked = rank(&set, case, &rows, limits);
+            all.extend(ranked.map_err(|error| match &named_at {
+                Some(place) => error.named_at(place.clone()),
+                None => error,
+            })?);
         }
     }
     Ok(all)
 }
 
-/// The data sets whose files are in a folder: those that are presets, and those that documents in
-/// the folder describe.
-fn data_sets(folder: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, RankingError> {
+/// A data set, and where its rows are.
+struct DataSet {
+    set: LoadedDataSet,
+    rows: measurements::Source,
+    /// Where a document of the folder names the file; presets are no files to look at.
+    named_at: Option<String>,
+}
+
+fn data_sets_of_the_program() -> Result<Vec<DataSet>, RankingError> {
+    let mut sets = Vec::new();
+    for preset in presets(Kind::DataSet) {
+        if let Some(rows) = measurements::Source::preset(preset.name) {
+            let set = read_data_set(&Source::Preset(preset), &Overrides::none())?;
+            sets.push(DataSet { set, rows, named_at: None });
+        }
+    }
+    Ok(sets)
+}
+
+/// The data sets whose files are in a folder: those that documents in the folder describe, and
+/// those of the program of whose file a copy is there that no document claims.
+fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
+    let mut own = Vec::new();
+    for document in documents_in(folder)? {
+        let source = Source::file(&document);
+        let set = read_data_set(&source, &Overrides::none())?;
+        let file = folder.join(&set.value.file);
+        // Of a link to nothing the reading says so.
+        if file.symlink_metadata().is_err() {
+            return Err(RankingError::NoSuchFile { document, file });
+        }
+        let named_at = Some(place_of(&source, "file")?.to_string());
+        own.push(DataSet { set, rows: measurements::Source::File(file), named_at });
+    }
+    let mut sets = Vec::new();
+    for preset in presets(Kind::DataSet) {
+        let set = read_data_set(&Source::Preset(preset), &Overrides::none())?;
+        let file = folder.join(&set.value.file);
+        let is_there = file.symlink_metadata().is_ok();
+        let rows = measurements::Source::File(file);
+        let is_claimed = own.iter().any(|claimed| claimed.rows == rows);
+        if is_there && !is_claimed {
+            sets.push(DataSet { set, rows, named_at: None });
+        }
+    }
+    sets.extend(own);
+    if sets.is_empty() {
+        let known = presets(Kind::DataSet).map(|preset| preset.name).collect();
+        return Err(RankingError::NoDataSet { folder: folder.to_owned(), known });
+    }
+    Ok(sets)
+}
+
+/// The documents of data sets in a folder, and those that may be meant as such, by name.
+fn documents_in(folder: &Path) -> Result<Vec<PathBuf>, RankingError> {
     if !folder.is_dir() {
         return Err(RankingError::NoSuchFolder(folder.to_owned()));
     }
@@ -106,36 +170,21 @@ fn data_sets(folder: &Path) -> Result<Vec<(LoadedDataSet, PathBuf)>, RankingErro
     let files = entries.map(|entry| entry.map(|entry| entry.path()));
     let mut files: Vec<PathBuf> = files.collect::<Result<_, _>>().map_err(unreadable)?;
     files.sort();
-    let documents = files.into_iter().filter(|path| path.extension() == Some(OsStr::new("toml")));
     let is_data_set =
         |path: &PathBuf| matches!(check(&Source::file(path)), Ok(Kind::DataSet) | Err(_));
-    let mut sources: Vec<Source> = presets(Kind::DataSet).map(Source::Preset).collect();
-    sources.extend(documents.filter(is_data_set).map(Source::File));
-    let mut sets = Vec::new();
-    for source in sources {
-        let set = read_data_set(&source, &Overrides::none())?;
-        let file = folder.join(&set.value.file);
-        if file.exists() {
-            sets.push((set, file));
-        } else if let Source::File(document) = source {
-            return Err(RankingError::NoSuchFile { document, file });
-        }
-    }
-    if sets.is_empty() {
-        let known = presets(Kind::DataSet).map(|preset| preset.name).collect();
-        return Err(RankingError::NoDataSet { folder: folder.to_owned(), known });
-    }
-    Ok(sets)
+    files.retain(|path| path.extension() == Some(OsStr::new("toml")) && is_data_set(path));
+    Ok(files)
 }
 
 /// Every theory with the soils of a part, best first.
 fn rank(
     set: &LoadedDataSet,
     case: &DataSetCase,
-    file: &Path,
+    rows: &measurements::Source,
+    limits: Limits,
 ) -> Result<Vec<RankedTheory>, MeasurementError> {
-    let choice = Choice { conditions: case.conditions.clone(), wheel: None };
-    let measured = measurements::read(file, &choice)?;
+    let choice = Choice { conditions: case.conditions.clone(), wheel: None, limits };
+    let measured = rows.read(&choice)?;
     let mut all = Vec::new();
     for (name, soil) in &case.soils {
         for theory in Theory::ALL {

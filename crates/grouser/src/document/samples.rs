@@ -39,11 +39,15 @@ impl SampleTable {
                     DocumentError::at(origin, Problem::NoSamples { name: label.clone() })
                         .with_hint(hint)
                 }
+                Problem::TooLarge { .. } => DocumentError::whole(&label, problem)
+                    .with_hint("keep every n-th sample: ten thousand are plenty".to_owned()),
                 problem => DocumentError::whole(&label, problem),
             }
+            .named_by(origin)
         })?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Self::parse(Arc::new(Text { label, content, folder, ..Text::default() }))
+            .map_err(|error| error.named_by(origin))
     }
 
     /// The same of a text in memory.

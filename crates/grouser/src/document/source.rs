@@ -1,7 +1,5 @@
 //! Where a document comes from: a preset, a file, or a text in memory.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -9,7 +7,7 @@ use super::check::nearest;
 use super::error::{DocumentError, Problem};
 use super::presets::{self, Preset};
 use super::text::Text;
-use super::{Companion, Kind};
+use super::{Companion, Kind, escape, file};
 
 /// Where a document comes from.
 #[derive(Clone, Debug)]
@@ -78,16 +76,18 @@ impl Source {
         }
         let is_toml = Path::new(name).extension().is_some_and(|end| end == "toml");
         let path = folder.join(name);
-        if is_toml || name.contains(['/', '\\']) || (!name.is_empty() && path.exists()) {
+        // A link is there even if its file is not: reading it says so.
+        let is_there = || !name.is_empty() && path.symlink_metadata().is_ok();
+        if is_toml || name.contains(['/', '\\']) || is_there() {
             return Ok(Self::File(path));
         }
-        let problem = Problem::NoSuchPresetOrFile { kind, name: name.escape_debug().to_string() };
+        let problem = Problem::NoSuchPresetOrFile { kind, name: escape::line(name).into_owned() };
         let names: Vec<_> = presets::presets(kind).map(|preset| preset.name).collect();
         let hint = nearest(name, names.iter().copied()).map_or_else(
             || format!("the {kind} presets are {}", names.join(", ")),
             |meant| format!("did you mean `{meant}`?"),
         );
-        Err(DocumentError::whole(name.escape_debug().to_string(), problem).with_hint(hint))
+        Err(DocumentError::whole(escape::line(name).into_owned(), problem).with_hint(hint))
     }
 
     pub(super) fn read(&self) -> Result<Arc<Text>, DocumentError> {
@@ -113,24 +113,7 @@ impl Source {
 
 /// The text of a file of at most `limit` bytes.
 pub(super) fn read_file(path: &Path, limit: u64) -> Result<String, Problem> {
-    let failed = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory | io::ErrorKind::InvalidInput => {
-            Problem::NoSuchFile
-        }
-        io::ErrorKind::IsADirectory => Problem::Folder,
-        kind => Problem::Unreadable { kind, message: error.to_string() },
-    };
-    if path.is_dir() {
-        return Err(Problem::Folder);
-    }
-    let mut bytes = Vec::new();
-    // One byte more than allowed tells a file that is too large from one that just fits, without
-    // trusting a length that pipes and devices do not have.
-    let file = File::open(path).map_err(failed)?;
-    file.take(limit + 1).read_to_end(&mut bytes).map_err(failed)?;
-    if bytes.len() as u64 > limit {
-        return Err(Problem::TooLarge { limit });
-    }
+    let bytes = file::read(path, limit).map_err(Problem::from)?;
     String::from_utf8(bytes)
         .map_err(|error| Problem::NotText { valid_up_to: error.utf8_error().valid_up_to() })
 }

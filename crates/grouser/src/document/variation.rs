@@ -126,13 +126,14 @@ mod tests {
 
     #[test]
     fn ranges_are_those_of_the_document() {
+        let [slope, yaw, speed, gravity, duration] = Varied::ALL;
         for (varied, value) in [
-            (Varied::SlopeDeg, 60.1),
-            (Varied::YawDeg, f64::NAN),
-            (Varied::SpeedMS, 11.0),
-            (Varied::GravityMS2, 0.0),
-            (Varied::DurationS, 0.0),
-            (Varied::DurationS, 1e6),
+            (slope, 60.1),
+            (yaw, f64::NAN),
+            (speed, 11.0),
+            (gravity, 0.0),
+            (duration, 0.0),
+            (duration, 1e6),
         ] {
             let error = varied.put(&mut with(&[]), value).unwrap_err();
             assert!(error.to_string().contains(varied.name()) || value == 0.0, "{error}");

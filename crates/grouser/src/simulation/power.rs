@@ -1,5 +1,6 @@
 //! The books of a run's energy: what the motors put in, and where it went.
 
+use crate::elementary::wide;
 use crate::site::Site;
 use crate::units::Vec2;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
@@ -66,5 +67,5 @@ pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
 #[must_use]
 pub fn potential_energy(rover: &Rover, site: &Site, state: &RoverState) -> f64 {
     let centre = state.position + state.slope_from_body() * rover.centre_of_mass();
-    rover.mass() * site.gravity * site.slope.sin() * centre.y
+    rover.mass() * site.gravity * wide::sin(site.slope) * centre.y
 }

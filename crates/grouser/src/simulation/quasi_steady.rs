@@ -21,6 +21,7 @@ use crate::contact::WheelForces;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
 use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::state::rotation;
 
 /// The velocities may lag behind their balance by this much, over the fastest rim's speed [-]: the
 /// balance's own motion in one settling time. Source: ours; theories err by ten times as much.
@@ -264,7 +265,7 @@ impl Stretch {
             motors += node.powers.0 * weight;
             soil += node.powers.1 * weight;
         }
-        let velocity_slope = nalgebra::Rotation2::new(yaw) * velocities.xy();
+        let velocity_slope = rotation(yaw) * velocities.xy();
         PoseRates { velocity_slope, yaw_rate: velocities.z, powers: (motors, soil) }
     }
 }

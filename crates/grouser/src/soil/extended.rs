@@ -5,6 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::elementary::{pow, wide};
 use crate::error::{ParameterError, finite, not_negative, positive};
 
 /// The terms of the extended theory.
@@ -154,20 +155,20 @@ impl SinkageGrowth {
     /// What is left of a growth near the surface [-] at a depth h/r_s [-].
     #[inline]
     pub(crate) fn at_depth(shallow: f64, depth: f64) -> f64 {
-        1.0 + (shallow - 1.0) * (1.0 - depth.clamp(0.0, 1.0).powi(END_OF_DIGGING))
+        1.0 + (shallow - 1.0) * (1.0 - wide::powi(depth.clamp(0.0, 1.0), END_OF_DIGGING))
     }
 
     /// The growth *ζ* [-] of a wheel that has hardly sunk.
     pub(crate) fn at_the_surface(&self, total_slip: f64, slip_angle: f64) -> f64 {
         let q = self.sharpness;
         let (driving, skid) = (total_slip.clamp(0.0, 1.0), (-total_slip).clamp(0.0, 1.0));
-        let (sin, cos) = slip_angle.sin_cos();
+        let (sin, cos) = wide::sin_cos(slip_angle);
         let lateral = 1.0 + self.with_slip_angle * sin.abs() / (cos.max(0.0) + ROLLING_SHARE);
         let driven = 1.0 + self.with_slip * driving / (1.0 - self.bend * driving);
         // By the larger of the two, so that no power overflows; exactly 1 where both are.
         let (more, less) = (lateral.max(driven), lateral.min(driven));
-        let rest = ((less / more).powf(q) - more.powf(-q)).max(0.0);
-        let rolling = more * (1.0 + rest).powf(1.0 / q);
+        let rest = (pow(less / more, q) - pow(more, -q)).max(0.0);
+        let rolling = more * pow(1.0 + rest, 1.0 / q);
         rolling + skid * skid * (1.0 + self.locked - rolling).max(0.0)
     }
 }
@@ -182,7 +183,7 @@ impl ExitShift {
     #[must_use]
     pub fn ratio(&self, at_rest: f64, total_slip: f64, slip_angle: f64) -> f64 {
         let shift = self.with_slip * total_slip.clamp(0.0, 1.0)
-            + self.with_slip_angle * slip_angle.sin().abs();
+            + self.with_slip_angle * wide::sin(slip_angle).abs();
         (at_rest + shift).clamp(0.0, at_rest.max(1.0))
     }
 }

@@ -102,7 +102,7 @@ impl PressureSinkage {
     ) -> Stiffness {
         let ScaledPressure { at_scale, scale, exponent } =
             self.scaled(width, cohesion, unit_weight, slip_ratio);
-        Stiffness { modulus: at_scale / scale.powf(exponent), exponent }
+        Stiffness { modulus: at_scale / elementary::pow(scale, exponent), exponent }
     }
 
     /// The same law on the length that it has of its own.

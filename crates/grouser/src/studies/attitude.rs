@@ -25,6 +25,7 @@ use nalgebra::Vector3;
 
 use self::path::{Held, JUST_TURNED, Path, Place, Point};
 use crate::contact::Theory;
+use crate::elementary::wide;
 use crate::error::{ParameterError, finite};
 use crate::root;
 use crate::simulation::Scenario;
@@ -90,13 +91,13 @@ impl Attitude {
         let s = self.slip_ratio;
         let rim_over_hub = if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s };
         let radius = rover.wheel().shearing_radius();
-        self.torque() / radius * (self.yaw - self.course).cos() * rim_over_hub
+        self.torque() / radius * wide::cos(self.yaw - self.course) * rim_over_hub
     }
 
-    /// Way downhill for a metre along the contour, −tan χ [-]: 0 on a level traverse.
+    /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a level traverse.
     #[must_use]
     pub fn drift(&self) -> f64 {
-        0.0 - self.course.tan()
+        0.0 - wide::sin(self.course)
     }
 
     /// Power of the motors at a rim speed ω r_s [m/s], ΣT ω [W].

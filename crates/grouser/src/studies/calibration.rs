@@ -52,6 +52,7 @@ pub use solution::{Observer, Posterior, Sampling, Solution, Work};
 pub use wheel_calibration::{WheelCalibration, WheelFindings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
 
+use crate::elementary::wide;
 use crate::error::ParameterError;
 
 /// An experiment, and the parameters that it is asked about.
@@ -61,6 +62,10 @@ pub struct Calibration<'a> {
     space: ParameterSpace,
     discrepancies: ParameterSpace,
 }
+
+/// The most observations that are fitted. Thirty-six cells of wheel tests with seventeen keys take a
+/// minute, and the time grows with their number: ten thousand keep a machine busy for hours.
+pub const MOST_OBSERVATIONS: usize = 10_000;
 
 /// Why a calibration gives no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -75,6 +80,17 @@ pub enum CalibrationError {
         observations: usize,
         /// How many parameters they are to determine.
         parameters: usize,
+    },
+    /// There are more observations than a search goes through in reasonable time.
+    #[error(
+        "{observations} observations are more than {most}, the most that are fitted: let rows that \
+         repeat each other form one cell (their mean is one observation), or choose rows"
+    )]
+    TooManyObservations {
+        /// How many there are.
+        observations: usize,
+        /// The most that are fitted.
+        most: usize,
     },
     /// An observation is not a finite number, or its scatter is negative.
     #[error("observation {number} is {value} with a scatter of {scatter}: both must be finite")]
@@ -123,8 +139,8 @@ impl<'a> Calibration<'a> {
     /// An experiment asked about its parameters.
     ///
     /// # Errors
-    /// [`CalibrationError`] if there are no parameters, fewer observations than parameters, or
-    /// observations that are no numbers.
+    /// [`CalibrationError`] if there are no parameters, fewer observations than parameters, more
+    /// than [`MOST_OBSERVATIONS`], or observations that are no numbers.
     pub fn new(
         experiment: &'a dyn Experiment,
         space: ParameterSpace,
@@ -136,6 +152,10 @@ impl<'a> Calibration<'a> {
         if observations.len() < space.len() {
             let (observations, parameters) = (observations.len(), space.len());
             return Err(CalibrationError::TooFewObservations { observations, parameters });
+        }
+        if observations.len() > MOST_OBSERVATIONS {
+            let (observations, most) = (observations.len(), MOST_OBSERVATIONS);
+            return Err(CalibrationError::TooManyObservations { observations, most });
         }
         for (number, &Observation { value, scatter, .. }) in observations.iter().enumerate() {
             if !(value.is_finite() && scatter.is_finite() && scatter >= 0.0) {
@@ -200,7 +220,7 @@ impl<'a> Calibration<'a> {
             observations.iter().zip(predictions).zip(variances)
         {
             let residual = observation.value - prediction;
-            log_density -= 0.5 * (residual * residual / variance + variance.ln());
+            log_density -= 0.5 * (residual * residual / variance + wide::ln(variance));
         }
         if log_density.is_finite() { log_density } else { f64::NEG_INFINITY }
     }

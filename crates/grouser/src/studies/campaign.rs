@@ -93,6 +93,19 @@ impl Plan {
         if self.sensitivity { self.dimensions() as u64 + 2 } else { 1 }
     }
 
+    /// Whether the runs are laid out so that they tell sensitivities.
+    #[must_use]
+    pub fn is_for_sensitivity(&self) -> bool {
+        self.sensitivity
+    }
+
+    /// Whether a run is one of the independent samples: all are, but for those of a design for sensitivities
+    /// that are A with one input exchanged.
+    #[must_use]
+    pub fn is_sample(&self, run: u64) -> bool {
+        !self.sensitivity || matches!(self.place(run).matrix, Matrix::A | Matrix::B)
+    }
+
     /// How many runs there are.
     #[must_use]
     pub fn runs(&self) -> u64 {

@@ -1,11 +1,10 @@
 //! Random numbers of studies: each from a stream of its own, so that it does not matter what else
 //! was drawn, or on which thread.
 
-use std::f64::consts::SQRT_2;
-
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use statrs::function::erf::{erfc, erfc_inv};
+
+use super::normal::normal_score;
 
 /// The generator of a stream.
 pub(super) fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
@@ -37,16 +36,6 @@ pub(super) fn standard_normal(random: &mut ChaCha8Rng) -> f64 {
     normal_score(uniform(random))
 }
 
-/// The standard normal number below which a share of all lies: *z* = −√2 erfc⁻¹(2 *u*).
-pub(super) fn normal_score(share: f64) -> f64 {
-    -SQRT_2 * erfc_inv(2.0 * share)
-}
-
-/// The share of standard normal numbers below one, Φ(z) = erfc(−*z*/√2)/2.
-pub(super) fn normal_share(score: f64) -> f64 {
-    erfc(-score / SQRT_2) / 2.0
-}
-
 /// The middle of one of 2⁵² equal parts, by the first bits of a word. With 2⁵³ of them the last
 /// middle would round to 1, where no normal number is.
 fn part(word: u64) -> f64 {
@@ -64,7 +53,7 @@ mod tests {
         assert!(part(0) > 0.0 && part(u64::MAX) < 1.0);
         assert_eq!(part(0), 1.0 - part(u64::MAX));
         for word in [0, u64::MAX] {
-            assert!(erfc_inv(2.0 * part(word)).is_finite());
+            assert!(normal_score(part(word)).is_finite());
         }
     }
 

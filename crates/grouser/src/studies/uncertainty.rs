@@ -10,7 +10,10 @@ use std::ops::RangeInclusive;
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
 
-use super::random::{self, normal_score, normal_share, place_below};
+use super::normal::{normal_score, normal_share};
+use super::random::{self, place_below};
+use crate::elementary::exp;
+use crate::elementary::wide::{ln, ln_1p};
 
 /// The distribution of one value, in the value's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +63,8 @@ impl Marginal {
         match *self {
             Self::Normal { mean: m, standard_deviation: d } => m + d * z,
             Self::Lognormal { mean: m, standard_deviation: d } => {
-                let variance = (d / m).powi(2).ln_1p();
-                m * (variance.sqrt() * z - variance / 2.0).exp()
+                let variance = ln_1p((d / m).powi(2));
+                m * exp(variance.sqrt() * z - variance / 2.0)
             }
             Self::Uniform { low: a, high: b } => a + (b - a) * normal_share(z),
             Self::Triangular { low: a, mode: c, high: b } => {
@@ -83,9 +86,9 @@ impl Marginal {
                 normal_share((x - mean) / standard_deviation)
             }
             Self::Lognormal { mean, standard_deviation } => {
-                let variance = (standard_deviation / mean).powi(2).ln_1p();
+                let variance = ln_1p((standard_deviation / mean).powi(2));
                 // The logarithm of what is not positive is below that of all that is.
-                let log = if x > 0.0 { (x / mean).ln() } else { f64::NEG_INFINITY };
+                let log = if x > 0.0 { ln(x / mean) } else { f64::NEG_INFINITY };
                 normal_share((log + variance / 2.0) / variance.sqrt())
             }
             Self::Uniform { low: a, high: b } => ((x - a) / (b - a)).clamp(0.0, 1.0),

@@ -1,6 +1,7 @@
 //! What turns the wheels: constant speeds, or the source's slip-dependent law ([FourWheel], Eq. 18).
 
 use super::rover::Rover;
+use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 
 /// What a drive knows when it sets the wheels' speeds.
@@ -122,7 +123,7 @@ const LEAST_DIVISOR: f64 = 0.05;
 /// Rim speed ω r_s [m/s] by [FourWheel], Eq. (18), as printed.
 fn eq_18_as_printed(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
     let s = slip_ratio.clamp(-1.0, 1.0);
-    target.speed / ((1.0 - (target.slip_ratio - s)) * yaw.cos()).max(LEAST_DIVISOR)
+    target.speed / ((1.0 - (target.slip_ratio - s)) * wide::cos(yaw)).max(LEAST_DIVISOR)
 }
 
 /// Rim speed ω r_s [m/s] at which a wheel that slips by s goes v_des along the contour.
@@ -132,7 +133,7 @@ fn eq_18(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
     /// However large the reference, some share of the rim's speed must be left to the hub.
     const MOST_SLIP: f64 = 0.95;
     let s = slip_ratio.clamp(0.0, (target.slip_ratio + SLIP_MARGIN).min(MOST_SLIP));
-    target.speed * yaw.cos() / (1.0 - s)
+    target.speed * wide::cos(yaw) / (1.0 - s)
 }
 
 #[cfg(test)]

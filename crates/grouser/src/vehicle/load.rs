@@ -16,6 +16,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::rover::Rover;
 use crate::contact::WheelForces;
+use crate::elementary::wide;
 use crate::site::Site;
 use crate::units::Vec2;
 
@@ -50,8 +51,9 @@ pub struct Tipping;
 /// 12-13, with the signs it leaves out): m g sin α points downhill, to −y of the slope frame.
 #[must_use]
 pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
-    let pull = rover.mass() * site.gravity * site.slope.sin();
-    -pull * Vec2::new(yaw.sin(), yaw.cos())
+    let pull = rover.mass() * site.gravity * wide::sin(site.slope);
+    let (sin, cos) = wide::sin_cos(yaw);
+    -pull * Vec2::new(sin, cos)
 }
 
 /// Moments that the loads balance, *(P, R)* = (Σ d_x N, Σ d_y N) [N·m].

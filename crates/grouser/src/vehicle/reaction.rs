@@ -7,6 +7,7 @@ use super::rover::Rover;
 use crate::contact::{
     Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle, settle_from,
 };
+use crate::elementary::wide;
 use crate::site::Site;
 use crate::units::Vec2;
 
@@ -107,7 +108,7 @@ impl Ground<'_> {
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, model, sharing, .. } = *self;
-        let weight = rover.mass() * site.gravity * site.slope.cos();
+        let weight = rover.mass() * site.gravity * wide::cos(site.slope);
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);

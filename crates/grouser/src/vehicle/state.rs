@@ -1,7 +1,8 @@
 //! Where the rover is and how it moves.
 
-use nalgebra::Rotation2;
+use nalgebra::{Matrix2, Rotation2};
 
+use crate::elementary::wide;
 use crate::units::Vec2;
 
 /// Pose and velocity of a rover on the slope.
@@ -21,7 +22,7 @@ impl RoverState {
     /// The rotation that takes vectors of the body frame to the slope frame.
     #[must_use]
     pub fn slope_from_body(&self) -> Rotation2<f64> {
-        Rotation2::new(self.yaw)
+        rotation(self.yaw)
     }
 
     /// Velocity of the body's centre of mass, in the slope frame [m/s].
@@ -29,6 +30,12 @@ impl RoverState {
     pub fn velocity_slope(&self) -> Vec2 {
         self.slope_from_body() * self.velocity
     }
+}
+
+/// The rotation by an angle [rad]. (The library's own asks the platform for sine and cosine.)
+pub(crate) fn rotation(angle: f64) -> Rotation2<f64> {
+    let (sin, cos) = wide::sin_cos(angle);
+    Rotation2::from_matrix_unchecked(Matrix2::new(cos, -sin, sin, cos))
 }
 
 /// Rates of the velocities.

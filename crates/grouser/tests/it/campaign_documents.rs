@@ -257,7 +257,7 @@ fn traverses_say_what_became_of_the_rover() {
         columns.map(|name| floats(&tables, name)[0].expect("it drove"));
     // A rim of 6 cm/s with some slip for 5 s; ratios are what they say.
     assert!((0.25..0.3).contains(&way), "{way}");
-    assert!(y < 0.0 && drift == y / way && per_metre == energy / way && power == energy / 5.0);
+    assert!(y < 0.0 && drift == -y / way && per_metre == energy / way && power == energy / 5.0);
     let steep = "[scenario]\nslope_deg = 35.0\nduration_s = 5.0\n";
     let tables = whole(&campaign(&text("traverse", keys, steep)));
     assert_eq!(texts(&tables, "status"), vec![Some("ok".to_owned()); 3]);
@@ -284,6 +284,9 @@ fn columns_say_their_kind_role_and_unit() {
         ("drift_m_per_m", Some("m/m")),
         ("yaw_moment_nm", Some("N·m")),
         ("soil.density_kg_m3", Some("kg/m³")),
+        ("soil.shear.longitudinal_per_rad_m", Some("m/rad")),
+        ("yaw_rate_deg_s", Some("°/s")),
+        ("downhill_m_per_m", Some("m/m")),
         ("rover.mount.0.position_m.2", Some("m")),
         ("slip_ratio", None),
         ("soil.pressure_sinkage.n", None),

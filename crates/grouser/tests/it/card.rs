@@ -47,7 +47,8 @@ fn drift_is_that_of_a_run_with_the_nose_on_the_contour() {
         let held = drift.at(slope).expect("it is held");
         let run = given::run(&Scenario { duration: 1.0, ..given::traverse(slope, 0.0) });
         let (first, last) = (run.samples[5].state.position, run.last().state.position);
-        let drifted = -(last.y - first.y) / (last.x - first.x);
+        let way = (last.x - first.x).hypot(last.y - first.y);
+        let drifted = (first.y - last.y) / way;
         assert!((held.drift() - drifted).abs() < 2e-3, "{} and {drifted}", held.drift());
         let slip = run.last().wheels[0].reaction.slip.ratio;
         assert!((held.slip_ratio - slip).abs() < 5e-3, "{} and {slip}", held.slip_ratio);

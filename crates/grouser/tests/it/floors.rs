@@ -72,6 +72,7 @@ fn breaches_in(name: &str, text: &str) -> Vec<Breach> {
     let mut breaches = upward_imports(&tokens, &modules, floor);
     let shipped = without_tests(&tokens);
     breaches.extend(outer_world(&shipped, floor));
+    breaches.extend(platform_functions(&shipped));
     if floor < DOOR && modules != ["units"] {
         breaches.extend(units_of_people(&without_error_texts(&shipped)));
     }
@@ -182,6 +183,39 @@ fn outer_world(tokens: &[Token], floor: usize) -> Vec<Breach> {
         }
     }
     breaches
+}
+
+/// Functions of the platform, whose last bits differ between systems: `elementary` has all of them.
+///
+/// What is exact everywhere passes: roots, roundings, remainders, and powers that multiply once or
+/// twice.
+fn platform_functions(tokens: &[Token]) -> Vec<Breach> {
+    const FUNCTIONS: [&str; 29] = [
+        "sin", "cos", "tan", "sin_cos", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
+        "asinh", "acosh", "atanh", "exp", "exp2", "exp_m1", "ln", "ln_1p", "log", "log2", "log10",
+        "powf", "powi", "hypot", "cbrt", "mul_add", "gamma", "ln_gamma",
+    ];
+    /// Made of an angle by sine and cosine of the platform.
+    const ROTATIONS: [&str; 4] = ["Rotation2", "Rotation3", "UnitComplex", "UnitQuaternion"];
+    let exact = |at: usize| {
+        tokens[at].text == "powi"
+            && ["2", "3"].contains(&text_at(tokens, at + 2))
+            && text_at(tokens, at + 3) == ")"
+    };
+    let is_call = |at: usize, text: &str| {
+        let before = |back: usize| at.checked_sub(back).map_or("", |place| tokens[place].text);
+        let of_number = before(1) == "::" && ["f64", "f32"].contains(&before(2));
+        let of_value = before(1) == "." && text_at(tokens, at + 1) == "(";
+        let turned = text == "new" && before(1) == "::" && ROTATIONS.contains(&before(2));
+        (FUNCTIONS.contains(&text) && (of_number || of_value) && !exact(at)) || turned
+    };
+    let calls = tokens.iter().enumerate().filter(|(at, token)| is_call(*at, token.text));
+    calls
+        .map(|(_, Token { line, text })| Breach {
+            line: *line,
+            what: format!("`{text}` is the platform's: take that of `elementary`"),
+        })
+        .collect()
 }
 
 /// Names that convert to or from the units in which people talk, or carry such a unit.
@@ -405,6 +439,21 @@ fn threads_start_with_the_studies() {
         check_breaches("simulation/run.rs", text, &[1]);
         check_breaches("studies/campaign.rs", text, &[]);
     }
+}
+
+#[test]
+fn functions_of_the_platform_are_seen() {
+    for text in
+        ["x.acos()", "f64::exp(x)", "x.map(f64::ln)", "x.powi(n)", "x.powi(-2)", "x.powi(16)"]
+    {
+        check_breaches("contact/slip.rs", &format!("fn f() {{ {text}; }}"), &[1]);
+    }
+    check_breaches("vehicle/state.rs", "fn f() { nalgebra::Rotation2::new(yaw); }", &[1]);
+    for text in ["x.powi(2)", "x.sqrt()", "wide::exp(x)", "self.exp", "x.rem_euclid(4.0)"] {
+        check_breaches("contact/slip.rs", &format!("fn f() {{ {text}; }}"), &[]);
+    }
+    let in_tests = "#[cfg(test)]\nmod tests { fn f() { x.sin(); } }";
+    check_breaches("elementary/wide.rs", in_tests, &[]);
 }
 
 #[test]

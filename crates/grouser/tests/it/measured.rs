@@ -1,8 +1,7 @@
-//! Theories beside real measurements. The measured rows are not ours to publish: these tests need
-//! the environment variable GROUSER_DATA_DIR, and say so where it is not set. Continuous
-//! integration sets it, and fails without it.
+//! The measurements that come with the program, and theories beside them.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::Path;
 
 use grouser::contact::Theory;
 use grouser::document::measurements::{self, Choice, Condition, Measurements};
@@ -11,20 +10,17 @@ use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::{Group, Validation, ValidationStudy};
 use grouser::units::EARTH_GRAVITY;
 
-/// The file of the Carnegie Mellon wheels; `None`, said aloud, where there is none.
-fn data_file() -> Option<PathBuf> {
-    let folder = std::env::var_os("GROUSER_DATA_DIR");
-    if folder.is_none() {
-        eprintln!("skipped: set GROUSER_DATA_DIR to the folder with cmu_single_wheel.csv");
-    }
-    Some(PathBuf::from(folder?).join("cmu_single_wheel.csv"))
+/// The rows of the Carnegie Mellon wheels.
+fn rows() -> measurements::Source {
+    measurements::Source::preset("cmu-single-wheel")
+        .expect("a data set that comes with the program")
 }
 
 /// The trials of a wheel at slip angles up to 75°: 90° is another regime.
-fn trials(file: &std::path::Path, kind: &str) -> Measurements {
+fn trials(kind: &str) -> Measurements {
     let conditions = vec![Condition::parse("slip_angle_deg!=90").expect("a condition")];
-    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")) };
-    measurements::read(file, &choice).unwrap_or_else(|error| panic!("{error}"))
+    let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")), ..Choice::default() };
+    rows().read(&choice).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn validation(measured: &Measurements, kind: &str, soil: &str) -> Validation {
@@ -63,12 +59,11 @@ fn rmse(group: &Group) -> [f64; 3] {
 /// `docs/models/extended.md`.
 #[test]
 fn the_fitted_soils_agree_with_their_trials() {
-    let Some(file) = data_file() else { return };
     for (kind, driven, all) in [
         ("smooth", [0.65, 0.75, 0.80], [1.20, 0.85, 1.15]),
         ("grouser", [0.75, 1.20, 1.40], [0.80, 1.15, 1.45]),
     ] {
-        let measured = trials(&file, kind);
+        let measured = trials(kind);
         let validation = validation(&measured, kind, &format!("cmu-direct90-{kind}"));
         assert_eq!(validation.overall.cells, 4 * 9);
         assert_eq!(validation.overall.unsettled, 0);
@@ -86,13 +81,12 @@ fn the_fitted_soils_agree_with_their_trials() {
 /// fitted. What is printed here is in `docs/models/rft.md`.
 #[test]
 fn without_a_fitted_constant_rft_comes_this_near_to_the_trials() {
-    let Some(file) = data_file() else { return };
     for (kind, scale, driven, all) in [
         ("smooth", "1", [2.9, 2.8, 9.0], [7.6, 7.2, 9.8]),
         ("smooth", "0.739", [2.8, 2.4, 14.4], [7.1, 6.5, 11.9]),
         ("grouser", "1", [4.9, 4.6, 5.6], [7.2, 8.0, 7.9]),
     ] {
-        let measured = trials(&file, kind);
+        let measured = trials(kind);
         let settings = ["soil.model=rft".to_owned(), format!("soil.rft.scale={scale}")];
         let validation = validation_with(&measured, kind, "cmu-direct90-smooth", &settings);
         let driven_cells = validation.driven.as_ref().expect("some cells are driven");
@@ -111,11 +105,10 @@ fn without_a_fitted_constant_rft_comes_this_near_to_the_trials() {
 /// repeat badly more: up to 1.7 times as much.
 #[test]
 fn the_repeatability_is_that_of_the_source() {
-    let Some(file) = data_file() else { return };
     let quantities = [Quantity::DrawbarPull, Quantity::SideForce, Quantity::Sinkage];
     for (quantity, source) in quantities.into_iter().zip([0.35, 0.32, 0.5e-3]) {
         let of = |kind: &str| {
-            let measured = trials(&file, kind);
+            let measured = trials(kind);
             let validation = validation(&measured, kind, &format!("cmu-direct90-{kind}"));
             let driven = validation.driven.expect("some cells are driven");
             driven.errors[quantity].and_then(|errors| errors.repeatability).expect("three trials")
@@ -128,10 +121,119 @@ fn the_repeatability_is_that_of_the_source() {
 /// The other columns of the file, and its own slip, agree with how it is read.
 #[test]
 fn every_trial_is_read_with_its_own_slip() {
-    let Some(file) = data_file() else { return };
-    let measured = trials(&file, "smooth");
+    let measured = trials("smooth");
     assert_eq!(measured.tests.trials.len(), 4 * 9 * 3);
     assert!(measured.tests.cells.iter().all(|cell| cell.trials.len() == 3));
     let locked = measured.tests.trials.iter().filter(|trial| trial.slip.total() < -0.999);
     assert_eq!(locked.count(), 4 * 3);
+}
+
+/// The angles that decide whether a theory predicts are in the public data, and not here, so that
+/// nothing is ever tuned on them.
+#[test]
+fn the_slip_angles_kept_for_examination_are_not_here() {
+    for angle in ["30", "60"] {
+        let conditions = vec![Condition::parse(&format!("slip_angle_deg={angle}")).expect("one")];
+        let error = rows().read(&Choice {
+            conditions,
+            wheel: Some("cmu-smooth".to_owned()),
+            ..Choice::default()
+        });
+        let message = error.expect_err("no such row").to_string();
+        assert!(message.starts_with("preset cmu-single-wheel: has no row"), "{message}");
+    }
+}
+
+/// Its rows are those of the file that its document names, and stand beside it.
+#[test]
+fn every_data_set_brings_the_rows_that_its_document_names() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements");
+    for preset in document::presets(Kind::DataSet) {
+        let set = document::read_data_set(&Source::Preset(preset), &Overrides::none());
+        let set = set.unwrap_or_else(|error| panic!("{error}"));
+        let file = fs::read_to_string(folder.join(&set.document.file)).expect("it is there");
+        assert_eq!(preset.rows, Some(file.as_str()), "{}", preset.name);
+        for case in &set.value {
+            let choice = Choice { conditions: case.conditions.clone(), ..Choice::default() };
+            let source = measurements::Source::preset(preset.name).expect("it has rows");
+            let measured = source.read(&choice).unwrap_or_else(|error| panic!("{error}"));
+            let unused = measured.notes.iter().find(|note| note.contains("is not used"));
+            assert_eq!(unused, None, "{}", preset.name);
+        }
+    }
+}
+
+/// The licence of the rows asks that its notice goes with every copy: so the document has it, which
+/// the program prints.
+#[test]
+fn the_notice_of_the_licence_goes_with_the_rows() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements");
+    let notice = fs::read_to_string(folder.join("LICENSE-cmu-single-wheel")).expect("it is there");
+    let preset = document::preset(Kind::DataSet, "cmu-single-wheel").expect("a data set");
+    let comments = preset.text.lines().filter_map(|line| line.strip_prefix('#'));
+    let comments: Vec<&str> = comments.map(str::trim).collect();
+    assert!(comments.join("\n").contains(notice.trim()), "{comments:?}");
+}
+
+/// A name is a data set of the program, else a file; a misspelt name is answered with the right one.
+#[test]
+fn a_name_finds_a_data_set_and_a_path_a_file() {
+    let find = |name: &str| measurements::Source::find(Path::new(name));
+    assert_eq!(find("cmu-single-wheel"), Ok(rows()));
+    for path in ["./cmu-single-wheel", "cmu_single_wheel.csv", "lab/cmu-single-wheel", ""] {
+        assert_eq!(find(path), Ok(measurements::Source::File(path.into())), "{path}");
+    }
+    let misspelt = find("cmu-single-whel").expect_err("neither").to_string();
+    assert!(misspelt.ends_with("hint: did you mean `cmu-single-wheel`?"), "{misspelt}");
+    let unknown = find("stand").expect_err("neither").to_string();
+    assert!(unknown.starts_with("stand: there is no such data set and no such file"), "{unknown}");
+    assert!(unknown.ends_with("come with Grouser: cmu-single-wheel"), "{unknown}");
+}
+
+/// Points of published figures: how many each test has, what was read, and the range of its slip.
+#[test]
+fn the_published_wheel_tests_are_read() {
+    let file =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements/published_wheel_tests.csv");
+    let pull = Quantity::DrawbarPull;
+    for (wheel, points, load, slips, quantities) in [
+        ("ding-2011-smooth", 6, 80.0, [0.0, 0.6], vec![pull, Quantity::Sinkage, Quantity::Torque]),
+        ("rashid-fjs1", 5, 24.5, [0.1, 0.5], vec![pull, Quantity::Sinkage]),
+        ("viper-trec-grc3", 18, 171.7, [0.089, 0.8197], vec![pull]),
+    ] {
+        let conditions = vec![Condition::parse(&format!("wheel={wheel}")).expect("a condition")];
+        let measured = measurements::read(&file, &Choice { conditions, ..Choice::default() })
+            .unwrap_or_else(|error| panic!("{error}"));
+        let trials = &measured.tests.trials;
+        assert_eq!(trials.len(), points, "{wheel}");
+        assert!(trials.iter().all(|trial| trial.load == load), "{wheel}");
+        let slip = |start: f64, of: fn(f64, f64) -> f64| {
+            trials.iter().map(|trial| trial.slip.total()).fold(start, of)
+        };
+        let range = [slip(f64::INFINITY, f64::min), slip(f64::NEG_INFINITY, f64::max)];
+        for (found, printed) in range.into_iter().zip(slips) {
+            assert!((found - printed).abs() < 1e-12, "{wheel}: {found}");
+        }
+        for quantity in Quantity::ALL {
+            let count = trials.iter().filter(|trial| trial.readings[quantity].is_some()).count();
+            let expected = if quantities.contains(&quantity) { points } else { 0 };
+            assert_eq!(count, expected, "{wheel}, {quantity:?}");
+        }
+    }
+    let error = measurements::read(&file, &Choice::default()).expect_err("three wheels");
+    assert!(error.is_of_several_wheels(), "{error}");
+}
+
+/// Source: Hu et al., arXiv 2405.11001, digitised: a rover that climbs slips more on a steeper slope.
+#[test]
+fn the_simulated_climbs_slip_more_on_steeper_slopes() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/experiments/viper-slopes");
+    let text = fs::read_to_string(file.join("slip_slope.csv")).expect("it is there");
+    let (header, rows) = text.split_once('\n').expect("a header");
+    assert_eq!(header, "slope_deg,slip_ratio");
+    let number = |field: &str| field.parse::<f64>().expect("a number");
+    let pairs = rows.lines().map(|row| row.split_once(',').expect("two fields"));
+    let points: Vec<[f64; 2]> = pairs.map(|(slope, slip)| [number(slope), number(slip)]).collect();
+    assert_eq!((points[0], points[points.len() - 1]), ([0.0, 0.04], [25.0, 0.72]));
+    assert!(points.is_sorted_by(|one, next| one[0] < next[0] && one[1] < next[1]), "{points:?}");
 }

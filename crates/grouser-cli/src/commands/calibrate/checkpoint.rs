@@ -1,17 +1,17 @@
 //! The sampler's state on disk, so that an interrupted calibration goes on where it stopped.
 
 use std::fs;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use grouser::document::checkpoint::{CheckpointError, from_bytes, to_bytes};
+use grouser::document::checkpoint::{LARGEST, from_bytes, to_bytes};
+use grouser::document::file::FileProblem;
+use grouser::document::{self, escape};
 use grouser::studies::calibration::PosteriorState;
 
 use crate::args::CalibrateArgs;
 use crate::failure::Failure;
-use crate::interrupt;
-use crate::output;
 use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::{self, file};
 
 /// The file by which an unfinished calibration is known.
 const FILE: &str = "unfinished-calibration";
@@ -52,10 +52,11 @@ impl Checkpoint {
     }
 
     fn read(&self, force: bool) -> Result<Option<PosteriorState>, Failure> {
-        let bytes = match fs::read(&self.file) {
+        let shown = escape::path(&self.file);
+        let bytes = match document::file::read(&self.file, LARGEST) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Failure::at("cannot read", &self.file)(error)),
+            Err(FileProblem::NoSuchFile) => return Ok(None),
+            Err(problem) => return Err(Failure::Run(format!("{shown}: {problem}"))),
         };
         match from_bytes(&bytes, &self.identity) {
             Ok(state) => {
@@ -64,26 +65,18 @@ impl Checkpoint {
                 Ok(Some(state))
             }
             Err(_) if force => Ok(None),
-            Err(error @ (CheckpointError::Damaged | CheckpointError::Foreign)) => {
-                Err(Failure::Usage(format!(
-                    "{} cannot be gone on from: {error}\nhint: choose another folder, or add \
-                     --force to start anew",
-                    self.file.display()
-                )))
-            }
+            Err(error) => Err(Failure::Usage(format!(
+                "{shown} cannot be gone on from: {error}\nhint: choose another folder, or add \
+                 --force to start anew"
+            ))),
         }
     }
 
     /// Keeps a state: the earlier one stays until this one is whole.
     pub(super) fn write(&self, state: &PosteriorState) -> Result<(), Failure> {
-        let _not_now = interrupt::not_now();
-        let failed = || Failure::at("cannot write", &self.file);
         let folder = self.file.parent().unwrap_or(Path::new("."));
-        fs::create_dir_all(folder).map_err(failed())?;
-        let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed())?;
-        file.write_all(&to_bytes(state, &self.identity)).map_err(failed())?;
-        file.as_file().sync_all().map_err(failed())?;
-        file.persist(&self.file).map(drop).map_err(|error| failed()(error.error))
+        fs::create_dir_all(folder).map_err(Failure::at("cannot make the folder", folder))?;
+        file::write(&self.file, &to_bytes(state, &self.identity))
     }
 
     /// Removes the state, once the results are in their place.

@@ -6,6 +6,7 @@ use grouser::document::Document;
 use grouser::document::calibration::{PlateProblem, Solved};
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::plates::{self, PlateMeasurements};
+use grouser::document::{SoilDocument, escape, measurements};
 use grouser::studies::calibration::PlateCurve;
 use serde_json::{Value, json};
 
@@ -23,14 +24,18 @@ use crate::report::page::Page;
 pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let folder = open_folder(args)?;
     let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
-    let PlateMeasurements { curves, notes } = plates::read(file)?;
+    let limits = args.read.limits();
+    // Read once: of a pipe there is no second time.
+    let bytes = measurements::read_bytes(file, limits)?;
+    let measured = plates::read_from(&escape::path(file), bytes.as_slice(), limits)?;
+    let PlateMeasurements { curves, notes } = measured;
     for note in &notes {
         output::tell(&format!("note: {note}"));
     }
     let law = args.plate_law.map(PlateLawWord::name);
     let problem =
         PlateProblem::new(&soil.document, law, gravity, curves).map_err(Failure::Usage)?;
-    let settings = settings(args, file, problem.soil(), gravity)?;
+    let settings = settings(args, file, &bytes, problem.soil(), gravity);
     let checkpoint = Checkpoint::open(args, settings.to_string())?;
     let name = file.file_name().map_or_else(String::new, |it| it.to_string_lossy().into());
     let progress = Progress::new(checkpoint.as_ref());
@@ -38,7 +43,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
         .solve(&name, sampling(args, checkpoint.as_ref()), &progress)
         .map_err(|error| progress.failure(error))?;
     let solved = &found.solved;
-    report::tell_note(solved);
+    report::tell_notes(solved);
     let answer = Answer::new("calibrate", settings, found.results());
     let blocks = [vec![report::parameters(&solved.records)], report::said(solved)].concat();
     let text = blocks.join("\n");
@@ -64,18 +69,18 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
 fn settings(
     args: &CalibrateArgs,
     file: &Path,
+    bytes: &[u8],
     soil: &Document,
     gravity: f64,
-) -> Result<Value, Failure> {
-    let bytes = std::fs::read(file).map_err(Failure::at("cannot read", file))?;
-    Ok(json!({
+) -> Value {
+    json!({
         "plates": file.display().to_string(),
-        "data_fingerprint": fingerprint(&bytes),
+        "data_fingerprint": fingerprint(bytes),
         "soil": soil,
         "gravity_m_s2": gravity,
         "seed": args.seed,
         "steps": args.steps,
-    }))
+    })
 }
 
 fn chart(curves: &[PlateCurve], solved: &Solved) -> Chart {

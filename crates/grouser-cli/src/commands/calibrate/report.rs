@@ -55,9 +55,9 @@ pub(super) fn add_soil(
     Ok(())
 }
 
-/// Says what should be known of how the posterior was sampled.
-pub(super) fn tell_note(solved: &Solved) {
-    if let Some(note) = solved.note() {
+/// Says what should be known of the fit, and of how the posterior was sampled.
+pub(super) fn tell_notes(solved: &Solved) {
+    for note in solved.bound_notes().into_iter().chain(solved.note()) {
         output::tell(&format!("note: {note}"));
     }
 }
@@ -102,7 +102,7 @@ pub(super) fn parameters(records: &[ParameterRecord]) -> String {
             it.key.clone(),
             four_digits(it.start),
             four_digits(it.fit),
-            four_digits(it.fit_std),
+            number(it.fit_std),
             number(it.p50),
             number(it.p2_5),
             number(it.p97_5),

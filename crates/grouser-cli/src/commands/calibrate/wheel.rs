@@ -33,7 +33,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let checkpoint = Checkpoint::open(args, problem.settings.to_string())?;
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
-    report::tell_note(solved);
+    report::tell_notes(solved);
     let answer = Answer::new("calibrate", problem.settings.clone(), found.results(&args.target));
     let text = report::text(&found, &args.target);
     if let Some(mut folder) = folder {
@@ -55,32 +55,36 @@ fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
         return Err(Failure::Usage("--data and --wheel go together".into()));
     };
     let stand = inputs::stand(&args.soil, wheel, &args.setting)?;
-    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.clone()) };
-    let measured = measurements::read(data, &choice)?;
+    let limits = args.read.limits();
+    let choice = Choice { conditions: args.conditions.clone(), wheel: Some(wheel.clone()), limits };
+    let rows = measurements::Source::find(data)?;
+    // Read once: of a pipe there is no second time.
+    let bytes = rows.bytes(limits)?;
+    let measured = measurements::read_from(&rows.label(), &*bytes, &choice)?;
     for note in &measured.notes {
         output::tell(&format!("note: {note}"));
     }
     let family = SoilFamily::new(&stand.soil.document, &args.fit)
         .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;
-    let settings = settings(args, data, &stand, &family)?;
+    let settings = settings(args, (data, &bytes), &stand, &family);
     let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     Ok(Problem { file, stand, measured, family, settings })
 }
 
+/// * `data`: what was asked for, and the bytes found there
 fn settings(
     args: &CalibrateArgs,
-    data: &Path,
+    (data, bytes): (&Path, &[u8]),
     stand: &StandInputs,
     family: &SoilFamily,
-) -> Result<Value, Failure> {
-    let bytes = std::fs::read(data).map_err(Failure::at("cannot read", data))?;
+) -> Value {
     let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
     let keys = family.parameters().iter();
     let fit: Vec<Value> =
         keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper})).collect();
-    Ok(json!({
+    json!({
         "data": data.display().to_string(),
-        "data_fingerprint": fingerprint(&bytes),
+        "data_fingerprint": fingerprint(bytes),
         "where": conditions,
         "fit": fit,
         "soil": stand.soil.document,
@@ -89,7 +93,7 @@ fn settings(
         "model": stand.theory.name(),
         "seed": args.seed,
         "steps": args.steps,
-    }))
+    })
 }
 
 fn find(

@@ -14,7 +14,7 @@ pub(super) fn run(args: &CampaignRerunArgs) -> Result<(), Failure> {
     let (results, campaign) = stored(&args.folder)?;
     let manifest = results.manifest();
     let shard = args.run / manifest.shard_runs;
-    let is_stored = manifest.has(shard) && !results.missing().contains(&shard);
+    let is_stored = manifest.has(shard) && !results.missing().contains(shard);
     // A run that the campaign does not have is for the results to refuse.
     let is_unstored = args.run < manifest.runs && !is_stored;
     let kept = if is_unstored { None } else { Some(results.row(args.run)?) };

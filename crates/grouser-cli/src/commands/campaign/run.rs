@@ -10,7 +10,7 @@ use std::thread;
 
 use grouser::document::Campaign;
 use grouser::document::campaign::{FAILED, Values};
-use grouser_store::{Folder, Results, StoreError, Study, shard_bytes};
+use grouser_store::{Folder, Results, ShardSet, StoreError, Study, shard_bytes};
 use serde::Serialize;
 
 use super::digest::DigestRecord;
@@ -48,25 +48,53 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
         // It fails only if there is a pool already, and nothing made one yet.
         drop(rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global());
     }
-    let mut folder = {
-        let _not_now = interrupt::not_now();
-        Folder::open(&args.out, &Study::of(&campaign), args.shard)?
-    };
+    let mut folder = open(args, &Study::of(&campaign))?;
     tell_surprises(&folder);
+    tell_of_many_files(&campaign, &folder);
     let finished_before = folder.missing().is_empty();
     let progress = Progress::new(args.format, &folder);
     if !finished_before {
         interrupt::look_after();
         compute(&campaign, &mut folder, &progress)?;
     }
-    let digest = DigestRecord::from(folder.finish()?);
     let runs_per_s = progress.rate(&folder);
+    let (digest, statuses) = read_once(&mut folder)?;
     let results = Results::open(&args.out)?;
-    let statuses = statuses(&results)?;
     finish(args, &results, RunRecord { finished_before, digest, statuses, runs_per_s })
 }
 
+/// Opens the folder. What is there is read to its last bit, which a bar tells.
+fn open(args: &CampaignRunArgs, study: &Study) -> Result<Folder, Failure> {
+    let _not_now = interrupt::not_now();
+    let bar = output::progress_bar(0);
+    bar.set_message("shards checked");
+    let folder = Folder::open_watched(&args.out, study, args.shard, &mut |done, all| {
+        bar.set_length(all);
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    Ok(folder?)
+}
+
+/// More files than disks and their tools like.
+fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
+    const MANY: u64 = 1_000_000;
+    let shards = folder.missing().len();
+    if shards > MANY {
+        output::tell(&format!(
+            "note: {shards} files of {} runs each will be written; `shard_runs`, up to 1000000, makes them \
+             fewer and larger, and --shard I/N splits them over N folders",
+            campaign.shard_runs()
+        ));
+    }
+}
+
 fn tell_surprises(folder: &Folder) {
+    for name in folder.mended() {
+        output::tell(&format!(
+            "note: {name} was damaged or of an earlier form, and is written anew"
+        ));
+    }
     for (shard, fault) in folder.faults() {
         output::tell(&format!("note: shard {shard} is computed anew: {fault}"));
     }
@@ -88,7 +116,7 @@ fn tell_surprises(folder: &Folder) {
 fn compute(campaign: &Campaign, folder: &mut Folder, progress: &Progress) -> Result<(), Failure> {
     // Two shards wait at most: more would only fill memory where the disk is slow.
     let (sender, receiver) = sync_channel(2);
-    let missing = folder.missing();
+    let missing = folder.missing().clone();
     let disk_failed = AtomicBool::new(false);
     let done = thread::scope(|scope| {
         let go_on = || {
@@ -120,14 +148,14 @@ fn compute(campaign: &Campaign, folder: &mut Folder, progress: &Progress) -> Res
 
 fn compute_shards(
     campaign: &Campaign,
-    shards: &[u64],
+    shards: &ShardSet,
     go_on: &(dyn Fn() -> bool + Sync),
     sender: &SyncSender<Shard>,
 ) -> Result<(), StoreError> {
-    for shard in shards {
-        let Some(bytes) = shard_bytes(campaign, *shard, go_on)? else { break };
+    for shard in shards.iter() {
+        let Some(bytes) = shard_bytes(campaign, shard, go_on)? else { break };
         // Nobody takes shards any more once the disk failed.
-        if sender.send((*shard, bytes)).is_err() {
+        if sender.send((shard, bytes)).is_err() {
             break;
         }
     }
@@ -147,18 +175,22 @@ fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Re
     Ok(())
 }
 
-/// How often each status is, counted shard by shard.
-fn statuses(results: &Results) -> Result<BTreeMap<String, u64>, Failure> {
+/// The digest, and how often each status is: all files are read for the one, and tell the other.
+fn read_once(folder: &mut Folder) -> Result<(DigestRecord, BTreeMap<String, u64>), Failure> {
     let mut counts = BTreeMap::new();
-    for shard in results.manifest().own_shards() {
-        for (_, values) in results.shard(shard, &["status"])?.columns {
+    let bar = output::progress_bar(folder.manifest().own_count());
+    bar.set_message("shards read for the digest");
+    let finished = folder.finish_reading(&["status"], &mut |_, table| {
+        bar.inc(1);
+        for (_, values) in table.columns {
             let Values::Text(words) = values else { continue };
             for word in words.into_iter().flatten() {
                 *counts.entry(word).or_default() += 1;
             }
         }
-    }
-    Ok(counts)
+    });
+    bar.finish_and_clear();
+    Ok((finished?.into(), counts))
 }
 
 fn finish(args: &CampaignRunArgs, results: &Results, record: RunRecord) -> Result<(), Failure> {

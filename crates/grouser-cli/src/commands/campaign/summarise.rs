@@ -34,8 +34,8 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
         ));
     }
     results.require_all()?;
-    let digest = DigestRecord::from(results.digest()?);
-    let statistics = Statistics::of(&campaign, &results)?;
+    let (statistics, finished) = Statistics::of(&campaign, &results)?;
+    let digest = DigestRecord::from(finished);
     let record = SummaryRecord { digest: &digest, statistics: &statistics };
     let answer = Answer::new("campaign.summarise", inputs(&results), record);
     if let Some(mut folder) = folder {

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use grouser::document::card::{CardRecord, MeasuredRecord};
+use grouser::document::escape;
+use grouser::document::measurements::{self, Limits, TextTable};
 
 use crate::failure::Failure;
 
@@ -15,46 +17,57 @@ pub(super) struct Measured {
     pub(super) yaw_deg: f64,
 }
 
+/// The column of slopes.
+const SLOPE: &str = "slope_deg";
 /// The end of a column that is a yaw.
 const YAW: &str = "yaw_deg";
 /// What a model says is not measured.
 const NOT_MEASURED: &str = "model";
+/// Measured yaws that are compared: every slope among them costs as much as one of the card's.
+const MOST: usize = 10_000;
+/// Characters of a cell that a message quotes.
+const QUOTED: usize = 60;
 
 /// Reads `slope_deg` and all columns of yaws, row by row; an empty field is no yaw.
-pub(super) fn read(path: &Path) -> Result<Vec<Measured>, Failure> {
-    let shown = path.display();
-    let text = std::fs::read_to_string(path).map_err(Failure::at("cannot read", path))?;
-    let wrong = |what: String| Failure::Usage(format!("--measured {shown}: {what}"));
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let header = reader.headers().map_err(|error| wrong(error.to_string()))?.clone();
-    let slope = header
-        .iter()
-        .position(|column| column.trim() == "slope_deg")
-        .ok_or_else(|| wrong("there is no column slope_deg".to_owned()))?;
+pub(super) fn read(path: &Path, limits: Limits) -> Result<Vec<Measured>, Failure> {
+    let TextTable { header, rows } = measurements::read_texts(path, limits)?;
+    let wrong = |line: u64, what: String| {
+        Failure::Usage(format!("--measured {}:{line}: {what}", escape::path(path)))
+    };
+    let place_of = |column: &str| header.iter().position(|name| name == column);
+    let slope = place_of(SLOPE).ok_or_else(|| wrong(1, format!("there is no column {SLOPE}")))?;
     let is_yaw = |name: &str| name.ends_with(YAW) && !name.starts_with(NOT_MEASURED);
-    let yaws: Vec<(usize, &str)> =
-        header.iter().map(str::trim).enumerate().filter(|(_, name)| is_yaw(name)).collect();
+    let yaws: Vec<usize> = (0..header.len()).filter(|&place| is_yaw(&header[place])).collect();
     if yaws.is_empty() {
-        return Err(wrong(format!("there is no column that ends in {YAW}")));
+        return Err(wrong(1, format!("there is no column that ends in {YAW}")));
+    }
+    for &place in yaws.iter().chain([&slope]) {
+        if place_of(&header[place]) != Some(place) {
+            let name = escape::line(&header[place]);
+            return Err(wrong(1, format!("the column {name} is there twice")));
+        }
     }
     let mut all = Vec::new();
-    for (index, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| wrong(error.to_string()))?;
+    for (line, row) in &rows {
         let number = |place: usize| {
-            let field = record.get(place).unwrap_or_default().trim();
-            let (row, column) = (index + 2, &header[place]);
-            let number = field.parse::<f64>().ok().filter(|number| number.is_finite());
-            number.ok_or_else(|| wrong(format!("line {row}, {column}: '{field}' is no number")))
+            let number = row[place].parse::<f64>().ok().filter(|number| number.is_finite());
+            number.ok_or_else(|| {
+                let (name, text) = (&header[place], &row[place]);
+                let [name, text] = [name, text].map(|text| escape::short_line(text, QUOTED));
+                wrong(*line, format!("{name}: '{text}' is no number"))
+            })
         };
         let slope_deg = number(slope)?;
         if !(0.0..=60.0).contains(&slope_deg) {
-            return Err(wrong(format!("slope_deg {slope_deg}: it must be from 0 to 60")));
+            return Err(wrong(*line, format!("{SLOPE} {slope_deg}: it must be from 0 to 60")));
         }
-        for (place, name) in &yaws {
-            if record.get(*place).is_some_and(|field| !field.trim().is_empty()) {
-                let name = name.trim_end_matches("_deg").to_owned();
-                all.push(Measured { slope_deg, name, yaw_deg: number(*place)? });
-            }
+        for &place in yaws.iter().filter(|&&place| !row[place].is_empty()) {
+            let name = header[place].trim_end_matches("_deg").to_owned();
+            all.push(Measured { slope_deg, name, yaw_deg: number(place)? });
+        }
+        if all.len() > MOST {
+            let what = format!("more than {MOST} yaws: each slope of theirs is computed");
+            return Err(wrong(*line, what));
         }
     }
     Ok(all)

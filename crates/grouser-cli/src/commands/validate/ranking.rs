@@ -1,6 +1,4 @@
-//! `grouser validate --all`: every theory on every data set that is there, best first.
-
-use std::path::PathBuf;
+//! `grouser validate --all`: every theory on every data set, best first.
 
 use grouser::document::ranking::{RankedTheory, RankingError, rank_all};
 use grouser::document::validation::{ErrorsRecord, GroupRecord};
@@ -16,9 +14,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{aligned, csv_of_nested};
 use crate::output::{self, Format};
 
-/// Where measurements are, if no flag says it.
-const VARIABLE: &str = "GROUSER_DATA_DIR";
-
 #[derive(Serialize)]
 struct Results<'a> {
     rows: &'a [RankedTheory],
@@ -26,7 +21,7 @@ struct Results<'a> {
 
 pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let entries = rank_all(&data_folder(args)?)?;
+    let entries = rank_all(args.data_dir.as_deref(), args.read.limits())?;
     let inputs = json!({ "data_sets": entries.iter().map(|it| &it.data_set).collect::<std::collections::BTreeSet<_>>() });
     let answer = Answer::new("validate", inputs, Results { rows: &entries });
     let text = text_of(&entries);
@@ -55,16 +50,6 @@ fn slug(name: &str) -> String {
     words.map(str::to_lowercase).collect::<Vec<_>>().join("-")
 }
 
-fn data_folder(args: &ValidateArgs) -> Result<PathBuf, Failure> {
-    let place = args.data_dir.clone().or_else(|| std::env::var_os(VARIABLE).map(PathBuf::from));
-    place.ok_or_else(|| {
-        Failure::Usage(format!(
-            "--all needs a folder of measurements: --data-dir DIR, or the environment variable \
-             {VARIABLE}\nhint: docs/guide/data.md tells where public data sets are"
-        ))
-    })
-}
-
 impl From<RankingError> for Failure {
     fn from(error: RankingError) -> Self {
         match error {
@@ -74,8 +59,9 @@ impl From<RankingError> for Failure {
                 Self::at("cannot look into", &folder)(error)
             }
             RankingError::NoDataSet { .. } => Self::Usage(format!(
-                "{error}\nhint: docs/guide/data.md tells how to lay them out; `grouser validate \
-                 --data FILE` judges any other file"
+                "{error}\nhint: docs/guide/data.md tells how a document describes one; `grouser validate \
+                 --data FILE` judges a file without; without --data-dir the data sets that come \
+                 with the program are ranked"
             )),
             RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {
                 Self::Usage(error.to_string())

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
+from .._arrays import number
 from .._descriptions import Soil, Source, Wheel
 from .._errors import ParameterError
-from .._wheels import WheelForces, number, setting
+from .._wheels import WheelForces, setting
 from ._ground import Ground, HeightFunction, ground_geom, ground_of
 from ._inertia import inertia_of_step
+from ._sizes import check_sizes as check_sizes_of
 
 Floats = NDArray[np.float64]
 
@@ -57,12 +59,16 @@ class SoilContact:
     rest_speed_m_s : float
         Speed of rim and hub [m/s] below which the stresses fade to none. A rover that stands on a
         slope creeps at a part of it.
+    check_sizes : bool
+        Whether the geoms of a wheel's body must have its radius (the rim's, the grousers' tips', or
+        between) and its width, to 2 %. The soil acts on the wheel, whatever the geoms look like.
 
     Raises
     ------
     ParameterError
-        For bodies, geoms or values that are not what they must be; if MuJoCo's own contact
-        between a wheel and the ground is on; if there is no gravity.
+        For bodies, geoms or values that are not what they must be; if a wheel has another size than
+        the geoms of its body; if MuJoCo's own contact between a wheel and the ground is on; if
+        there is no gravity.
 
     Examples
     --------
@@ -93,6 +99,7 @@ class SoilContact:
         moments: str = "included",
         sinkage_damping_s_m: float = _core.SINKAGE_DAMPING_S_M,
         rest_speed_m_s: float = _core.REST_SPEED_M_S,
+        check_sizes: bool = True,
     ) -> None:
         if int(mj_model.opt.integrator) == _RK4:
             raise ParameterError(
@@ -115,6 +122,8 @@ class SoilContact:
             ground_geom(mj_model, ground)
             _check_contact_is_off(mj_model, self._bodies, ground)
         made = [wheel if isinstance(wheel, Wheel) else Wheel(wheel) for wheel in wheels.values()]
+        if check_sizes:
+            check_sizes_of(mj_model, self._names, hinges, made)
         soils = _one_each(soil, len(made))
         self._reaction = _core.SteppingWheels(
             [one._document for one in soils],

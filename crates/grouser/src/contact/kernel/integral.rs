@@ -149,7 +149,7 @@ impl LaneSums {
         stress: RimStress,
         width: f64,
     ) {
-        let (sin, cos) = (point.sin, point.cos());
+        let (sin, cos) = (point.sin, point.cosine());
         let (along, inward) = (stress.longitudinal * width, stress.normal * width);
         self.up[lane] += along * sin + inward * cos;
         if ALL {

@@ -30,14 +30,15 @@ impl StressField {
         let still = self.law.slip.rim / self.law.slip.forward;
         if matches!(self.law.shear, MobilisedShear::Isotropic(_)) {
             if still > 0.0 && still < 1.0 {
-                add(still.acos());
-                add(-still.acos());
+                let still = elementary::wide::acos(still);
+                add(still);
+                add(-still);
             } else if (1.0..TURNS_UNDER_HUB).contains(&still) {
                 add(0.0);
             }
         }
         if still > 0.0 && still < 1.0 {
-            let still = still.acos();
+            let still = elementary::wide::acos(still);
             // Between these angles j_x is monotone.
             self.displacement_zero(-still, still, -1.0).map(&mut add);
             self.displacement_zero(exit, -still, 1.0).map(&mut add);

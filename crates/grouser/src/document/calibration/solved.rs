@@ -120,6 +120,22 @@ impl Solved {
         }
     }
 
+    /// Of each key whose fit ends at a bound: that its standard deviation is not known.
+    #[must_use]
+    pub fn bound_notes(&self) -> Vec<String> {
+        let note = |record: &ParameterRecord| {
+            let ParameterRecord { key, lower, upper, fit, fit_std, .. } = record;
+            let bound = if fit - lower < upper - fit { lower } else { upper };
+            fit_std.is_none().then(|| {
+                format!(
+                    "{key} ends at its bound, {bound}: its standard deviation is not known there; \
+                     widen the bounds, fit fewer keys, or sample the posterior"
+                )
+            })
+        };
+        self.records.iter().filter_map(note).collect()
+    }
+
     /// What should be known of how the posterior was sampled.
     #[must_use]
     pub fn note(&self) -> Option<String> {

@@ -47,34 +47,39 @@ impl Column {
     }
 }
 
-/// The unit that a word of the door ends with.
+/// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no
+/// `_m`. The table of the Python package is this one; a test compares them, and the table of
+/// `docs/conventions.md`.
+pub const UNITS: [(&str, &str); 24] = [
+    ("_m_per_m", "m/m"),
+    ("_j_per_m", "J/m"),
+    ("_per_rad2_m", "m/rad²"),
+    ("_per_rad_m", "m/rad"),
+    ("_kg_m2.xx", "kg·m²"),
+    ("_kg_m2.yy", "kg·m²"),
+    ("_kg_m2.zz", "kg·m²"),
+    ("_kg_m2", "kg·m²"),
+    ("_kg_m3", "kg/m³"),
+    ("_m_s2", "m/s²"),
+    ("_rad_s", "rad/s"),
+    ("_deg_s", "°/s"),
+    ("_m_s", "m/s"),
+    ("_s_m", "s/m"),
+    ("_deg", "°"),
+    ("_kpa", "kPa"),
+    ("_kg", "kg"),
+    ("_mm", "mm"),
+    ("_nm", "N·m"),
+    ("_n", "N"),
+    ("_m", "m"),
+    ("_s", "s"),
+    ("_w", "W"),
+    ("_j", "J"),
+];
+
+/// The unit that a key or a column ends with.
 #[must_use]
 pub fn unit(name: &str) -> Option<&'static str> {
-    // Longer ends first: `_m_per_m` is no `_m`.
-    const UNITS: [(&str, &str); 22] = [
-        ("_m_per_m", "m/m"),
-        ("_j_per_m", "J/m"),
-        ("_per_rad2_m", "m/rad²"),
-        ("_per_rad_m", "m/rad"),
-        ("_kg_m2", "kg·m²"),
-        ("_kg_m2.xx", "kg·m²"),
-        ("_kg_m2.yy", "kg·m²"),
-        ("_kg_m2.zz", "kg·m²"),
-        ("_kg_m3", "kg/m³"),
-        ("_m_s2", "m/s²"),
-        ("_rad_s", "rad/s"),
-        ("_m_s", "m/s"),
-        ("_deg", "°"),
-        ("_kpa", "kPa"),
-        ("_kg", "kg"),
-        ("_mm", "mm"),
-        ("_nm", "N·m"),
-        ("_n", "N"),
-        ("_m", "m"),
-        ("_s", "s"),
-        ("_w", "W"),
-        ("_j", "J"),
-    ];
     // An entry of a list has its list's unit.
     let name = match name.rsplit_once('.') {
         Some((list, place)) if place.parse::<usize>().is_ok() => list,

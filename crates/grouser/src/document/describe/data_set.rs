@@ -12,9 +12,14 @@ pub(in crate::document) static DATA_SET: Table<DataSet> = Table {
         note("source", "Who measured it, and where it is public.").otherwise(NOT_STATED),
         notes(),
         texts("assumed", "What is assumed, each as `key: why this value`."),
-        text("file", 0, "The file, in whatever folder measurements are kept.", |set, file| {
-            file.clone_into(&mut set.file);
-        }),
+        text(
+            "file",
+            0,
+            "The CSV file with its rows, from the folder of this document.",
+            |set, file| {
+                file.clone_into(&mut set.file);
+            },
+        ),
         gravity("Gravity where it was measured", |set| Some(&mut set.gravity)),
         list("case", "Its parts, each with one wheel.", &CASE, 1),
     ],

@@ -4,6 +4,12 @@ use std::fmt;
 use std::io;
 
 use super::super::error::number;
+use super::super::escape;
+use super::super::file::FileProblem;
+use super::limits::Excess;
+
+/// Characters of a cell that a message quotes.
+pub(in crate::document) const QUOTED: usize = 60;
 
 /// A measurement file that cannot be used: where, what, and how it may be mended.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +18,8 @@ pub struct MeasurementError {
     line: Option<u64>,
     problem: MeasurementProblem,
     hint: Option<String>,
+    /// Where a document names the file.
+    named_at: Option<String>,
 }
 
 /// What is wrong.
@@ -20,12 +28,21 @@ pub enum MeasurementProblem {
     /// A path that leads nowhere.
     #[error("there is no such file")]
     NoSuchFile,
+    /// A word that is neither a data set of the program nor a file.
+    #[error("there is no such data set and no such file")]
+    NoSuchDataSetOrFile,
     /// A folder where a file should be.
     #[error("this is a folder, not a file")]
     Folder,
+    /// A link without a file, a device, a pipe with a name.
+    #[error("{0}")]
+    NotAFile(FileProblem),
     /// The disk, or permission for it, failed.
     #[error("cannot be read: {0}")]
     Unreadable(String),
+    /// More than is read.
+    #[error("{0}")]
+    TooLarge(Excess),
     /// Not a table.
     #[error("not CSV: {0}")]
     NotCsv(String),
@@ -50,12 +67,6 @@ pub enum MeasurementProblem {
     /// Rows, but nothing that was read in them.
     #[error("has no reading: every cell of drawbar pull, side force, sinkage and torque is empty")]
     NoReadings,
-    /// More than can be meant.
-    #[error("has more than {most} rows")]
-    TooManyRows {
-        /// The most that are read.
-        most: usize,
-    },
     /// Two columns of one name.
     #[error("the column `{0}` is there twice")]
     RepeatedColumn(String),
@@ -137,6 +148,20 @@ pub enum MeasurementProblem {
     },
 }
 
+impl From<FileProblem> for MeasurementProblem {
+    fn from(problem: FileProblem) -> Self {
+        match problem {
+            FileProblem::NoSuchFile => Self::NoSuchFile,
+            FileProblem::Folder => Self::Folder,
+            FileProblem::TooLarge { limit } => Self::TooLarge(Excess::Bytes { most: limit }),
+            FileProblem::Unreadable { message, .. } => Self::Unreadable(message),
+            FileProblem::BrokenLink { .. } | FileProblem::NotAFile { .. } => {
+                Self::NotAFile(problem)
+            }
+        }
+    }
+}
+
 impl MeasurementError {
     pub(in crate::document) fn whole(file: &str, problem: MeasurementProblem) -> Self {
         let hint = match &problem {
@@ -145,7 +170,7 @@ impl MeasurementError {
             }),
             _ => None,
         };
-        Self { file: file.to_owned(), line: None, problem, hint }
+        Self { file: file.to_owned(), line: None, problem, hint, named_at: None }
     }
 
     pub(in crate::document) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
@@ -157,20 +182,34 @@ impl MeasurementError {
         self
     }
 
-    pub(in crate::document) fn io(file: &str, error: &io::Error) -> Self {
-        let problem = match error.kind() {
-            io::ErrorKind::NotFound
-            | io::ErrorKind::NotADirectory
-            | io::ErrorKind::InvalidInput => MeasurementProblem::NoSuchFile,
-            _ => MeasurementProblem::Unreadable(error.to_string()),
-        };
-        Self::whole(file, problem)
+    /// The same, of a file that a document names.
+    ///
+    /// * `place`: where it does
+    pub(in crate::document) fn named_at(mut self, place: String) -> Self {
+        self.named_at = Some(place);
+        self
     }
 
-    pub(in crate::document) fn csv(file: &str, error: &csv::Error) -> Self {
+    /// A failure while reading.
+    ///
+    /// * `line`: where it was, for limits of a single row
+    pub(in crate::document) fn io(file: &str, error: &io::Error, line: u64) -> Self {
+        match error.get_ref().and_then(|error| error.downcast_ref::<Excess>()) {
+            Some(excess @ Excess::Bytes { .. }) => {
+                Self::whole(file, MeasurementProblem::TooLarge(*excess))
+            }
+            Some(excess) => Self::at(file, line, MeasurementProblem::TooLarge(*excess)),
+            None => Self::whole(file, MeasurementProblem::Unreadable(error.to_string())),
+        }
+    }
+
+    /// A failure while reading a table.
+    ///
+    /// * `at`: the line that was being read
+    pub(in crate::document) fn csv(file: &str, error: &csv::Error, at: u64) -> Self {
         let line = error.position().map(csv::Position::line);
         let problem = match error.kind() {
-            csv::ErrorKind::Io(error) => return Self::io(file, error),
+            csv::ErrorKind::Io(error) => return Self::io(file, error, at),
             csv::ErrorKind::UnequalLengths { expected_len, len, .. } => MeasurementProblem::NotCsv(
                 format!("the fields of this line are {len}, those of the header {expected_len}"),
             ),
@@ -222,15 +261,21 @@ impl MeasurementError {
     }
 }
 
+/// Characters of a problem or a hint: a header may have a thousand columns.
+const LONGEST_MESSAGE: usize = 2000;
+
 impl fmt::Display for MeasurementError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        f.write_str(&escape::line(&self.file))?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
-        write!(f, ": {}", self.problem)?;
+        write!(f, ": {}", escape::short_line(&self.problem.to_string(), LONGEST_MESSAGE))?;
+        if let Some(place) = &self.named_at {
+            write!(f, "\nthe file is named by {}", escape::line(place))?;
+        }
         match &self.hint {
-            Some(hint) => write!(f, "\nhint: {hint}"),
+            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST_MESSAGE)),
             None => Ok(()),
         }
     }

@@ -5,9 +5,12 @@ use std::io::Read;
 use csv::{StringRecord, Writer};
 
 use super::super::check::nearest;
+use super::super::escape;
 use super::columns::{self, COLUMNS, Column, Meaning};
-use super::error::{MeasurementError, MeasurementProblem as Problem};
-use super::table::{self, LineEnds, other_delimiter};
+use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
+use super::limits::Limits;
+use super::name_of;
+use super::table::{LineEnds, Table, other_delimiter};
 
 /// How a column of ours is made from one of theirs.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +60,8 @@ pub struct Layout {
     pub skipped_lines: usize,
     /// How its slip is defined.
     pub slip: SlipDefinition,
+    /// How much of it is read.
+    pub limits: Limits,
 }
 
 impl Default for Layout {
@@ -66,6 +71,7 @@ impl Default for Layout {
             decimal_comma: false,
             skipped_lines: 0,
             slip: SlipDefinition::default(),
+            limits: Limits::default(),
         }
     }
 }
@@ -187,7 +193,8 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
 
 /// Rewrites another file as one of ours, which [`read_from`](super::read_from) then checks.
 ///
-/// Columns that are called as ours are taken along; all others need a mapping or are left out.
+/// Columns that are called as ours are taken along; all others need a mapping or are left out. Texts
+/// are written as [`escape::cell`] says, so that no spreadsheet computes them.
 ///
 /// # Errors
 /// [`MeasurementError`] for a file that is no table, a column that is not there, or a value that
@@ -199,25 +206,22 @@ pub fn import(
     layout: &Layout,
 ) -> Result<String, MeasurementError> {
     let mut bytes = Vec::new();
-    LineEnds::of(source)
+    LineEnds::of(source, layout.limits)
         .read_to_end(&mut bytes)
-        .map_err(|error| MeasurementError::io(label, &error))?;
+        .map_err(|error| MeasurementError::io(label, &error, 1))?;
     let mut skipped = 0;
     for _ in 0..layout.skipped_lines {
         let rest = &bytes[skipped..];
         skipped += rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |end| end + 1);
     }
-    let mut reader = table::reader(&bytes[skipped..], layout.delimiter);
-    let header = reader.headers().map_err(|error| MeasurementError::csv(label, &error))?.clone();
-    let plan = plan(label, &header, mappings)?;
+    let mut table = Table::new(label, &bytes[skipped..], layout.delimiter, layout.limits);
+    let plan = plan(label, &table.header()?, mappings)?;
+    // Writing to memory does not fail.
+    let failed = |error: csv::Error| MeasurementError::csv(label, &error, 1);
     let mut writer = Writer::from_writer(Vec::new());
-    let mut write = |fields: Vec<String>| {
-        writer.write_record(fields).map_err(|error| MeasurementError::csv(label, &error))
-    };
-    write(plan.iter().map(|(mapping, _)| mapping.column.name.to_owned()).collect())?;
+    writer.write_record(plan.iter().map(|(mapping, _)| mapping.column.name)).map_err(failed)?;
     let mut record = StringRecord::new();
-    let failed = |error: csv::Error| MeasurementError::csv(label, &error);
-    while table::next_row(&mut reader, &mut record).map_err(failed)? {
+    while table.next_row(&mut record)? {
         let line = record.position().map_or(0, csv::Position::line) + layout.skipped_lines as u64;
         let fields = plan.iter().map(|(mapping, place)| {
             let text = &record[*place];
@@ -228,9 +232,10 @@ pub fn import(
                 MeasurementError::at(label, line, problem).with_hint(hint)
             })
         });
-        write(fields.collect::<Result<_, _>>()?)?;
+        writer.write_record(fields.collect::<Result<Vec<_>, _>>()?).map_err(failed)?;
     }
-    let bytes = writer.into_inner().map_err(|error| MeasurementError::io(label, error.error()))?;
+    let bytes =
+        writer.into_inner().map_err(|error| MeasurementError::io(label, error.error(), 1))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
@@ -240,23 +245,34 @@ fn plan(
     header: &StringRecord,
     mappings: &[Mapping],
 ) -> Result<Vec<(Mapping, usize)>, MeasurementError> {
+    let names: Vec<String> = header.iter().map(name_of).collect();
     let mut plan = Vec::new();
     for mapping in mappings {
-        let place = header.iter().position(|name| name == mapping.theirs);
+        let place = names.iter().position(|name| *name == mapping.theirs);
         let place = place.ok_or_else(|| {
-            let names: Vec<&str> = header.iter().collect();
             let hint = format!("its columns are {}", names.join(", "));
             MeasurementError::whole(label, Problem::NoSuchColumn(mapping.theirs.clone()))
                 .with_hint(hint)
         })?;
         plan.push((mapping.clone(), place));
     }
-    for (place, name) in header.iter().enumerate() {
-        let taken = plan.iter().any(|(mapping, of)| *of == place || mapping.column.name == name);
+    for (place, name) in names.iter().enumerate() {
+        let is_ours = |(mapping, of): &(Mapping, usize)| {
+            *of == place || (mapping.column.name == name && mapping.theirs != *name)
+        };
         if let Some(column) = columns::known(name)
-            && !taken
+            && !plan.iter().any(is_ours)
         {
-            plan.push((Mapping { column, theirs: name.to_owned(), factor: 1.0 }, place));
+            plan.push((Mapping { column, theirs: name.clone(), factor: 1.0 }, place));
+        }
+    }
+    // Which of two columns of one name is meant, nobody can say.
+    for (mapping, place) in &plan {
+        if names.iter().enumerate().any(|(other, name)| other != *place && *name == mapping.theirs)
+        {
+            let problem = Problem::RepeatedColumn(mapping.theirs.clone());
+            return Err(MeasurementError::whole(label, problem)
+                .with_hint("rename one of them, or remove it".to_owned()));
         }
     }
     if !plan.is_empty() {
@@ -265,7 +281,6 @@ fn plan(
     if header.iter().all(str::is_empty) {
         return Err(MeasurementError::whole(label, Problem::NoHeader));
     }
-    let names: Vec<String> = header.iter().map(str::to_owned).collect();
     let nameless = names.iter().filter(|name| name.is_empty()).count();
     let hint = match other_delimiter(&names) {
         Some((';', flag)) => format!("are fields parted by semicolons? --delimiter {flag}"),
@@ -283,12 +298,12 @@ fn plan(
 
 fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Problem> {
     if dimension(mapping.column) == Dimension::Text || text.is_empty() {
-        return Ok(text.to_owned());
+        return Ok(escape::cell(escape::plain(text)).into_owned());
     }
     let number = if layout.decimal_comma { text.replace(',', ".") } else { text.to_owned() };
     let value: f64 = number.parse().map_err(|_| Problem::NotANumber {
         column: mapping.theirs.clone(),
-        value: text.to_owned(),
+        value: escape::short_line(text, QUOTED),
     })?;
     if value.is_nan() {
         return Ok(String::new());
@@ -323,6 +338,7 @@ mod tests {
             decimal_comma: true,
             skipped_lines: 2,
             slip: SlipDefinition::Hub,
+            ..Layout::default()
         };
         let text = "Laboratory\n2026\nslip;W;h\n100;24,5;\n-50;24,5;12,5\n";
         let mappings = ["slip_ratio=slip:%", "load_n=W", "sinkage_mm=h"];

@@ -1,5 +1,7 @@
 //! What is worth knowing about a measurement file that can be read.
 
+use super::super::escape;
+use super::error::QUOTED;
 use super::row::Row;
 use crate::studies::measurement::Quantity;
 
@@ -16,7 +18,7 @@ pub(super) struct LeftOut {
 impl LeftOut {
     /// The first of them.
     pub(super) fn first(line: u64, status: &str) -> Self {
-        Self { line, status: status.to_owned(), count: 1 }
+        Self { line, status: escape::short_line(status, QUOTED), count: 1 }
     }
 
     /// With one more.

@@ -3,13 +3,16 @@
 use csv::StringRecord;
 
 use super::super::check::nearest;
+use super::super::escape;
 use super::super::study::OK;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
-use super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
+use super::name_of;
 use super::notes::LeftOut;
 use super::table::other_delimiter;
 use crate::contact::Slip;
+use crate::elementary::wide;
 use crate::studies::measurement::{PerQuantity, Quantity, Reading};
 use crate::units::Vec2;
 
@@ -61,8 +64,7 @@ impl<'a> Header<'a> {
         conditions: &'a [Condition],
     ) -> Result<Self, MeasurementError> {
         let failed = |problem| MeasurementError::at(label, 1, problem);
-        let names: Vec<String> =
-            record.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
+        let names: Vec<String> = record.iter().map(name_of).collect();
         if names.iter().all(String::is_empty) {
             return Err(MeasurementError::whole(label, Problem::NoHeader));
         }
@@ -185,10 +187,13 @@ impl<'a> Header<'a> {
     /// What becomes of a row.
     pub(super) fn row(&self, record: &StringRecord) -> Result<Taken, MeasurementError> {
         let line = record.position().map_or(0, csv::Position::line);
-        if record.iter().eq(self.names.iter().map(String::as_str)) {
+        if record.iter().map(escape::plain).eq(self.names.iter().map(String::as_str)) {
             return Err(MeasurementError::at(self.label, line, Problem::RepeatedHeader));
         }
-        if !self.conditions.iter().all(|(place, condition)| condition.is_met_by(&record[*place])) {
+        let is_met = |(place, condition): &(usize, &Condition)| {
+            condition.is_met_by(escape::plain(&record[*place]))
+        };
+        if !self.conditions.iter().all(is_met) {
             return Ok(Taken::Unwanted);
         }
         let cells = Cells { header: self, record, line };
@@ -282,7 +287,7 @@ impl Cells<'_> {
         let total = self.number(Meaning::TotalSlip)?;
         let speeds = (self.number(Meaning::RimSpeed)?, self.number(Meaning::TravelSpeed)?);
         if let (Some((_, rim)), Some((_, travel))) = speeds {
-            let (sin, cos) = slip_angle.sin_cos();
+            let (sin, cos) = wide::sin_cos(slip_angle);
             let slip = Slip::of_motion(rim, Vec2::new(travel * cos, travel * sin));
             self.check_slip(ratio, slip.ratio)?;
             self.check_slip(total, slip.total())?;
@@ -294,7 +299,7 @@ impl Cells<'_> {
         let why = "a trial needs its slip, or the speeds of rim and hub";
         let (_, total) = self.needed(Meaning::TotalSlip, why)?;
         let (rim, travel) = if total >= 0.0 { (1.0, 1.0 - total) } else { (1.0 + total, 1.0) };
-        let (sin, cos) = slip_angle.sin_cos();
+        let (sin, cos) = wide::sin_cos(slip_angle);
         Ok(Slip::of_motion(rim, Vec2::new(travel * cos, travel * sin)))
     }
 
@@ -369,7 +374,8 @@ impl Cells<'_> {
                     "is this a line of units? rows of numbers follow the header at once".to_owned()
                 })
             };
-            let problem = Problem::NotANumber { column: name.clone(), value: text.to_owned() };
+            let value = escape::short_line(text, QUOTED);
+            let problem = Problem::NotANumber { column: name.clone(), value };
             failed(problem).with_hint(hint)
         })?;
         if value.is_nan() {
@@ -391,7 +397,8 @@ impl Cells<'_> {
     /// All cells of a meaning that are not empty.
     fn texts(&self, meaning: Meaning) -> impl Iterator<Item = (&'static Column, &str)> {
         let columns = self.header.columns.iter().zip(self.record.iter());
-        let known = columns.filter_map(|(column, text)| column.map(|column| (column, text)));
+        let known =
+            columns.filter_map(|(column, text)| column.map(|column| (column, escape::plain(text))));
         known.filter(move |(column, text)| column.meaning == meaning && !text.is_empty())
     }
 }

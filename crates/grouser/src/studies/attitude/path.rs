@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{AttitudeStudy, STEEPEST, STRAIGHT_UP};
 use crate::contact::Slip;
+use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::site::Site;
@@ -169,7 +170,7 @@ impl<'a> Path<'a> {
                 return self.point(place).map_err(|error| error.to_string());
             }
             // The slope's pull across the rover goes with the cosine of its yaw.
-            slope = (slope.sin() + left_over / yaw.cos()).clamp(0.0, STEEPEST.sin()).asin();
+            slope = asin((sin(slope) + left_over / cos(yaw)).clamp(0.0, sin(STEEPEST)));
         }
         Err("the start of the curve was not found".into())
     }

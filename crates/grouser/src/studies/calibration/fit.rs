@@ -10,6 +10,8 @@ use rayon::prelude::*;
 use super::least_squares::{Minimum, Residuals, minimise};
 use super::parameter::{ParameterSpace, coordinate_of};
 use super::{Calibration, CalibrationError};
+use crate::elementary::wide::{ln, powi};
+use crate::elementary::{exp, pow};
 use crate::root;
 
 /// How hard to search.
@@ -221,16 +223,16 @@ impl Calibration<'_> {
                 .collect();
             let expected = own.len() as f64 * left;
             let excess = |log_discrepancy: f64| {
-                let variance = (2.0 * log_discrepancy).exp();
+                let variance = exp(2.0 * log_discrepancy);
                 own.iter().map(|(square, s2)| square / (s2 + variance)).sum::<f64>() - expected
             };
-            let (low, high) = (bounds.lower.ln(), bounds.upper.ln());
+            let (low, high) = (ln(bounds.lower), ln(bounds.upper));
             if excess(low) <= 0.0 {
                 bounds.lower
             } else if excess(high) >= 0.0 {
                 bounds.upper
             } else {
-                root::between(excess, low, high, 1e-9).exp()
+                exp(root::between(excess, low, high, 1e-9))
             }
         };
         self.discrepancies.parameters().iter().enumerate().map(one_channel).collect()
@@ -246,9 +248,9 @@ fn spread_point(number: usize, dimension: usize) -> Vec<f64> {
     const MARGIN: f64 = 0.02;
     let mut g = 1.5_f64;
     for _ in 0..60 {
-        g = (1.0 + g).powf(1.0 / (dimension as f64 + 1.0));
+        g = pow(1.0 + g, 1.0 / (dimension as f64 + 1.0));
     }
-    let position = |axis: i32| (0.5 + number as f64 * g.powi(-axis)).fract();
+    let position = |axis: i32| (0.5 + number as f64 * powi(g, -axis)).fract();
     (1..)
         .take(dimension)
         .map(|axis| coordinate_of(MARGIN + (1.0 - 2.0 * MARGIN) * position(axis)))

@@ -13,6 +13,8 @@
 
 use std::f64::consts::PI;
 
+use crate::elementary::exp;
+use crate::elementary::wide::{ln, ln_1p};
 use crate::error::{ParameterError, finite, positive};
 
 /// How a parameter's prior is spread between its bounds.
@@ -81,7 +83,7 @@ impl Parameter {
         let Self { lower, upper, .. } = *self;
         let value = match self.scale {
             Scale::Linear => lower + position * (upper - lower),
-            Scale::Logarithmic => lower * (position * (upper / lower).ln()).exp(),
+            Scale::Logarithmic => lower * exp(position * ln(upper / lower)),
         };
         // Rounding may step over a bound.
         value.clamp(lower, upper)
@@ -93,9 +95,16 @@ impl Parameter {
         let Self { lower, upper, .. } = *self;
         let position = match self.scale {
             Scale::Linear => (value - lower) / (upper - lower),
-            Scale::Logarithmic => (value / lower).ln() / (upper / lower).ln(),
+            Scale::Logarithmic => ln(value / lower) / ln(upper / lower),
         };
         position.clamp(0.0, 1.0)
+    }
+
+    /// Whether a value is at a bound: nearer than any search starts. The coordinate has no slope
+    /// there, so that nothing of first order says how sure the value is.
+    #[must_use]
+    pub fn is_at_bound(&self, value: f64) -> bool {
+        !(START_MARGIN..=1.0 - START_MARGIN).contains(&self.position_of(value))
     }
 
     /// The coordinate from which a search starts.
@@ -169,7 +178,7 @@ impl ParameterSpace {
             let Parameter { lower, upper, .. } = *parameter;
             let per_position = match parameter.scale {
                 Scale::Linear => upper - lower,
-                Scale::Logarithmic => parameter.value_at(position) * (upper / lower).ln(),
+                Scale::Logarithmic => parameter.value_at(position) * ln(upper / lower),
             };
             per_position * position * (1.0 - position)
         };
@@ -186,19 +195,19 @@ impl ParameterSpace {
 /// The position p of a coordinate u.
 #[must_use]
 pub fn position_of(coordinate: f64) -> f64 {
-    1.0 / (1.0 + (-coordinate).exp())
+    1.0 / (1.0 + exp(-coordinate))
 }
 
 /// The coordinate u of a position p, above 0 and below 1.
 #[must_use]
 pub fn coordinate_of(position: f64) -> f64 {
-    (position / (1.0 - position)).ln()
+    ln(position / (1.0 - position))
 }
 
 /// ln[p (1 − p)] at a coordinate, without overflow.
 fn log_logistic(coordinate: f64) -> f64 {
     let size = coordinate.abs();
-    -size - 2.0 * (-size).exp().ln_1p()
+    -size - 2.0 * ln_1p(exp(-size))
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@
 //! such data says so ([`identifiability`](super::identifiability)).
 
 use super::experiment::{Channel, Experiment, Observation};
+use crate::elementary::wide::ln;
+use crate::elementary::{exp, pow};
 use crate::error::{ParameterError, not_negative, positive};
 use crate::soil::{PressureSinkage, SinkageExponent};
 
@@ -63,7 +65,7 @@ impl PlateLaw {
         let points = widest.map_or(&[][..], |curve| curve.points.as_slice());
         let positive = points.iter().filter(|point| point.sinkage > 0.0 && point.pressure > 0.0);
         let logs: Vec<(f64, f64)> =
-            positive.map(|point| (point.sinkage.ln(), point.pressure.ln())).collect();
+            positive.map(|point| (ln(point.sinkage), ln(point.pressure))).collect();
         let count = logs.len().max(1) as f64;
         let (x, y) = logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
         let (x, y) = (x / count, y / count);
@@ -73,11 +75,11 @@ impl PlateLaw {
         let slope = if below > 0.0 { above / below } else { 1.0 };
         let n = slope.clamp(LEAST_EXPONENT, MOST_EXPONENT);
         let width = widest.map_or(1.0, |curve| curve.width);
-        let stiffness = (y - n * x).exp();
+        let stiffness = exp(y - n * x);
         match self {
             Self::Bekker => [0.1 * stiffness * width, stiffness, n],
             Self::Reece { unit_weight, .. } => {
-                [1.0, stiffness * width.powf(n) / (unit_weight * width), n]
+                [1.0, stiffness * pow(width, n) / (unit_weight * width), n]
             }
         }
     }

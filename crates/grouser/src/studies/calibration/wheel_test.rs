@@ -4,6 +4,7 @@
 use super::experiment::{Channel, Experiment, Observation, Regime};
 use super::scatter::{self, Repeats};
 use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use crate::elementary::wide::ln;
 use crate::error::{ParameterError, finite, not_negative};
 use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, Reading, Trial, WheelTests};
@@ -145,7 +146,7 @@ impl<'a> WheelTestExperiment<'a> {
                     SettleError::SunkToAxle { capacity, .. } => capacity,
                     SettleError::BadLoad { .. } => 0.0,
                 };
-                let overload = (load.ln() - capacity.ln()).clamp(0.0, WEAKEST);
+                let overload = (ln(load) - ln(capacity)).clamp(0.0, WEAKEST);
                 let sinkage = wheel.shearing_radius();
                 let forces = model.forces(&contact, sinkage);
                 let sunk = Settled { sinkage, forces, evaluations: 0 };

@@ -7,8 +7,9 @@ use crate::simulation::{Sample, Trajectory, WheelSample};
 pub struct Drive {
     /// Length of the way [m], from sample to sample.
     pub distance: f64,
-    /// Drift uphill per length of the way, *y*/distance [-], −1 to 1; negative downhill. None for a
-    /// rover that did not move.
+    /// Drift per metre travelled, −*y*/distance [m/m], −1 to 1: positive downhill, as
+    /// [`Attitude::drift`](crate::studies::attitude::Attitude::drift). None for a rover that did not
+    /// move.
     pub drift: Option<f64>,
     /// Slip ratio [-], over wheels and samples. None where no sample has its wheels.
     pub slip_ratio: Option<f64>,
@@ -36,7 +37,7 @@ impl Drive {
         let energy = last.energy.motors;
         Self {
             distance,
-            drift: per_metre(last.state.position.y),
+            drift: per_metre(0.0 - last.state.position.y),
             slip_ratio: mean(run, |wheel| wheel.reaction.slip.ratio),
             sinkage: mean(run, |wheel| wheel.reaction.settled.sinkage),
             power: (last.time > 0.0).then(|| energy / last.time),

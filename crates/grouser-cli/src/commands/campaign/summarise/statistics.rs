@@ -1,22 +1,25 @@
 //! The numbers of a summary, one column of the results after another.
 
-use std::collections::BTreeMap;
+use std::ops::Range;
 
 use grouser::document::Campaign;
-use grouser::document::campaign::{Column, Role, Values};
+use grouser::document::campaign::{
+    Column, ColumnKind, Frequencies, QuantityStatistics, Role, Values,
+};
 use grouser::studies::campaign::sensitivity::Sensitivity;
 use grouser::studies::campaign::summary::{Convergence, Estimate, Quantile, Summary};
-use grouser::studies::uncertainty::Probability;
-use grouser_store::Results;
+use grouser_store::{Finished, Results};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
 use crate::output::rows::four_digits;
 
+/// Half of all are below [-].
+const MEDIAN: f64 = 0.5;
 /// The quantiles that are told, and how words end that name them.
 pub(super) const QUANTILES: [(f64, &str); 5] =
-    [(0.025, "p2_5"), (0.25, "p25"), (0.5, "p50"), (0.75, "p75"), (0.975, "p97_5")];
+    [(0.025, "p2_5"), (0.25, "p25"), (MEDIAN, "p50"), (0.75, "p75"), (0.975, "p97_5")];
 /// Points of a distribution's curve.
 const CURVE: usize = 200;
 
@@ -88,36 +91,52 @@ pub(super) struct Table {
 }
 
 impl Statistics {
-    /// Of all runs of a campaign.
-    ///
-    /// Of a campaign for sensitivities, quantiles and probabilities are over the runs of A and B, which
-    /// are draws; the others are those once more with one input exchanged.
-    pub(super) fn of(campaign: &Campaign, results: &Results) -> Result<Self, Failure> {
-        let draws = Draws::of(campaign, results);
+    /// Of all runs of a campaign, with the digest of what was read. Which runs count for what is the library's
+    /// to say.
+    pub(super) fn of(campaign: &Campaign, results: &Results) -> Result<(Self, Finished), Failure> {
+        let (frequencies, mut finished) = frequencies(campaign, results)?;
         let mut statistics = Self {
             rows: Vec::new(),
-            probabilities: probabilities(campaign, results, &draws)?,
+            probabilities: probabilities(&frequencies),
             sensitivities: Vec::new(),
             convergence: Vec::new(),
             curves: Vec::new(),
         };
-        for column in campaign.columns().iter().filter(|column| column.role == Role::Result) {
-            let Values::Float(values) = results.column(&column.name)? else { continue };
-            if draws.per_point > 1 {
-                statistics.sensitivities.extend(sensitivities(campaign, column, &values));
+        let manifest = results.manifest();
+        let runs: Vec<Range<u64>> =
+            manifest.own_shards().map(|shard| manifest.runs_of(shard)).collect();
+        let is_result =
+            |column: &&Column| column.role == Role::Result && column.kind == ColumnKind::Float;
+        let columns: Vec<&Column> = campaign.columns().iter().filter(is_result).collect();
+        for batch in columns.chunks(columns_at_once(&runs)) {
+            let names: Vec<&str> = batch.iter().map(|column| column.name.as_str()).collect();
+            let (all, found) = results.columns(&names)?;
+            finished = found;
+            for (column, values) in batch.iter().zip(all) {
+                if let Values::Float(values) = values {
+                    statistics.add(campaign, column, &runs, &values);
+                }
             }
-            statistics.add(column, &draws.only(values));
         }
-        Ok(statistics)
+        Ok((statistics, finished))
     }
 
     /// * `values`: of a quantity, in the order of the runs
-    fn add(&mut self, column: &Column, values: &[Option<f64>]) {
+    fn add(
+        &mut self,
+        campaign: &Campaign,
+        column: &Column,
+        runs: &[Range<u64>],
+        values: &[Option<f64>],
+    ) {
         let shares = QUANTILES.map(|(share, _)| share);
-        self.rows.push(row(column, Summary::of(values, &shares).as_ref(), values.len()));
-        let convergence = Convergence::of(values, &[0.5]).into_iter();
-        self.convergence.extend(convergence.map(|point| converged(column, &point)));
-        self.curves.extend(curve(column, values));
+        let found = QuantityStatistics::of(campaign, runs, values, &shares);
+        self.rows.push(row(column, found.summary.as_ref(), found.samples));
+        self.convergence.extend(found.convergence.iter().map(|point| converged(column, point)));
+        self.sensitivities.extend(sensitivities(campaign, column, found.sensitivity.as_ref()));
+        let numbered = runs.iter().cloned().flatten().zip(values);
+        let samples = numbered.filter(|(run, _)| campaign.plan().is_sample(*run));
+        self.curves.extend(curve(column, samples.filter_map(|(_, value)| *value).collect()));
     }
 
     /// The tables for people.
@@ -184,33 +203,12 @@ impl Statistics {
     }
 }
 
-/// Which runs are draws.
-struct Draws {
-    /// Runs of a point; A and B are the first two of several.
-    per_point: u64,
-    /// Numbers of the runs that the folder has, shard by shard.
-    runs: Vec<std::ops::Range<u64>>,
-}
-
-impl Draws {
-    fn of(campaign: &Campaign, results: &Results) -> Self {
-        let manifest = results.manifest();
-        let runs = manifest.own_shards().map(|shard| manifest.runs_of(shard)).collect();
-        Self { per_point: campaign.plan().runs_per_point(), runs }
-    }
-
-    fn has(&self, run: u64) -> bool {
-        run % self.per_point < 2
-    }
-
-    /// Of the values of all runs, those of draws.
-    fn only<T>(&self, values: Vec<T>) -> Vec<T> {
-        if self.per_point <= 1 {
-            return values;
-        }
-        let runs = self.runs.iter().cloned().flatten();
-        runs.zip(values).filter(|(run, _)| self.has(*run)).map(|(_, value)| value).collect()
-    }
+/// How many columns are in memory at once: each pass over the files brings that many, and checks them.
+fn columns_at_once(runs: &[Range<u64>]) -> usize {
+    const BYTES: usize = 1 << 28;
+    let rows: u64 = runs.iter().map(|runs| runs.end - runs.start).sum();
+    let rows = usize::try_from(rows).unwrap_or(usize::MAX).max(1);
+    (BYTES / size_of::<Option<f64>>() / rows).max(1)
 }
 
 fn row(column: &Column, summary: Option<&Summary>, runs: usize) -> Map<String, Value> {
@@ -238,7 +236,8 @@ fn row(column: &Column, summary: Option<&Summary>, runs: usize) -> Map<String, V
 
 fn converged(column: &Column, point: &Convergence) -> ConvergenceRecord {
     let mean = point.summary.as_ref().map(|it| it.mean);
-    let median = point.summary.as_ref().and_then(|it| it.quantiles.first());
+    let is_median = |it: &&Quantile| it.share == MEDIAN;
+    let median = point.summary.as_ref().and_then(|it| it.quantiles.iter().find(is_median));
     ConvergenceRecord {
         quantity: column.name.clone(),
         runs: point.runs,
@@ -252,8 +251,7 @@ fn converged(column: &Column, point: &Convergence) -> ConvergenceRecord {
 }
 
 /// The curve of a distribution; none for a quantity that does not vary.
-fn curve(column: &Column, values: &[Option<f64>]) -> Option<Curve> {
-    let mut sorted: Vec<f64> = values.iter().copied().flatten().collect();
+fn curve(column: &Column, mut sorted: Vec<f64>) -> Option<Curve> {
     sorted.sort_by(f64::total_cmp);
     let last = sorted.len().checked_sub(1)?;
     if sorted[0] == sorted[last] {
@@ -274,12 +272,10 @@ fn curve(column: &Column, values: &[Option<f64>]) -> Option<Curve> {
 fn sensitivities(
     campaign: &Campaign,
     column: &Column,
-    values: &[Option<f64>],
+    found: Option<&Sensitivity>,
 ) -> Vec<SensitivityRecord> {
     let inputs = campaign.factors();
-    let Some(found) = Sensitivity::of(values, inputs.len(), campaign.seed()) else {
-        return Vec::new();
-    };
+    let Some(found) = found else { return Vec::new() };
     let record =
         |(input, share): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
             SensitivityRecord {
@@ -298,51 +294,37 @@ fn sensitivities(
     inputs.iter().zip(&found.indices).map(record).collect()
 }
 
-/// How often each status and outcome is, and how often either is a failure.
-fn probabilities(
-    campaign: &Campaign,
-    results: &Results,
-    draws: &Draws,
-) -> Result<Vec<ProbabilityRecord>, Failure> {
+/// How often each status and outcome is, counted shard by shard.
+fn frequencies(campaign: &Campaign, results: &Results) -> Result<(Frequencies, Finished), Failure> {
     let has_outcome = campaign.columns().iter().any(|column| column.name == "outcome");
     let names: &[&str] = if has_outcome { &["status", "outcome"] } else { &["status"] };
-    let (mut counts, mut failures, mut runs) = (BTreeMap::<String, usize>::new(), 0, 0);
-    for shard in results.manifest().own_shards() {
-        let table = results.shard(shard, names)?;
+    let mut frequencies = Frequencies::default();
+    let finished = results.read(names, &mut |shard, table| {
         let words = |name: &str| match table.column(name) {
-            Some(Values::Text(words)) => words.clone(),
-            _ => Vec::new(),
+            Some(Values::Text(words)) => words.as_slice(),
+            _ => &[],
         };
-        let (statuses, outcomes) = (words("status"), words("outcome"));
-        for (place, run) in results.manifest().runs_of(shard).enumerate() {
-            if draws.per_point > 1 && !draws.has(run) {
-                continue;
-            }
-            let status = statuses.get(place).cloned().flatten().unwrap_or_default();
-            let outcome = outcomes.get(place).cloned().flatten();
-            let is_failure =
-                status != "ok" || outcome.as_ref().is_some_and(|outcome| outcome != "completed");
-            runs += 1;
-            failures += usize::from(is_failure);
-            *counts.entry(outcome.unwrap_or(status)).or_default() += 1;
-        }
-    }
-    counts.insert("failure (all but ok and completed)".into(), failures);
-    Ok(counts.into_iter().filter_map(|(event, count)| chance(event, count, runs)).collect())
+        let runs = results.manifest().runs_of(shard);
+        frequencies.add(campaign, runs, words("status"), words("outcome"));
+    })?;
+    Ok((frequencies, finished))
 }
 
-fn chance(event: String, count: usize, runs: usize) -> Option<ProbabilityRecord> {
-    if runs == 0 {
-        return None;
-    }
-    let probability = Probability { successes: count, trials: runs };
-    let (low, high) = probability.interval();
-    Some(ProbabilityRecord {
-        event,
-        count,
-        runs,
-        probability: probability.estimate(),
-        probability_low: low,
-        probability_high: high,
-    })
+/// The probability of each event, and that of any failure.
+fn probabilities(frequencies: &Frequencies) -> Vec<ProbabilityRecord> {
+    let mut counts = frequencies.events.clone();
+    counts.insert("failure (all but ok and completed)".into(), frequencies.failures);
+    let record = |(event, count): (String, usize)| {
+        let probability = frequencies.probability(count)?;
+        let (probability_low, probability_high) = probability.interval();
+        Some(ProbabilityRecord {
+            event,
+            count,
+            runs: frequencies.samples,
+            probability: probability.estimate(),
+            probability_low,
+            probability_high,
+        })
+    };
+    counts.into_iter().filter_map(record).collect()
 }

@@ -1,0 +1,187 @@
+//! What the runs of a campaign say together: the one place that knows which of them are independent samples.
+//!
+//! In a campaign laid out for sensitivities, a point is run as A, as B, and as A with each input of B in turn.
+//! Only A and B are independent samples; the others repeat them but for one input. Summaries and probabilities
+//! are therefore over A and B alone, and sensitivities over all runs of whole points.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::super::study::OK;
+use super::Campaign;
+use crate::simulation::Outcome;
+use crate::studies::campaign::Plan;
+use crate::studies::campaign::sensitivity::Sensitivity;
+use crate::studies::campaign::summary::{Convergence, Summary};
+use crate::studies::uncertainty::Probability;
+
+/// What runs say of one quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuantityStatistics {
+    /// How many independent samples there are, with or without the quantity.
+    pub samples: usize,
+    /// Over the independent samples; nothing if fewer than two have the quantity.
+    pub summary: Option<Summary>,
+    /// The same after the first samples.
+    pub convergence: Vec<Convergence>,
+    /// Sobol indices, if the campaign was laid out for them and the quantity varies.
+    pub sensitivity: Option<Sensitivity>,
+}
+
+impl QuantityStatistics {
+    /// * `runs`: numbers of the runs that there are, in order
+    /// * `values`: of these runs, `None` for those without the quantity
+    /// * `shares`: of the quantiles [-], above 0 and below 1
+    #[must_use]
+    pub fn of(
+        campaign: &Campaign,
+        runs: &[Range<u64>],
+        values: &[Option<f64>],
+        shares: &[f64],
+    ) -> Self {
+        let plan = campaign.plan();
+        let numbered = || runs.iter().cloned().flatten().zip(values.iter().copied());
+        if !plan.is_for_sensitivity() {
+            return Self::of_samples(values, shares, None);
+        }
+        let samples: Vec<Option<f64>> =
+            numbered().filter(|(run, _)| plan.is_sample(*run)).map(|(_, value)| value).collect();
+        let points = whole_points(plan, numbered());
+        let sensitivity = Sensitivity::of(&points, plan.dimensions(), campaign.seed());
+        Self::of_samples(&samples, shares, sensitivity)
+    }
+
+    fn of_samples(
+        samples: &[Option<f64>],
+        shares: &[f64],
+        sensitivity: Option<Sensitivity>,
+    ) -> Self {
+        Self {
+            samples: samples.len(),
+            summary: Summary::of(samples, shares),
+            convergence: Convergence::of(samples, shares),
+            sensitivity,
+        }
+    }
+}
+
+/// The values of those points all runs of which are there, one point after another: where a part of a campaign
+/// ends, a point may be cut in two.
+fn whole_points(plan: &Plan, runs: impl Iterator<Item = (u64, Option<f64>)>) -> Vec<Option<f64>> {
+    let length = plan.runs_per_point();
+    let (mut all, mut point, mut next) = (Vec::new(), Vec::new(), 0);
+    for (run, value) in runs {
+        if run % length == 0 || run != next {
+            point.clear();
+        }
+        next = run + 1;
+        // What goes on a point whose start is elsewhere.
+        if point.len() as u64 != run % length {
+            continue;
+        }
+        point.push(value);
+        if point.len() as u64 == length {
+            all.append(&mut point);
+        }
+    }
+    all
+}
+
+/// How often words are said of the independent samples.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Frequencies {
+    /// How many independent samples there are.
+    pub samples: usize,
+    /// How often each status is.
+    pub statuses: BTreeMap<String, usize>,
+    /// How often each outcome is, for traverses.
+    pub outcomes: BTreeMap<String, usize>,
+    /// How often the outcome or, without one, the status is each word.
+    pub events: BTreeMap<String, usize>,
+    /// Samples that have no answer or were not completed.
+    pub failures: usize,
+}
+
+impl Frequencies {
+    /// Counts some runs.
+    ///
+    /// * `runs`: their numbers
+    /// * `statuses`, `outcomes`: theirs; no outcomes for studies that have none
+    pub fn add(
+        &mut self,
+        campaign: &Campaign,
+        runs: Range<u64>,
+        statuses: &[Option<String>],
+        outcomes: &[Option<String>],
+    ) {
+        for (place, run) in runs.enumerate() {
+            if campaign.plan().is_sample(run) {
+                let word = |words: &[Option<String>]| words.get(place).cloned().flatten();
+                self.count(word(statuses).unwrap_or_default(), word(outcomes));
+            }
+        }
+    }
+
+    fn count(&mut self, status: String, outcome: Option<String>) {
+        let completed = Outcome::Completed.name();
+        let is_failure = status != OK || outcome.as_ref().is_some_and(|it| it != completed);
+        self.samples += 1;
+        self.failures += usize::from(is_failure);
+        *self.events.entry(outcome.clone().unwrap_or_else(|| status.clone())).or_default() += 1;
+        *self.statuses.entry(status).or_default() += 1;
+        if let Some(outcome) = outcome {
+            *self.outcomes.entry(outcome).or_default() += 1;
+        }
+    }
+
+    /// The probability of what happened so often; nothing without samples.
+    #[must_use]
+    pub fn probability(&self, count: usize) -> Option<Probability> {
+        (self.samples > 0).then_some(Probability { successes: count, trials: self.samples })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::{Overrides, Source, read_campaign};
+
+    /// Two inputs, so that a point has the runs A, B, and A with either input exchanged.
+    fn campaign() -> Campaign {
+        let text = "schema = \"campaign/1\"\nstudy = \"wheel-test\"\nruns = 8\nsensitivity = true\n\
+             wheel_test = { soil = \"toyoura\", wheel = \"hakuto\", load_n = 17.0, slip_ratio = 0.2 }\n\
+             parameter = [\
+             { key = \"load_n\", distribution = \"uniform\", low = 10.0, high = 20.0 },\
+             { key = \"slip_ratio\", distribution = \"uniform\", low = 0.1, high = 0.3 }]\n";
+        let source = Source::text("study.toml", text.to_owned());
+        read_campaign(&source, &Overrides::none()).unwrap()
+    }
+
+    #[test]
+    fn runs_with_an_exchanged_input_are_no_samples() {
+        let campaign = campaign();
+        let all = 0..campaign.runs();
+        let values: Vec<Option<f64>> = all.clone().map(|run| Some(run as f64)).collect();
+        let found = QuantityStatistics::of(&campaign, std::slice::from_ref(&all), &values, &[0.5]);
+        // Of 32 runs, 0, 1, 4, 5 … 28, 29.
+        assert_eq!(found.samples, 16);
+        let summary = found.summary.unwrap();
+        assert_eq!((summary.count, summary.least, summary.most), (16, 0.0, 29.0));
+        assert_eq!(found.sensitivity.unwrap().points, 8);
+        let words = vec![Some("ok".to_owned()); 32];
+        let mut frequencies = Frequencies::default();
+        frequencies.add(&campaign, all, &words, &[]);
+        assert_eq!((frequencies.samples, frequencies.statuses["ok"]), (16, 16));
+    }
+
+    /// Of a part whose shards of three runs cut points of four in two, whole points alone tell sensitivities.
+    #[test]
+    fn points_that_a_part_cuts_in_two_are_left_out() {
+        let campaign = campaign();
+        let runs = [0..3, 6..9, 9..12, 12..15, 15..18];
+        let numbers = || runs.iter().cloned().flatten();
+        let whole = whole_points(campaign.plan(), numbers().map(|run| (run, Some(run as f64))));
+        let expected: Vec<Option<f64>> = (8..16).map(|run| Some(f64::from(run))).collect();
+        assert_eq!(whole, expected);
+    }
+}

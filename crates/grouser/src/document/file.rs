@@ -1,0 +1,165 @@
+//! Files that people name, read to a limit: none is waited for, and none fills the memory.
+//!
+//! A regular file is read, and a pipe that the caller was given already: the standard input as
+//! `/dev/stdin`, and another descriptor as `/dev/fd/N`, which is what a shell makes of `<(command)`.
+//! Devices have no end, and a pipe with a name waits for whoever writes: both are refused.
+
+use std::fs::{self, File, FileType, Metadata};
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+/// Why a file cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FileProblem {
+    /// A path that leads nowhere.
+    #[error("there is no such file")]
+    NoSuchFile,
+    /// A link whose file is gone.
+    #[error("this is a link to {}, which does not exist", super::escape::path(.target))]
+    BrokenLink {
+        /// What the link says.
+        target: PathBuf,
+    },
+    /// A folder where a file should be.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// A device, a socket, or a pipe with a name.
+    #[error(
+        "this is {what}, not a file: files are read, and pipes that are open already, as /dev/stdin \
+         and /dev/fd/N"
+    )]
+    NotAFile {
+        /// What it is.
+        what: &'static str,
+    },
+    /// More than is read.
+    #[error("is larger than {limit} bytes, the most that is read")]
+    TooLarge {
+        /// The most that is read.
+        limit: u64,
+    },
+    /// The disk, or permission for it, failed.
+    #[error("cannot be read: {message}")]
+    Unreadable {
+        /// What failed.
+        kind: io::ErrorKind,
+        /// The system's message.
+        message: String,
+    },
+}
+
+/// The bytes of a file.
+///
+/// * `limit`: the most that may be in it [bytes]
+///
+/// # Errors
+/// [`FileProblem`] for what is no file, is not there, may not be read, or is larger.
+pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileProblem> {
+    let file = open(path)?;
+    let mut bytes = Vec::new();
+    // One byte more than allowed distinguishes a file that is too large from one that just fits,
+    // without trusting a length that pipes do not have.
+    let read = file.take(limit.saturating_add(1)).read_to_end(&mut bytes);
+    read.map_err(|error| failed(path, &error))?;
+    if bytes.len() as u64 > limit {
+        return Err(FileProblem::TooLarge { limit });
+    }
+    Ok(bytes)
+}
+
+/// A link that leads nowhere, and where it should lead.
+#[must_use]
+pub fn broken_link(path: &Path) -> Option<PathBuf> {
+    let is_broken = fs::metadata(path).is_err_and(|error| is_absent(&error));
+    is_broken.then(|| fs::read_link(path).ok()).flatten()
+}
+
+/// Opens a file without waiting.
+fn open(path: &Path) -> Result<File, FileProblem> {
+    let failed = |error: io::Error| failed(path, &error);
+    if let Some(input) = standard_input(path) {
+        let file = input.map_err(failed)?;
+        return check(&file.metadata().map_err(failed)?, true).map(|()| file);
+    }
+    let metadata = fs::metadata(path).map_err(failed)?;
+    let is_given = is_descriptor(path);
+    check(&metadata, is_given)?;
+    let file = if is_given { File::open(path) } else { open_at_once(path) }.map_err(failed)?;
+    // Between the first look and the opening something else may have come there.
+    check(&file.metadata().map_err(failed)?, is_given)?;
+    Ok(file)
+}
+
+/// That there is something to read.
+///
+/// * `is_given`: whether it was open already, so that a pipe has somebody who writes
+fn check(metadata: &Metadata, is_given: bool) -> Result<(), FileProblem> {
+    let kind = metadata.file_type();
+    if kind.is_file() || (is_given && is_pipe(kind)) {
+        return Ok(());
+    }
+    if kind.is_dir() {
+        return Err(FileProblem::Folder);
+    }
+    let what = if is_pipe(kind) { "a named pipe" } else { "a device" };
+    Err(FileProblem::NotAFile { what })
+}
+
+#[cfg(unix)]
+fn is_pipe(kind: FileType) -> bool {
+    use std::os::unix::fs::FileTypeExt as _;
+    kind.is_fifo() || kind.is_socket()
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: FileType) -> bool {
+    false
+}
+
+/// Without waiting for somebody who writes, if it has become a pipe meanwhile.
+#[cfg(unix)]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt as _;
+    File::options().read(true).custom_flags(libc::O_NONBLOCK).open(path)
+}
+
+#[cfg(not(unix))]
+fn open_at_once(path: &Path) -> io::Result<File> {
+    File::open(path)
+}
+
+/// The standard input, if that is what a path names. It is used as it is, not opened again: a named
+/// pipe behind it may have nobody left who writes.
+#[cfg(unix)]
+fn standard_input(path: &Path) -> Option<io::Result<File>> {
+    use std::os::fd::AsFd as _;
+    let names = ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
+    let is_it = names.into_iter().any(|name| path == Path::new(name));
+    is_it.then(|| io::stdin().as_fd().try_clone_to_owned().map(File::from))
+}
+
+#[cfg(not(unix))]
+fn standard_input(_: &Path) -> Option<io::Result<File>> {
+    None
+}
+
+/// Whether a path names a descriptor of this process.
+fn is_descriptor(path: &Path) -> bool {
+    ["/dev/fd", "/proc/self/fd"].into_iter().any(|folder| path.parent() == Some(Path::new(folder)))
+}
+
+fn is_absent(error: &io::Error) -> bool {
+    use io::ErrorKind::{InvalidInput, NotADirectory, NotFound};
+    matches!(error.kind(), NotFound | NotADirectory | InvalidInput)
+}
+
+fn failed(path: &Path, error: &io::Error) -> FileProblem {
+    match error.kind() {
+        _ if is_absent(error) => match broken_link(path) {
+            Some(target) => FileProblem::BrokenLink { target },
+            None => FileProblem::NoSuchFile,
+        },
+        io::ErrorKind::IsADirectory => FileProblem::Folder,
+        kind => FileProblem::Unreadable { kind, message: error.to_string() },
+    }
+}

@@ -1,0 +1,277 @@
+//! What is damaged: command lines with the files that they read.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+
+use super::files_below;
+use super::verdict::{self, Limits};
+
+/// What an answer is held against.
+#[derive(Clone, Debug)]
+pub(super) enum Oracle {
+    /// Nothing but that the program behaves.
+    Sane,
+    /// Damage is refused, or the answer is this one.
+    Unchanged { stdout: String },
+}
+
+/// A command line, and files in the folder where it runs.
+#[derive(Clone, Debug)]
+pub(super) struct Subject {
+    pub(super) name: &'static str,
+    pub(super) words: Vec<String>,
+    pub(super) files: Vec<(String, Vec<u8>)>,
+    pub(super) oracle: Oracle,
+}
+
+impl Subject {
+    pub(super) fn line(&self) -> String {
+        let quoted = self.words.iter().map(|word| format!("{word:?}"));
+        std::iter::once("grouser".to_owned()).chain(quoted).collect::<Vec<_>>().join(" ")
+    }
+
+    /// The format that was asked for.
+    pub(super) fn format(&self) -> Option<&str> {
+        let at = self.words.iter().rposition(|word| word == "--format")?;
+        self.words.get(at + 1).map(String::as_str)
+    }
+
+    /// Writes the files into a folder.
+    pub(super) fn write(&self, folder: &Path) -> Result<()> {
+        for (name, content) in &self.files {
+            let path = folder.join(name);
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            fs::write(&path, content).with_context(|| name.clone())?;
+        }
+        Ok(())
+    }
+}
+
+/// Quick lines of every command, each with the names of its files among [`documents`].
+const LINES: [(&str, &str, &[&str]); 26] = [
+    (
+        "wheel-test",
+        "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
+        &["soil.toml", "wheel.toml"],
+    ),
+    (
+        "wheel-test, extended",
+        "wheel-test --soil small.toml --wheel wheel.toml --load-n 17 --slip-ratio 0.2 --format csv",
+        &["small.toml", "wheel.toml"],
+    ),
+    (
+        "wheel-test, stand",
+        "wheel-test --soil soil.toml --slip-ratio 0:0.6:0.3 --trials 3 --format csv --out stand",
+        &["soil.toml"],
+    ),
+    (
+        "attitude",
+        "attitude --soil soil.toml --rover rover.toml --slope-deg 5,15 --format json",
+        &["soil.toml", "rover.toml", "wheel.toml"],
+    ),
+    (
+        "attitude, uncertain",
+        "attitude --soil uncertain.toml --slope-deg 10 --uncertainty --samples 8 --format csv",
+        &["uncertain.toml"],
+    ),
+    (
+        "attitude, samples",
+        "attitude --soil sampled.toml --slope-deg 10 --uncertainty --samples 8 --out bands",
+        &["sampled.toml", "samples.csv"],
+    ),
+    (
+        "attitude-map",
+        "attitude-map --soil soil.toml --slope-deg 5,10 --course-deg 0,45 --out map",
+        &["soil.toml"],
+    ),
+    (
+        "traverse",
+        "traverse scenario.toml --duration-s 1 --format json",
+        &["scenario.toml", "soil.toml", "rover.toml", "wheel.toml"],
+    ),
+    (
+        "traverse, steep",
+        "traverse --slope-deg 59 --yaw-deg 90 --rover rover.toml --duration-s 1 --format csv",
+        &["rover.toml", "wheel.toml"],
+    ),
+    (
+        "traverse, drive",
+        "traverse --drive eq18 --reference-slip-ratio 0.2 --duration-s 0.5 --simulation quasi-steady --out run",
+        &[],
+    ),
+    (
+        "card",
+        "card --soil uncertain.toml --samples 6 --measured yaws.csv --out card.svg",
+        &["uncertain.toml", "yaws.csv"],
+    ),
+    (
+        "card, page",
+        "card --soil uncertain.toml --samples 6 --out card.html --format json",
+        &["uncertain.toml"],
+    ),
+    (
+        "validate",
+        "validate --data test.csv --wheel wheel.toml --soil soil.toml --out judged --format json",
+        &["test.csv", "wheel.toml", "soil.toml"],
+    ),
+    (
+        "validate, csv",
+        "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=0 --format csv",
+        &["test.csv"],
+    ),
+    (
+        "validate, folder",
+        "validate --all --data-dir . --format table",
+        &["set.toml", "test.csv", "soil.toml", "wheel.toml"],
+    ),
+    (
+        "calibrate",
+        "calibrate --data test.csv --wheel hakuto --soil soil.toml --fit soil.friction_angle_deg --point-fit --format json",
+        &["test.csv", "soil.toml"],
+    ),
+    (
+        "calibrate, plates",
+        "calibrate --plates plates.csv --soil soil.toml --plate-law bekker --fit soil.pressure_sinkage.k_phi --point-fit",
+        &["plates.csv", "soil.toml"],
+    ),
+    (
+        "import",
+        "import lab.csv --delimiter ; --decimal-comma --column load_n=W --column slip_ratio=slip:% --column sinkage_mm=z:cm --out ours.csv",
+        &["lab.csv"],
+    ),
+    (
+        "check",
+        "check soil.toml wheel.toml rover.toml scenario.toml campaign.toml set.toml uncertain.toml",
+        &[
+            "soil.toml",
+            "wheel.toml",
+            "rover.toml",
+            "scenario.toml",
+            "campaign.toml",
+            "set.toml",
+            "uncertain.toml",
+        ],
+    ),
+    ("campaign run", "campaign run campaign.toml --out runs --format json", &["campaign.toml"]),
+    ("campaign cost", "campaign cost campaign.toml", &["campaign.toml"]),
+    (
+        "campaign run, traverse",
+        "campaign run drives.toml --out runs",
+        &["drives.toml", "soil.toml"],
+    ),
+    ("presets", "presets toyoura --kind soil", &[]),
+    ("schema", "schema soil", &[]),
+    ("completions", "completions bash", &[]),
+    ("reproduce", "reproduce --out study", &[]),
+];
+
+/// All subjects, from files that the program itself makes.
+pub(super) fn all(program: &Path) -> Result<Vec<Subject>> {
+    let documents = documents(program)?;
+    let mut subjects = Vec::new();
+    for (name, line, files) in LINES {
+        let files = files.iter().map(|wanted| {
+            let found = documents.iter().find(|(name, _)| name == wanted);
+            found.cloned().with_context(|| format!("{name} reads {wanted}"))
+        });
+        let files = files.collect::<Result<_>>()?;
+        let words = line.split(' ').map(str::to_owned).collect();
+        subjects.push(Subject { name, words, files, oracle: Oracle::Sane });
+    }
+    subjects.extend(of_campaigns(program, &documents)?);
+    Ok(subjects)
+}
+
+/// Readers of a finished campaign, whose folder is damaged.
+fn of_campaigns(program: &Path, documents: &[(String, Vec<u8>)]) -> Result<Vec<Subject>> {
+    let folder = tempfile::tempdir()?;
+    for (name, content) in documents {
+        fs::write(folder.path().join(name), content)?;
+    }
+    printed(program, "campaign run campaign.toml --out runs", folder.path())?;
+    let runs = folder.path().join("runs");
+    let mut files = Vec::new();
+    for path in files_below(&runs)? {
+        let name = path.strip_prefix(folder.path())?.to_string_lossy().into_owned();
+        files.push((name, fs::read(&path)?));
+    }
+    let readers = [
+        ("campaign summarise", "campaign summarise runs --format json"),
+        ("campaign digest", "campaign digest runs"),
+        ("campaign rerun", "campaign rerun runs 7 --format json"),
+    ];
+    readers
+        .into_iter()
+        .map(|(name, line)| {
+            let stdout = String::from_utf8(printed(program, line, folder.path())?)?;
+            let words = line.split(' ').map(str::to_owned).collect();
+            Ok(Subject { name, words, files: files.clone(), oracle: Oracle::Unchanged { stdout } })
+        })
+        .collect()
+}
+
+/// What a line of the program prints when it ends well.
+fn printed(program: &Path, line: &str, folder: &Path) -> Result<Vec<u8>> {
+    let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+    let answer = verdict::run(program, &words, folder, Limits::GENEROUS)?;
+    let ended_well = answer.status.is_some_and(|status| status.success());
+    ensure!(ended_well, "`grouser {line}`: {}", String::from_utf8_lossy(&answer.stderr));
+    Ok(answer.stdout)
+}
+
+/// The files that the lines read: presets, a simulated stand's trials, and short ones of our own.
+fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    const PRINTED: [(&str, &str); 6] = [
+        ("soil.toml", "presets toyoura --kind soil"),
+        ("small.toml", "presets cmu-direct90-smooth --kind soil"),
+        ("uncertain.toml", "presets toyoura-uncertain --kind soil"),
+        ("wheel.toml", "presets hakuto --kind wheel"),
+        ("rover.toml", "presets hakuto --kind rover"),
+        (
+            "test.csv",
+            "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 --format csv",
+        ),
+    ];
+    const WRITTEN: [(&str, &str); 9] = [
+        (
+            "scenario.toml",
+            "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
+        ),
+        (
+            "campaign.toml",
+            "schema = \"campaign/1\"\nname = \"a wheel on rough sand\"\nstudy = \"wheel-test\"\nruns = 24\nshard_runs = 8\nseed = 3\n[wheel_test]\nsoil = \"toyoura\"\nwheel = \"hakuto\"\nload_n = 17.0\nslip_ratio = 0.2\n[[parameter]]\nkey = \"soil.friction_angle_deg\"\ndistribution = \"normal\"\nstandard_deviation = 2.0\n",
+        ),
+        (
+            "drives.toml",
+            "schema = \"campaign/1\"\nname = \"drives\"\nstudy = \"traverse\"\nruns = 6\nshard_runs = 2\nsampling = \"latin-hypercube\"\n[scenario]\nsoil = \"soil.toml\"\nsimulation = \"quasi-steady\"\nslope_deg = 10.0\nduration_s = 2.0\n[[parameter]]\nkey = \"slope_deg\"\ndistribution = \"uniform\"\nlow = 5.0\nhigh = 12.0\n",
+        ),
+        (
+            "set.toml",
+            "schema = \"data-set/1\"\nname = \"our stand\"\nsource = \"simulated\"\nfile = \"test.csv\"\n[[case]]\nname = \"all\"\nwheel = \"wheel.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\n",
+        ),
+        ("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n36.5,0.95\n"),
+        ("sampled.toml", SAMPLED),
+        ("yaws.csv", "slope_deg,measured,yaw_deg\n5,first run,3.31\n10,second run,5.51\n"),
+        (
+            "plates.csv",
+            "plate_width_mm,sinkage_mm,pressure_kpa\n50,5,8\n50,10,19\n50,20,45\n80,5,9\n80,10,20\n80,20,47\n",
+        ),
+        ("lab.csv", "W;slip;z;note\n17,5;10;1,25;first\n17,5;20;1,31;second\n18;40;1,5;third\n"),
+    ];
+    let folder = tempfile::tempdir()?;
+    let made = PRINTED
+        .into_iter()
+        .map(|(name, line)| Ok((name.to_owned(), printed(program, line, folder.path())?)));
+    let written = WRITTEN.into_iter().map(|(name, text)| Ok((name.to_owned(), text.into())));
+    made.chain(written).collect()
+}
+
+/// A soil whose uncertainty is a table of samples.
+const SAMPLED: &str = "schema = \"soil/1\"\nname = \"sampled sand\"\ncohesion_kpa = 0.0\nfriction_angle_deg = 38.0\ndensity_kg_m3 = 1490.0\n\
+    [pressure_sinkage]\nlaw = \"reece\"\nk_c = 0.0\nk_phi = 122.7\nn = 1.703\n[stress_peak]\na0 = 0.4\na1 = 0.15\n\
+    [shear]\nlaw = \"anisotropic\"\nlongitudinal_m = 0.036\nlongitudinal_per_rad_m = 0.043\nlateral_m = 0.013\nlateral_per_rad_m = 0.02\n\
+    [exit]\nratio = 1.0\n[bulldozing]\nlaw = \"sine\"\n[uncertainty]\nsamples = \"samples.csv\"\n";

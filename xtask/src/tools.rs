@@ -1,0 +1,144 @@
+//! What the checks need besides the toolchain, and where it comes from.
+//!
+//! The machine belongs to whoever runs the checks: packages of the system are installed only where the
+//! environment variable `CI` says that it is a machine of continuous integration. Elsewhere a check that
+//! needs one says so and is counted as skipped.
+
+use std::process::{Command, Stdio};
+
+use crate::libtest::Count;
+use crate::workspace;
+
+/// A part of the system that some checks need.
+#[derive(Clone, Copy)]
+pub(crate) struct SystemTool {
+    name: &'static str,
+    /// Of Debian and what descends from it.
+    packages: &'static [&'static str],
+    /// What is skipped without it.
+    checks: &'static str,
+    found: fn() -> bool,
+}
+
+/// What counts instructions.
+pub(crate) const VALGRIND: SystemTool = SystemTool {
+    name: "valgrind",
+    packages: &["valgrind"],
+    checks: "the counts of instructions",
+    found: || runs("valgrind", &["--version"]),
+};
+
+/// What MuJoCo draws with where there is no display. Elsewhere than on Linux the system does.
+pub(crate) const RENDERER: SystemTool = SystemTool {
+    name: "a renderer without a display (Mesa's EGL)",
+    packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+    checks: "pictures of MuJoCo models",
+    found: || {
+        let libraries = Command::new("/sbin/ldconfig").arg("-p").output();
+        !cfg!(target_os = "linux")
+            || libraries.is_ok_and(|listed| {
+                String::from_utf8_lossy(&listed.stdout).contains("libEGL_mesa.so")
+            })
+    },
+};
+
+impl SystemTool {
+    /// Whether the system has it.
+    pub(crate) fn is_here(self) -> bool {
+        (self.found)()
+    }
+
+    /// What is missing, what that costs, and how to get it.
+    pub(crate) fn missing(self) -> String {
+        let Self { name, packages, checks, .. } = self;
+        format!(
+            "{name} is missing, so {checks} are skipped; on Debian or Ubuntu: apt-get install {}",
+            packages.join(" ")
+        )
+    }
+}
+
+/// Looks for all that the other steps need, after fetching what may be fetched.
+pub(crate) fn check() -> Count {
+    let mut count = Count::one(component("rustfmt", "fmt"));
+    count += Count::one(component("clippy", "clippy"));
+    let ours = is_ci(std::env::var("CI").ok().as_deref());
+    let missing = |tool: &&SystemTool| !tool.is_here();
+    if ours {
+        install([VALGRIND, RENDERER].iter().filter(missing));
+    }
+    for tool in [VALGRIND, RENDERER] {
+        let here = tool.is_here();
+        println!("{}", if here { format!("{}: found", tool.name) } else { tool.missing() });
+        // Elsewhere the checks that need it count themselves as skipped.
+        if here || ours {
+            count += Count::one(here);
+        }
+    }
+    count
+}
+
+/// Whether this is a machine of continuous integration, whose packages are ours to install.
+///
+/// * `variable`: the value of `CI`
+fn is_ci(variable: Option<&str>) -> bool {
+    variable.is_some_and(|value| !matches!(value, "" | "0" | "false"))
+}
+
+/// Whether a component of the toolchain is here, after adding it where rustup can.
+fn component(name: &str, subcommand: &str) -> bool {
+    let present = || {
+        let mut probe = workspace::cargo();
+        probe.args([subcommand, "--version"]).stdout(Stdio::null()).stderr(Stdio::null());
+        probe.status().is_ok_and(|status| status.success())
+    };
+    if !present() {
+        println!("{name} is missing, trying to add it to the toolchain");
+        // Without rustup this fails, and the second look says so.
+        let _ = Command::new("rustup").args(["component", "add", name]).status();
+    }
+    let found = present();
+    println!("{name}: {}", if found { "found" } else { "missing" });
+    found
+}
+
+/// Installs the packages of tools, after one update of the lists.
+fn install<'a>(tools: impl Iterator<Item = &'a SystemTool>) {
+    let packages: Vec<&str> = tools.flat_map(|tool| tool.packages).copied().collect();
+    if packages.is_empty() {
+        return;
+    }
+    println!("installing {}", packages.join(" "));
+    for arguments in [&["update"][..], &[&["install", "--yes"], &packages[..]].concat()] {
+        let mut install = Command::new("apt-get");
+        install.args(["--quiet=2"]).args(arguments).stdout(Stdio::null());
+        // Where it fails, the look that follows says so.
+        let _ = install.status();
+    }
+}
+
+/// Whether a program is here and runs.
+pub(crate) fn runs(program: &str, arguments: &[&str]) -> bool {
+    let mut probe = Command::new(program);
+    probe.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    probe.status().is_ok_and(|status| status.success())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packages_are_installed_only_where_ci_is_set() {
+        assert!(is_ci(Some("true")) && is_ci(Some("1")));
+        for elsewhere in [None, Some(""), Some("0"), Some("false")] {
+            assert!(!is_ci(elsewhere), "{elsewhere:?}");
+        }
+    }
+
+    #[test]
+    fn a_missing_tool_says_what_is_skipped_and_how_to_get_it() {
+        let said = VALGRIND.missing();
+        assert!(said.contains("instructions are skipped") && said.contains("install valgrind"));
+    }
+}
