@@ -92,14 +92,14 @@ impl From<grouser::simulation::SimulationError> for Failure {
     fn from(error: grouser::simulation::SimulationError) -> Self {
         use grouser::simulation::SimulationError;
         match error {
-            SimulationError::Parameter(parameter) => Self::Usage(parameter.to_string()),
-            error => Self::Run(error.to_string()),
+            SimulationError::Parameter(parameter) => parameter.into(),
+            error => Self::Run(escape::line(&error.to_string()).into_owned()),
         }
     }
 }
 
 impl From<grouser::error::ParameterError> for Failure {
     fn from(error: grouser::error::ParameterError) -> Self {
-        Self::Usage(error.to_string())
+        Self::Usage(escape::line(&error.to_string()).into_owned())
     }
 }

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use grouser::contact::Theory;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
+    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil, escape,
 };
 use grouser::studies::card::Rule;
 
@@ -43,7 +43,7 @@ impl From<MeasurementError> for Failure {
 /// The scenario of a traverse.
 pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     let source = scenario_source("traverse", args.scenario.as_deref())?;
-    let mut overrides = Overrides::parse(&args.setting.settings)?;
+    let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
     scenario_settings(&mut overrides, &args.setting, &args.balance)?;
     let texts = [
         ("--rover", "scenario.rover", &args.rover),
@@ -123,7 +123,7 @@ fn balanced(
     balance: &BalanceArgs,
 ) -> Result<LoadedScenario, Failure> {
     let source = scenario_source(command, scenario)?;
-    let mut overrides = Overrides::parse(&setting.settings)?;
+    let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
@@ -147,7 +147,7 @@ pub(crate) fn uncertain_soil<'s>(
 ) -> Result<&'s UncertainSoil, Failure> {
     check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
     let Some(uncertain) = &scenario.uncertain else {
-        let name = scenario.document.text("soil.name").unwrap_or("unnamed");
+        let name = escape::line(scenario.document.text("soil.name").unwrap_or("unnamed"));
         return Err(Failure::Usage(format!(
             "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
              hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
@@ -163,7 +163,7 @@ fn refuse_sampled_keys(setting: &SettingArgs, uncertain: &UncertainSoil) -> Resu
     if uncertain.is_sampled() {
         let keys: Vec<&str> = uncertain.keys().collect();
         let hint = "the samples give this key a value in every draw";
-        Overrides::parse(&setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
+        Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
     }
     Ok(())
 }
@@ -235,7 +235,7 @@ pub(crate) fn soil(
     name: &str,
     setting: &SettingArgs,
 ) -> Result<(document::LoadedSoil, f64), Failure> {
-    let overrides = Overrides::parse(&setting.settings)?;
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Soil])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
     let mut scenario = Overrides::none();
@@ -260,7 +260,7 @@ pub(crate) fn stand(
     wheel: &str,
     setting: &SettingArgs,
 ) -> Result<StandInputs, Failure> {
-    let overrides = Overrides::parse(&setting.settings)?;
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;

@@ -7,6 +7,7 @@ mod args;
 mod chart;
 mod commands;
 mod failure;
+mod hints;
 mod inputs;
 mod interrupt;
 mod list;

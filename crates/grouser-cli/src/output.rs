@@ -15,6 +15,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::hints;
 
 /// Writes text to the standard output. Names and cells may hold what steers a terminal: it is
 /// written out here, whatever the text is made of.
@@ -55,8 +56,8 @@ pub(crate) fn tell(text: &str) {
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
     if failure.is_to_be_told() {
-        let text = failure.to_string();
-        let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&text));
+        let message = hints::with_flags(&failure.to_string());
+        let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&message));
     }
 }
 

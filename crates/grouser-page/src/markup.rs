@@ -1,6 +1,6 @@
 //! Text from outside inside SVG and HTML.
 
-/// A text as the content of an element, or as the value of an attribute in quotation marks, of SVG or
+/// A text as the content of an element, or as the value of an attribute in double quotation marks, of SVG or
 /// HTML: whatever it holds, it is shown, and neither ends the element nor makes the document
 /// unreadable. Line feeds and tabs stay.
 #[must_use]
@@ -12,7 +12,6 @@ pub fn markup(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
             '\n' | '\t' => escaped.push(character),
             hidden if is_hidden(hidden) => escaped.extend(hidden.escape_default()),
             shown => escaped.push(shown),

@@ -3,14 +3,14 @@
 //! Who computes which shard where is for `grouser/campaign` to say: a worker gets a study as a text and
 //! a number, and gives back the bytes of a Parquet file.
 
-use std::path::PathBuf;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use grouser::document::campaign::{Campaign, Cell, Values};
+use grouser::document::campaign::{Campaign, Cell, Frequencies, QuantityStatistics, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
-use grouser::studies::campaign::sensitivity::{Sensitivity, SobolIndex};
-use grouser::studies::campaign::summary::{Convergence, Estimate, Quantile, Summary};
-use grouser::studies::uncertainty::Probability;
+use grouser::studies::campaign::sensitivity::SobolIndex;
+use grouser::studies::campaign::summary::{Estimate, Quantile, Summary};
 use grouser_store::{ColumnRecord, Folder, Manifest, Part, StoreError, Study, merge, shard};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -136,11 +136,26 @@ pub(crate) fn check_shard(
     checked.map_err(|fault| errors::of_store(&StoreError::Shard { shard, fault }))
 }
 
-/// The manifest of a campaign of which nothing is computed yet, as JSON.
+/// The most bytes that the file of a shard may have.
+#[pyfunction]
+pub(crate) fn most_shard_bytes(campaign: &Document, shard: u64) -> PyResult<u64> {
+    Ok(campaign.campaign()?.study.identity(shard).most_bytes())
+}
+
+/// The file of the manifest of a campaign of which nothing is computed yet.
 #[pyfunction]
 pub(crate) fn campaign_manifest(campaign: &Document, part: Option<(u64, u64)>) -> PyResult<String> {
-    let manifest = Manifest::new(&campaign.campaign()?.study, part_of(part)?);
-    serde_json::to_string(&manifest).map_err(|error| PyValueError::new_err(error.to_string()))
+    Ok(Manifest::new(&campaign.campaign()?.study, part_of(part)?).to_text())
+}
+
+/// The file of a manifest that was changed here: with the hash that is right for it now.
+///
+/// * `manifest`: as JSON
+#[pyfunction]
+pub(crate) fn seal_manifest(manifest: &str) -> PyResult<String> {
+    let manifest: Result<Manifest, _> = serde_json::from_str(manifest);
+    let manifest = manifest.map_err(|error| PyValueError::new_err(error.to_string()))?;
+    Ok(manifest.to_text())
 }
 
 /// Which keys of two resolved studies differ, in words.
@@ -149,18 +164,94 @@ pub(crate) fn study_difference(theirs: &str, ours: &str) -> String {
     grouser_store::difference(theirs, ours)
 }
 
-/// Columns of a shard: numbers as arrays, with NaN where there is none; texts as lists.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
-pub(crate) fn read_shard<'py>(
-    py: Python<'py>,
-    data: &[u8],
-    columns: Vec<String>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let data = data.to_vec();
-    let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-    let table = py.detach(|| shard::read_bytes(data, &names));
-    let table = table.map_err(|error| errors::of_store(&error))?;
+/// The manifest of a folder or URL, whose hash of itself is right: what shards are held against.
+#[pyclass(module = "grouser._core", frozen)]
+pub(crate) struct CampaignManifest {
+    manifest: Manifest,
+}
+
+#[pymethods]
+impl CampaignManifest {
+    /// * `file`: what messages call it
+    #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+    fn new(data: &[u8], file: PathBuf) -> PyResult<Self> {
+        let manifest = Manifest::parse(data, &file);
+        Ok(Self { manifest: manifest.map_err(|error| errors::of_store(&error))? })
+    }
+
+    /// That a resolved study is the one whose runs are here.
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+    fn check_study(&self, study: &[u8], file: PathBuf) -> PyResult<()> {
+        if grouser_store::sha256(study) == self.manifest.study_sha256 {
+            return Ok(());
+        }
+        Err(errors::of_store(&StoreError::StudyChanged(file)))
+    }
+
+    /// That it says of a campaign what this version would.
+    ///
+    /// * `file`: what messages call it
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+    fn check_campaign(&self, campaign: &Document, file: PathBuf) -> PyResult<()> {
+        let study = &campaign.campaign()?.study;
+        if self.manifest.is_of(study, self.manifest.part) {
+            return Ok(());
+        }
+        let problem = "it does not say what the study and this version say".to_owned();
+        Err(errors::of_store(&StoreError::Manifest { file, problem }))
+    }
+
+    /// The shard that a file is named for, if it belongs here.
+    fn shard_of(&self, name: &str) -> Option<u64> {
+        shard::number_of(name).filter(|shard| self.manifest.has(*shard))
+    }
+
+    /// How many shards belong here.
+    fn shards(&self) -> u64 {
+        self.manifest.own_count()
+    }
+
+    /// The first run of a shard, and the one after its last.
+    fn runs_of(&self, shard: u64) -> (u64, u64) {
+        let runs = self.manifest.runs_of(shard);
+        (runs.start, runs.end)
+    }
+
+    /// The most bytes that a shard's file may have.
+    fn most_bytes(&self, shard: u64) -> u64 {
+        self.manifest.identity(shard).most_bytes()
+    }
+
+    /// Columns of a shard that is as it was written: numbers as arrays, with NaN where there is none; texts as
+    /// lists.
+    ///
+    /// * `file`: what messages call it
+    #[allow(clippy::needless_pass_by_value, reason = "how lists and paths come from Python")]
+    fn read<'py>(
+        &self,
+        py: Python<'py>,
+        shard: u64,
+        data: &[u8],
+        columns: Vec<String>,
+        file: PathBuf,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let identity = self.manifest.identity(shard);
+        let data = data.to_vec();
+        let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+        let table = py.detach(|| {
+            let checked = shard::Checked::open(&identity, data.into());
+            checked.map_err(|fault| damaged(&file, fault))?.table(&names)
+        });
+        columns_of(py, table.map_err(|error| errors::of_store(&error))?)
+    }
+}
+
+fn damaged(file: &Path, fault: grouser_store::ShardFault) -> StoreError {
+    StoreError::Damaged { file: file.to_owned(), fault }
+}
+
+fn columns_of(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     for (name, values) in table.columns {
         match values {
@@ -213,9 +304,14 @@ impl CampaignFolder {
         Ok(Self { folder: Some(folder.map_err(|error| errors::of_store(&error))?) })
     }
 
-    /// Shards that are not there yet, in order.
-    fn missing<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u64>>> {
-        Ok(PyArray1::from_vec(py, self.open()?.missing()))
+    /// Shards that are not there yet, in order: first, step and how many, for each run of them.
+    fn missing(&self) -> PyResult<Vec<(u64, u64, u64)>> {
+        Ok(self.open()?.missing().progressions().collect())
+    }
+
+    /// How many shards are not there yet.
+    fn missing_count(&self) -> PyResult<u64> {
+        Ok(self.open()?.missing().len())
     }
 
     /// Shards that were there and are damaged, each with what is wrong.
@@ -292,94 +388,115 @@ pub(crate) fn merge_campaign(
 
 // ---- What the runs say together ----
 
-/// What is said of one quantity.
-struct Said {
-    summary: Option<Summary>,
-    convergence: Vec<Convergence>,
-    sensitivity: Option<Sensitivity>,
+/// How often statuses and outcomes are among the independent samples.
+///
+/// * `runs`: first and one after the last, in order
+/// * `statuses`, `outcomes`: theirs; no outcomes for studies that have none
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
+pub(crate) fn campaign_frequencies<'py>(
+    py: Python<'py>,
+    campaign: &Document,
+    runs: Vec<(u64, u64)>,
+    statuses: Vec<Option<String>>,
+    outcomes: Vec<Option<String>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let campaign = campaign.campaign()?.campaign();
+    let mut frequencies = Frequencies::default();
+    let mut start = 0;
+    for (first, end) in runs {
+        let stop = start + usize::try_from(end - first)?;
+        let words = |words: &[Option<String>]| -> Vec<Option<String>> {
+            words.get(start..stop).map(<[_]>::to_vec).unwrap_or_default()
+        };
+        frequencies.add(campaign, first..end, &words(&statuses), &words(&outcomes));
+        start = stop;
+    }
+    let dict = PyDict::new(py);
+    dict.set_item("samples", frequencies.samples)?;
+    for (name, counts) in [("status", &frequencies.statuses), ("outcome", &frequencies.outcomes)] {
+        let words = PyDict::new(py);
+        for (word, count) in counts {
+            let Some(probability) = frequencies.probability(*count) else { continue };
+            let (low, high) = probability.interval();
+            words.set_item(word, (*count, probability.estimate(), low, high))?;
+        }
+        dict.set_item(name, words)?;
+    }
+    Ok(dict)
 }
 
 /// What runs say of quantities: a dictionary for each.
 ///
-/// * `columns`: their values in the order of the runs, NaN where there is none
+/// * `runs`: first and one after the last, in order
+/// * `columns`: values of these runs, NaN where there is none
 /// * `shares`: of the quantiles [-]
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn campaign_summary<'py>(
     py: Python<'py>,
     campaign: &Document,
+    runs: Vec<(u64, u64)>,
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
-    counts: Vec<(usize, usize)>,
     shares: Vec<f64>,
-) -> PyResult<(Bound<'py, PyList>, Bound<'py, PyList>)> {
-    let LoadedCampaign { campaign, .. } = campaign.campaign()?;
+) -> PyResult<Bound<'py, PyList>> {
+    let campaign = Arc::clone(&campaign.campaign()?.campaign);
     let factors = campaign.factors().to_vec();
-    let inputs = campaign.is_sensitivity().then_some(factors.len());
-    let seed = campaign.seed();
+    let runs: Vec<Range<u64>> = runs.into_iter().map(|(first, end)| first..end).collect();
     let mut quantities = Vec::new();
     for (name, values) in &columns {
-        let draw = |value: &f64| (!value.is_nan()).then_some(*value);
-        quantities.push((name.clone(), values.as_slice()?.iter().map(draw).collect::<Vec<_>>()));
+        let value = |value: &f64| (!value.is_nan()).then_some(*value);
+        quantities.push((name.clone(), values.as_slice()?.iter().map(value).collect::<Vec<_>>()));
     }
-    let said = listening(py, move |_| {
-        let say = |(name, draws): &(String, Vec<Option<f64>>)| {
-            let said = Said {
-                summary: Summary::of(draws, &shares),
-                convergence: Convergence::of(draws, &shares),
-                sensitivity: inputs.and_then(|inputs| Sensitivity::of(draws, inputs, seed)),
-            };
-            (name.clone(), said)
+    let all = listening(py, move |_| {
+        let of = |(name, values): &(String, Vec<Option<f64>>)| {
+            (name.clone(), QuantityStatistics::of(&campaign, &runs, values, &shares))
         };
-        quantities.par_iter().map(say).collect::<Vec<_>>()
+        quantities.par_iter().map(of).collect::<Vec<_>>()
     })?;
-    let all = PyList::empty(py);
-    for (name, said) in said {
-        all.append(said.to_python(py, &name, &factors)?)?;
+    let list = PyList::empty(py);
+    for (name, found) in all {
+        list.append(quantity_of(py, &name, &found, &factors)?)?;
     }
-    let probabilities = PyList::empty(py);
-    for (successes, trials) in counts {
-        let probability = Probability { successes, trials };
-        let (low, high) = probability.interval();
-        probabilities.append((probability.estimate(), low, high))?;
-    }
-    Ok((all, probabilities))
+    Ok(list)
 }
 
-impl Said {
-    fn to_python<'py>(
-        &self,
-        py: Python<'py>,
-        name: &str,
-        factors: &[String],
-    ) -> PyResult<Bound<'py, PyDict>> {
-        let dict = PyDict::new(py);
-        dict.set_item("quantity", name)?;
-        if let Some(summary) = &self.summary {
-            dict.update(summary_of(py, summary)?.as_mapping())?;
-        }
-        let convergence = PyList::empty(py);
-        for step in &self.convergence {
-            let row = match &step.summary {
-                Some(summary) => summary_of(py, summary)?,
-                None => PyDict::new(py),
-            };
-            row.set_item("runs", step.runs)?;
-            convergence.append(row)?;
-        }
-        dict.set_item("convergence", convergence)?;
-        let indices = PyList::empty(py);
-        if let Some(sensitivity) = &self.sensitivity {
-            for (factor, SobolIndex { first, total }) in factors.iter().zip(&sensitivity.indices) {
-                let row = PyDict::new(py);
-                row.set_item("input", factor)?;
-                set_estimate(&row, "first", first)?;
-                set_estimate(&row, "total", total)?;
-                indices.append(row)?;
-            }
-        }
-        dict.set_item("sensitivity", indices)?;
-        Ok(dict)
+fn quantity_of<'py>(
+    py: Python<'py>,
+    name: &str,
+    found: &QuantityStatistics,
+    factors: &[String],
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("quantity", name)?;
+    dict.set_item("missing", found.samples)?;
+    if let Some(summary) = &found.summary {
+        dict.update(summary_of(py, summary)?.as_mapping())?;
     }
+    let convergence = PyList::empty(py);
+    for step in &found.convergence {
+        let row = match &step.summary {
+            Some(summary) => summary_of(py, summary)?,
+            None => PyDict::new(py),
+        };
+        row.set_item("runs", step.runs)?;
+        convergence.append(row)?;
+    }
+    dict.set_item("convergence", convergence)?;
+    let indices = PyList::empty(py);
+    if let Some(sensitivity) = &found.sensitivity {
+        for (factor, SobolIndex { first, total }) in factors.iter().zip(&sensitivity.indices) {
+            let row = PyDict::new(py);
+            row.set_item("input", factor)?;
+            set_estimate(&row, "first", first)?;
+            set_estimate(&row, "total", total)?;
+            row.set_item("points", sensitivity.points)?;
+            row.set_item("points_missing", sensitivity.missing)?;
+            indices.append(row)?;
+        }
+    }
+    dict.set_item("sensitivity", indices)?;
+    Ok(dict)
 }
 
 fn summary_of<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound<'py, PyDict>> {

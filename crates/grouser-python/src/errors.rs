@@ -153,6 +153,9 @@ pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
         CalibrationError::NoParameters | CalibrationError::TooFewObservations { .. } => {
             parameter(format!("fit: {message}"), "fit", None, expected)
         }
+        CalibrationError::TooManyObservations { most, .. } => {
+            parameter(message, "data", None, format!("at most {most} observations"))
+        }
         CalibrationError::OneSlipAngle | CalibrationError::LeavingOut { .. } => {
             let message = format!("cross_validate: {message}");
             parameter(message, "cross_validate", None, "trials at several slip angles")

@@ -33,8 +33,9 @@ mod _core {
     use super::calibration::{calibrate_plate_tests, calibrate_wheel_tests};
     #[pymodule_export]
     use super::campaign::{
-        CampaignFolder, campaign_facts, campaign_manifest, campaign_row, campaign_shard,
-        campaign_summary, check_shard, find_campaign, merge_campaign, read_shard, study_difference,
+        CampaignFolder, CampaignManifest, campaign_facts, campaign_frequencies, campaign_manifest,
+        campaign_row, campaign_shard, campaign_summary, check_shard, find_campaign, merge_campaign,
+        most_shard_bytes, seal_manifest, study_difference,
     };
     #[pymodule_export]
     use super::columns::unit_of;

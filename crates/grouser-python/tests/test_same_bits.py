@@ -152,7 +152,8 @@ def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
         "validate", "--data", "cmu-single-wheel", "--soil", "direct-90", "--wheel", wheel,
         "--where", where,
     )  # fmt: skip
-    assert gr.validate("cmu-single-wheel", "direct-90", wheel, where=where).overall == told["overall"]
+    found = gr.validate("cmu-single-wheel", "direct-90", wheel, where=where)
+    assert found.overall == told["overall"]
     with pytest.raises(gr.DocumentNotFoundError, match="did you mean `cmu-single-wheel`"):
         gr.validate("cmu-single-whel", "direct-90", wheel)
 

@@ -56,8 +56,8 @@ pub struct Manifest {
     /// When it was computed.
     pub sessions: Vec<Session>,
     /// Of the file; zeros in memory.
-    #[serde(default = "zeros")]
-    manifest_sha256: String,
+    #[serde(rename = "manifest_sha256", default = "zeros")]
+    own_sha256: String,
 }
 
 fn zeros() -> String {
@@ -151,7 +151,7 @@ impl Manifest {
             columns: study.columns.iter().map(ColumnRecord::from).collect(),
             digest: None,
             sessions: Vec::new(),
-            manifest_sha256: zeros(),
+            own_sha256: zeros(),
         }
     }
 
@@ -210,7 +210,7 @@ impl Manifest {
         let manifest: Self =
             serde_json::from_slice(bytes).map_err(|error| wrong(&error.to_string()))?;
         manifest.check().map_err(|problem| wrong(&problem))?;
-        Ok(Self { manifest_sha256: zeros(), ..manifest })
+        Ok(Self { own_sha256: zeros(), ..manifest })
     }
 
     /// What somebody may have written with a right hash, and no campaign has.
@@ -233,13 +233,13 @@ impl Manifest {
 
     /// The same in today's form.
     pub(crate) fn renewed(self) -> Self {
-        Self { schema: SCHEMA.into(), manifest_sha256: zeros(), ..self }
+        Self { schema: SCHEMA.into(), own_sha256: zeros(), ..self }
     }
 
     /// Its file: with the hash of itself.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let zeroed = Self { manifest_sha256: zeros(), ..self.clone() };
+        let zeroed = Self { own_sha256: zeros(), ..self.clone() };
         // Text keys, and writing to memory: it does not fail.
         let mut text = serde_json::to_string_pretty(&zeroed).unwrap_or_default() + "\n";
         if let Some(place) = hash_place(text.as_bytes()) {

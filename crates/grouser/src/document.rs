@@ -407,7 +407,7 @@ fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
 fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
     if tree.entries().is_empty() {
         return Err(DocumentError::whole(&tree.origin.text.label, Problem::Empty)
-            .with_hint("`grouser presets NAME` prints a document to start from".to_owned()));
+            .with_hint("a preset is a document to start from".to_owned()));
     }
     let tags = Kind::ALL.map(Kind::tag);
     let Some(entry) = tree.entry("schema") else {

@@ -68,7 +68,7 @@ pub(super) fn mutate(subject: &mut Subject, dice: &mut Rng) {
 }
 
 /// Damage as disks and hands do it: a bit, a piece, the end, another file in its place, two exchanged.
-fn damage_bytes(files: &mut Vec<(String, Vec<u8>)>, dice: &mut Rng) {
+fn damage_bytes(files: &mut [(String, Vec<u8>)], dice: &mut Rng) {
     let at = dice.usize(..files.len());
     let other = dice.usize(..files.len());
     let content = &mut files[at].1;
@@ -210,13 +210,13 @@ fn damage_line(words: &mut Vec<String>, dice: &mut Rng) {
     let at = dice.usize(..words.len()).max(dice.usize(..words.len()));
     match dice.u8(..8) {
         0 if words.len() > 1 => drop(words.remove(at)),
-        1 => words.insert(at, without_zero(word(dice))),
+        1 => words.insert(at, without_zero(&word(dice))),
         2 => words.insert(at, words[at].clone()),
         3 => {
             let other = dice.usize(..words.len());
             words.swap(at, other);
         }
-        4 | 5 => words[at] = without_zero(word(dice)),
+        4 | 5 => words[at] = without_zero(&word(dice)),
         _ => {
             let mut letters: Vec<char> = words[at].chars().collect();
             if let Some(place) = dice.choice(0..letters.len()) {
@@ -228,6 +228,6 @@ fn damage_line(words: &mut Vec<String>, dice: &mut Rng) {
 }
 
 /// An argument as a system takes it: without NUL, and shorter than the longest.
-fn without_zero(word: String) -> String {
+fn without_zero(word: &str) -> String {
     word.replace('\0', "0").chars().take(60_000).collect()
 }

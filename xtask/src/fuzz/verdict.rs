@@ -174,8 +174,8 @@ fn is_control(character: char) -> bool {
 }
 
 fn json_fault(text: &str) -> Option<Fault> {
-    let values = serde_json::Deserializer::from_str(text).into_iter::<serde_json::Value>();
-    values.filter_map(Result::err).next().map(|error| Fault::NotJson(error.to_string()))
+    let mut values = serde_json::Deserializer::from_str(text).into_iter::<serde_json::Value>();
+    values.find_map(Result::err).map(|error| Fault::NotJson(error.to_string()))
 }
 
 fn csv_fault(text: &str) -> Option<Fault> {

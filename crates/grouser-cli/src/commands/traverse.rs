@@ -1,5 +1,6 @@
 //! `grouser traverse`
 
+use grouser::document::escape;
 use grouser::document::trajectory::{SampleRecord, TrajectoryRecord};
 use grouser::simulation::Simulation;
 use serde::Serialize;
@@ -49,9 +50,14 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
 fn tell_end(record: &TrajectoryRecord) {
     if record.outcome != COMPLETED {
         let (outcome, time) = (record.outcome, four_digits(record.end.time_s));
-        let reason = record.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+        let reason = reason(record);
         output::tell(&format!("note: {outcome} after {time} s{reason}"));
     }
+}
+
+/// Why a run ended as it did, after a colon, on one line whatever its wheels are called.
+fn reason(record: &TrajectoryRecord) -> String {
+    record.reason.as_ref().map_or(String::new(), |reason| format!(": {}", escape::line(reason)))
 }
 
 fn object(record: &impl Serialize) -> Map<String, Value> {
@@ -107,7 +113,7 @@ fn table(record: &TrajectoryRecord) -> String {
         ("dynamic", None) => String::new(),
         (word, None) => format!("\nsimulation: {word}"),
     };
-    let reason = record.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
+    let reason = reason(record);
     format!(
         "{}{} after {} s{reason}; x {} m, y {} m, yaw {}°, {} J{simulation}\n",
         rows.to_table(&COLUMNS),

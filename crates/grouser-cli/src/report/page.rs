@@ -130,7 +130,7 @@ mod tests {
         let html = page.to_html();
         assert!(html.contains("<title>a&lt;/title&gt;&lt;script&gt;</title>"), "{html}");
         assert!(html.contains("<li>]]&gt;\\u{202e}\\u{1b}[2J\\u{0}</li>"), "{html}");
-        assert!(html.contains("<caption>&quot;&#39;&gt;</caption>"), "{html}");
+        assert!(html.contains("<caption>&quot;'&gt;</caption>"), "{html}");
         assert!(html.contains("<th>&lt;th&gt;</th>") && html.contains("<td>&amp;amp;</td>"));
     }
 }

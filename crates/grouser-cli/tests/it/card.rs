@@ -189,7 +189,7 @@ fn measured_yaws_are_placed_beside_the_band() {
     for (content, part) in [
         ("yaw_deg\n1\n", "slope_deg"),
         ("slope_deg\n1\n", "yaw_deg"),
-        ("slope_deg,yaw_deg\n5,much\n", "line 2"),
+        ("slope_deg,yaw_deg\n5,much\n", "yaws.csv:2: "),
         ("slope_deg,yaw_deg\n95,1\n", "0 to 60"),
     ] {
         place.write("yaws.csv", content);
@@ -197,7 +197,7 @@ fn measured_yaws_are_placed_beside_the_band() {
         assert_eq!(answer.code(), 2, "{content}");
         assert!(answer.stderr.contains(part), "{}", answer.stderr);
     }
-    assert_eq!(place.line("card --measured nowhere.csv").code(), 1);
+    assert_eq!(place.line("card --measured nowhere.csv").code(), 2);
 }
 
 /// A rover that is no mirror image of itself has two cards, and each says whose it is.

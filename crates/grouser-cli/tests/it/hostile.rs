@@ -80,7 +80,7 @@ fn no_cell_of_csv_is_a_formula_and_our_own_files_can_be_read() {
     let answer = place.line("import theirs.csv --column load_n=W --out ours.csv");
     assert_eq!(answer.code(), 0, "{}", answer.stderr);
     let ours = place.read("ours.csv");
-    assert!(ours.contains("\n'=cmd|' /C calc'!A0,17,-0.2,9\n"), "{ours}");
+    assert!(ours.contains("\n17,'=cmd|' /C calc'!A0,-0.2,9\n"), "{ours}");
     // Again, the apostrophe neither doubles nor is part of the label.
     let answer = place.line("import ours.csv --out again.csv");
     assert_eq!((answer.code(), place.read("again.csv")), (0, ours));
@@ -147,10 +147,8 @@ fn a_higher_limit_of_rows_reads_more() {
 #[test]
 fn calibrate_refuses_more_cells_than_it_can_fit() {
     let place = Place::new();
-    let mut text = "load_n,slip_ratio,sinkage_mm\n".to_owned();
-    for row in 0..10_001 {
-        text += &format!("17,{},9\n", f64::from(row) * 1e-5);
-    }
+    let rows = (0..10_001).map(|row| format!("17,{},9\n", f64::from(row) * 1e-5));
+    let text = "load_n,slip_ratio,sinkage_mm\n".to_owned() + &rows.collect::<String>();
     place.write("many.csv", text);
     let answer = place.line(
         "calibrate --data many.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa --point-fit",

@@ -10,8 +10,8 @@
 //! F = ∫ ξ d α(n̂, v̂) dA     v = v_hub + ω × r     over rim, grousers and both side faces
 //! ```
 //!
-//! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `exposure` which of
-//! them grousers hide. The law knows no front, so the wheel is the sum of its two halves, each seen
+//! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `sums` what they meet
+//! together, `exposure` which of them grousers hide. The law knows no front, so the wheel is the sum of its two halves, each seen
 //! with its own mirror; nothing is blended.
 //!
 //! A wheel below [`CREEP_SPEED`](super::slip::CREEP_SPEED) counts as one that sinks: directions
@@ -20,10 +20,13 @@
 
 mod exposure;
 mod facet;
+mod sums;
 mod surface;
 
 use super::forces::WheelForces;
 use super::gauss::{GAUSS_4, GAUSS_16, GAUSS_64, Rule};
+use super::kernel::InstructionSet;
+use super::kernel::dispatch::Work;
 use super::model::{Contact, WheelSoilModel};
 use super::patch::ContactPatch;
 use surface::FrontHalf;
@@ -31,10 +34,12 @@ use surface::FrontHalf;
 /// Three-dimensional resistive force theory.
 #[derive(Clone, Copy, Debug)]
 pub struct Rft {
-    /// Nodes over the arc.
+    /// Nodes over the arc; they fill the lanes.
     arc: &'static Rule,
     /// Nodes over the height of a grouser and over the side face's radius.
     height: &'static Rule,
+    /// Without it, the best that the processor has.
+    set: Option<InstructionSet>,
 }
 
 impl Default for Rft {
@@ -45,13 +50,20 @@ impl Default for Rft {
 
 impl Rft {
     /// Sixteen nodes over half the arc, four across.
-    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_4 };
+    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_4, set: None };
 
     /// The same theory with four and sixteen times as many nodes, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
-        Self { arc: &GAUSS_64, height: &GAUSS_64 }
+        Self { arc: &GAUSS_64, height: &GAUSS_64, set: None }
+    }
+
+    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// bits are the same.
+    #[must_use]
+    pub fn on(self, set: InstructionSet) -> Self {
+        Self { set: Some(set), ..self }
     }
 }
 
@@ -60,8 +72,11 @@ impl WheelSoilModel for Rft {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
-        let half =
-            |contact: &Contact| FrontHalf::new(contact, sinkage).reaction(self.arc, self.height);
+        let set = self.set.unwrap_or_else(InstructionSet::best);
+        let half = |contact: &Contact| {
+            let half = FrontHalf::new(contact, sinkage);
+            set.run(Reaction { half: &half, theory: self })
+        };
         let front = half(contact);
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
         let back = half(&mirrored);
@@ -72,6 +87,22 @@ impl WheelSoilModel for Rft {
             patch: ContactPatch { max_stress: peak, ..arc },
             ..front + back.front_to_back()
         }
+    }
+}
+
+/// What one half of a wheel meets.
+struct Reaction<'a> {
+    half: &'a FrontHalf,
+    theory: &'a Rft,
+}
+
+impl Work for Reaction<'_> {
+    type Output = WheelForces;
+
+    #[expect(clippy::inline_always, reason = "compiled once for each instruction set")]
+    #[inline(always)]
+    fn run(self) -> WheelForces {
+        self.half.reaction(self.theory.arc, self.theory.height)
     }
 }
 

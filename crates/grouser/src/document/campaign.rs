@@ -46,7 +46,6 @@ pub struct Campaign {
     plan: Plan,
     shard_runs: u64,
     columns: Vec<Column>,
-    is_sensitivity: bool,
     prepared: Prepared,
     document: Document,
     resolved: String,
@@ -69,7 +68,6 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
         columns: rows::columns(settings.study, settings.sensitivity, prepared.keys()),
         base,
         shard_runs: settings.shard_runs,
-        is_sensitivity: settings.sensitivity,
         prepared,
         resolved: document.to_toml(),
         document,
@@ -126,12 +124,6 @@ impl Campaign {
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
-    }
-
-    /// Whether its runs are laid out so that they tell Sobol indices.
-    #[must_use]
-    pub fn is_sensitivity(&self) -> bool {
-        self.is_sensitivity
     }
 
     /// How it is planned.

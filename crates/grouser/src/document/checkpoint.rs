@@ -103,6 +103,10 @@ impl<'a> Reader<'a> {
     fn ensemble(&mut self) -> Result<Ensemble, CheckpointError> {
         let (accepted, proposed) = (self.word()?, self.word()?);
         let (walkers, kept, width) = (self.count()?, self.count()?, self.count()?);
+        // Places without coordinates take no bytes: nothing would end a wrong count of them.
+        if width == 0 && walkers.max(kept) > 0 {
+            return Err(CheckpointError::Damaged);
+        }
         let mut place = || -> Result<Vec<f64>, CheckpointError> {
             (0..width).map(|_| self.word().map(f64::from_bits)).collect()
         };
@@ -168,6 +172,14 @@ mod tests {
         let mut bytes = to_bytes(&state(), "this one");
         bytes[..OLD_MAGIC.len()].copy_from_slice(OLD_MAGIC);
         assert_eq!(from_bytes(&bytes, "this one"), Err(CheckpointError::Old));
+    }
+
+    #[test]
+    fn walkers_without_coordinates_are_damage() {
+        let walkers = vec![Vec::new(); 3];
+        let ensemble = Ensemble { walkers, chain: Vec::new(), accepted: 0, proposed: 0 };
+        let state = PosteriorState { blocks: 1, ensembles: vec![ensemble] };
+        assert_eq!(from_bytes(&to_bytes(&state, "it"), "it"), Err(CheckpointError::Damaged));
     }
 
     #[test]

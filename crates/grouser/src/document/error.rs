@@ -284,8 +284,12 @@ impl DocumentError {
     /// The same, with the spot where another document names the one that is wrong. Arguments have no
     /// lines to look at, and show the name themselves.
     pub(super) fn named_by(mut self, origin: &Origin) -> Self {
-        let names_itself = self.parts.place.document == origin.text.label;
-        if self.parts.named_at.is_none() && !origin.text.is_argument && !names_itself {
+        let place = &self.parts.place;
+        let is_argument = |spot: &Spot| spot.excerpt.is_none();
+        let is_elsewhere = place.document == origin.text.label
+            || place.spot.as_ref().is_some_and(is_argument)
+            || origin.text.is_argument;
+        if self.parts.named_at.is_none() && !is_elsewhere {
             self.parts.named_at = Some(Place::of(origin));
         }
         self

@@ -29,36 +29,45 @@ impl Overrides {
         Self::default()
     }
 
-    /// The values of `--set` arguments, each written `document.key=value`: the document is `soil`,
-    /// `wheel`, `rover` or `scenario`, the key has its tables before it, and the value is TOML. A
-    /// bare word needs no quotes.
+    /// Values of keys, each written `document.key=value`: the document is `soil`, `wheel`, `rover` or
+    /// `scenario`, the key has its tables before it, and the value is TOML. A bare word needs no
+    /// quotes.
     ///
     /// # Errors
     /// [`DocumentError`] for an argument that is not written so.
     pub fn parse<S: AsRef<str>>(
         settings: impl IntoIterator<Item = S>,
     ) -> Result<Self, DocumentError> {
+        Self::parse_flags("", settings)
+    }
+
+    /// The same, as a command line has them: messages quote each with the flag before it.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_flags<S: AsRef<str>>(
+        flag: &str,
+        settings: impl IntoIterator<Item = S>,
+    ) -> Result<Self, DocumentError> {
         let mut overrides = Self::none();
         for setting in settings {
-            overrides.set(setting.as_ref())?;
+            let setting = setting.as_ref();
+            let content = if flag.is_empty() { String::new() } else { format!("{flag} ") };
+            overrides.set(setting, &argument(content + setting))?;
         }
         Ok(overrides)
     }
 
-    /// Adds one `document.key=value`, as `--set` has it.
-    ///
-    /// # Errors
-    /// [`DocumentError`] for an argument that is not written so.
-    pub fn set(&mut self, setting: &str) -> Result<(), DocumentError> {
-        let text = argument(format!("--set {setting}"));
+    /// Adds one `document.key=value`, with which a text ends.
+    fn set(&mut self, setting: &str, text: &Arc<Text>) -> Result<(), DocumentError> {
         let Some((key, value)) = setting.split_once('=') else {
             let problem = Problem::Malformed("not of the form document.key=value");
             return Err(DocumentError::whole(&text.label, problem)
-                .with_hint("for instance --set soil.cohesion_kpa=0.5".to_owned()));
+                .with_hint("for instance soil.cohesion_kpa=0.5".to_owned()));
         };
         let start = text.content.len() - value.len();
-        let value = parse_value(&text, start)?;
-        self.add(&text, key.trim(), value, true)
+        let value = parse_value(text, start)?;
+        self.add(text, key.trim(), value, true)
     }
 
     /// Adds one `key = value` of a caller that is no command line. Messages quote the whole of it as
@@ -191,7 +200,7 @@ impl Overrides {
         let path: Vec<_> = steps.collect();
         if path.is_empty() {
             let problem = Problem::Malformed("a document is not set as a whole, only its keys");
-            let hint = format!("for instance --set {kind}.KEY=VALUE, or --{kind} NAME");
+            let hint = format!("for instance {kind}.KEY=VALUE, or another {kind} by its name");
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
         }
         if path.is_empty() || path.iter().any(String::is_empty) {

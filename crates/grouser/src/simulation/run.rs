@@ -27,7 +27,7 @@ pub enum SimulationError {
     /// The integrator could not go on.
     #[error(
         "the run cannot be computed beyond {time:.3} s: no time step is short enough for the motion \
-         there ({reason}); a locked or suddenly braked wheel is the usual reason, another --speed-m-s \
+         there ({reason}); a locked or suddenly braked wheel is the usual reason, another speed \
          or a rolling start may avoid it"
     )]
     Stalled {

@@ -42,7 +42,7 @@ fn no_source_breaks_a_rule_of_its_floor() {
     assert!(breaches.is_empty(), "\n{}\n", breaches.join("\n"));
 }
 
-fn visit(folder: &Path, found: &mut dyn FnMut(&Path)) {
+pub(super) fn visit(folder: &Path, found: &mut dyn FnMut(&Path)) {
     let entries = fs::read_dir(folder).expect("a folder of sources");
     let mut paths: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
     paths.sort();
@@ -274,7 +274,7 @@ fn tokens_of(text: &str) -> Vec<Token<'_>> {
 }
 
 /// Length of the comment, string, character or lifetime that a text starts with, if it does.
-fn skipped(text: &str) -> Option<usize> {
+pub(super) fn skipped(text: &str) -> Option<usize> {
     if text.starts_with("//") {
         return Some(text.find('\n').unwrap_or(text.len()));
     }

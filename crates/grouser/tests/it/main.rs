@@ -14,6 +14,7 @@ mod kernel;
 mod laws;
 mod measured;
 mod measurements;
+mod messages;
 mod million;
 mod paper;
 mod reference;

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use grouser::contact::{Contact, Rft, SettleError, Slip, WheelForces, WheelSoilModel, settle};
+use grouser::contact::{
+    Contact, InstructionSet, Rft, SettleError, Slip, WheelForces, WheelSoilModel, settle,
+};
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::soil::{self, Soil};
 use grouser::units::{Vec2, Vec3, deg};
@@ -484,6 +486,28 @@ proptest! {
 
 proptest! {
     #![proptest_config(cases(3000))]
+
+    #[test]
+    fn every_instruction_set_gives_the_same_bits(
+        contact in given::any_contact(), depth in given::any_depth(),
+    ) {
+        let sinkage = depth * contact.wheel.shearing_radius();
+        let on = |set| {
+            let WheelForces {
+                drawbar_pull, side_force, normal_force, torque, overturning_moment,
+                aligning_moment, thrust, motion_resistance, side_force_from_shear,
+                bulldozing_load, max_normal_stress, patch,
+            } = Rft::DEFAULT.on(set).forces(&contact, sinkage);
+            [
+                drawbar_pull, side_force, normal_force, torque, overturning_moment,
+                aligning_moment, thrust, motion_resistance, side_force_from_shear,
+                bulldozing_load, max_normal_stress, patch.max_stress,
+            ].map(f64::to_bits)
+        };
+        for set in InstructionSet::ALL.into_iter().filter(|set| set.is_available()) {
+            prop_assert_eq!(on(set), on(InstructionSet::Baseline), "{:?}", set);
+        }
+    }
 
     /// The soil takes energy in every motion, opposed rim and hub included.
     #[test]

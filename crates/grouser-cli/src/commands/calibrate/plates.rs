@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
-use grouser::document::Document;
 use grouser::document::calibration::{PlateProblem, Solved};
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::plates::{self, PlateMeasurements};
-use grouser::document::{SoilDocument, escape, measurements};
+use grouser::document::{Document, escape, measurements};
 use grouser::studies::calibration::PlateCurve;
 use serde_json::{Value, json};
 

@@ -59,9 +59,8 @@ impl From<RankingError> for Failure {
                 Self::at("cannot look into", &folder)(error)
             }
             RankingError::NoDataSet { .. } => Self::Usage(format!(
-                "{error}\nhint: docs/guide/data.md tells how a document describes one; `grouser validate \
-                 --data FILE` judges a file without; without --data-dir the data sets that come \
-                 with the program are ranked"
+                "{error}\nhint: docs/guide/data.md tells how a document describes a data set; without \
+                 --data-dir those that come with the program are ranked"
             )),
             RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {
                 Self::Usage(error.to_string())

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import os
+import stat
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol, Union
 
-from .._errors import CampaignNotFoundError
+from .._errors import CampaignError, CampaignNotFoundError
 from ._worker import FolderWriter, UrlWriter, Writer, open_url, put
 
 #: Where a campaign is.
@@ -17,6 +18,8 @@ Location = Union[str, "os.PathLike[str]"]
 MANIFEST = "manifest.json"
 STUDY = "study.toml"
 RUNS = "runs"
+#: The most bytes of a manifest or of a resolved study: samples are in it.
+MOST_BYTES = 1 << 30
 
 
 def is_url(location: Location) -> bool:
@@ -29,8 +32,12 @@ class Files(Protocol):
 
     location: str
 
-    def read(self, name: str) -> bytes | None:
-        """What a file has; None if there is none."""
+    def read(self, name: str, most: int = MOST_BYTES) -> bytes | None:
+        """What a file has; None if there is none. It is looked at before it is opened: a pipe or a device has
+        no end, and what is longer than `most` bytes is no file of a campaign."""
+
+    def where(self, name: str) -> str:
+        """What messages call a file."""
 
     def names(self, folder: str = "") -> list[str]:
         """The names in a folder, sorted; none if it does not exist."""
@@ -46,11 +53,23 @@ class Folder:
         self._path = Path(location)
         self.location = str(location)
 
-    def read(self, name: str) -> bytes | None:
+    def read(self, name: str, most: int = MOST_BYTES) -> bytes | None:
+        path = self._path / name
         try:
-            return (self._path / name).read_bytes()
+            about = path.stat()
+            if not stat.S_ISREG(about.st_mode):
+                raise _strange(self.where(name))
+            _check_size(self.where(name), about.st_size, most)
+            with path.open("rb") as file:
+                # It may grow meanwhile; one byte more than allowed tells.
+                data = file.read(most + 1)
         except FileNotFoundError:
             return None
+        _check_size(self.where(name), len(data), most)
+        return data
+
+    def where(self, name: str) -> str:
+        return str(self._path / name)
 
     def names(self, folder: str = "") -> list[str]:
         with contextlib.suppress(FileNotFoundError):
@@ -69,12 +88,21 @@ class Url:
         self._files, self._path = open_url(location, self._options)
         self.location = location
 
-    def read(self, name: str) -> bytes | None:
+    def read(self, name: str, most: int = MOST_BYTES) -> bytes | None:
+        place = f"{self._path}/{name}"
         try:
-            data: bytes = self._files.cat_file(f"{self._path}/{name}")
-            return data
+            about = self._files.info(place)
+            if about.get("type", "file") != "file":
+                raise _strange(self.where(name))
+            if about.get("size") is not None:
+                _check_size(self.where(name), about["size"], most)
+            data: bytes = self._files.cat_file(place)
         except FileNotFoundError:
             return None
+        return data
+
+    def where(self, name: str) -> str:
+        return f"{self.location.rstrip('/')}/{name}"
 
     def names(self, folder: str = "") -> list[str]:
         # Other machines write there: what was listed before does not count.
@@ -108,9 +136,20 @@ def files_of(location: Location, options: Mapping[str, Any] | None) -> Files:
     return Url(str(location), options) if is_url(location) else Folder(location)
 
 
-def need(files: Files, name: str) -> bytes:
+def _strange(file: str) -> CampaignError:
+    return CampaignError(f"{file}: it is no regular file")
+
+
+def _check_size(file: str, size: int, most: int) -> None:
+    if size > most:
+        raise CampaignError(
+            f"{file}: the file has {size} bytes, more than the {most} that it may have in this campaign"
+        )
+
+
+def need(files: Files, name: str, most: int = MOST_BYTES) -> bytes:
     """A file that must be there."""
-    data = files.read(name)
+    data = files.read(name, most)
     if data is None:
         message = f"{files.location} holds no campaign: it has no {name}"
         raise CampaignNotFoundError(message, files.location)

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime, timezone
 from typing import Any, Protocol
-
-import numpy as np
 
 from .. import _core
 from .._errors import CampaignError
@@ -71,10 +70,14 @@ class FolderPlace:
         self._shards = len(_own(campaign, part))
 
     def missing(self) -> Iterator[int]:
-        return map(int, self._folder.missing())
+        # Ranges: a list of all would be longer than memory for the largest campaigns.
+        ranges = self._folder.missing()
+        return itertools.chain.from_iterable(
+            range(first, first + step * count, step) for first, step, count in ranges
+        )
 
     def shards(self) -> tuple[int, int]:
-        return self._shards - len(self._folder.missing()), self._shards
+        return self._shards - self._folder.missing_count(), self._shards
 
     def runs(self) -> tuple[int, int]:
         return self._folder.runs()
@@ -106,7 +109,7 @@ class UrlPlace:
         self._files = files
         self._campaign = campaign
         self._own = _own(campaign, part)
-        self._there = np.zeros(campaign.shard_count, dtype=bool)
+        self._there: set[int] = set()
         self._in_session = False
         self.faults: list[tuple[int, str]] = []
         self._manifest = self._open(part)
@@ -130,21 +133,21 @@ class UrlPlace:
         return fresh
 
     def _checked(self, told: bytes, fresh: dict[str, Any]) -> dict[str, Any]:
+        ours = self._campaign.to_toml().encode()
+        theirs = self._files.read(STUDY)
         try:
-            manifest: dict[str, Any] = json.loads(told)
-            theirs = [manifest[key] for key in ("schema", "version", "study_sha256", "part")]
-            list(manifest["sessions"])
-        except (ValueError, KeyError, TypeError) as error:
-            raise CampaignError(
-                f"{self._where}/{MANIFEST} cannot be understood: {error!r}"
-            ) from error
-        schema, version, study, part = theirs
-        if schema != fresh["schema"]:
-            raise CampaignError(
-                f"{self._where}/{MANIFEST}: its schema is {schema}, not {fresh['schema']}"
-            )
+            _core.CampaignManifest(told, self._files.where(MANIFEST))
+        except CampaignError:
+            # Damaged, or of a form without a hash. The study that is there says whether it is this one; every
+            # shard is checked then.
+            if theirs != ours:
+                raise
+            self._files.put(MANIFEST, _json(fresh))
+            return fresh
+        manifest: dict[str, Any] = json.loads(told)
+        version, study, part = (manifest[key] for key in ("version", "study_sha256", "part"))
         if study != fresh["study_sha256"]:
-            text = (self._files.read(STUDY) or b"").decode(errors="replace")
+            text = (theirs or b"").decode(errors="replace")
             difference = _core.study_difference(text, self._campaign.to_toml())
             raise CampaignError(f"{self._where} has the runs of another study: {difference}")
         if version != fresh["version"]:
@@ -154,6 +157,8 @@ class UrlPlace:
             )
         if part != fresh["part"]:
             raise CampaignError(f"{self._where} is for another part of the campaign")
+        if theirs != ours:
+            self._files.put(STUDY, ours)
         return manifest
 
     @property
@@ -162,46 +167,45 @@ class UrlPlace:
 
     def _check_shards(self) -> None:
         """Finds out which shards are there and whole. All of them are read for that."""
-        own = {file_name(shard): shard for shard in self._own}
         for name in self._files.names(RUNS):
             if name.startswith("."):
                 if ".partial-" in name:
                     self._files.remove(f"{RUNS}/{name}")
             elif name.endswith(".parquet"):
-                if name not in own:
+                shard = _number_of(name)
+                if shard is None or shard not in self._own:
                     raise CampaignError(
                         f"{self._where}/{RUNS}/{name} is no shard of this campaign: move it away"
                     )
-                self._check(own[name])
+                self._check(shard)
 
     def _check(self, shard: int) -> None:
         try:
-            self._there[shard] = self._read(shard) is not None
+            if self._read(shard) is not None:
+                self._there.add(shard)
         except CampaignError as error:
             self.faults.append((shard, str(error)))
 
     def _read(self, shard: int) -> bytes | None:
         """The bytes of a shard, whole; None if it is not there."""
-        data = self._files.read(f"{RUNS}/{file_name(shard)}")
+        most = _core.most_shard_bytes(self._campaign._document, shard)
+        data = self._files.read(f"{RUNS}/{file_name(shard)}", most)
         if data is not None:
             _core.check_shard(self._campaign._document, shard, data)
         return data
 
     def missing(self) -> Iterator[int]:
-        return (shard for shard in self._own if not self._there[shard])
+        return (shard for shard in self._own if shard not in self._there)
 
     def shards(self) -> tuple[int, int]:
-        return int(np.count_nonzero(self._there)), len(self._own)
+        return len(self._there), len(self._own)
 
     def runs(self) -> tuple[int, int]:
-        counts = ((len(self._campaign.runs_of(shard)), self._there[shard]) for shard in self._own)
-        done = own = 0
-        for count, there in counts:
-            done, own = done + count * bool(there), own + count
-        return done, own
+        done = sum(len(self._campaign.runs_of(shard)) for shard in self._there)
+        return done, _runs_in(self._campaign, self._own)
 
     def accept(self, shard: int, data: bytes) -> None:
-        if self._there[shard]:
+        if shard in self._there:
             return
         _core.check_shard(self._campaign._document, shard, data)
         self._begin_session()
@@ -214,7 +218,7 @@ class UrlPlace:
         self._count(shard)
 
     def _count(self, shard: int) -> None:
-        self._there[shard] = True
+        self._there.add(shard)
         self._manifest["sessions"][-1]["shards"] += 1
 
     def _begin_session(self) -> None:
@@ -272,8 +276,24 @@ def _own(campaign: Campaign, part: tuple[int, int] | None) -> range:
     return range(index - 1, campaign.shard_count, of)
 
 
+def _runs_in(campaign: Campaign, shards: range) -> int:
+    """How many runs some shards have. All but the last of the campaign are alike."""
+    if not shards:
+        return 0
+    others = len(shards) - 1
+    return others * len(campaign.runs_of(0)) + len(campaign.runs_of(shards[-1]))
+
+
+def _number_of(name: str) -> int | None:
+    """The shard that a file is named for."""
+    digits = name[len("part-") : -len(".parquet")]
+    shard = int(digits) if digits.isascii() and digits.isdigit() else None
+    return shard if shard is not None and file_name(shard) == name else None
+
+
 def _json(manifest: dict[str, Any]) -> bytes:
-    return (json.dumps(manifest, indent=2, ensure_ascii=False) + "\n").encode()
+    """A manifest's file, with its hash of itself."""
+    return _core.seal_manifest(json.dumps(manifest)).encode()
 
 
 def _now() -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
+import hashlib
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -28,24 +29,33 @@ class Results:
     """The runs of a campaign that are there: a row each, a column for each input and result.
 
     Nothing is locked, and a campaign may still be running: what is read is what was there when this
-    was made. The files are an ordinary Parquet data set; DuckDB, polars and pandas read
+    was made. Nothing is taken on trust: the manifest carries a hash of itself and one of the study, each shard
+    one of itself, and once a campaign is finished the digest over all shards is held against the manifest's.
+    What was changed or damaged raises `grouser.CampaignError` with the file's name; `run` into the same place
+    computes it anew.
+
+    The files are an ordinary Parquet data set; DuckDB, polars and pandas read
     ``DIR/runs/*.parquet`` as it is.
     """
 
     def __init__(self, files: Files) -> None:
         self._files = files
-        self._manifest: dict[str, Any] = json.loads(need(files, MANIFEST))
-        part = self._manifest["part"]
-        index, of = (part["index"], part["of"]) if part else (1, 1)
-        own = range(index - 1, self._manifest["shards"], of)
-        there = set(files.names(RUNS))
-        self._there = [shard for shard in own if file_name(shard) in there]
-        self._missing = len(own) - len(self._there)
+        data = need(files, MANIFEST)
+        self._checked = _core.CampaignManifest(data, files.where(MANIFEST))
+        self._manifest: dict[str, Any] = json.loads(data)
+        self._study = need(files, STUDY)
+        self._checked.check_study(self._study, files.where(STUDY))
+        there = (self._checked.shard_of(name) for name in files.names(RUNS))
+        self._there = sorted(shard for shard in there if shard is not None)
+        self._missing = self._checked.shards() - len(self._there)
 
     @functools.cached_property
     def campaign(self) -> Campaign:
         """What was run, with everything in its place."""
-        return Campaign.from_toml(need(self._files, STUDY).decode())
+        campaign = Campaign.from_toml(self._study.decode())
+        if self._manifest["version"] == _core.__version__:
+            self._checked.check_campaign(campaign._document, self._files.where(MANIFEST))
+        return campaign
 
     @property
     def location(self) -> str:
@@ -81,8 +91,8 @@ class Results:
         shard by shard."""
         statuses: Counter[str] = Counter()
         size = 0
-        for _, data in self._shards():
-            statuses.update(_core.read_shard(data, ["status"])["status"])
+        for shard, data in self._shards():
+            statuses.update(self._read(shard, data, ["status"])["status"])
             size += len(data)
         return dict(sorted(statuses.items())), size
 
@@ -93,7 +103,11 @@ class Results:
 
     def __len__(self) -> int:
         """How many runs are there."""
-        return sum(len(self.campaign.runs_of(shard)) for shard in self._there)
+        return sum(end - start for start, end in self._runs())
+
+    def _runs(self) -> list[tuple[int, int]]:
+        """The runs that are there: the first of each shard, and the one after its last."""
+        return [self._checked.runs_of(shard) for shard in self._there]
 
     def column(self, name: str) -> NDArray[Any]:
         """A column, shape (runs,): numbers with NaN where a run has none, or texts with None.
@@ -114,16 +128,34 @@ class Results:
                     f"there is no column {name!r}", "columns", None, ", ".join(kinds)
                 )
         parts: dict[str, list[NDArray[Any]]] = {name: [] for name in names}
-        for _, data in self._shards():
-            for name, values in _core.read_shard(data, list(names)).items():
+        for shard, data in self._shards():
+            for name, values in self._read(shard, data, names).items():
                 parts[name].append(np.asarray(values, dtype=_DTYPES[kinds[name]]))
         empty = {name: np.empty(0, dtype=_DTYPES[kinds[name]]) for name in names}
         return {name: np.concatenate([empty[name], *parts[name]]) for name in names}
 
     def _shards(self) -> Iterator[tuple[int, bytes]]:
-        """The shards that are there, in order: one at a time is in memory."""
+        """The shards that are there, in order: one at a time is in memory. After the last one of a finished
+        campaign, their digest is compared with the manifest's."""
+        digest = hashlib.sha256()
         for shard in self._there:
-            yield shard, need(self._files, f"{RUNS}/{file_name(shard)}")
+            data = self._bytes(shard)
+            digest.update(data)
+            yield shard, data
+        recorded, found = self.digest, digest.hexdigest()
+        if self.is_finished and recorded not in (None, found):
+            raise CampaignError(
+                f"{self.location}: its digest was {recorded}, now it is {found}: some shard was computed anew "
+                "with other numbers; run the campaign in a new folder"
+            )
+
+    def _bytes(self, shard: int) -> bytes:
+        return need(self._files, f"{RUNS}/{file_name(shard)}", self._checked.most_bytes(shard))
+
+    def _read(self, shard: int, data: bytes, columns: Sequence[str]) -> dict[str, Any]:
+        """Columns of a shard that is as it was written."""
+        place = self._files.where(f"{RUNS}/{file_name(shard)}")
+        return self._checked.read(shard, data, list(columns), place)
 
     def to_pandas(self, columns: Iterable[str] | None = None) -> pandas.DataFrame:
         """A table with a row for each run.
@@ -154,10 +186,10 @@ class Results:
         except ImportError as error:
             raise ImportError("tables of Arrow need pyarrow: pip install pyarrow") from error
         names = list(self.columns if columns is None else columns)
-        tables = [
-            parquet.read_table(pyarrow.BufferReader(data), columns=names)
-            for _, data in self._shards()
-        ]
+        tables = []
+        for shard, data in self._shards():
+            self._read(shard, data, [])
+            tables.append(parquet.read_table(pyarrow.BufferReader(data), columns=names))
         if not tables:
             raise CampaignError(f"{self.location} has no shards yet")
         # Each shard's footer tells its own number.
@@ -176,9 +208,8 @@ class Results:
             raise ParameterError(
                 f"run {run} is not there", "run", run, f"below {self._manifest['runs']}"
             )
-        data = need(self._files, f"{RUNS}/{file_name(shard)}")
-        place = run - self.campaign.runs_of(shard).start
-        columns = _core.read_shard(data, list(self.columns))
+        place = run - self._checked.runs_of(shard)[0]
+        columns = self._read(shard, self._bytes(shard), self.columns)
         return {name: _plain(values[place]) for name, values in columns.items()}
 
     def rerun(self, run: int) -> dict[str, Any]:
@@ -200,7 +231,8 @@ class Results:
     ) -> Summary:
         """What the runs say together: how often each status is, with Wilson's intervals; mean, quantiles
         and their confidence intervals for each result; convergence over the runs; Sobol indices, if the
-        campaign was laid out for them.
+        campaign was laid out for them. Such a campaign repeats runs with one input exchanged; all but the
+        indices is over its independent runs alone.
 
         Parameters
         ----------
@@ -212,13 +244,18 @@ class Results:
         Raises
         ------
         CampaignError
-            If shards are missing: what is there then need not stand for all.
+            If shards are missing, as what is there then need not stand for all; or if a file was changed or
+            damaged.
         """
         if not self.is_finished:
             raise CampaignError(
                 f"{self.location} is not finished: {self._missing} of its shards are missing"
             )
         return summary_of(self, columns, quantiles)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Read anew where it arrives: what was checked here says nothing of the files there.
+        return Results, (self._files,)
 
     def __repr__(self) -> str:
         state = "finished" if self.is_finished else f"{self._missing} shards missing"
@@ -248,6 +285,8 @@ def results(location: Location, *, storage_options: Mapping[str, Any] | None = N
     ------
     CampaignNotFoundError
         If there is no campaign.
+    CampaignError
+        If the manifest or the study was changed or damaged. Shards are checked when they are read.
     """
     return Results(files_of(location, storage_options))
 

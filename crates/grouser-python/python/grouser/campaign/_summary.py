@@ -22,9 +22,9 @@ class Share:
     """How often something happened, with its 95 % interval (Wilson)."""
 
     count: int
-    """Runs in which it did."""
+    """Independent runs in which it did."""
     share: float
-    """Of all runs [-]."""
+    """Of all independent runs [-]."""
     low: float
     """Lower end of the interval [-]."""
     high: float
@@ -38,9 +38,9 @@ class Quantity:
     name: str
     """The column."""
     count: int
-    """Runs that have it."""
+    """Independent runs that have it."""
     missing: int
-    """Runs that do not."""
+    """Independent runs that do not."""
     mean: float
     """Mean; NaN, as all of these, if fewer than two runs have it."""
     mean_low: float
@@ -59,8 +59,8 @@ class Quantity:
     convergence: tuple[Mapping[str, Any], ...]
     """The same after the first 16, 32 … runs, and after all: ``runs``, ``mean`` and so on."""
     sensitivity: Mapping[str, Mapping[str, float]]
-    """Sobol indices for each input: ``first`` and ``total`` with ``_low`` and ``_high``; empty unless
-    the campaign was laid out for them."""
+    """Sobol indices for each input: ``first`` and ``total`` with ``_low`` and ``_high``, over ``points`` points,
+    ``points_missing`` being left out; empty unless the campaign was laid out for them."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,8 @@ class Summary:
     """What the runs of a campaign say together."""
 
     runs: int
-    """How many there are."""
+    """How many there are that are independent: all, but for a campaign with ``sensitivity``, where those with one
+    input exchanged only tell the Sobol indices."""
     status: Mapping[str, Share]
     """How often each status is."""
     outcome: Mapping[str, Share]
@@ -118,37 +119,39 @@ def summary_of(
         if name not in campaign.outputs:
             known = ", ".join(campaign.outputs)
             raise ParameterError(f"{name!r} is no result", "columns", None, known)
-    texts = {
-        name: results.column(name) for name in ("status", "outcome") if name in results.columns
-    }
-    counts = {name: _counts(values) for name, values in texts.items()}
-    runs = len(results)
-    flat = [(count, runs) for each in counts.values() for count in each.values()]
-    values = [(name, np.ascontiguousarray(results.column(name))) for name in names]
-    told, chances = _core.campaign_summary(campaign._document, values, flat, shares)
-    rest = iter(chances)
-    said = {
-        name: {word: Share(count, *next(rest)) for word, count in each.items()}
-        for name, each in counts.items()
-    }
-    quantities = {it["quantity"]: _quantity(it, runs) for it in told}
-    return Summary(runs, said["status"], said.get("outcome", {}), quantities)
+    runs = results._runs()
+    texts = results._columns([name for name in ("status", "outcome") if name in results.columns])
+    outcomes = texts.get("outcome", ())
+    said = _core.campaign_frequencies(
+        campaign._document, runs, list(texts["status"]), list(outcomes)
+    )
+    quantities = {}
+    at_once = max(1, _BYTES // (8 * max(1, len(results))))
+    for start in range(0, len(names), at_once):
+        columns = results._columns(names[start : start + at_once])
+        values = [(name, np.ascontiguousarray(column)) for name, column in columns.items()]
+        for told in _core.campaign_summary(campaign._document, runs, values, shares):
+            quantities[told["quantity"]] = _quantity(told)
+    return Summary(said["samples"], _shares(said["status"]), _shares(said["outcome"]), quantities)
 
 
-def _counts(values: Any) -> dict[str, int]:
+#: How much of the columns is in memory at once: each pass over the files brings that many, and checks them.
+_BYTES = 1 << 28
+
+
+def _shares(counts: Mapping[str, tuple[int, float, float, float]]) -> dict[str, Share]:
     """How often each word is, most often first; runs without one do not count."""
-    words, counts = np.unique([value for value in values if value is not None], return_counts=True)
-    most = sorted(zip(words, counts), key=lambda pair: (-pair[1], pair[0]))
-    return {str(word): int(count) for word, count in most}
+    most = sorted(counts.items(), key=lambda pair: (-pair[1][0], pair[0]))
+    return {word: Share(*of) for word, of in most}
 
 
-def _quantity(told: dict[str, Any], runs: int) -> Quantity:
+def _quantity(told: dict[str, Any]) -> Quantity:
     nan = float("nan")
     sensitivity = {it.pop("input"): it for it in told["sensitivity"]}
     return Quantity(
         name=told["quantity"],
         count=told.get("count", 0),
-        missing=told.get("missing", runs),
+        missing=told["missing"],
         mean=told.get("mean", nan),
         mean_low=told.get("mean_low", nan),
         mean_high=told.get("mean_high", nan),

@@ -22,6 +22,8 @@
 //! motion. w is ours: any weight with those two limits would do, and between them the soil that slides
 //! over the shut-in soil's surface onto an open face is met twice, the price of the simplest one.
 
+#![expect(clippy::inline_always, reason = "part of the lanes' loops")]
+
 use crate::wheel::{Grousers, Wheel};
 
 /// Grousers as plates that stand out of a rim.
@@ -48,6 +50,11 @@ pub(super) struct Exposure {
     pub rim: f64,
 }
 
+impl Exposure {
+    /// Of a wheel without grousers.
+    pub(super) const BARE: Self = Self { grouser: 0.0, share: 0.0, rim: 1.0 };
+}
+
 impl Comb {
     /// The grousers of a wheel that has any.
     pub(super) fn of(wheel: &Wheel) -> Option<Self> {
@@ -60,18 +67,17 @@ impl Comb {
     }
 
     /// What lies open where the tips move with v_n [-] out of the rim and v_t along it.
+    #[inline(always)]
     pub(super) fn exposure(&self, outward: f64, along: f64) -> Exposure {
         let (h, p, r) = (self.height, self.pitch, self.radius);
         let wide = (p / h).min(1.0);
         // As products with |v_t|, which may be zero.
         let (v_n, v_t) = (outward.max(0.0), along.abs());
-        let scale = v_n.hypot(v_t);
-        if scale == 0.0 {
-            return Exposure { grouser: h, share: wide, rim: wide };
-        }
         let open = p * p / (2.0 * r);
         let grouser = if v_n * p >= (h - open) * v_t { h } else { p * v_n / v_t + open };
         let shadow = 2.0 * h * v_t / (v_n + (v_n * v_n + 2.0 * h / r * v_t * v_t).sqrt());
+        // Tips at rest, or moving outward alone, cast no shadow.
+        let shadow = if v_t > 0.0 { shadow } else { 0.0 };
         Exposure { grouser, share: wide * grouser / h, rim: wide * (1.0 - shadow / p).max(0.0) }
     }
 }

@@ -3,15 +3,23 @@
 //! Integrals over the angle θ from straight down go by θ = δ sinh u: where a wheel slips little,
 //! the direction of its rim turns within an angle of δ = |slip velocity|/|ω r_s| beside the lowest
 //! point, and there the nodes have to be.
+//!
+//! Eight angles are computed side by side, as the nodes of the classical theories' kernel are
+//! ([`kernel`](super::super::kernel)): loops over lanes without branches, which become vector
+//! instructions.
+
+#![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
 use super::super::forces::WheelForces;
 use super::super::gauss::Rule;
+use super::super::kernel::{LANES, Lanes};
 use super::super::model::Contact;
 use super::super::patch::ContactPatch;
-use super::exposure::Comb;
-use super::facet;
+use super::exposure::{Comb, Exposure};
+use super::facet::{self, Vector, dot, scaled};
+use super::sums::{Part, Sums};
+use crate::elementary::{self, wide};
 use crate::soil::Soil;
-use crate::units::Vec3;
 use crate::wheel::Wheel;
 
 /// The half of a wheel from straight down to the front, in the soil.
@@ -45,70 +53,62 @@ struct Motion {
 
 impl Motion {
     /// Velocity [-] at a place, seen from the hub [m].
-    fn at(&self, place: Vec3) -> Vec3 {
-        Vec3::new(
-            self.forward + self.spin * place.z,
-            self.lateral,
-            -self.spin * place.x - self.sinking,
-        )
+    #[inline(always)]
+    fn at(&self, x: f64, z: f64) -> Vector {
+        [self.forward + self.spin * z, self.lateral, -self.spin * x - self.sinking]
     }
 
     /// Its direction; downward where nothing moves.
-    fn direction_at(&self, place: Vec3) -> Vec3 {
-        let velocity = self.at(place);
-        let speed = velocity.norm();
-        if speed > 0.0 { velocity / speed } else { -Vec3::z() }
+    #[inline(always)]
+    fn direction_at(&self, x: f64, z: f64) -> Vector {
+        let velocity = self.at(x, z);
+        let speed = dot(velocity, velocity).sqrt();
+        let moves = speed > 0.0;
+        let per_speed = 1.0 / if moves { speed } else { 1.0 };
+        let [x, y, z] = scaled(velocity, per_speed);
+        [x, y, if moves { z } else { -1.0 }]
     }
 }
 
-/// To which part of the wheel a facet belongs.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
-    Rim,
-    Grouser,
-    Flank,
-}
-
-/// Reactions of the rim with its grousers and of both flanks.
-#[derive(Default)]
-struct Sums {
-    middle: WheelForces,
-    left: WheelForces,
-    right: WheelForces,
-}
-
-/// A place of the wheel in the soil.
-#[derive(Clone, Copy)]
-struct Spot {
-    /// From the hub [m].
-    place: Vec3,
-    /// Below the surface [m].
-    depth: f64,
-    /// Of its motion [-].
-    direction: Vec3,
-}
-
-/// A narrow piece of both flanks, along a radius.
-struct Ray {
+/// Some radii of the wheel, side by side.
+struct Rays {
+    /// Each stands for this angle [rad].
+    width: Lanes,
     /// From straight down [rad].
-    angle: f64,
-    /// [rad]
-    width: f64,
-    /// From this radius [m]
-    inner: f64,
+    angle: Lanes,
+    sin: Lanes,
+    cos: Lanes,
+    exposure: [Exposure; LANES],
+}
+
+impl Rays {
+    /// Out of the rim.
+    #[inline(always)]
+    fn outward(&self, lane: usize) -> Vector {
+        [self.sin[lane], 0.0, -self.cos[lane]]
+    }
+
+    /// Along the rim, the way of growing angles.
+    #[inline(always)]
+    fn along(&self, lane: usize) -> Vector {
+        [self.cos[lane], 0.0, self.sin[lane]]
+    }
+}
+
+/// The soil over a circle about the hub: how its angles are integrated.
+struct Arc {
+    layer: f64,
+    end: f64,
+}
+
+/// Pieces of both side faces along some radii.
+struct Annulus {
+    /// From these radii [m]
+    inner: Lanes,
     /// to this [m].
     outer: f64,
     /// Share of it that is covered [-].
-    share: f64,
-    friction: f64,
-}
-
-/// A piece of surface.
-struct Facet {
-    part: Part,
-    normal: Vec3,
-    /// [m²]
-    area: f64,
+    share: Lanes,
     friction: f64,
 }
 
@@ -116,7 +116,7 @@ impl FrontHalf {
     pub(super) fn new(contact: &Contact, sinkage: f64) -> Self {
         let Contact { wheel, soil, slip, gravity } = contact;
         let radius = wheel.shearing_radius();
-        let internal = soil.friction_angle.tan();
+        let internal = soil.friction();
         Self {
             motion: Motion {
                 forward: slip.forward,
@@ -133,171 +133,210 @@ impl FrontHalf {
     }
 
     /// The soil's reaction on this half; its patch holds the angle of the largest normal stress.
+    ///
+    /// * `arc`: a rule whose nodes fill the lanes
+    #[inline(always)]
     pub(super) fn reaction(&self, arc: &Rule, height: &Rule) -> WheelForces {
         let mut sums = Sums::default();
-        self.for_each_angle(self.wheel.radius, arc, |angle, width| {
-            self.add_rim(&mut sums, angle, width);
-            self.add_disc(&mut sums, angle, width, height);
-        });
-        if let Some(comb) = &self.comb {
-            self.for_each_angle(self.wheel.shearing_radius(), arc, |angle, width| {
-                self.add_comb(&mut sums, comb, angle, width, height);
-            });
+        if let Some(circle) = self.arc_of(self.wheel.radius) {
+            for nodes in arc.chunks_exact(LANES) {
+                let rays = self.rays(&circle, nodes);
+                self.add_rim(&mut sums, &rays);
+                self.add_disc(&mut sums, &rays, height);
+            }
         }
-        // The sides together first, so that a mirror between left and right keeps every bit.
-        let mut sum = sums.middle + (sums.left + sums.right);
-        // Largest values and their places do not add up.
-        sum.max_normal_stress = sums.middle.max_normal_stress;
-        sum.drawbar_pull = sum.thrust + sum.motion_resistance;
-        sum
+        if let Some(comb) = &self.comb
+            && let Some(circle) = self.arc_of(self.wheel.shearing_radius())
+        {
+            for nodes in arc.chunks_exact(LANES) {
+                let rays = self.rays(&circle, nodes);
+                self.add_grousers(&mut sums, comb, &rays, height);
+                self.add_shut_in(&mut sums, &rays, height);
+            }
+        }
+        sums.total()
     }
 
-    /// Calls `visit` with the angles [rad] and weights [rad] of a rule over the submerged arc of a
-    /// circle about the hub.
-    fn for_each_angle(&self, radius: f64, rule: &Rule, mut visit: impl FnMut(f64, f64)) {
+    /// The submerged arc of a circle about the hub; none if it is above the soil.
+    #[inline(always)]
+    fn arc_of(&self, radius: f64) -> Option<Arc> {
         let depth = radius - self.surface;
         if depth <= 0.0 {
-            return;
+            return None;
         }
         let entry = ContactPatch::of_depth(depth / radius, 0.0, 0.0).entry;
         let layer = self.layer().clamp(SHORTEST_LAYER * entry, LONGEST_LAYER * entry);
-        let end = (entry / layer).asinh();
-        for (node, weight) in rule {
-            let u = node * end;
-            visit(layer * u.sinh(), weight * end * layer * u.cosh());
-        }
+        Some(Arc { layer, end: wide::asinh(entry / layer) })
     }
 
     /// The angle [rad] beside the lowest point within which slip turns the rim's direction.
+    #[inline(always)]
     fn layer(&self) -> f64 {
         let spin = self.motion.spin * self.wheel.shearing_radius();
-        let slip = (self.motion.forward - spin).hypot(self.motion.lateral);
+        let slip = wide::hypot(self.motion.forward - spin, self.motion.lateral);
         slip / spin.abs().max(f64::MIN_POSITIVE)
     }
 
-    /// A strip across the rim, as far as it lies open.
-    fn add_rim(&self, sums: &mut Sums, angle: f64, width: f64) {
-        let (r, b) = (self.wheel.radius, self.wheel.width);
-        let outward = outward(angle);
-        let open = self.comb.as_ref().map_or(1.0, |comb| self.exposure(comb, angle).rim);
-        let area = open * r * width * b;
-        let friction = self.friction.wheel;
-        let Some(spot) = self.spot(outward * r) else { return };
-        self.add(
-            &mut sums.middle,
-            &spot,
-            &Facet { part: Part::Rim, normal: outward, area, friction },
-        );
-    }
-
-    fn exposure(&self, comb: &Comb, angle: f64) -> super::exposure::Exposure {
-        let outward = outward(angle);
-        let velocity = self.motion.at(outward * self.wheel.shearing_radius());
-        comb.exposure(velocity.dot(&outward), velocity.dot(&forward_along(angle)))
-    }
-
-    /// A ray of both side faces, from the soil's surface to the rim.
-    fn add_disc(&self, sums: &mut Sums, angle: f64, width: f64, rule: &Rule) {
-        let (inner, outer) = (self.surface / angle.cos(), self.wheel.radius);
-        let friction = self.friction.wheel;
-        self.add_ray(sums, &Ray { angle, width, inner, outer, share: 1.0, friction }, rule);
-    }
-
-    /// Facets of both flanks.
-    fn add_ray(&self, sums: &mut Sums, ray: &Ray, rule: &Rule) {
-        let Ray { angle, width, inner, outer, share, friction } = *ray;
-        if share <= 0.0 || outer <= inner {
-            return;
+    #[inline(always)]
+    fn rays(&self, arc: &Arc, nodes: &Rule) -> Rays {
+        let mut rays = Rays {
+            width: [0.0; LANES],
+            angle: [0.0; LANES],
+            sin: [0.0; LANES],
+            cos: [0.0; LANES],
+            exposure: [Exposure::BARE; LANES],
+        };
+        for (lane, (node, weight)) in nodes.iter().enumerate() {
+            let (sinh, cosh) = elementary::sinh_cosh(node * arc.end);
+            rays.width[lane] = weight * arc.end * arc.layer * cosh;
+            rays.angle[lane] = arc.layer * sinh;
+            (rays.sin[lane], rays.cos[lane]) = elementary::sin_cos(rays.angle[lane]);
         }
-        let outward = outward(angle);
+        if let Some(comb) = &self.comb {
+            let tip = self.wheel.shearing_radius();
+            for lane in 0..LANES {
+                let (outward, along) = (rays.outward(lane), rays.along(lane));
+                let velocity = self.motion.at(outward[0] * tip, outward[2] * tip);
+                rays.exposure[lane] = comb.exposure(dot(velocity, outward), dot(velocity, along));
+            }
+        }
+        rays
+    }
+
+    /// Strips across the rim, as far as they lie open.
+    #[inline(always)]
+    fn add_rim(&self, sums: &mut Sums, rays: &Rays) {
+        let r = self.wheel.radius;
+        self.add_cylinder(sums, rays, r, self.friction.wheel, |lane| rays.exposure[lane].rim);
+    }
+
+    /// Strips of a cylinder about the hub, with a share of their area.
+    #[inline(always)]
+    fn add_cylinder(
+        &self,
+        sums: &mut Sums,
+        rays: &Rays,
+        radius: f64,
+        friction: f64,
+        share: impl Fn(usize) -> f64,
+    ) {
+        for lane in 0..LANES {
+            let normal = rays.outward(lane);
+            let (x, z) = (normal[0] * radius, normal[2] * radius);
+            let depth = (-z - self.surface).max(0.0);
+            let met = facet::response::<false>(normal, self.motion.direction_at(x, z), friction);
+            let lead = facet::lead_share(met.lead);
+            let area = share(lane) * radius * rays.width[lane] * self.wheel.width;
+            let pressure = self.stiffness * depth * (met.pressure * lead);
+            let push = scaled(normal, -pressure * area);
+            let shear = scaled(met.shear, self.stiffness * depth * area * lead);
+            let counts = depth > 0.0 && lead > 0.0;
+            sums.middle.note_pressure(lane, if counts { pressure } else { 0.0 }, rays.angle[lane]);
+            sums.middle.add(Part::Rim, lane, [x, 0.0, z], push, shear);
+        }
+    }
+
+    /// Both side faces, from the soil's surface to the rim.
+    #[inline(always)]
+    fn add_disc(&self, sums: &mut Sums, rays: &Rays, rule: &Rule) {
+        let mut disc = Annulus {
+            inner: [0.0; LANES],
+            outer: self.wheel.radius,
+            share: [1.0; LANES],
+            friction: self.friction.wheel,
+        };
+        for lane in 0..LANES {
+            disc.inner[lane] = self.surface / rays.cos[lane];
+        }
+        self.add_sides(sums, rays, &disc, rule);
+    }
+
+    /// Grousers: plates with two faces, one of which leads.
+    #[inline(always)]
+    fn add_grousers(&self, sums: &mut Sums, comb: &Comb, rays: &Rays, rule: &Rule) {
+        let tip = self.wheel.shearing_radius();
+        let per_height = comb.density * self.wheel.width;
         for (node, weight) in rule {
-            let radius = inner + node * (outer - inner);
-            let area = share * weight * (outer - inner) * radius * width;
-            let Some(spot) = self.spot(outward * radius) else { continue };
-            for (side, sum) in [(1.0, &mut sums.left), (-1.0, &mut sums.right)] {
-                let normal = Vec3::y() * side;
-                let place = spot.place + normal * (0.5 * self.wheel.width);
-                let spot = Spot { place, ..spot };
-                self.add(sum, &spot, &Facet { part: Part::Flank, normal, area, friction });
+            for lane in 0..LANES {
+                let (outward, normal) = (rays.outward(lane), rays.along(lane));
+                let Exposure { grouser, share, .. } = rays.exposure[lane];
+                let submerged = self.surface / rays.cos[lane];
+                let inner = tip - grouser;
+                let inner = if inner > submerged { inner } else { submerged };
+                let open = (tip - inner).max(0.0);
+                let radius = inner + node * open;
+                let area = share * per_height * rays.width[lane] * (weight * open);
+                let (x, z) = (outward[0] * radius, outward[2] * radius);
+                let depth = (-z - self.surface).max(0.0);
+                let direction = self.motion.direction_at(x, z);
+                let met = facet::response::<false>(normal, direction, self.friction.wheel);
+                // Shares of both faces add up to 1; the push is the difference of theirs.
+                let per_stress = self.stiffness * depth * area;
+                let facing = 2.0 * facet::lead_share(met.lead) - 1.0;
+                let push = scaled(normal, -met.pressure * facing * per_stress);
+                let shear = scaled(met.shear, per_stress);
+                sums.middle.add(Part::Grouser, lane, [x, 0.0, z], push, shear);
             }
         }
     }
 
-    /// Grousers, and the soil that they shut in.
-    fn add_comb(&self, sums: &mut Sums, comb: &Comb, angle: f64, width: f64, rule: &Rule) {
-        let (tip, b) = (self.wheel.shearing_radius(), self.wheel.width);
-        let (outward, along) = (outward(angle), forward_along(angle));
-        let exposure = self.exposure(comb, angle);
-        let submerged = self.surface / angle.cos();
+    /// The soil that the grousers shut in: a cylinder of their tips' radius with its own side faces.
+    #[inline(always)]
+    fn add_shut_in(&self, sums: &mut Sums, rays: &Rays, rule: &Rule) {
+        let (rim, tip) = (self.wheel.radius, self.wheel.shearing_radius());
+        let mut shut = Annulus {
+            inner: [0.0; LANES],
+            outer: tip,
+            share: [0.0; LANES],
+            friction: self.friction.soil,
+        };
+        for lane in 0..LANES {
+            let submerged = self.surface / rays.cos[lane];
+            shut.inner[lane] = if submerged > rim { submerged } else { rim };
+            shut.share[lane] = 1.0 - rays.exposure[lane].rim;
+        }
+        self.add_cylinder(sums, rays, tip, self.friction.soil, |lane| shut.share[lane]);
+        self.add_sides(sums, rays, &shut, rule);
+    }
 
-        let inner = (tip - exposure.grouser).max(submerged);
+    /// Facets of both side faces.
+    #[inline(always)]
+    fn add_sides(&self, sums: &mut Sums, rays: &Rays, annulus: &Annulus, rule: &Rule) {
         for (node, weight) in rule {
-            let radius = inner + node * (tip - inner);
-            let area = exposure.share * comb.density * width * b * weight * (tip - inner);
-            let Some(spot) = self.spot(outward * radius) else { continue };
-            for normal in [along, -along] {
-                let friction = self.friction.wheel;
-                self.add(
-                    &mut sums.middle,
-                    &spot,
-                    &Facet { part: Part::Grouser, normal, area, friction },
-                );
-            }
-        }
-
-        let shut = 1.0 - exposure.rim;
-        let (area, friction) = (shut * tip * width * b, self.friction.soil);
-        if let Some(spot) = self.spot(outward * tip) {
-            self.add(
-                &mut sums.middle,
-                &spot,
-                &Facet { part: Part::Rim, normal: outward, area, friction },
-            );
-        }
-        let (inner, outer) = (self.wheel.radius.max(submerged), tip);
-        self.add_ray(sums, &Ray { angle, width, inner, outer, share: shut, friction }, rule);
-    }
-
-    /// A place in the soil, or none above it.
-    fn spot(&self, place: Vec3) -> Option<Spot> {
-        let depth = -place.z - self.surface;
-        (depth > 0.0).then(|| Spot { place, depth, direction: self.motion.direction_at(place) })
-    }
-
-    /// Adds what a facet at a place meets.
-    fn add(&self, sum: &mut WheelForces, spot: &Spot, facet: &Facet) {
-        let Spot { place, depth, direction } = *spot;
-        let Facet { part, normal, area, friction } = *facet;
-        let Some(stress) = facet::stress(normal, direction, friction) else { return };
-        let per_stress = self.stiffness * depth * area;
-        let (push, shear) = (normal * (-stress.pressure * per_stress), stress.shear * per_stress);
-        let force = push + shear;
-        match part {
-            Part::Rim => {
-                sum.motion_resistance += push.x;
-                sum.thrust += shear.x;
-                sum.side_force_from_shear += force.y;
-                let pressure = self.stiffness * depth * stress.pressure;
-                if pressure > sum.max_normal_stress {
-                    sum.max_normal_stress = pressure;
-                    sum.patch.max_stress = place.x.atan2(-place.z);
+            let mut per_stress = [0.0; LANES];
+            let mut places = [[0.0; LANES]; 2];
+            let mut directions = [[0.0; LANES]; 3];
+            for lane in 0..LANES {
+                let inner = annulus.inner[lane];
+                let thickness = (annulus.outer - inner).max(0.0);
+                let radius = inner + node * thickness;
+                let [x, _, z] = scaled(rays.outward(lane), radius);
+                let depth = (-z - self.surface).max(0.0);
+                let ring = weight * thickness * radius * rays.width[lane];
+                per_stress[lane] = self.stiffness * depth * (annulus.share[lane] * ring);
+                (places[0][lane], places[1][lane]) = (x, z);
+                let direction = self.motion.direction_at(x, z);
+                for axis in 0..3 {
+                    directions[axis][lane] = direction[axis];
                 }
             }
-            Part::Grouser => {
-                sum.thrust += force.x;
-                sum.side_force_from_shear += force.y;
-            }
-            Part::Flank => {
-                sum.thrust += force.x;
-                sum.bulldozing_load += push.y.abs();
+            for (side, sum) in [(1.0, &mut sums.left), (-1.0, &mut sums.right)] {
+                // Mostly one side leads and the other one trails everywhere.
+                if directions[1].iter().all(|across| facet::lead_share(side * across) == 0.0) {
+                    continue;
+                }
+                let across = side * (0.5 * self.wheel.width);
+                for lane in 0..LANES {
+                    let direction = [directions[0][lane], directions[1][lane], directions[2][lane]];
+                    let normal = [0.0, side, 0.0];
+                    let met = facet::response::<true>(normal, direction, annulus.friction);
+                    let share = facet::lead_share(met.lead) * per_stress[lane];
+                    let place = [places[0][lane], across, places[1][lane]];
+                    let push = scaled(normal, -met.pressure * share);
+                    sum.add(Part::Flank, lane, place, push, scaled(met.shear, share));
+                }
             }
         }
-        sum.side_force += force.y;
-        sum.normal_force += force.z;
-        let moment = place.cross(&force);
-        sum.overturning_moment += moment.x;
-        sum.torque -= moment.y;
-        sum.aligning_moment += moment.z;
     }
 }
 
@@ -308,15 +347,5 @@ const LONGEST_LAYER: f64 = 3.0;
 
 /// Friction between the wheel and the soil, *μ_s* [-].
 fn surface_friction(soil: &Soil) -> f64 {
-    soil.rft.surface_friction_angle.unwrap_or(soil.friction_angle).tan()
-}
-
-/// Out of the rim at an angle from straight down.
-fn outward(angle: f64) -> Vec3 {
-    Vec3::new(angle.sin(), 0.0, -angle.cos())
-}
-
-/// Along the rim, the way of growing angles.
-fn forward_along(angle: f64) -> Vec3 {
-    Vec3::new(angle.cos(), 0.0, angle.sin())
+    soil.rft.surface_friction_angle.map_or_else(|| soil.friction(), wide::tan)
 }

@@ -16,7 +16,8 @@ pub(in crate::document) const QUOTED: usize = 60;
 pub struct MeasurementError {
     file: String,
     line: Option<u64>,
-    problem: MeasurementProblem,
+    /// In a box: results carry an error's size whether or not there is one.
+    problem: Box<MeasurementProblem>,
     hint: Option<String>,
     /// Where a document names the file.
     named_at: Option<String>,
@@ -166,11 +167,12 @@ impl MeasurementError {
     pub(in crate::document) fn whole(file: &str, problem: MeasurementProblem) -> Self {
         let hint = match &problem {
             MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
-                format!("choose with --where wheel={label}, or a --wheel whose name ends so")
+                format!("choose by the condition wheel={label}, or a wheel whose name ends so")
             }),
             _ => None,
         };
-        Self { file: file.to_owned(), line: None, problem, hint, named_at: None }
+        let (file, problem) = (file.to_owned(), Box::new(problem));
+        Self { file, line: None, problem, hint, named_at: None }
     }
 
     pub(in crate::document) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
@@ -251,13 +253,13 @@ impl MeasurementError {
     /// Whether the file is fine, but has rows of several wheels.
     #[must_use]
     pub fn is_of_several_wheels(&self) -> bool {
-        matches!(self.problem, MeasurementProblem::SeveralWheels { .. })
+        matches!(*self.problem, MeasurementProblem::SeveralWheels { .. })
     }
 
     /// Whether the disk or its permissions failed, rather than the file.
     #[must_use]
     pub fn is_environment(&self) -> bool {
-        matches!(self.problem, MeasurementProblem::Unreadable(_))
+        matches!(*self.problem, MeasurementProblem::Unreadable(_))
     }
 }
 

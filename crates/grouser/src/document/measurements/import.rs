@@ -227,8 +227,7 @@ pub fn import(
             let text = &record[*place];
             field(text, mapping, layout).map_err(|problem| {
                 let comma = !layout.decimal_comma && text.contains(',');
-                let hint =
-                    comma.then(|| "are decimals written with a comma? --decimal-comma".to_owned());
+                let hint = comma.then(|| "are decimals written with a comma?".to_owned());
                 MeasurementError::at(label, line, problem).with_hint(hint)
             })
         });
@@ -283,15 +282,10 @@ fn plan(
     }
     let nameless = names.iter().filter(|name| name.is_empty()).count();
     let hint = match other_delimiter(&names) {
-        Some((';', flag)) => format!("are fields parted by semicolons? --delimiter {flag}"),
-        Some((_, flag)) => format!("are fields parted by tabs? --delimiter {flag}"),
-        None if 2 * nameless > names.len() => {
-            "does the header stand further down? --skip-lines N".to_owned()
-        }
-        None => format!(
-            "its columns are {}; say which is which: --column load_n=THEIRS",
-            names.join(", ")
-        ),
+        Some((';', _)) => "are fields parted by semicolons?".to_owned(),
+        Some(_) => "are fields parted by tabs?".to_owned(),
+        None if 2 * nameless > names.len() => "does the header stand further down?".to_owned(),
+        None => format!("its columns are {}; say which of them is which of ours", names.join(", ")),
     };
     Err(MeasurementError::whole(label, Problem::NothingToImport).with_hint(hint))
 }

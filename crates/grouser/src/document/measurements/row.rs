@@ -127,9 +127,9 @@ impl<'a> Header<'a> {
 
     /// How to mend a header that has none of some columns.
     fn hint_of_missing(&self, meanings: &[Meaning]) -> String {
-        if let Some((_, flag)) = other_delimiter(&self.names) {
+        if let Some((_, delimiter)) = other_delimiter(&self.names) {
             return format!(
-                "fields are parted by commas here; `grouser import --delimiter {flag}` makes it so"
+                "fields are parted by commas here; an import with the delimiter {delimiter} makes it so"
             );
         }
         let named = self.names.iter().zip(&self.columns).filter(|(name, _)| !name.is_empty());
@@ -142,10 +142,10 @@ impl<'a> Header<'a> {
         match near {
             Some((name, known)) => format!("is `{name}` meant as `{known}`?"),
             None if unknown.is_empty() => {
-                "`grouser import` turns files with other columns into this layout".to_owned()
+                "an import turns files with other columns into this layout".to_owned()
             }
             None => format!(
-                "not known are {}; `grouser import` turns files with other columns into this layout",
+                "not known are {}; an import turns files with other columns into this layout",
                 shown(&unknown)
             ),
         }

@@ -32,7 +32,7 @@ impl<'a, R: Read> Table<'a, R> {
     /// The names of the columns.
     pub(in crate::document) fn header(&mut self) -> Result<StringRecord, MeasurementError> {
         let label = self.label;
-        let found = self.reader.headers().map(StringRecord::clone);
+        let found = self.reader.headers().cloned();
         let header = found.map_err(|error| MeasurementError::csv(label, &error, 1))?;
         if header.len() > Limits::CELLS {
             return Err(

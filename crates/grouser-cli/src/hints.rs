@@ -1,0 +1,74 @@
+//! What the library's hints mean on the command line: it names keys, columns and conditions, and here
+//! stand the flags and commands that set them.
+
+use grouser::document::Kind;
+
+/// Words of the library's messages, and the same with the program's flags.
+const WORDS: [(&str, &str); 13] = [
+    ("set soil.", "add --set soil."),
+    ("for instance soil.cohesion_kpa", "for instance --set soil.cohesion_kpa"),
+    ("choose by the condition wheel=", "choose with --where wheel="),
+    ("or a wheel whose name ends so", "or a --wheel whose name ends so"),
+    ("an import with the delimiter ", "`grouser import` with --delimiter "),
+    ("an import turns files", "`grouser import` turns files"),
+    ("are decimals written with a comma?", "are decimals written with a comma? --decimal-comma"),
+    ("are fields parted by semicolons?", "are fields parted by semicolons? --delimiter ';'"),
+    ("are fields parted by tabs?", "are fields parted by tabs? --delimiter tab"),
+    ("does the header stand further down?", "does the header stand further down? --skip-lines N"),
+    ("say which of them is which of ours", "say which is which: --column load_n=THEIRS"),
+    (
+        "a preset is a document to start from",
+        "`grouser presets NAME` prints a document to start from",
+    ),
+    ("another speed or a rolling start", "another --speed-m-s or a rolling start"),
+];
+
+/// A message of the library with the flags of the program.
+pub(crate) fn with_flags(message: &str) -> String {
+    let words = WORDS.map(|(library, program)| (library.to_owned(), program.to_owned()));
+    let kinds = Kind::ALL.map(|kind| {
+        let library = format!("for instance {kind}.KEY=VALUE, or another {kind} by its name");
+        (library, format!("for instance --set {kind}.KEY=VALUE, or --{kind} NAME"))
+    });
+    let all = words.into_iter().chain(kinds);
+    all.fold(message.to_owned(), |text, (library, program)| text.replace(&library, &program))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::*;
+
+    fn sources(folder: &Path) -> String {
+        let entries = fs::read_dir(folder).expect("a folder of sources");
+        let texts = entries.map(|entry| {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() { sources(&path) } else { fs::read_to_string(path).expect("a source") }
+        });
+        texts.collect()
+    }
+
+    /// A reworded message of the library would lose its flag without a word.
+    #[test]
+    fn the_library_still_says_so() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser/src");
+        let text = sources(&folder);
+        // A string that goes on in the next line.
+        let lines = text.split("\\\n").map(str::trim_start);
+        let text = lines.collect::<String>();
+        for (library, _) in WORDS {
+            assert!(text.contains(library), "the library does not say `{library}`");
+        }
+        assert!(text.contains("for instance {kind}.KEY=VALUE, or another {kind} by its name"));
+    }
+
+    #[test]
+    fn keys_get_their_flags() {
+        let message = "set soil.rft.scale=VALUE to give it a value to start from";
+        assert_eq!(with_flags(message), format!("add --{message}"));
+        let message = "for instance wheel.KEY=VALUE, or another wheel by its name";
+        assert_eq!(with_flags(message), "for instance --set wheel.KEY=VALUE, or --wheel NAME");
+    }
+}
