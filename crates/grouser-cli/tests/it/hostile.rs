@@ -142,19 +142,43 @@ fn a_higher_limit_of_rows_reads_more() {
         answer.stderr.contains("more than 1 rows") && answer.stderr.contains("hint: --max-rows")
     );
     assert_eq!(place.line("import a.csv --max-rows 2").code(), 0);
+    let columns = (0..9).map(|number| format!("{number}_yaw_deg")).collect::<Vec<_>>().join(",");
+    place.write("wide.csv", format!("slope_deg,{columns}\n5,,,,,,,,,\n"));
+    let answer = place.line("card --measured wide.csv --max-rows 1");
+    assert!(answer.stderr.contains("more than 8 cells"), "{}", answer.stderr);
 }
 
 #[test]
 fn calibrate_refuses_more_cells_than_it_can_fit() {
     let place = Place::new();
     let rows = (0..10_001).map(|row| format!("17,{},9\n", f64::from(row) * 1e-5));
-    let text = "load_n,slip_ratio,sinkage_mm\n".to_owned() + &rows.collect::<String>();
-    place.write("many.csv", text);
+    let header = "load_n,slip_ratio,sinkage_mm\n".to_owned();
+    place.write("many.csv", header + &rows.collect::<String>());
     let answer = place.line(
         "calibrate --data many.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa --point-fit",
     );
     assert_eq!(answer.code(), 2);
     assert!(answer.stderr.contains("10001 observations are more than 10000"), "{}", answer.stderr);
+}
+
+/// At a bound nothing of first order says how sure a value is: no number stands for it.
+#[test]
+fn a_fit_that_ends_at_its_bound_has_no_standard_deviation() {
+    let place = Place::new();
+    let measured = place.results("wheel-test --format csv");
+    place.write("tests.csv", measured);
+    let answer = place.line(
+        "calibrate --data tests.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa=5:10 \
+         --set soil.cohesion_kpa=6 --point-fit --format json",
+    );
+    assert_eq!(answer.code(), 0, "{}", answer.stderr);
+    assert!(
+        answer.stderr.contains("note: soil.cohesion_kpa ends at its bound, 5:"),
+        "{}",
+        answer.stderr
+    );
+    let json: serde_json::Value = serde_json::from_str(&answer.stdout).expect("JSON");
+    assert!(json["rows"][0]["fit_std"].is_null(), "{}", json["rows"][0]);
 }
 
 #[cfg(unix)]

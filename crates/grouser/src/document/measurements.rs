@@ -106,6 +106,10 @@ pub fn read_texts(path: &Path, limits: Limits) -> Result<TextTable, MeasurementE
     let (mut rows, mut record) = (Vec::new(), csv::StringRecord::new());
     while table.next_row(&mut record)? {
         let line = record.position().map_or(0, csv::Position::line);
+        if (rows.len() + 1).saturating_mul(record.len()) > limits.cells() {
+            let excess = Excess::AllCells { most: limits.cells() };
+            return Err(MeasurementError::at(&label, line, MeasurementProblem::TooLarge(excess)));
+        }
         rows.push((line, record.iter().map(|text| escape::plain(text).to_owned()).collect()));
     }
     Ok(TextTable { header, rows })

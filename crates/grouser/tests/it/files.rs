@@ -39,14 +39,14 @@ fn an_unusable_file_is_reported_with_the_line_that_names_it() {
     std::fs::create_dir(folder.0.join("folder.toml")).expect("a folder");
     folder.write("bytes.toml", "name = \"\u{0}\"");
     std::fs::write(folder.0.join("latin.toml"), b"name = \"\xe4\"").expect("a file");
-    folder.write("large.toml", &" ".repeat(document::LARGEST_FILE as usize + 1));
+    folder.write("large.toml", &" ".repeat((1 << 20) + 1));
     folder.write("wrong.toml", "schema = \"soil/1\"\nname = 5\n");
     for (soil, part) in [
         ("folder.toml", "this is a folder"),
         ("latin.toml", "is not a text"),
         ("large.toml", "is larger than 1048576 bytes"),
         ("bytes.toml", "not TOML"),
-        ("wrong.toml", "`name`"),
+        ("wrong.toml", "`soil.name` is the integer 5"),
     ] {
         let scenario = folder.write("run.toml", &line.replace("SOIL", soil));
         let message = refusal_of_scenario(scenario);

@@ -14,13 +14,13 @@ pub(in crate::document) const QUOTED: usize = 60;
 /// A measurement file that cannot be used: where, what, and how it may be mended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasurementError {
-    file: String,
+    // Boxed, so that a result is not mostly room for an error.
+    file: Box<str>,
     line: Option<u64>,
-    /// In a box: results carry an error's size whether or not there is one.
-    problem: Box<MeasurementProblem>,
-    hint: Option<String>,
+    problem: MeasurementProblem,
+    hint: Option<Box<str>>,
     /// Where a document names the file.
-    named_at: Option<String>,
+    named_at: Option<Box<str>>,
 }
 
 /// What is wrong.
@@ -165,14 +165,14 @@ impl From<FileProblem> for MeasurementProblem {
 
 impl MeasurementError {
     pub(in crate::document) fn whole(file: &str, problem: MeasurementProblem) -> Self {
-        let hint = match &problem {
+        let hint: Option<String> = match &problem {
             MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
                 format!("choose by the condition wheel={label}, or a wheel whose name ends so")
             }),
             _ => None,
         };
-        let (file, problem) = (file.to_owned(), Box::new(problem));
-        Self { file, line: None, problem, hint, named_at: None }
+        let hint = hint.map(String::into_boxed_str);
+        Self { file: file.into(), line: None, problem, hint, named_at: None }
     }
 
     pub(in crate::document) fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
@@ -180,7 +180,7 @@ impl MeasurementError {
     }
 
     pub(in crate::document) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
-        self.hint = hint.into();
+        self.hint = hint.into().map(String::into_boxed_str);
         self
     }
 
@@ -188,7 +188,7 @@ impl MeasurementError {
     ///
     /// * `place`: where it does
     pub(in crate::document) fn named_at(mut self, place: String) -> Self {
-        self.named_at = Some(place);
+        self.named_at = Some(place.into_boxed_str());
         self
     }
 
@@ -253,13 +253,13 @@ impl MeasurementError {
     /// Whether the file is fine, but has rows of several wheels.
     #[must_use]
     pub fn is_of_several_wheels(&self) -> bool {
-        matches!(*self.problem, MeasurementProblem::SeveralWheels { .. })
+        matches!(self.problem, MeasurementProblem::SeveralWheels { .. })
     }
 
     /// Whether the disk or its permissions failed, rather than the file.
     #[must_use]
     pub fn is_environment(&self) -> bool {
-        matches!(*self.problem, MeasurementProblem::Unreadable(_))
+        matches!(self.problem, MeasurementProblem::Unreadable(_))
     }
 }
 

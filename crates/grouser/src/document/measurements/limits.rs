@@ -21,6 +21,12 @@ impl Limits {
     /// Bytes of a cell.
     pub const LONGEST_CELL: usize = 10_000;
 
+    /// Cells that are kept of a table of texts: eight for each row.
+    #[must_use]
+    pub const fn cells(self) -> usize {
+        self.rows.saturating_mul(8)
+    }
+
     /// The most bytes of a file.
     #[must_use]
     pub const fn bytes(self) -> u64 {
@@ -55,6 +61,14 @@ pub enum Excess {
         /// The most.
         most: usize,
     },
+    /// The cells of all its rows.
+    #[error(
+        "has more than {most} cells, the most that are read: split the file, or raise the limit"
+    )]
+    AllCells {
+        /// The most.
+        most: usize,
+    },
     /// The length of a row.
     #[error("this row is longer than {most} bytes: is a quotation mark left open?")]
     Row {
@@ -83,6 +97,6 @@ impl Excess {
     /// Whether a higher [`Limits::rows`] admits it.
     #[must_use]
     pub fn can_be_raised(self) -> bool {
-        matches!(self, Self::Bytes { .. } | Self::Rows { .. })
+        matches!(self, Self::Bytes { .. } | Self::Rows { .. } | Self::AllCells { .. })
     }
 }
