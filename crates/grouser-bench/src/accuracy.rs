@@ -70,7 +70,7 @@ fn carried(fixtures: &Fixtures) -> f64 {
 
 fn tight(scenario: &Scenario) -> Scenario {
     let mut scenario = scenario.clone();
-    scenario.numerics.integrator = Integrator::Bdf { tolerance: 1e-9 };
+    scenario.numerics.integrator = Integrator::Adaptive { tolerance: 1e-9 };
     scenario
 }
 

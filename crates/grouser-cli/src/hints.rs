@@ -5,7 +5,7 @@ use grouser::document::Kind;
 
 /// Words of the library's messages, and the same with the program's flags.
 const WORDS: [(&str, &str); 13] = [
-    ("set soil.", "add --set soil."),
+    ("by the setting soil.", "by --set soil."),
     ("for instance soil.cohesion_kpa", "for instance --set soil.cohesion_kpa"),
     ("choose by the condition wheel=", "choose with --where wheel="),
     ("or a wheel whose name ends so", "or a --wheel whose name ends so"),
@@ -58,16 +58,22 @@ mod tests {
         // A string that goes on in the next line.
         let lines = text.split("\\\n").map(str::trim_start);
         let text = lines.collect::<String>();
-        for (library, _) in WORDS {
+        for (library, _) in &WORDS[1..] {
             assert!(text.contains(library), "the library does not say `{library}`");
+        }
+        // Here the key is filled in.
+        for setting in ["soil.{path}=VALUE", "{name}=VALUE"] {
+            assert!(text.contains(&format!("by the setting {setting}")), "{setting}");
         }
         assert!(text.contains("for instance {kind}.KEY=VALUE, or another {kind} by its name"));
     }
 
     #[test]
     fn keys_get_their_flags() {
-        let message = "set soil.rft.scale=VALUE to give it a value to start from";
-        assert_eq!(with_flags(message), format!("add --{message}"));
+        let message = "give it another by the setting soil.rft.scale=VALUE";
+        assert_eq!(with_flags(message), "give it another by --set soil.rft.scale=VALUE");
+        let message = "--set soil.n=1: unknown key `soil.n`";
+        assert_eq!(with_flags(message), message);
         let message = "for instance wheel.KEY=VALUE, or another wheel by its name";
         assert_eq!(with_flags(message), "for instance --set wheel.KEY=VALUE, or --wheel NAME");
     }

@@ -566,7 +566,7 @@ pub(super) struct Laws<T: 'static> {
     pub doc: &'static str,
     /// The key of that word.
     pub key: &'static str,
-    pub laws: &'static [Law<T>],
+    pub all: &'static [Law<T>],
     /// Whether a table without the word follows the first law.
     pub may_be_left_out: bool,
 }
@@ -584,7 +584,7 @@ pub(super) struct Law<T: 'static> {
 impl<T> Laws<T> {
     fn named(&self, said: &Json) -> &'static Law<T> {
         let name = said.get(self.key).and_then(Json::as_str);
-        self.laws.iter().find(|law| Some(law.name) == name).unwrap_or(&self.laws[0])
+        self.all.iter().find(|law| Some(law.name) == name).unwrap_or(&self.all[0])
     }
 }
 
@@ -610,7 +610,7 @@ impl<T> Inner<T> for Laws<T> {
     }
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
-        let mut tables = self.laws.iter().map(|law| &law.table);
+        let mut tables = self.all.iter().map(|law| &law.table);
         let found = tables.find(|table| table.reach(value, path).is_some())?;
         found.reach(value, path)
     }

@@ -28,6 +28,9 @@ pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
 
 impl Preset {
     /// What the document calls itself, and where it says its values are from.
+    ///
+    /// # Panics
+    /// Never: every preset is read by a test.
     #[must_use]
     pub fn title_and_source(&'static self) -> (String, String) {
         let document = written(self.kind, &Source::Preset(self), &Overrides::none())

@@ -102,7 +102,7 @@ pub(super) fn of_table<T>(
 
 /// A table for each law.
 pub(super) fn of_laws<T>(laws: &Laws<T>, defs: &mut Map<String, Json>) -> Json {
-    let all = laws.laws.iter().enumerate().map(|(place, law)| {
+    let all = laws.all.iter().enumerate().map(|(place, law)| {
         let is_default = laws.may_be_left_out && place == 0;
         let mut word = json!({ "type": "string", "const": law.name });
         if let Some(doc) = law.word {
@@ -135,7 +135,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             }
             text
         }
-        Shape::Texts(least, most) => list_of(json!({ "type": "string" }), *least, *most),
+        Shape::Texts(least, most) => list_of(&json!({ "type": "string" }), *least, *most),
         Shape::Flag(_) => json!({ "type": "boolean" }),
         Shape::Whole(Whole { least, most, format, .. }) => {
             json!({ "type": "integer", "format": format, "minimum": least, "maximum": most })
@@ -146,19 +146,19 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
         }
         Shape::Number(number, _) => of_number(number),
         Shape::Numbers(numbers) => match numbers.form {
-            Form::Exactly(count) => list_of(of_number(&numbers.number), count, Some(count)),
+            Form::Exactly(count) => list_of(&of_number(&numbers.number), count, Some(count)),
             Form::OneOrEach(one, each) => {
                 let described = |mut schema: Json, doc: &str| {
                     schema["description"] = with_unit(doc, numbers.number.unit.symbol).into();
                     schema
                 };
                 let number = of_number(&numbers.number);
-                let list = list_of(number.clone(), 0, None);
+                let list = list_of(&number, 0, None);
                 json!({ "anyOf": [described(number, one), described(list, each)] })
             }
         },
         Shape::Inner(inner) => inner.schema(defs),
-        Shape::List(each, least) => list_of(each.schema(defs), *least, None),
+        Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
         Shape::Part(kind, _) => {
             if !defs.contains_key(kind.name()) {
                 // The place is taken before the parts of the part are described, for their order.
@@ -195,7 +195,7 @@ fn of_number(number: &Number) -> Json {
     json!({ "type": "number", "format": "double", least: number.least, "maximum": number.most })
 }
 
-fn list_of(items: Json, least: u64, most: Option<u64>) -> Json {
+fn list_of(items: &Json, least: u64, most: Option<u64>) -> Json {
     let mut list = json!({ "type": "array", "items": items });
     if least > 0 {
         list["minItems"] = least.into();

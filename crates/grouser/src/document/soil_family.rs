@@ -194,8 +194,8 @@ impl SoilFamily {
 fn no_start(soil: &Document, path: &str) -> String {
     if range(Kind::Soil, path).is_some() {
         return format!(
-            "soil.{path} is not set by this soil: set soil.{path}=VALUE to give it a value to \
-             start from"
+            "soil.{path} is not set by this soil: give it a value to start from by the setting \
+             soil.{path}=VALUE"
         );
     }
     format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
@@ -238,7 +238,7 @@ fn parameter(
     if !(lower..=upper).contains(&start) {
         return Err(format!(
             "{name}={lower}:{upper}: the soil's own value, {start}, must lie between the bounds; \
-             set {name}=VALUE to give it another"
+             give it another by the setting {name}=VALUE"
         ));
     }
     let scale =
@@ -286,7 +286,7 @@ mod tests {
         for (key, part) in [
             ("soil.cohesion", "cohesion_kpa"),
             ("soil.bulldozing.law", "no number"),
-            ("soil.rft.scale", "set soil.rft.scale=VALUE"),
+            ("soil.rft.scale", "by the setting soil.rft.scale=VALUE"),
             ("soil.friction_angle_deg=40:50", "must lie between"),
             ("soil.friction_angle_deg=30:90", "within 5 to 60"),
             ("soil.friction_angle_deg=45:30", "must rise"),

@@ -231,7 +231,7 @@ fn check_first_draw(soils: &UncertainSoil, tree: &Node) -> Result<(), DocumentEr
 fn check_rows(soils: &UncertainSoil, table: &SampleTable) -> Result<(), DocumentError> {
     for (index, row) in table.rows().iter().enumerate() {
         if let Some(Err(misfit)) = soils.soil(row) {
-            return Err(DocumentError::at(&table.row_origin(index), misfit.problem));
+            return Err(DocumentError::at(&table.row_origin(index), *misfit.problem));
         }
     }
     Ok(())

@@ -26,13 +26,13 @@ pub(super) struct Misfit {
     /// The key, or table, that they stand in.
     path: String,
     /// What is wrong with them.
-    pub problem: Problem,
+    pub problem: Box<Problem>,
     hint: Option<String>,
 }
 
 impl Misfit {
     fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
-        Self { part: "", path: path.into(), problem: problem.into(), hint: None }
+        Self { part: "", path: path.into(), problem: Box::new(problem.into()), hint: None }
     }
 
     /// For `map_err` of a check of what stands at a key.
@@ -46,7 +46,7 @@ impl Misfit {
 
     /// What is wrong with the numbers of a soil.
     pub(super) fn of_numbers(self) -> ParameterError {
-        match self.problem {
+        match *self.problem {
             Problem::Unfit(error) => error,
             _ => unreachable!("a soil has nothing but numbers that may not go together"),
         }
@@ -55,7 +55,7 @@ impl Misfit {
     /// The same where it was written.
     pub(super) fn of(self, tree: &Node) -> DocumentError {
         let node = tree.entry(self.part).map_or(tree, |entry| &entry.node);
-        DocumentError::at(node.origin_of(&self.path), self.problem).with_hint(self.hint)
+        DocumentError::at(node.origin_of(&self.path), *self.problem).with_hint(self.hint)
     }
 }
 

@@ -18,10 +18,6 @@ use crate::contact::SettleError;
 use crate::vehicle::reaction::Ground;
 use crate::vehicle::{ReactionError, WheelReaction};
 
-/// Rim speeds that change by more than this, over the fastest, begin a motion of its own [-]:
-/// below it the integrator goes on with its history. Source: ours.
-const ABRUPT: f64 = 0.1;
-
 /// What is known of a run so far.
 #[derive(Clone)]
 pub(super) struct Progress {
@@ -35,7 +31,7 @@ pub(super) struct Progress {
     pub(super) method: Method,
     pub(super) work: Work,
     watch: Watch,
-    /// Of the dynamic motion so far.
+    /// Of the dynamic motion while the wheels keep their speeds.
     history: History,
     /// Of the quasi-steady motion so far.
     carried: Carried,
@@ -97,9 +93,7 @@ impl Progress {
         };
         // The motors change the spin at once; the books must not lose that work.
         self.point.motors += spin_energy(new) - spin_energy(old);
-        let fastest = old.iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
-        let changed = |(rim, old): (&f64, &f64)| (rim - old).abs() > ABRUPT * fastest;
-        if new.iter().zip(old).any(changed) {
+        if new != old {
             self.history.clear();
         }
     }
@@ -208,7 +202,7 @@ impl Progress {
             Ok(())
         } else {
             match scenario.numerics.integrator {
-                Integrator::Bdf { tolerance } => integrate::bdf(
+                Integrator::Adaptive { tolerance } => integrate::adaptive(
                     equations,
                     &start,
                     start_time,

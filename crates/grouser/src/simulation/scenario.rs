@@ -44,7 +44,7 @@ impl Numerics {
     /// Integrated by the implicit solver, ten samples a second.
     pub const DEFAULT: Self = Self {
         approach: Approach::Dynamic,
-        integrator: Integrator::Bdf { tolerance: 1e-6 },
+        integrator: Integrator::Adaptive { tolerance: 1e-6 },
         sample_interval: 0.1,
     };
 }
@@ -69,8 +69,9 @@ pub enum Approach {
 /// What carries the motion through time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
-    /// Implicit, of variable order and step: slip settles within milliseconds, runs last minutes.
-    Bdf {
+    /// Of order 5 with steps of its own, explicit while slip settles within milliseconds, and implicit
+    /// in the minutes that follow.
+    Adaptive {
         /// Relative tolerance of a step [-].
         tolerance: f64,
     },
@@ -123,7 +124,7 @@ impl Scenario {
         }
         positive("sample interval [s]", self.numerics.sample_interval)?;
         match self.numerics.integrator {
-            Integrator::Bdf { tolerance } => positive("tolerance", tolerance),
+            Integrator::Adaptive { tolerance } => positive("tolerance", tolerance),
             Integrator::Rk4 { step } => positive("step [s]", step),
         }
     }

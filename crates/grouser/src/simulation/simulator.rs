@@ -10,8 +10,7 @@ use crate::error::ParameterError;
 use crate::vehicle::drive::DriveInput;
 use crate::vehicle::{Drive, DriveLaw};
 
-/// The shortest step [s]: a hundredth of the first step of the implicit integrator. Source: ours;
-/// slip settles within milliseconds, no rover's control is a thousand times faster.
+/// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
 
 /// A rover on its scenario's plane, led by whoever asks for the next step.

@@ -29,7 +29,9 @@ fn keys() -> BTreeSet<String> {
             Value::Array(all) => all.iter().collect(),
             _ => Vec::new(),
         };
-        children.into_iter().for_each(|child| collect(child, keys));
+        for child in children {
+            collect(child, keys);
+        }
     }
     let mut keys = BTreeSet::new();
     for kind in Kind::ALL {

@@ -39,7 +39,8 @@ fn an_unusable_file_is_reported_with_the_line_that_names_it() {
     std::fs::create_dir(folder.0.join("folder.toml")).expect("a folder");
     folder.write("bytes.toml", "name = \"\u{0}\"");
     std::fs::write(folder.0.join("latin.toml"), b"name = \"\xe4\"").expect("a file");
-    folder.write("large.toml", &" ".repeat((1 << 20) + 1));
+    let too_long = usize::try_from(document::LARGEST_FILE).expect("a megabyte") + 1;
+    folder.write("large.toml", &" ".repeat(too_long));
     folder.write("wrong.toml", "schema = \"soil/1\"\nname = 5\n");
     for (soil, part) in [
         ("folder.toml", "this is a folder"),

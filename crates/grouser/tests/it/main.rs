@@ -11,6 +11,7 @@ mod extended;
 mod files;
 mod floors;
 mod given;
+mod integration;
 mod kernel;
 mod laws;
 mod measured;

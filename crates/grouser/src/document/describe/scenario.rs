@@ -153,7 +153,7 @@ static DRIVE: Laws<DriveLaw> = Laws {
     doc: "What turns the wheels.",
     key: "law",
     may_be_left_out: true,
-    laws: &[
+    all: &[
         Law {
             name: "constant",
             word: Some("Constant wheel speeds."),

@@ -118,7 +118,7 @@ static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
     doc: "Pressure over sinkage, σ = K_σ zⁿ.",
     key: "law",
     may_be_left_out: false,
-    laws: &[
+    all: &[
         Law {
             name: "reece",
             word: None,
@@ -223,7 +223,7 @@ static SHEAR: Laws<Shear> = Laws {
     doc: "Shear stress over shear displacement (Janosi and Hanamoto 1961).",
     key: "law",
     may_be_left_out: false,
-    laws: &[
+    all: &[
         Law {
             name: "anisotropic",
             word: None,
@@ -353,7 +353,7 @@ static EXIT: Laws<Exit> = Laws {
     doc: "Exit-angle ratio λ: the share of the sinkage that the soil recovers behind the wheel.",
     key: "law",
     may_be_left_out: true,
-    laws: &[
+    all: &[
         Law {
             name: "ratio",
             word: Some("The same for every slip."),

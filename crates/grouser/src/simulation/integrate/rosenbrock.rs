@@ -1,0 +1,159 @@
+//! One step of a linearly implicit method: the Jacobian at its start, a linear solve for each stage,
+//! an estimate of its error, and all points between its ends.
+//!
+//! Source: Hairer and Wanner (1996), Solving Ordinary Differential Equations II, section IV.7. No
+//! step depends on the one before it, so that a motion may begin anew at any time.
+
+use nalgebra::{LU, Matrix4, U4, Vector4};
+
+use super::SIZE;
+use super::rodas5p::{A, C, GAMMA, H, STAGES};
+use super::step::{COUPLED, Numbers, Step, length, sum};
+
+/// Step of the differences in a Jacobian [rad, m/s, rad/s]: forces are exact to 1e-12, and change
+/// within the creep speed of 1e-6 m/s where a hub comes to rest.
+const DIFFERENCE: f64 = 1e-9;
+
+/// Motions with a faster rate than this [1/s] have a hub near rest: there differences to one side
+/// are not exact enough for steps that are a thousand times as long, and both sides are taken.
+const NEAR_REST: f64 = 1e4;
+
+/// The motion near a point: its rates, and how they change with each coupled component.
+pub(super) struct Linear {
+    pub(super) rates: Numbers,
+    columns: [Numbers; 4],
+}
+
+impl Linear {
+    /// At a point with these rates, by differences towards where the motion goes: a wheel's forces
+    /// have a kink where it does not slip sideways, and motions begin there. Backward ones serve
+    /// where there are no rates ahead.
+    ///
+    /// None where there are no rates on both sides.
+    pub(super) fn at(
+        point: &Numbers,
+        rates: Numbers,
+        rates_at: &impl Fn(&Numbers) -> Option<Numbers>,
+    ) -> Option<Self> {
+        let beside = |index: usize, step: f64| {
+            let mut beside = *point;
+            beside[index] += step;
+            // What was added, after rounding.
+            let step = beside[index] - point[index];
+            rates_at(&beside).map(|there| (there, step))
+        };
+        let mut linear = Self { rates, columns: [[0.0; SIZE]; 4] };
+        let mut ahead = [(rates, 0.0); 4];
+        for (number, index) in COUPLED.enumerate() {
+            let forward = (DIFFERENCE * point[index].abs().max(1.0)).copysign(rates[index]);
+            let (there, step) = beside(index, forward).or_else(|| beside(index, -forward))?;
+            ahead[number] = (there, step);
+            linear.columns[number] = std::array::from_fn(|i| (there[i] - rates[i]) / step);
+        }
+        if linear.fastest() > NEAR_REST {
+            for (number, index) in COUPLED.enumerate() {
+                let (one, step) = ahead[number];
+                if let Some((other, back)) = beside(index, -step) {
+                    linear.columns[number] =
+                        std::array::from_fn(|i| (one[i] - other[i]) / (step - back));
+                }
+            }
+        }
+        Some(linear)
+    }
+
+    /// The change of the rates along a direction, J v.
+    fn along(&self, direction: &Numbers) -> Numbers {
+        let mut product = [0.0; SIZE];
+        for (column, index) in self.columns.iter().zip(COUPLED) {
+            for (product, part) in product.iter_mut().zip(column) {
+                *product += part * direction[index];
+            }
+        }
+        product
+    }
+
+    /// The fastest rate at which the motion near the point grows or dies out [1/s], by the power
+    /// method from the direction of the motion: in a mirror it is the same.
+    pub(super) fn fastest(&self) -> f64 {
+        /// They serve a choice, not a result.
+        const TIMES: usize = 16;
+        let mut direction = self.rates;
+        let mut fastest = 0.0;
+        for _ in 0..TIMES {
+            let length = length(&direction);
+            if length == 0.0 {
+                break;
+            }
+            direction = self.along(&direction.map(|part| part / length));
+            fastest = super::step::length(&direction);
+        }
+        fastest
+    }
+}
+
+/// A step of a span [s] from a point; None where a stage has no rates.
+///
+/// Its error is the greater of two. At its end it is the last stage, which the embedded step of order
+/// 4 does without. Halfway, the continuous extension does not move as the rates there demand: what
+/// moves fast is pinned at the end of a step however long that is, and not on the way.
+pub(super) fn implicit_step(
+    from: &Numbers,
+    linear: &Linear,
+    span: f64,
+    rates_at: &impl Fn(&Numbers) -> Option<Numbers>,
+) -> Option<Step> {
+    let system = System::new(linear, span);
+    let mut stages = [[0.0; SIZE]; STAGES];
+    for stage in 0..STAGES {
+        let mut side = match stage {
+            0 => linear.rates,
+            _ => rates_at(&sum(from, &A[stage], &stages))?,
+        };
+        let earlier = sum(&[0.0; SIZE], &C[stage], &stages);
+        for (side, earlier) in side.iter_mut().zip(earlier) {
+            *side += earlier / span;
+        }
+        stages[stage] = system.solve(&side)?;
+    }
+    let error = stages[STAGES - 1];
+    let embedded = sum(from, &A[STAGES - 1], &stages);
+    let to: Numbers = std::array::from_fn(|i| embedded[i] + error[i]);
+    let bends = H.map(|weights| sum(&[0.0; SIZE], &weights, &stages));
+    let step = Step { from: *from, to, bends, error };
+    let (halfway, moves) = (step.at(0.5), step.slope_halfway());
+    let rates = rates_at(&halfway)?;
+    let astray = system.solve(&std::array::from_fn(|i| rates[i] - moves[i] / span))?;
+    let error = std::array::from_fn(|i| error[i].abs().max(astray[i].abs()));
+    to.iter().all(|part| part.is_finite()).then_some(Step { error, ..step })
+}
+
+/// The linear equations of all stages of a step, 1/(h γ) − J.
+struct System<'a> {
+    linear: &'a Linear,
+    span: f64,
+    coupled: LU<f64, U4, U4>,
+}
+
+impl<'a> System<'a> {
+    fn new(linear: &'a Linear, span: f64) -> Self {
+        let block = Matrix4::from_fn(|row, column| {
+            let diagonal = if row == column { 1.0 / (span * GAMMA) } else { 0.0 };
+            diagonal - linear.columns[column][COUPLED.start + row]
+        });
+        Self { linear, span, coupled: block.lu() }
+    }
+
+    fn solve(&self, side: &Numbers) -> Option<Numbers> {
+        let coupled = Vector4::from_fn(|row, _| side[COUPLED.start + row]);
+        let coupled = self.coupled.solve(&coupled)?;
+        let mut solved = [0.0; SIZE];
+        solved[COUPLED].copy_from_slice(coupled.as_slice());
+        // All others only gather what the coupled ones do.
+        let gathered = self.linear.along(&solved);
+        for index in (0..SIZE).filter(|index| !COUPLED.contains(index)) {
+            solved[index] = self.span * GAMMA * (side[index] + gathered[index]);
+        }
+        Some(solved)
+    }
+}

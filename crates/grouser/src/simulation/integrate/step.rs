@@ -1,0 +1,57 @@
+//! One step, whichever method took it: where it led, all points on its way, and its error.
+
+use std::ops::Range;
+
+use super::SIZE;
+
+/// A point, or its rates.
+pub(super) type Numbers = [f64; SIZE];
+
+/// Which components the rates depend on: yaw and the velocities. The slope is the same everywhere,
+/// and energies act on nothing.
+pub(super) const COUPLED: Range<usize> = 2..6;
+
+/// A step that was taken, with all points between its ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    pub(super) from: Numbers,
+    pub(super) to: Numbers,
+    /// How its points leave the straight line between its ends.
+    pub(super) bends: [Numbers; 3],
+    /// Estimate of its error, at least at its end: the difference to the embedded step of order 4.
+    pub(super) error: Numbers,
+}
+
+impl Step {
+    /// The point at a share of the step, 0 to 1.
+    pub(super) fn at(&self, share: f64) -> Numbers {
+        let [one, two, three] = &self.bends;
+        let rest = 1.0 - share;
+        std::array::from_fn(|i| {
+            let bend = one[i] + share * (two[i] + share * three[i]);
+            rest * self.from[i] + share * (self.to[i] + rest * bend)
+        })
+    }
+
+    /// How fast its points move halfway [1 over the step].
+    pub(super) fn slope_halfway(&self) -> Numbers {
+        let [_, two, three] = &self.bends;
+        std::array::from_fn(|i| self.to[i] - self.from[i] + 0.25 * (two[i] + three[i]))
+    }
+}
+
+/// A point moved by weighted stages.
+pub(super) fn sum(from: &Numbers, weights: &[f64], stages: &[Numbers]) -> Numbers {
+    let mut sum = *from;
+    for (weight, stage) in weights.iter().zip(stages).filter(|(weight, _)| **weight != 0.0) {
+        for (sum, part) in sum.iter_mut().zip(stage) {
+            *sum += weight * part;
+        }
+    }
+    sum
+}
+
+/// The length of the coupled components of a direction.
+pub(super) fn length(direction: &Numbers) -> f64 {
+    direction[COUPLED].iter().map(|part| part * part).sum::<f64>().sqrt()
+}
