@@ -5,8 +5,7 @@ use std::ops::RangeInclusive;
 use grouser::contact::Theory;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, DocumentError, Kind, LoadedScenario, Overrides, SoilDocument, Source, UncertainSoil,
-    escape,
+    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil, escape,
 };
 use grouser::studies::card::Rule;
 
@@ -147,26 +146,21 @@ pub(crate) fn uncertain_soil<'s>(
     scenario: &'s LoadedScenario,
 ) -> Result<&'s UncertainSoil, Failure> {
     check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
-    let soil = scenario.document.soil.inline();
-    let Some(uncertain) = soil.and_then(|soil| soil.uncertain()) else {
-        let name = escape::line(soil.map_or("unnamed", |soil| soil.name.as_str()));
+    let Some(uncertain) = &scenario.uncertain else {
+        let name = escape::line(scenario.document.text("soil.name").unwrap_or("unnamed"));
         return Err(Failure::Usage(format!(
             "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
              hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
              docs/guide/uncertainty.md tells how"
         )));
     };
-    refuse_sampled_keys(&args.setting, soil, uncertain)?;
+    refuse_sampled_keys(&args.setting, uncertain)?;
     Ok(uncertain)
 }
 
 /// What the samples say in every draw cannot be set by hand.
-fn refuse_sampled_keys(
-    setting: &SettingArgs,
-    soil: Option<&SoilDocument>,
-    uncertain: &UncertainSoil,
-) -> Result<(), Failure> {
-    if soil.is_some_and(SoilDocument::is_sampled) {
+fn refuse_sampled_keys(setting: &SettingArgs, uncertain: &UncertainSoil) -> Result<(), Failure> {
+    if uncertain.is_sampled() {
         let keys: Vec<&str> = uncertain.keys().collect();
         let hint = "the samples give this key a value in every draw";
         Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
@@ -197,10 +191,8 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
-    if let Some(soil) = scenario.document.soil.inline()
-        && let Some(uncertain) = soil.uncertain()
-    {
-        refuse_sampled_keys(setting, Some(soil), uncertain)?;
+    if let Some(uncertain) = &scenario.uncertain {
+        refuse_sampled_keys(setting, uncertain)?;
     }
     let rim_speed = match &args.speed_m_s {
         Some(speed) => single("--speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,

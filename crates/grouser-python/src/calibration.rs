@@ -9,9 +9,7 @@ use grouser::document::calibration::{
 };
 use grouser::document::measurements::{self, Choice, MeasurementError};
 use grouser::document::validation::GroupRecord;
-use grouser::document::{
-    Companion, FitKey, SAMPLES_FILE, SoilDocument, SoilFamily, plates, to_toml,
-};
+use grouser::document::{self, Companion, FitKey, SAMPLES_FILE, SoilFamily, plates};
 use grouser::studies::calibration::diagnostics::correlations_of;
 use grouser::studies::calibration::{CalibrationError, Fit, Observer, PosteriorState, Sampling};
 use numpy::PyArray2;
@@ -232,7 +230,7 @@ fn name_of(path: &std::path::Path) -> String {
 fn solved_to_python<'py>(
     py: Python<'py>,
     solved: &Solved,
-    soil: &SoilDocument,
+    soil: &document::Document,
     family: &SoilFamily,
     mut notes: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -265,6 +263,6 @@ fn solved_to_python<'py>(
     let row = |i: usize| (0..count).map(|j| correlations[(i, j)]).collect::<Vec<f64>>();
     let rows: Vec<Vec<f64>> = (0..count).map(row).collect();
     dict.set_item("correlations", PyArray2::from_vec2(py, &rows)?)?;
-    dict.set_item("soil", Document::of_soil(to_toml(soil), companions)?)?;
+    dict.set_item("soil", Document::of_soil(soil.to_toml(), companions)?)?;
     Ok(dict)
 }

@@ -7,9 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use grouser::document::campaign::{
-    Campaign, CampaignDocument, Cell, Frequencies, QuantityStatistics, Table, Values,
-};
+use grouser::document::campaign::{Campaign, Cell, Frequencies, QuantityStatistics, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::studies::campaign::sensitivity::SobolIndex;
 use grouser::studies::campaign::summary::{Estimate, Quantile, Summary};
@@ -27,28 +25,18 @@ use crate::interrupt::listening;
 /// A campaign that was read, and what its folder knows it by.
 pub(crate) struct LoadedCampaign {
     campaign: Arc<Campaign>,
-    document: CampaignDocument,
     study: Study,
 }
 
 impl LoadedCampaign {
-    /// # Panics
-    /// Never: the resolved document was written by the type that reads it here.
     pub(crate) fn read(source: &Source, overrides: &Overrides) -> Result<Self, DocumentError> {
         let campaign = document::read_campaign(source, overrides)?;
         let study = Study::of(&campaign);
-        let document =
-            toml::from_str(campaign.resolved()).expect("the resolved document is a document");
-        Ok(Self { campaign: Arc::new(campaign), document, study })
+        Ok(Self { campaign: Arc::new(campaign), study })
     }
 
     pub(crate) fn campaign(&self) -> &Campaign {
         &self.campaign
-    }
-
-    /// With everything in its place.
-    pub(crate) fn document(&self) -> &CampaignDocument {
-        &self.document
     }
 }
 

@@ -10,7 +10,6 @@ use grouser::document::{
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::Value as Json;
 use toml::{Table, Value};
 
 use crate::campaign::LoadedCampaign;
@@ -47,29 +46,21 @@ impl Read {
 }
 
 impl Document {
-    /// The document as a table.
-    pub(crate) fn table(&self) -> Table {
-        let table = match &self.read {
-            Read::Soil(it) => Table::try_from(&it.document),
-            Read::Wheel(it) => Table::try_from(&it.document),
-            Read::Rover(it) => Table::try_from(&it.document),
-            Read::Scenario(it) => Table::try_from(&it.document),
-            Read::Campaign(it) => Table::try_from(it.document()),
-        };
-        // A document that was read has text keys and finite numbers only.
-        table.unwrap_or_default()
+    /// What the document says.
+    fn said(&self) -> &document::Document {
+        match &self.read {
+            Read::Soil(it) => &it.document,
+            Read::Wheel(it) => &it.document,
+            Read::Rover(it) => &it.document,
+            Read::Scenario(it) => &it.document,
+            Read::Campaign(it) => it.campaign().document(),
+        }
     }
 
-    /// The same in the order of its keys.
-    fn in_order(&self) -> Json {
-        let json = match &self.read {
-            Read::Soil(it) => serde_json::to_value(&it.document),
-            Read::Wheel(it) => serde_json::to_value(&it.document),
-            Read::Rover(it) => serde_json::to_value(&it.document),
-            Read::Scenario(it) => serde_json::to_value(&it.document),
-            Read::Campaign(it) => serde_json::to_value(it.document()),
-        };
-        json.unwrap_or_default()
+    /// The document as a table.
+    pub(crate) fn table(&self) -> Table {
+        // A document that was read has text keys and finite numbers only.
+        Table::try_from(self.said()).unwrap_or_default()
     }
 
     /// Files that the document names.
@@ -163,18 +154,13 @@ impl Document {
 
     /// The resolved document as TOML.
     fn to_toml(&self) -> String {
-        match &self.read {
-            Read::Soil(it) => it.to_toml(),
-            Read::Wheel(it) => it.to_toml(),
-            Read::Rover(it) => it.to_toml(),
-            Read::Scenario(it) => it.to_toml(),
-            Read::Campaign(it) => it.campaign().resolved().to_owned(),
-        }
+        self.said().to_toml()
     }
 
     /// The resolved document as a dictionary of its own.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        values::to_python(py, &self.in_order())
+        let said = serde_json::to_value(self.said()).unwrap_or_default();
+        values::to_python(py, &said)
     }
 }
 

@@ -42,7 +42,7 @@ impl Runs {
     ) -> PyResult<Self> {
         let bases = scenarios.iter().map(|it| {
             let loaded = it.scenario()?;
-            Ok((loaded.value.clone(), loaded.document.model.is_some()))
+            Ok((loaded.value.clone(), loaded.document.theory().is_some()))
         });
         let soils = soils.iter().map(|it| {
             let loaded = it.soil()?;

@@ -42,7 +42,7 @@ struct Fresh {
 impl Led {
     fn new(loaded: &LoadedScenario) -> Result<Self, SimulationError> {
         let nominal = loaded.value.clone();
-        let soils = loaded.document.soil.inline().and_then(|soil| soil.uncertain()).cloned();
+        let soils = loaded.uncertain.clone();
         let rover = Simulator::new(nominal.clone())?;
         Ok(Self { nominal, soils, rover, failure: None })
     }

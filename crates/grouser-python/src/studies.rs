@@ -8,7 +8,7 @@ use grouser::document::study::{
     COURSE_DEG, MAP_SPEED_M_S,
 };
 use grouser::document::trajectory::{SampleRecord, TrajectoryRecord, WheelSampleRecord};
-use grouser::document::{self, Kind, SoilDocument};
+use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory};
 use grouser::soil::Soil;
@@ -147,7 +147,7 @@ pub(crate) fn attitude_map<'py>(
     let all = scenarios.iter().map(|scenario| scenario.scenario());
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let soil_name = |scenario: &&document::LoadedScenario| {
-        scenario.document.soil.inline().map_or("unnamed".to_owned(), |soil| soil.name.clone())
+        scenario.document.text("soil.name").unwrap_or("unnamed").to_owned()
     };
     let names: Vec<String> = all.iter().map(soil_name).collect();
     let Some(rover) = all.first().map(|scenario| scenario.value.rover.clone()) else {
@@ -188,8 +188,7 @@ pub(crate) fn attitude_band<'py>(
     let slopes = slopes(&slope_deg)?;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
-    let soil = scenario.document.soil.inline();
-    let Some(uncertain) = soil.and_then(SoilDocument::uncertain).cloned() else {
+    let Some(uncertain) = scenario.uncertain.clone() else {
         let message = "the soil does not say how well its values are known".to_owned();
         let expected = "a soil with an `uncertainty`, such as toyoura-uncertain";
         return Err(errors::parameter(message, "uncertainty", None, expected));

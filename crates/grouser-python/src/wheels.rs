@@ -99,7 +99,7 @@ pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> 
 /// The theory that a setting names, or else the soil's own; and the setting's gravity [m/s²].
 pub(crate) fn theory_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
     let setting = setting.scenario()?;
-    let named = setting.document.model.is_some().then_some(setting.value.theory);
+    let named = setting.document.theory().is_some().then_some(setting.value.theory);
     let theory = named.or_else(|| soil.soil().ok()?.document.theory()).unwrap_or_default();
     Ok((theory, setting.value.site.gravity))
 }

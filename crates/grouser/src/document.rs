@@ -8,14 +8,15 @@
 //! 3. Named parts (a scenario's rover and soil, a rover's wheel) are read and put in their place.
 //!    Relative paths start from the folder of the document they stand in.
 //! 4. The tree is checked against the [`schema`] of its kind: keys, types, words, ranges.
-//! 5. It becomes the document's type, and that becomes the domain's, in SI units and radians;
-//!    what only several values together can show is checked there.
+//! 5. The rows of its kind's table fill in what it leaves out, and put its numbers into the domain's value, in
+//!    SI units and radians; what only several values together can show is checked there.
 //! 6. What is uncertain about a soil is read, with the samples that it names.
 //!
 //! What comes out is [`Loaded`]: the value, and the resolved document, which written back as TOML
 //! repeats the run on its own. What is wrong comes out as a [`DocumentError`].
 //!
-//! Units and degrees are converted in this module's children and nowhere else.
+//! Units and degrees are converted in this module's children and nowhere else. What a key is called, its
+//! unit, its range, what it is and where its value goes: that is one row in `document/describe`.
 //!
 //! ```
 //! use grouser::document::{self, Kind, Overrides, Source};
@@ -32,71 +33,60 @@ pub mod card;
 mod check;
 pub mod checkpoint;
 mod data_set;
+mod describe;
 mod error;
 pub mod escape;
 pub mod experiment;
+mod field;
 pub mod file;
+mod loaded;
 pub mod measurements;
+mod notes;
 mod overrides;
 pub mod plates;
 mod presets;
 pub mod ranking;
-mod rover;
 mod samples;
-mod scenario;
 mod schema;
 pub mod simulated_test;
-mod soil;
 mod soil_family;
-mod soil_numbers;
 mod source;
 pub mod study;
 mod text;
 pub mod trajectory;
 mod uncertainty;
 pub mod validation;
+mod values;
 pub mod variation;
-mod wheel;
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
-use schemars::JsonSchema;
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-pub use campaign::{Campaign, CampaignDocument, read_campaign};
+pub use campaign::{Campaign, read_campaign};
 pub use check::nearest;
-pub use data_set::{CaseSection, DataSetCase, DataSetDocument, DataSetSchema};
+pub use data_set::{DataSet, DataSetCase};
 pub use error::{DocumentError, Place, Problem, Spot};
+pub use loaded::{Companion, Document, Loaded};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
-pub use rover::{
-    BodySection, InertiaSection, MountSection, RoverDocument, RoverSchema, WheelUnitSection,
-};
-pub use scenario::{
-    DriveSection, LoadsWord, MomentsWord, MotionWord, RIM_SPEED_M_S, ScenarioDocument,
-    ScenarioSchema, Speeds, StartSection,
-};
 pub use schema::{range, schema};
-pub use soil::{
-    BulldozingSection, BulldozingWord, ExitSection, ExitShiftSection, ExtendedSection,
-    FlankSection, HeapSection, PressureSinkageSection, RftSection, RimSection, ShearSection,
-    SinkageGrowthSection, SoilDocument, SoilSchema, StressPeakSection, TheoryWord,
-};
 pub use soil_family::{FitKey, SoilFamily, key_of};
 pub use source::{LARGEST_FILE, Source};
-pub use uncertainty::{
-    CorrelationSection, DistributionWord, SAMPLES_FILE, UncertainParameter, UncertainSoil,
-    UncertaintySection,
-};
-pub use wheel::{GrousersSection, WheelDocument, WheelSchema};
+pub use uncertainty::{CorrelationSection, DistributionWord, SAMPLES_FILE, UncertainSoil};
 
 use crate::simulation::Scenario;
 use crate::soil::Soil;
 use crate::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY};
 use crate::vehicle::Rover;
 use crate::wheel::Wheel;
+use describe::scenario::FASTEST;
 use text::{Entry, Node, Origin, Value};
+use values::Described;
+
+/// Allowed speeds of a rim, ω r_s [m/s].
+pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 
 /// What a document describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -185,71 +175,6 @@ struct Part {
     default: Option<&'static str>,
 }
 
-/// A preset's name, a path, or the document itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-#[schemars(inline)]
-pub enum Reference<D> {
-    /// The name of a preset, or a path from the folder of this document.
-    Named(String),
-    /// The document's keys, as a table.
-    Inline(Box<D>),
-}
-
-impl<D> Reference<D> {
-    /// The document; `None` before it is read.
-    #[must_use]
-    pub fn inline(&self) -> Option<&D> {
-        match self {
-            Self::Named(_) => None,
-            Self::Inline(document) => Some(document),
-        }
-    }
-}
-
-/// A document that was read: what it says, and what that means.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Loaded<D, V> {
-    /// The document with every named part in its place and every default filled in.
-    pub document: D,
-    /// Its meaning, in SI units and radians.
-    pub value: V,
-    /// What was assumed, each with the name of the document that says so.
-    pub assumptions: Vec<String>,
-    /// Files that the resolved document names, to be written beside it.
-    pub companions: Vec<Companion>,
-}
-
-/// A file that a resolved document names.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Companion {
-    /// Its name, from the folder of the document.
-    pub name: String,
-    /// What is in it.
-    pub content: String,
-}
-
-impl<D: Serialize, V> Loaded<D, V> {
-    /// The resolved document as TOML: read again, with its [`companions`](Self::companions) beside
-    /// it, it gives the same value.
-    ///
-    /// # Panics
-    /// Never: a document that was read has text keys and finite numbers only.
-    #[must_use]
-    pub fn to_toml(&self) -> String {
-        toml::to_string_pretty(&self.document).expect("text keys and finite numbers")
-    }
-
-    /// A number by which the resolved document, with its companions, is known again: FNV-1a (Fowler,
-    /// Noll, Vo) of 64 bits. It tells documents apart that differ by chance, not by intent.
-    #[must_use]
-    pub fn fingerprint(&self) -> u64 {
-        let toml = self.to_toml();
-        let companions = self.companions.iter().flat_map(|companion| companion.content.bytes());
-        checkpoint::fnv_1a(toml.bytes().chain(companions))
-    }
-}
-
 /// A document as TOML.
 ///
 /// # Panics
@@ -260,22 +185,22 @@ pub fn to_toml<D: Serialize>(document: &D) -> String {
 }
 
 /// A soil that was read.
-pub type LoadedSoil = Loaded<SoilDocument, Soil>;
+pub type LoadedSoil = Loaded<Soil>;
 /// A wheel that was read.
-pub type LoadedWheel = Loaded<WheelDocument, Wheel>;
+pub type LoadedWheel = Loaded<Wheel>;
 /// A rover that was read.
-pub type LoadedRover = Loaded<RoverDocument, Rover>;
+pub type LoadedRover = Loaded<Rover>;
 /// A scenario that was read.
-pub type LoadedScenario = Loaded<ScenarioDocument, Scenario>;
+pub type LoadedScenario = Loaded<Scenario>;
 /// A data set that was read.
-pub type LoadedDataSet = Loaded<DataSetDocument, Vec<DataSetCase>>;
+pub type LoadedDataSet = Loaded<DataSet>;
 
 /// Reads a soil.
 ///
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, DocumentError> {
-    read(source, overrides)
+    read(Kind::Soil, source, overrides)
 }
 
 /// Reads a wheel.
@@ -283,7 +208,7 @@ pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, D
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel, DocumentError> {
-    read(source, overrides)
+    read(Kind::Wheel, source, overrides)
 }
 
 /// Reads a rover with its wheel.
@@ -291,7 +216,7 @@ pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel,
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_rover(source: &Source, overrides: &Overrides) -> Result<LoadedRover, DocumentError> {
-    read(source, overrides)
+    read(Kind::Rover, source, overrides)
 }
 
 /// Reads a scenario with its rover and soil.
@@ -302,7 +227,7 @@ pub fn read_scenario(
     source: &Source,
     overrides: &Overrides,
 ) -> Result<LoadedScenario, DocumentError> {
-    read(source, overrides)
+    read(Kind::Scenario, source, overrides)
 }
 
 /// Reads a data set with the wheels and soils that it names; the measurements themselves are read
@@ -314,7 +239,7 @@ pub fn read_data_set(
     source: &Source,
     overrides: &Overrides,
 ) -> Result<LoadedDataSet, DocumentError> {
-    read(source, overrides)
+    data_set::read(source, overrides)
 }
 
 /// Reads a document of whatever kind it says it is, only to see whether it can be used.
@@ -352,45 +277,40 @@ pub fn gravity(name: &str) -> Option<f64> {
     GRAVITIES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
 }
 
-/// What a document type is to the reader.
-trait Document: DeserializeOwned + Serialize {
-    const KIND: Kind;
-    type Value;
-
-    /// The domain's value, in SI units and radians.
-    fn to_domain(&self, tree: &Node) -> Result<Self::Value, DocumentError>;
-
-    /// Reads what the document names besides other documents, and finds out what it means.
-    fn prepare(&mut self, _tree: &Node) -> Result<(), DocumentError> {
-        Ok(())
-    }
-
-    /// Files that it names, under the names that it now gives them.
-    fn companions(&self) -> Vec<Companion> {
-        Vec::new()
-    }
-
-    /// Adds what was assumed without its author saying so.
-    fn note(&mut self, tree: &Node, overrides: &Overrides);
-
-    /// Everything assumed, each with the document's name before it.
-    fn assumptions(&self) -> Vec<String>;
-}
-
-fn read<D: Document>(
+/// Reads a document that stands for one value.
+fn read<V: Described>(
+    kind: Kind,
     source: &Source,
     overrides: &Overrides,
-) -> Result<Loaded<D, D::Value>, DocumentError> {
-    let tree = load(D::KIND, source, overrides, "")?;
-    let mut document: D = tree.to_toml().try_into().map_err(|error: toml::de::Error| {
-        DocumentError::at(&tree.origin, Problem::Syntax(error.message().to_owned()))
-    })?;
-    let value = document.to_domain(&tree)?;
-    document.prepare(&tree)?;
-    document.note(&tree, overrides);
-    let assumptions = document.assumptions();
-    let companions = document.companions();
-    Ok(Loaded { document, value, assumptions, companions })
+) -> Result<Loaded<V>, DocumentError> {
+    let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
+    let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
+    let mut companions = Vec::new();
+    let uncertain = match kind {
+        Kind::Soil => uncertainty::read(&mut document, "", &tree, &mut companions)?,
+        Kind::Scenario => {
+            let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
+            uncertainty::read(&mut document, "soil", soil, &mut companions)?
+        }
+        _ => None,
+    };
+    Ok(Loaded { document, value, uncertain, assumptions, companions })
+}
+
+/// A document that was found, checked and completed, but not yet understood.
+struct Written {
+    tree: Node,
+    document: Document,
+    assumptions: Vec<String>,
+}
+
+fn written(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Written, DocumentError> {
+    let mut tree = load(kind, source, overrides, "")?;
+    notes::check_days(kind, &tree)?;
+    notes::add(kind, &mut tree, overrides);
+    let document = Document::of(kind, &tree.to_json());
+    let assumptions = notes::assumptions(kind, document.keys());
+    Ok(Written { tree, document, assumptions })
 }
 
 /// The checked tree of a document with all its parts.
@@ -503,33 +423,6 @@ fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
         .into_iter()
         .find(|kind| kind.tag() == word)
         .ok_or_else(|| check::unknown_tag(&tags, &entry.node))
-}
-
-/// Assumptions of one document, as a report prints them.
-fn told_by(kind: Kind, name: &str, assumed: &[String], source: &str) -> Vec<String> {
-    let says_so = source.starts_with("assumed").then(|| format!("{kind} {name}: {source}"));
-    says_so.into_iter().chain(assumed.iter().map(|one| format!("{kind} {name}: {one}"))).collect()
-}
-
-/// What a document says of its own birthplace when it says nothing.
-fn not_stated() -> String {
-    "not stated".to_owned()
-}
-
-fn unnamed() -> String {
-    "unnamed".to_owned()
-}
-
-/// Notes a document without a source, and values that were set from outside.
-fn note_birthplace(kind: Kind, tree: &Node, overrides: &Overrides, assumed: &mut Vec<String>) {
-    if tree.entry("source").is_none() {
-        assumed.push("source: not stated by the document".to_owned());
-    }
-    for note in overrides.notes(kind) {
-        // What was assumed of this key is no longer in force.
-        assumed.retain(|one| one.split(':').next() != note.split(':').next());
-        assumed.push(note);
-    }
 }
 
 /// A missing file is the fault of the document that names it; of any other fault it says where the

@@ -20,5 +20,5 @@ pub mod state;
 pub use drive::{Drive, DriveLaw};
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, WheelReaction};
-pub use rover::{Body, Inertia, Mount, Rover, WheelUnit};
+pub use rover::{Body, Inertia, Mount, Rover, RoverParts, WheelUnit};
 pub use state::{Acceleration, RoverState};

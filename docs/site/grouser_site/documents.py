@@ -21,9 +21,8 @@ class Kind:
 
     def __init__(self, kinds: dict[str, Any], name: str) -> None:
         self.schema = kinds[name]
-        self.definitions = self.schema["$defs"]
-        # A table such as `RoverDocument` inside another kind is told on its own page.
-        self.others = {f"{kind.capitalize()}Document": kind for kind in kinds if kind != name}
+        # The documents that may stand inside this one are told on their own pages.
+        self.others = self.schema.get("$defs", {})
         self.name = name
         self.lines: list[str] = []
 
@@ -78,7 +77,7 @@ class Kind:
 
     def followed(self, value: dict[str, Any]) -> dict[str, Any]:
         name = value.get("$ref", "").removeprefix("#/$defs/")
-        return self.followed(self.definitions[name]) if name else value
+        return self.others[name] if name else value
 
     def variants(self, value: dict[str, Any]) -> list[dict[str, Any]]:
         value = self.followed(value)
@@ -98,8 +97,7 @@ class Kind:
     def takes(self, value: dict[str, Any]) -> str:
         name = value.get("$ref", "").removeprefix("#/$defs/")
         if name in self.others:
-            kind = self.others[name]
-            return f"the keys of [{article(kind)}]({kind}.md)"
+            return f"the keys of [{article(name)}]({name}.md)"
         value = self.followed(value)
         words = self.words(value)
         if words:

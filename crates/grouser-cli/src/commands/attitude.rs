@@ -100,12 +100,12 @@ fn rows(
 fn settings(args: &AttitudeArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
     let mut settings = json!({
-        "rover": document.rover,
-        "soil": document.soil,
-        "gravity_m_s2": document.gravity_m_s2,
+        "rover": document.get("rover"),
+        "soil": document.get("soil"),
+        "gravity_m_s2": document.get("gravity_m_s2"),
         "model": scenario.value.theory.name(),
-        "loads": document.loads,
-        "moments": document.moments,
+        "loads": document.get("loads"),
+        "moments": document.get("moments"),
         "slope_deg": args.slope_deg.0,
     });
     if args.uncertainty.uncertainty {

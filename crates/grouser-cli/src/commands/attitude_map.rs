@@ -70,21 +70,21 @@ struct Results<'a> {
 }
 
 fn soil_name(scenario: &LoadedScenario) -> String {
-    scenario.document.soil.inline().map_or("unnamed".into(), |soil| soil.name.clone())
+    scenario.document.text("soil.name").unwrap_or("unnamed").to_owned()
 }
 
 /// What the answer was made from.
 fn settings(args: &AttitudeMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
-    let soils: Vec<_> = scenarios.iter().map(|scenario| &scenario.document.soil).collect();
+    let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
     let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.theory.name()).collect();
     json!({
-        "rover": first.rover,
+        "rover": first.get("rover"),
         "soils": soils,
         "models": models,
-        "gravity_m_s2": first.gravity_m_s2,
-        "loads": first.loads,
-        "moments": first.moments,
+        "gravity_m_s2": first.get("gravity_m_s2"),
+        "loads": first.get("loads"),
+        "moments": first.get("moments"),
         "course_deg": args.course_deg.0,
         "slope_deg": args.slope_deg.0,
         "speed_m_s": args.speed_m_s.0[0],

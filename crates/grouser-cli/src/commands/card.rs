@@ -83,9 +83,8 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
 
 /// The drawn soils; none where no uncertainty is stated.
 fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
-    let uncertain = inputs.scenario.document.soil.inline().and_then(|soil| soil.uncertain());
     let draw = |uncertain| attitude_band::soils(uncertain, args.seed, args.samples);
-    uncertain.map_or(Ok(Vec::new()), draw)
+    inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
 }
 
 fn compute(
@@ -173,12 +172,12 @@ fn answer<'a>(
 fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     let document = &inputs.scenario.document;
     let mut settings = json!({
-        "rover": document.rover,
-        "soil": document.soil,
-        "gravity_m_s2": document.gravity_m_s2,
+        "rover": document.get("rover"),
+        "soil": document.get("soil"),
+        "gravity_m_s2": document.get("gravity_m_s2"),
         "model": inputs.scenario.value.theory.name(),
-        "loads": document.loads,
-        "moments": document.moments,
+        "loads": document.get("loads"),
+        "moments": document.get("moments"),
         "uphill": if args.uphill == SideWord::Left { "left" } else { "right" },
         "speed_m_s": inputs.rim_speed,
         "rule": RuleRecord::from(&inputs.rule),

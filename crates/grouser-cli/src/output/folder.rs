@@ -5,7 +5,6 @@ use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
 
 use grouser::document::{Loaded, escape, file};
-use serde::Serialize;
 use tempfile::TempDir;
 
 use crate::args::OutputArgs;
@@ -77,7 +76,7 @@ impl OutputFolder {
     }
 
     /// Adds a resolved document with the files that it names.
-    pub(crate) fn add_document<D: Serialize, V>(&mut self, name: &str, document: &Loaded<D, V>) {
+    pub(crate) fn add_document<V>(&mut self, name: &str, document: &Loaded<V>) {
         self.add(name, document.to_toml());
         for companion in &document.companions {
             self.add(&companion.name, companion.content.clone());

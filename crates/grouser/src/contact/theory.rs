@@ -26,7 +26,7 @@ impl Theory {
 
     /// Its name in documents and commands.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Ishigami => "ishigami",
             Self::Bekker => "bekker",

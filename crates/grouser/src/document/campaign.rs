@@ -14,7 +14,6 @@
 
 mod inputs;
 mod marginals;
-mod numbers;
 mod rows;
 mod sections;
 mod statistics;
@@ -25,31 +24,30 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 pub use rows::FAILED;
-pub use sections::{
-    CampaignDocument, CampaignSchema, ParameterSection, SampleRows, SamplesSection, SamplingWord,
-    StudyWord, WheelTestSection,
-};
+pub use sections::Study;
+pub(super) use sections::{Settings, Stand};
 pub use statistics::{Frequencies, QuantityStatistics};
 pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
 
 use self::inputs::Prepared;
 use self::rows::Base;
+use super::describe::campaign::CAMPAIGN;
 use super::error::DocumentError;
-use super::text::Node;
-use super::{Document, Kind, Loaded, Overrides, Source, told_by};
+use super::field::Inner;
+use super::{Document, Kind, Overrides, Source, Written, written};
 use crate::studies::campaign::Plan;
 pub use rows::STATUSES;
 
 /// A campaign that was read and checked: ready to run.
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    study: StudyWord,
+    study: Study,
     base: Base,
     plan: Plan,
     shard_runs: u64,
     columns: Vec<Column>,
     prepared: Prepared,
-    name: String,
+    document: Document,
     resolved: String,
     assumptions: Vec<String>,
 }
@@ -59,22 +57,34 @@ pub struct Campaign {
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign, DocumentError> {
-    let Loaded { document, value, assumptions, .. } =
-        super::read::<CampaignDocument>(source, overrides)?;
-    let resolved = super::to_toml(&document.resolved(&value.prepared));
-    Ok(Campaign { resolved, assumptions, ..value })
+    let Written { tree, document, assumptions } = written(Kind::Campaign, source, overrides)?;
+    let mut settings = Settings::BLANK;
+    CAMPAIGN.put(&mut settings, document.keys());
+    let (base, prepared) = inputs::prepare(&document, &settings, &tree)?;
+    let document = prepared.resolved(&document);
+    Ok(Campaign {
+        study: settings.study,
+        plan: prepared.plan(&settings),
+        columns: rows::columns(settings.study, settings.sensitivity, prepared.keys()),
+        base,
+        shard_runs: settings.shard_runs,
+        prepared,
+        resolved: document.to_toml(),
+        document,
+        assumptions,
+    })
 }
 
 impl Campaign {
     /// What it calls itself.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.name
+        self.document.name()
     }
 
     /// What every run computes.
     #[must_use]
-    pub fn study(&self) -> StudyWord {
+    pub fn study(&self) -> Study {
         self.study
     }
 
@@ -127,6 +137,12 @@ impl Campaign {
     #[must_use]
     pub fn factors(&self) -> &[String] {
         self.prepared.factors()
+    }
+
+    /// The document with everything in its place, samples included.
+    #[must_use]
+    pub fn document(&self) -> &Document {
+        &self.document
     }
 
     /// The document with everything in its place, samples included, as TOML: read again it is the same
@@ -183,34 +199,5 @@ impl Campaign {
             .collect();
         let rows: Vec<Vec<Cell>> = rows.into_iter().collect::<Option<_>>()?;
         Some(Table::of(&self.columns, rows))
-    }
-}
-
-impl Document for CampaignDocument {
-    const KIND: Kind = Kind::Campaign;
-    type Value = Campaign;
-
-    fn to_domain(&self, tree: &Node) -> Result<Campaign, DocumentError> {
-        let (base, prepared) = inputs::prepare(self, tree)?;
-        Ok(Campaign {
-            study: self.study,
-            plan: prepared.plan(self),
-            columns: rows::columns(self.study, self.sensitivity, prepared.keys()),
-            base,
-            shard_runs: self.shard_runs,
-            prepared,
-            name: self.name.clone(),
-            resolved: String::new(),
-            assumptions: Vec::new(),
-        })
-    }
-
-    fn note(&mut self, tree: &Node, overrides: &Overrides) {
-        self.note_parts(tree, overrides);
-    }
-
-    fn assumptions(&self) -> Vec<String> {
-        let own = told_by(Self::KIND, &self.name, &self.assumed, &self.source);
-        own.into_iter().chain(self.assumptions_of_parts()).collect()
     }
 }

@@ -10,14 +10,14 @@ use serde_json::Value as Json;
 
 use super::Kind;
 use super::error::{DocumentError, Problem, number};
-use super::schema::{alternatives, json, keys, paths_of, words};
+use super::schema::{alternatives, keys, paths_of, root, words};
 use super::text::{Entry, Node, Origin, Value};
 
 /// That a tree is a document of its kind.
 ///
 /// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
 pub(super) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
-    let root = json(kind);
+    let root = root(kind);
     Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
 }
 
@@ -43,7 +43,7 @@ fn table_at<'s>(
     tree: &Node,
     path: impl Iterator<Item = &'s str>,
 ) -> Option<&'static Json> {
-    let root = json(kind);
+    let root = root(kind);
     let checker = Checker { root, prefix: "" };
     let (mut schema, mut node) = (root, tree);
     for step in path {

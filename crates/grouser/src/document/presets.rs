@@ -1,8 +1,6 @@
 //! The documents that come with the program: those of the crate's folder `data/`.
 
-use super::campaign::CampaignDocument;
-use super::{DataSetDocument, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument, read};
-use super::{Document, Kind, Overrides, Source};
+use super::{Kind, Overrides, Source, written};
 
 /// A document that comes with the program.
 #[derive(Debug, PartialEq, Eq)]
@@ -30,23 +28,15 @@ pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
 
 impl Preset {
     /// What the document calls itself, and where it says its values are from.
+    ///
+    /// # Panics
+    /// Never: every preset is read by a test.
     #[must_use]
     pub fn title_and_source(&'static self) -> (String, String) {
-        match self.kind {
-            Kind::Soil => self.header(|soil: &SoilDocument| (&soil.name, &soil.source)),
-            Kind::Wheel => self.header(|wheel: &WheelDocument| (&wheel.name, &wheel.source)),
-            Kind::Rover => self.header(|rover: &RoverDocument| (&rover.name, &rover.source)),
-            Kind::Scenario => self.header(|run: &ScenarioDocument| (&run.name, &run.source)),
-            Kind::DataSet => self.header(|set: &DataSetDocument| (&set.name, &set.source)),
-            Kind::Campaign => self.header(|runs: &CampaignDocument| (&runs.name, &runs.source)),
-        }
-    }
-
-    fn header<D: Document>(&'static self, words: fn(&D) -> (&String, &String)) -> (String, String) {
-        let loaded = read::<D>(&Source::Preset(self), &Overrides::none())
-            .expect("every preset is read by a test");
-        let (name, source) = words(&loaded.document);
-        (name.clone(), source.clone())
+        let document = written(self.kind, &Source::Preset(self), &Overrides::none())
+            .expect("every preset is read by a test")
+            .document;
+        (document.name().to_owned(), document.source().to_owned())
     }
 }
 

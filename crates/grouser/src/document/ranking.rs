@@ -96,7 +96,7 @@ pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Vec<RankedTheor
     };
     let mut all = Vec::new();
     for DataSet { set, rows, named_at } in sets {
-        for case in &set.value {
+        for case in &set.value.cases {
             let ranked = rank(&set, case, &rows, limits);
             all.extend(ranked.map_err(|error| match &named_at {
                 Some(place) => error.named_at(place.clone()),
@@ -133,7 +133,7 @@ fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
     for document in documents_in(folder)? {
         let source = Source::file(&document);
         let set = read_data_set(&source, &Overrides::none())?;
-        let file = folder.join(&set.document.file);
+        let file = folder.join(&set.value.file);
         // Of a link to nothing the reading says so.
         if file.symlink_metadata().is_err() {
             return Err(RankingError::NoSuchFile { document, file });
@@ -144,7 +144,7 @@ fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
     let mut sets = Vec::new();
     for preset in presets(Kind::DataSet) {
         let set = read_data_set(&Source::Preset(preset), &Overrides::none())?;
-        let file = folder.join(&set.document.file);
+        let file = folder.join(&set.value.file);
         let is_there = file.symlink_metadata().is_ok();
         let rows = measurements::Source::File(file);
         let is_claimed = own.iter().any(|claimed| claimed.rows == rows);
@@ -199,11 +199,11 @@ fn rank(
                 wheel: case.wheel.value,
                 soil: soil.value,
                 theory,
-                gravity: set.document.gravity_m_s2,
+                gravity: set.value.gravity,
             };
             let validation = study.run();
             all.push(RankedTheory {
-                data_set: set.document.name.clone(),
+                data_set: set.document.name().to_owned(),
                 case: case.name.clone(),
                 rank: 0,
                 model: theory.name(),

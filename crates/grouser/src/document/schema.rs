@@ -1,22 +1,25 @@
-//! The JSON Schema of each kind of document: the one home of its keys, its ranges and their words.
+//! The JSON Schema of each kind of document, made from the tables that [`describe`](super::describe) it.
 //!
-//! Schemas are made from the document types. Editors read them from `schema/`; the reader itself
-//! checks documents against them ([`check`](super::check)), so that what is said and what is
-//! allowed cannot differ.
+//! Editors read schemas from `schema/`; the reader itself checks documents against them
+//! ([`check`](super::check)), so that what is said and what is allowed cannot differ.
 
 use std::sync::OnceLock;
 
-use schemars::JsonSchema;
-use schemars::generate::SchemaSettings;
-use serde_json::Value as Json;
+use serde_json::{Map, Value as Json, json};
 
-use super::campaign::CampaignDocument;
-use super::{DataSetDocument, Kind, RoverDocument, ScenarioDocument, SoilDocument, WheelDocument};
+use super::Kind;
+use super::describe::campaign::CAMPAIGN;
+use super::describe::data_set::DATA_SET;
+use super::describe::rover::ROVER;
+use super::describe::scenario::SCENARIO;
+use super::describe::soil::SOIL;
+use super::describe::wheel::WHEEL;
+use super::field::{Field, Form, Inner, Laws, Number, Presence, Shape, Table, Text, Whole};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
 pub fn schema(kind: Kind) -> String {
-    let mut text = format!("{:#}", json(kind));
+    let mut text = format!("{:#}", root(kind));
     text.push('\n');
     text
 }
@@ -28,7 +31,7 @@ pub fn schema(kind: Kind) -> String {
 ///   list's key
 #[must_use]
 pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
-    let root = json(kind);
+    let root = root(kind);
     let ranges = properties(root, root, path).into_iter().filter_map(|schema| {
         let number = schema.get("items").unwrap_or(schema);
         let end = |names: [&str; 2]| names.iter().find_map(|name| number.get(*name)?.as_f64());
@@ -39,31 +42,174 @@ pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
 }
 
 /// The same schema as a value, made once.
-pub(super) fn json(kind: Kind) -> &'static Json {
+pub(super) fn root(kind: Kind) -> &'static Json {
     static SCHEMAS: [OnceLock<Json>; Kind::ALL.len()] =
         [const { OnceLock::new() }; Kind::ALL.len()];
-    SCHEMAS[kind as usize].get_or_init(|| match kind {
-        Kind::Soil => make::<SoilDocument>(kind),
-        Kind::Wheel => make::<WheelDocument>(kind),
-        Kind::Rover => make::<RoverDocument>(kind),
-        Kind::Scenario => make::<ScenarioDocument>(kind),
-        Kind::DataSet => make::<DataSetDocument>(kind),
-        Kind::Campaign => make::<CampaignDocument>(kind),
+    SCHEMAS[kind as usize].get_or_init(|| {
+        let mut defs = Map::new();
+        let mut schema = of_kind(kind, &mut defs);
+        schema["title"] = kind.tag().into();
+        schema["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
+        // Only a file must say what it is; a table inside another document is known by its place.
+        let needed = schema["required"].as_array().cloned().unwrap_or_default();
+        schema["required"] = std::iter::once(Json::from("schema")).chain(needed).collect();
+        if !defs.is_empty() {
+            schema["$defs"] = Json::Object(defs);
+        }
+        schema
     })
 }
 
-fn make<D: JsonSchema>(kind: Kind) -> Json {
-    let generator = SchemaSettings::draft2020_12().into_generator();
-    let mut schema = Json::from(generator.into_root_schema_for::<D>());
-    schema["title"] = Json::from(kind.tag());
-    // Only a file must say what it is; a table inside another document is known by its place.
-    if let Some(table) = schema.as_object_mut() {
-        let required = table.entry("required").or_insert_with(|| Json::Array(Vec::new()));
-        if let Some(keys) = required.as_array_mut() {
-            keys.insert(0, Json::from("schema"));
-        }
+/// The schema of a document, without what only a file has.
+fn of_kind(kind: Kind, defs: &mut Map<String, Json>) -> Json {
+    match kind {
+        Kind::Soil => SOIL.schema(defs),
+        Kind::Wheel => WHEEL.schema(defs),
+        Kind::Rover => ROVER.schema(defs),
+        Kind::Scenario => SCENARIO.schema(defs),
+        Kind::DataSet => DATA_SET.schema(defs),
+        Kind::Campaign => CAMPAIGN.schema(defs),
+    }
+}
+
+/// A table, under a law if its keys depend on one.
+pub(super) fn of_table<T>(
+    table: &Table<T>,
+    law: Option<(&str, Json, bool)>,
+    defs: &mut Map<String, Json>,
+) -> Json {
+    let mut properties = Map::new();
+    let mut needed: Vec<&str> = Vec::new();
+    if let Some((key, word, may_be_left_out)) = law {
+        properties.insert(key.to_owned(), word);
+        needed.extend((!may_be_left_out).then_some(key));
+    }
+    for field in table.fields {
+        properties.insert(field.key.to_owned(), of_field(field, defs));
+        needed.extend(matches!(field.presence, Presence::Needed).then_some(field.key));
+    }
+    let mut schema = json!({
+        "type": "object",
+        "description": table.doc,
+        "additionalProperties": false,
+        "properties": properties,
+    });
+    if !needed.is_empty() {
+        schema["required"] = needed.into();
     }
     schema
+}
+
+/// A table for each law.
+pub(super) fn of_laws<T>(laws: &Laws<T>, defs: &mut Map<String, Json>) -> Json {
+    let all = laws.all.iter().enumerate().map(|(place, law)| {
+        let is_default = laws.may_be_left_out && place == 0;
+        let mut word = json!({ "type": "string", "const": law.name });
+        if let Some(doc) = law.word {
+            word["description"] = doc.into();
+            let about = if is_default { "The law; may be left out." } else { "The law." };
+            word = json!({ "description": about, "oneOf": [word] });
+        }
+        if is_default {
+            word["default"] = law.name.into();
+        }
+        of_table(&law.table, Some((laws.key, word, is_default)), defs)
+    });
+    let choice = if laws.may_be_left_out { "anyOf" } else { "oneOf" };
+    json!({ choice: all.collect::<Vec<_>>(), "description": laws.doc })
+}
+
+fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
+    let mut schema = match &field.shape {
+        Shape::Tag => {
+            let tag = Table::implied(field);
+            json!({ "oneOf": [{ "type": "string", "const": tag, "description": "This version." }] })
+        }
+        Shape::Text(Text { least, format, .. }) => {
+            let mut text = json!({ "type": "string" });
+            if *least > 0 {
+                text["minLength"] = (*least).into();
+            }
+            if let Some(format) = format {
+                text["format"] = (*format).into();
+            }
+            text
+        }
+        Shape::Texts(least, most) => list_of(&json!({ "type": "string" }), *least, *most),
+        Shape::Flag(_) => json!({ "type": "boolean" }),
+        Shape::Whole(Whole { least, most, format, .. }) => {
+            json!({ "type": "integer", "format": format, "minimum": least, "maximum": most })
+        }
+        Shape::Words(words) => {
+            let word = |word: &super::field::Word<T>| json!({ "type": "string", "const": word.name, "description": word.doc });
+            json!({ "oneOf": words.iter().map(word).collect::<Vec<_>>() })
+        }
+        Shape::Number(number, _) => of_number(number),
+        Shape::Numbers(numbers) => match numbers.form {
+            Form::Exactly(count) => list_of(&of_number(&numbers.number), count, Some(count)),
+            Form::OneOrEach(one, each) => {
+                let described = |mut schema: Json, doc: &str| {
+                    schema["description"] = with_unit(doc, numbers.number.unit.symbol).into();
+                    schema
+                };
+                let number = of_number(&numbers.number);
+                let list = list_of(&number, 0, None);
+                json!({ "anyOf": [described(number, one), described(list, each)] })
+            }
+        },
+        Shape::Inner(inner) => inner.schema(defs),
+        Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
+        Shape::Part(kind, _) => {
+            if !defs.contains_key(kind.name()) {
+                // The place is taken before the parts of the part are described, for their order.
+                defs.insert(kind.name().to_owned(), Json::Null);
+                let schema = of_kind(*kind, defs);
+                defs.insert(kind.name().to_owned(), schema);
+            }
+            let named = "The name of a preset, or a path from the folder of this document.";
+            json!({ "anyOf": [
+                { "type": "string", "description": named },
+                {
+                    "$ref": format!("#/$defs/{}", kind.name()),
+                    "description": "The document's keys, as a table.",
+                },
+            ]})
+        }
+        Shape::TextOr(doc, inner) => {
+            json!({ "anyOf": [{ "type": "string", "description": doc }, inner.schema(defs)] })
+        }
+    };
+    schema["description"] = match &field.shape {
+        Shape::Number(number, _) => with_unit(field.doc, number.unit.symbol).into(),
+        Shape::Numbers(numbers) => with_unit(field.doc, numbers.number.unit.symbol).into(),
+        _ => field.doc.into(),
+    };
+    if let Some(default) = Table::implied(field) {
+        schema["default"] = default;
+    }
+    schema
+}
+
+fn of_number(number: &Number) -> Json {
+    let least = if number.is_open { "exclusiveMinimum" } else { "minimum" };
+    json!({ "type": "number", "format": "double", least: number.least, "maximum": number.most })
+}
+
+fn list_of(items: &Json, least: u64, most: Option<u64>) -> Json {
+    let mut list = json!({ "type": "array", "items": items });
+    if least > 0 {
+        list["minItems"] = least.into();
+    }
+    if let Some(most) = most {
+        list["maxItems"] = most.into();
+    }
+    list
+}
+
+/// A number's sentence: its unit goes where the brackets are, or to the end.
+fn with_unit(doc: &str, unit: &str) -> String {
+    let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+    if doc.contains(" []") { doc.replace(" []", &unit) + "." } else { format!("{doc}{unit}.") }
 }
 
 /// A schema behind its reference.

@@ -3,13 +3,14 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use super::Kind;
+use serde_json::Value as Json;
+
 use super::check::range_at;
 use super::schema::range;
-use super::soil::{SoilDocument, TheoryWord};
-use super::soil_numbers::SoilNumbers;
 use super::text::{Text, parse};
-use super::uncertainty::UncertaintySection;
+use super::uncertainty::{UncertaintySection, meant_number, numbers};
+use super::values::{Described, Misfit};
+use super::{Document, Kind};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -18,8 +19,8 @@ use crate::studies::calibration::{Parameter, Scale};
 /// A soil's document, and the keys whose values are to be found.
 #[derive(Clone, Debug)]
 pub struct SoilFamily {
-    base: SoilDocument,
-    numbers: SoilNumbers,
+    base: Document,
+    value: Soil,
     parameters: Vec<Parameter>,
 }
 
@@ -77,21 +78,21 @@ impl SoilFamily {
     /// # Errors
     /// A sentence for a key that is no number of the document, is named twice, or has bounds
     /// outside its range or without the document's value.
-    pub fn new(base: &SoilDocument, keys: &[FitKey]) -> Result<Self, String> {
-        let base = SoilDocument { uncertainty: None, ..base.clone() };
-        let numbers = SoilNumbers::of(&base);
+    pub fn new(base: &Document, keys: &[FitKey]) -> Result<Self, String> {
+        let base = numbers(base);
         let mut parameters: Vec<Parameter> = Vec::new();
         for key in keys {
             let name = format!("soil.{}", key.path);
             if parameters.iter().any(|parameter| parameter.name == name) {
                 return Err(format!("{name} is named twice"));
             }
-            let start = numbers.value(&key.path);
-            let start = start.ok_or_else(|| no_start(&numbers, &key.path))?;
+            let start = base.number(&key.path);
+            let start = start.ok_or_else(|| no_start(&base, &key.path))?;
             let allowed = allowed_range(&base, &key.path);
             parameters.push(parameter(name, start, &allowed, key.bounds)?);
         }
-        Ok(Self { base, numbers, parameters })
+        let value = Soil::of(&base);
+        Ok(Self { base, value, parameters })
     }
 
     /// The family of a document whose keys are searched from other values than its own, within
@@ -101,7 +102,7 @@ impl SoilFamily {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn around(base: &SoilDocument, keys: &[FitKey], starts: &[f64]) -> Result<Self, String> {
+    pub fn around(base: &Document, keys: &[FitKey], starts: &[f64]) -> Result<Self, String> {
         let mut family = Self::new(base, keys)?;
         for ((parameter, key), start) in family.parameters.iter_mut().zip(keys).zip(starts) {
             let allowed = allowed_range(&family.base, &key.path);
@@ -120,7 +121,7 @@ impl SoilFamily {
 
     /// The document that the search starts from, without its own uncertainty.
     #[must_use]
-    pub fn base(&self) -> &SoilDocument {
+    pub fn base(&self) -> &Document {
         &self.base
     }
 
@@ -129,28 +130,25 @@ impl SoilFamily {
     /// # Errors
     /// [`ParameterError`] if they are no soil together.
     pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
-        let document = self.filled(values).ok_or_else(|| {
-            ParameterError::new("a key of the soil", values[0], "a number of its document")
-        })?;
-        document.meaning().map_err(|misfit| misfit.error)
+        let pairs = self.parameters.iter().map(key_of).zip(values.iter().copied());
+        self.value.with(pairs).map_err(Misfit::of_numbers)
     }
 
     /// The document with these values of the keys, and otherwise as it was.
-    ///
-    /// # Panics
-    /// Never: the keys are there, and any number is a document's.
     #[must_use]
-    pub fn document(&self, values: &[f64]) -> SoilDocument {
-        let filled = self.filled(values).expect("its numbers are a document's");
-        SoilDocument {
-            name: self.base.name.clone(),
-            source: self.base.source.clone(),
-            date: self.base.date.clone(),
-            notes: self.base.notes.clone(),
-            assumed: self.base.assumed.clone(),
-            model: self.base.model,
-            ..filled
-        }
+    pub fn document(&self, values: &[f64]) -> Document {
+        self.base.changed(|keys| {
+            let mut said = Json::Object(std::mem::take(keys));
+            for (parameter, value) in self.parameters.iter().zip(values) {
+                let pointer = format!("/{}", key_of(parameter).replace('.', "/"));
+                if let Some(number) = said.pointer_mut(&pointer) {
+                    *number = Json::from(*value);
+                }
+            }
+            if let Json::Object(said) = said {
+                *keys = said;
+            }
+        })
     }
 
     /// The same as a calibration's result: with its source, and its samples as uncertainty.
@@ -165,41 +163,42 @@ impl SoilFamily {
         source: &str,
         theory: Theory,
         samples: Option<&str>,
-    ) -> SoilDocument {
+    ) -> Document {
         let document = self.document(values);
-        let is_fitted = |assumed: &String| {
-            let key = assumed.split(':').next().unwrap_or_default();
-            self.parameters.iter().any(|parameter| key_of(parameter) == key)
+        let is_fitted = |assumed: &Json| {
+            let key = assumed.as_str().and_then(|text| text.split(':').next());
+            self.parameters.iter().any(|parameter| Some(key_of(parameter)) == key)
         };
-        let named = document.model.is_some() || theory != Theory::default();
-        SoilDocument {
-            name: format!("{}, calibrated", document.name),
-            source: format!("{source}; other values: {}", document.source),
+        let named = document.theory().is_some() || theory != Theory::default();
+        document.changed(|keys| {
+            keys["name"] = format!("{}, calibrated", document.name()).into();
+            keys["source"] = format!("{source}; other values: {}", document.source()).into();
             // What was said of the old values need not hold for these.
-            date: None,
-            notes: String::new(),
-            assumed: document.assumed.into_iter().filter(|one| !is_fitted(one)).collect(),
-            model: if named { TheoryWord::named(theory.name()) } else { None },
-            uncertainty: samples.map(UncertaintySection::of_samples),
-            ..document
-        }
-    }
-
-    fn filled(&self, values: &[f64]) -> Option<SoilDocument> {
-        let pairs = self.parameters.iter().zip(values);
-        self.numbers.with(pairs.map(|(parameter, &value)| (key_of(parameter), value)))
+            for key in ["date", "notes", "model"] {
+                keys.shift_remove(key);
+            }
+            if let Some(Json::Array(assumed)) = keys.get_mut("assumed") {
+                assumed.retain(|one| !is_fitted(one));
+            }
+            if named {
+                keys.insert("model".to_owned(), theory.name().into());
+            }
+            if let Some(file) = samples {
+                keys.insert("uncertainty".to_owned(), UncertaintySection::of_samples(file));
+            }
+        })
     }
 }
 
 /// Why a key has no value to start from.
-fn no_start(numbers: &SoilNumbers, path: &str) -> String {
+fn no_start(soil: &Document, path: &str) -> String {
     if range(Kind::Soil, path).is_some() {
         return format!(
             "soil.{path} is not set by this soil: give it a value to start from by the setting \
              soil.{path}=VALUE"
         );
     }
-    format!("soil.{path} is no number of this soil: {}", numbers.meant(path))
+    format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
 }
 
 /// The key in the document that a parameter stands for.
@@ -209,9 +208,9 @@ pub fn key_of(parameter: &Parameter) -> &str {
 }
 
 /// The range of a key under the laws that the document has chosen.
-fn allowed_range(base: &SoilDocument, path: &str) -> RangeInclusive<f64> {
-    let content = toml::to_string(base).unwrap_or_default();
-    let label = base.name.clone();
+fn allowed_range(base: &Document, path: &str) -> RangeInclusive<f64> {
+    let content = base.to_toml();
+    let label = base.name().to_owned();
     let text = Text { label, content, ..Text::default() };
     let tree = parse(&Arc::new(text)).ok();
     let chosen = tree.and_then(|tree| range_at(Kind::Soil, &tree, path));
@@ -252,7 +251,7 @@ mod tests {
     use super::super::{Overrides, Source, read_soil};
     use super::*;
 
-    fn toyoura() -> SoilDocument {
+    fn toyoura() -> Document {
         let source = Source::find(Kind::Soil, "toyoura").unwrap();
         read_soil(&source, &Overrides::none()).unwrap().document
     }
@@ -268,9 +267,9 @@ mod tests {
         let soil = family.soil(&[30.0, 0.05]).unwrap();
         assert_eq!(soil.friction_angle, 30.0_f64.to_radians());
         let document = family.document(&[30.0, 0.05]);
-        assert_eq!(document.friction_angle_deg, 30.0);
-        assert_eq!(document.meaning().ok(), Some(soil));
-        assert_eq!((document.name, document.source), (toyoura().name, toyoura().source));
+        assert_eq!(document.number("friction_angle_deg"), Some(30.0));
+        assert_eq!(Soil::of(&document).settled().ok(), Some(soil));
+        assert_eq!((document.name(), document.source()), (toyoura().name(), toyoura().source()));
     }
 
     #[test]

@@ -8,6 +8,10 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use serde_json::Value as Json;
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
 use super::Companion;
 use super::error::{DocumentError, Problem, number};
 
@@ -83,7 +87,7 @@ const DEEPEST: usize = 16;
 /// tables: little enough for any stack. Our own limit is far below.
 pub(super) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
-    let document = toml_edit::Document::parse(text.content.as_str()).map_err(|error| {
+    let document = DeTable::parse(&text.content).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let line = text.line_around(span.start);
         let part = |range: Range<usize>| text.content.get(range).unwrap_or_default().trim();
@@ -95,7 +99,7 @@ pub(super) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
         };
         DocumentError::at(&Origin { text: text.clone(), span }, Problem::Syntax(says))
     })?;
-    Reader { text }.table(document.as_table(), whole, 0)
+    Reader { text }.table(document.get_ref(), whole, 0)
 }
 
 /// Takes the parser's tables over into ours.
@@ -104,75 +108,93 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn origin(&self, span: Option<Range<usize>>, otherwise: &Origin) -> Origin {
-        span.map_or_else(|| otherwise.clone(), |span| Origin { text: self.text.clone(), span })
+    fn origin(&self, span: Range<usize>) -> Origin {
+        Origin { text: self.text.clone(), span }
+    }
+
+    /// Whether a value was written with this at its start.
+    fn starts_with(&self, value: &Spanned<DeValue<'_>>, start: char) -> bool {
+        self.text.content[value.span().start..].starts_with(start)
     }
 
     fn table(
         &self,
-        table: &dyn toml_edit::TableLike,
+        table: &DeTable<'_>,
         origin: Origin,
         depth: usize,
     ) -> Result<Node, DocumentError> {
         if depth > DEEPEST {
             return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
         }
+        // The parser sorts by name; whatever is wrong first is to be told first.
+        let mut written: Vec<_> = table.iter().collect();
+        written.sort_by_key(|(key, _)| key.span().start);
         let mut entries = Vec::new();
-        for (name, item) in table.iter() {
-            let key_origin = self.origin(table.key(name).and_then(toml_edit::Key::span), &origin);
-            let node = self.item(item, &key_origin, depth + 1)?;
-            entries.push(Entry { key: name.to_owned(), key_origin, node });
+        for (key, value) in written {
+            let key_origin = self.origin(key.span());
+            let node = self.value(value, &key_origin, depth + 1)?;
+            entries.push(Entry { key: key.get_ref().to_string(), key_origin, node });
         }
         Ok(Node { value: Value::Table(entries), origin })
     }
 
-    fn item(
-        &self,
-        item: &toml_edit::Item,
-        key: &Origin,
-        depth: usize,
-    ) -> Result<Node, DocumentError> {
-        match item {
-            toml_edit::Item::Value(value) => self.value(value, key, depth),
-            toml_edit::Item::Table(table) => self.table(table, key.clone(), depth),
-            toml_edit::Item::ArrayOfTables(tables) => {
-                let nodes = tables.iter().map(|table| {
-                    let header = self.origin(table.span(), key);
-                    self.table(table, header, depth)
-                });
-                let value = Value::List(nodes.collect::<Result<_, _>>()?);
-                Ok(Node { value, origin: key.clone() })
-            }
-            toml_edit::Item::None => {
-                Ok(Node { value: Value::Table(Vec::new()), origin: key.clone() })
-            }
-        }
-    }
-
+    /// * `key`: where a table under a header has its name
     fn value(
         &self,
-        value: &toml_edit::Value,
+        value: &Spanned<DeValue<'_>>,
         key: &Origin,
         depth: usize,
     ) -> Result<Node, DocumentError> {
-        let origin = self.origin(value.span(), key);
-        let value = match value {
-            toml_edit::Value::String(string) => Value::String(string.value().clone()),
-            toml_edit::Value::Integer(integer) => Value::Integer(*integer.value()),
-            toml_edit::Value::Float(float) => Value::Float(*float.value()),
-            toml_edit::Value::Boolean(boolean) => Value::Boolean(*boolean.value()),
-            toml_edit::Value::Datetime(date) => Value::Date(date.value().to_string()),
-            toml_edit::Value::InlineTable(table) => return self.table(table, origin, depth),
-            toml_edit::Value::Array(_) if depth > DEEPEST => {
+        let origin = self.origin(value.span());
+        let value = match value.get_ref() {
+            DeValue::String(string) => Value::String(string.to_string()),
+            DeValue::Integer(integer) => {
+                let parsed = i64::from_str_radix(integer.as_str(), integer.radix());
+                Value::Integer(parsed.map_err(|_| overflow(&origin, "integer"))?)
+            }
+            DeValue::Float(float) => match float.as_str().parse::<f64>() {
+                Ok(parsed) if !parsed.is_infinite() || float.as_str().contains("inf") => {
+                    Value::Float(parsed)
+                }
+                _ => return Err(overflow(&origin, "floating-point")),
+            },
+            DeValue::Boolean(boolean) => Value::Boolean(*boolean),
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
+            DeValue::Table(table) => {
+                let is_inline = self.starts_with(value, '{');
+                return self.table(table, if is_inline { origin } else { key.clone() }, depth);
+            }
+            DeValue::Array(_) if depth > DEEPEST => {
                 return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
             }
-            toml_edit::Value::Array(array) => {
-                let nodes = array.iter().map(|value| self.value(value, &origin, depth + 1));
-                Value::List(nodes.collect::<Result<_, _>>()?)
-            }
+            DeValue::Array(array) => return self.list(array, origin, key, depth),
         };
         Ok(Node { value, origin })
     }
+
+    /// A list in brackets, or tables under headers of one name.
+    fn list(
+        &self,
+        array: &DeArray<'_>,
+        origin: Origin,
+        key: &Origin,
+        depth: usize,
+    ) -> Result<Node, DocumentError> {
+        let has_headers =
+            array.iter().any(|one| one.get_ref().is_table() && self.starts_with(one, '['));
+        let nodes = array.iter().map(|one| match one.get_ref() {
+            DeValue::Table(table) if has_headers => {
+                self.table(table, self.origin(one.span()), depth)
+            }
+            _ => self.value(one, &origin, depth + 1),
+        });
+        let value = Value::List(nodes.collect::<Result<_, _>>()?);
+        Ok(Node { value, origin: if has_headers { key.clone() } else { origin } })
+    }
+}
+
+fn overflow(origin: &Origin, kind: &str) -> DocumentError {
+    DocumentError::at(origin, Problem::Syntax(format!("{kind} number overflowed")))
 }
 
 impl Node {
@@ -224,16 +246,16 @@ impl Node {
     }
 
     /// The tree without its origins.
-    pub(super) fn to_toml(&self) -> toml::Value {
+    pub(super) fn to_json(&self) -> Json {
         match &self.value {
-            Value::String(string) | Value::Date(string) => toml::Value::String(string.clone()),
-            Value::Integer(integer) => toml::Value::Integer(*integer),
-            Value::Float(float) => toml::Value::Float(*float),
-            Value::Boolean(boolean) => toml::Value::Boolean(*boolean),
-            Value::List(nodes) => toml::Value::Array(nodes.iter().map(Self::to_toml).collect()),
-            Value::Table(entries) => toml::Value::Table(
-                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_toml())).collect(),
-            ),
+            Value::String(string) | Value::Date(string) => Json::from(string.as_str()),
+            Value::Integer(integer) => Json::from(*integer),
+            Value::Float(float) => Json::from(*float),
+            Value::Boolean(boolean) => Json::from(*boolean),
+            Value::List(nodes) => nodes.iter().map(Self::to_json).collect(),
+            Value::Table(entries) => {
+                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_json())).collect()
+            }
         }
     }
 

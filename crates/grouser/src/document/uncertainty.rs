@@ -7,92 +7,69 @@
 
 use std::fmt::Write as _;
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 
 use super::check::range_at;
 use super::error::{DocumentError, Problem};
 use super::samples::SampleTable;
-use super::schema::{json, paths_of, range};
-use super::soil::SoilDocument;
-use super::soil_numbers::{SoilNumbers, lookup, meant};
+use super::schema::{paths_of, range, root};
 use super::text::Node;
-use super::{Companion, Kind};
-use crate::error::ParameterError;
+use super::values::{Described, Misfit};
+use super::{Companion, Document, Kind, nearest};
 use crate::soil::Soil;
 use crate::studies::uncertainty::{Correlation, Distribution, Marginal, NothingAccepted};
 
 /// How well the numbers of a soil are known: keys with standard deviations, or a file of samples.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct UncertaintySection {
-    /// A CSV file of samples, from the folder of this document: columns are keys, rows are samples.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "String")]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct UncertaintySection {
+    /// A CSV file of samples.
     pub samples: Option<String>,
     /// The keys that are uncertain, each around the value that the document gives it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parameter: Vec<UncertainParameter>,
     /// Correlations between them; pairs that are not named have none.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlation: Vec<CorrelationSection>,
-    /// What that means, once the document is read.
-    #[serde(skip)]
-    pub(super) meaning: Option<Arc<Meaning>>,
 }
 
 /// A key that is uncertain.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct UncertainParameter {
-    /// A number of this document, with the tables it stands in: `pressure_sinkage.k_phi`.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct UncertainParameter {
+    /// A number of the document, with the tables it stands in.
     pub key: String,
     /// Its standard deviation, in the unit of the key.
-    #[schemars(range(min = 0.0, max = 1e12))]
     pub standard_deviation: f64,
-    /// Its distribution; the value in the document is its mean.
-    #[serde(default)]
+    /// Its distribution.
     pub distribution: DistributionWord,
 }
 
 /// The distribution of a key.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DistributionWord {
     /// Symmetric about its mean.
-    #[default]
     Normal,
     /// Of a number above zero whose logarithm is normal.
     Lognormal,
 }
 
 /// How two keys go together.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CorrelationSection {
     /// Two of the uncertain keys.
     pub between: [String; 2],
     /// Their correlation (of the logarithm, where a key is lognormal) [-].
-    #[schemars(range(min = -1.0, max = 1.0))]
     pub value: f64,
-}
-
-/// What an uncertainty means.
-#[derive(Debug, PartialEq)]
-pub(super) struct Meaning {
-    soils: UncertainSoil,
-    /// The samples' file as it was read.
-    samples: Option<String>,
 }
 
 /// The soils that a document's numbers may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainSoil {
-    numbers: SoilNumbers,
+    base: Soil,
     keys: Vec<UncertainKey>,
     distribution: Distribution,
+    is_sampled: bool,
 }
 
 /// A number of a document and where it may lie.
@@ -115,81 +92,125 @@ impl UncertainSoil {
         self.distribution.draw(seed, index, |values| self.soil(values)?.ok())
     }
 
+    /// Whether its uncertainty is a file of samples.
+    #[must_use]
+    pub fn is_sampled(&self) -> bool {
+        self.is_sampled
+    }
+
     /// The keys that differ from draw to draw.
     pub fn keys(&self) -> impl Iterator<Item = &str> {
         self.keys.iter().map(|key| key.path.as_str())
     }
 
     /// The soil with these values of its keys; `None` if one is outside its range.
-    fn soil(&self, values: &[f64]) -> Option<Result<Soil, ParameterError>> {
+    fn soil(&self, values: &[f64]) -> Option<Result<Soil, Misfit>> {
         let pairs = self.keys.iter().zip(values);
         // NaN is in no range.
         if !pairs.clone().all(|(key, value)| key.range.contains(value)) {
             return None;
         }
-        let document = self.numbers.with(pairs.map(|(key, &value)| (&*key.path, value)))?;
-        Some(document.meaning().map_err(|misfit| misfit.error))
+        Some(self.base.with(pairs.map(|(key, &value)| (&*key.path, value))))
     }
 }
 
+/// The soils that a document, or its soil, may be; none if it does not say how well it is known. The samples'
+/// file is given the name that it has beside a resolved document.
+///
+/// * `place`: the key of the soil, or nothing
+/// * `tree`: the soil's tree
+pub(super) fn read(
+    document: &mut Document,
+    place: &str,
+    tree: &Node,
+    companions: &mut Vec<Companion>,
+) -> Result<Option<UncertainSoil>, DocumentError> {
+    let soil =
+        if place.is_empty() { Some(document.clone()) } else { document.part(Kind::Soil, place) };
+    let Some(soil) = soil else { return Ok(None) };
+    let Some((soils, samples)) = understood(&soil, tree)? else { return Ok(None) };
+    if let Some(content) = samples {
+        let name = SAMPLES_FILE.to_owned();
+        *document = document.changed(|keys| {
+            let soil = if place.is_empty() { Some(keys) } else { keys[place].as_object_mut() };
+            if let Some(samples) = soil.and_then(|soil| soil["uncertainty"].get_mut("samples")) {
+                *samples = name.clone().into();
+            }
+        });
+        companions.push(Companion { name, content });
+    }
+    Ok(Some(soils))
+}
+
 impl UncertaintySection {
-    /// The uncertainty of a document with a file of samples beside it.
-    pub(super) fn of_samples(file: &str) -> Self {
-        Self { samples: Some(file.to_owned()), ..Self::default() }
+    /// What a soil says of it.
+    pub(super) fn of(soil: &Document) -> Option<Self> {
+        serde_json::from_value(soil.get("uncertainty")?.clone()).ok()
     }
 
-    /// The soils that are meant; there are some once the document is read.
-    pub(super) fn soils(&self) -> Option<&UncertainSoil> {
-        self.meaning.as_ref().map(|meaning| &meaning.soils)
+    /// The uncertainty of a soil with a file of samples beside it.
+    pub(super) fn of_samples(file: &str) -> Json {
+        serde_json::json!({ "samples": file })
     }
+}
 
-    /// The samples' file under the name that the resolved document gives it.
-    pub(super) fn companion(&self) -> Option<Companion> {
-        let content = self.meaning.as_ref()?.samples.clone()?;
-        Some(Companion { name: SAMPLES_FILE.to_owned(), content })
-    }
-
-    /// Finds out what is meant, and that it can be.
-    ///
-    /// * `soil`: the document that this is a section of
-    /// * `tree`: its tree
-    pub(super) fn prepare(
-        &mut self,
-        soil: &SoilDocument,
-        tree: &Node,
-    ) -> Result<(), DocumentError> {
-        let reader = Reader { tree, numbers: SoilNumbers::of(soil) };
-        let table = match &self.samples {
-            Some(_) if !self.parameter.is_empty() || !self.correlation.is_empty() => {
-                let problem = Problem::Conflict(
-                    "`uncertainty` has `samples` and `parameter` or `correlation`: it is one or the other",
-                );
-                return Err(DocumentError::at(tree.origin_of("uncertainty.samples"), problem));
-            }
-            None if self.parameter.is_empty() => {
-                let problem = Problem::MissingKey { key: "uncertainty.parameter".to_owned() };
-                let hint = "name keys with their standard deviations, or a file of samples: \
-                            samples = \"posterior.csv\"";
-                return Err(DocumentError::at(tree.origin_of("uncertainty"), problem)
-                    .with_hint(hint.to_owned()));
-            }
-            None => None,
-            Some(name) => Some(SampleTable::read(name, tree.origin_of("uncertainty.samples"))?),
-        };
-        let (keys, distribution) = match &table {
-            Some(table) => reader.sampled(table)?,
-            None => reader.stated(self)?,
-        };
-        let soils = UncertainSoil { numbers: reader.numbers, keys, distribution };
-        match &table {
-            Some(table) => check_rows(&soils, table)?,
-            None => check_first_draw(&soils, tree)?,
+/// Finds out what is meant, and that it can be: the soils, and the file of their samples.
+///
+/// * `tree`: of the soil
+pub(super) fn understood(
+    soil: &Document,
+    tree: &Node,
+) -> Result<Option<(UncertainSoil, Option<String>)>, DocumentError> {
+    let Some(section) = UncertaintySection::of(soil) else { return Ok(None) };
+    let reader = Reader { tree, numbers: numbers(soil), base: Soil::of(soil) };
+    let table = match &section.samples {
+        Some(_) if !section.parameter.is_empty() || !section.correlation.is_empty() => {
+            let problem = Problem::Conflict(
+                "`uncertainty` has `samples` and `parameter` or `correlation`: it is one or the other",
+            );
+            return Err(DocumentError::at(tree.origin_of("uncertainty.samples"), problem));
         }
-        self.samples = self.samples.take().map(|_| SAMPLES_FILE.to_owned());
-        let samples = table.map(SampleTable::into_content);
-        self.meaning = Some(Arc::new(Meaning { soils, samples }));
-        Ok(())
+        None if section.parameter.is_empty() => {
+            let problem = Problem::MissingKey { key: "uncertainty.parameter".to_owned() };
+            let hint = "name keys with their standard deviations, or a file of samples: \
+                        samples = \"posterior.csv\"";
+            return Err(DocumentError::at(tree.origin_of("uncertainty"), problem)
+                .with_hint(hint.to_owned()));
+        }
+        None => None,
+        Some(name) => Some(SampleTable::read(name, tree.origin_of("uncertainty.samples"))?),
+    };
+    let (keys, distribution) = match &table {
+        Some(table) => reader.sampled(table)?,
+        None => reader.stated(&section)?,
+    };
+    let soils =
+        UncertainSoil { base: reader.base, keys, distribution, is_sampled: table.is_some() };
+    match &table {
+        Some(table) => check_rows(&soils, table)?,
+        None => check_first_draw(&soils, tree)?,
     }
+    Ok(Some((soils, table.map(SampleTable::into_content))))
+}
+
+/// A soil without its uncertainty, whose numbers are not the soil's.
+pub(super) fn numbers(soil: &Document) -> Document {
+    soil.changed(|keys| drop(keys.shift_remove("uncertainty")))
+}
+
+/// What a misspelt key was meant to be, or all that it could have been.
+pub(super) fn meant(name: &str, known: &[&str]) -> String {
+    let same_end = known.iter().copied().find(|key| key.rsplit('.').next() == Some(name));
+    match same_end.or_else(|| nearest(name, known.iter().copied())) {
+        Some(key) => format!("did you mean `{key}`?"),
+        None => format!("there are {}", known.join(", ")),
+    }
+}
+
+/// The same among the numbers of a soil.
+pub(super) fn meant_number(soil: &Document, name: &str) -> String {
+    let known = soil.number_keys();
+    meant(name, &known.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// That draws can be had: one that takes too many tries at the door takes them everywhere.
@@ -209,8 +230,8 @@ fn check_first_draw(soils: &UncertainSoil, tree: &Node) -> Result<(), DocumentEr
 /// That each row of a table is a soil.
 fn check_rows(soils: &UncertainSoil, table: &SampleTable) -> Result<(), DocumentError> {
     for (index, row) in table.rows().iter().enumerate() {
-        if let Some(Err(error)) = soils.soil(row) {
-            return Err(DocumentError::at(&table.row_origin(index), Problem::Unfit(error)));
+        if let Some(Err(misfit)) = soils.soil(row) {
+            return Err(DocumentError::at(&table.row_origin(index), *misfit.problem));
         }
     }
     Ok(())
@@ -256,7 +277,8 @@ pub(super) fn correlations(
 /// Reads an uncertainty beside the document it is of.
 struct Reader<'a> {
     tree: &'a Node,
-    numbers: SoilNumbers,
+    numbers: Document,
+    base: Soil,
 }
 
 impl Reader<'_> {
@@ -335,23 +357,24 @@ impl Reader<'_> {
 
     /// A number of the document, and its value.
     fn key(&self, path: &str) -> Result<(UncertainKey, f64), NoNumber> {
-        if let Some(value) = self.numbers.value(path) {
+        if let Some(value) = self.numbers.number(path) {
             // A table that the document leaves out has its default, and the widest range will do.
             let range = range_at(Kind::Soil, self.tree, path).or_else(|| range(Kind::Soil, path));
             let range = range.unwrap_or(f64::MIN..=f64::MAX);
             return Ok((UncertainKey { path: path.to_owned(), range }, value));
         }
         let key = path.escape_debug().to_string();
-        if lookup(&self.tree.to_toml(), path).is_some() {
+        let steps = path.split('.').try_fold(self.tree, |node, step| Some(&node.entry(step)?.node));
+        if steps.is_some() {
             return Err(NoNumber { problem: Problem::NotANumber { key }, hint: None });
         }
         let last = path.rsplit('.').next().unwrap_or(path);
-        let is_known = paths_of(json(Kind::Soil), last).iter().any(|known| known == path);
+        let is_known = paths_of(root(Kind::Soil), last).iter().any(|known| known == path);
         let hint = if is_known {
             "the document gives this key no value: give it one first, if its law has the key"
                 .to_owned()
         } else {
-            self.numbers.meant(path)
+            meant_number(&self.numbers, path)
         };
         Err(NoNumber { problem: Problem::UnknownKey { key }, hint: Some(hint) })
     }

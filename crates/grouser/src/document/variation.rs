@@ -6,7 +6,7 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use super::scenario::{FASTEST, check_sample_count};
+use super::values::{Described, check_sample_count};
 use super::{Kind, range};
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
@@ -14,58 +14,49 @@ use crate::vehicle::DriveLaw;
 
 /// A number of a scenario that may vary from run to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Varied {
-    /// Inclination of the plane [°].
-    SlopeDeg,
-    /// Yaw at the start [°].
-    YawDeg,
-    /// Speed of every rim, or the speed that Eq. 18 wants [m/s].
-    SpeedMS,
-    /// Gravity [m/s²].
-    GravityMS2,
-    /// How long the run lasts [s].
-    DurationS,
+pub struct Varied {
+    /// Its key in a scenario's document.
+    key: &'static str,
+    place: usize,
 }
+
+/// The keys of the numbers that may vary.
+const KEYS: [&str; 5] =
+    ["slope_deg", "start.yaw_deg", "drive.speed_m_s", "gravity_m_s2", "duration_s"];
+const SPEED: &str = KEYS[2];
+const DURATION: &str = KEYS[4];
 
 impl Varied {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::SlopeDeg, Self::YawDeg, Self::SpeedMS, Self::GravityMS2, Self::DurationS];
-
-    /// Its word.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::SlopeDeg => "slope_deg",
-            Self::YawDeg => "yaw_deg",
-            Self::SpeedMS => "speed_m_s",
-            Self::GravityMS2 => "gravity_m_s2",
-            Self::DurationS => "duration_s",
+    pub const ALL: [Self; KEYS.len()] = {
+        let mut all = [Self { key: "", place: 0 }; KEYS.len()];
+        let mut place = 0;
+        while place < KEYS.len() {
+            all[place] = Self { key: KEYS[place], place };
+            place += 1;
         }
+        all
+    };
+
+    /// Its word: the key without its tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.key.rsplit('.').next().unwrap_or(self.key)
     }
 
     /// The key in a scenario's document.
     #[must_use]
     pub const fn key(self) -> &'static str {
-        match self {
-            Self::SlopeDeg => "slope_deg",
-            Self::YawDeg => "start.yaw_deg",
-            Self::SpeedMS => "drive.speed_m_s",
-            Self::GravityMS2 => "gravity_m_s2",
-            Self::DurationS => "duration_s",
-        }
+        self.key
     }
 
-    /// Where its values may lie, ends included.
+    /// Where its values may lie, ends included. What a speed may be depends on the law of the drive, too,
+    /// which checks it.
     #[must_use]
     pub fn range(self) -> RangeInclusive<f64> {
-        static RANGES: OnceLock<[RangeInclusive<f64>; Varied::ALL.len()]> = OnceLock::new();
-        let of = |varied: Self| match varied {
-            // What it may be depends on the law of the drive, which checks it.
-            Self::SpeedMS => -FASTEST..=FASTEST,
-            _ => range(Kind::Scenario, varied.key()).unwrap_or(f64::MIN..=f64::MAX),
-        };
-        RANGES.get_or_init(|| Self::ALL.map(of))[self as usize].clone()
+        static RANGES: OnceLock<[RangeInclusive<f64>; KEYS.len()]> = OnceLock::new();
+        let of = |key| range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX);
+        RANGES.get_or_init(|| KEYS.map(of))[self.place].clone()
     }
 
     /// Puts a value in its place.
@@ -78,18 +69,14 @@ impl Varied {
             let expected = format!("{} to {}", range.start(), range.end());
             return Err(VariationError { name: self.name().to_owned(), value, expected });
         }
-        match self {
-            Self::SlopeDeg => scenario.site.slope = value.to_radians(),
-            Self::YawDeg => scenario.start.yaw = value.to_radians(),
-            Self::GravityMS2 => scenario.site.gravity = value,
-            Self::SpeedMS => match &mut scenario.drive {
-                DriveLaw::Eq18(target) | DriveLaw::Eq18AsPrinted(target) => target.speed = value,
-                drive => *drive = DriveLaw::Constant(value),
-            },
-            Self::DurationS => {
-                scenario.duration = value;
-                check_sample_count(value, scenario.numerics.sample_interval)?;
-            }
+        if self.key == SPEED && matches!(scenario.drive, DriveLaw::ConstantEach(_)) {
+            scenario.drive = DriveLaw::Constant(value);
+        }
+        if let Some(reached) = Scenario::table().reach(scenario, self.key) {
+            reached.set(value);
+        }
+        if self.key == DURATION {
+            check_sample_count(value, scenario.numerics.sample_interval)?;
         }
         Ok(scenario.check()?)
     }
@@ -139,13 +126,14 @@ mod tests {
 
     #[test]
     fn ranges_are_those_of_the_document() {
+        let [slope, yaw, speed, gravity, duration] = Varied::ALL;
         for (varied, value) in [
-            (Varied::SlopeDeg, 60.1),
-            (Varied::YawDeg, f64::NAN),
-            (Varied::SpeedMS, 11.0),
-            (Varied::GravityMS2, 0.0),
-            (Varied::DurationS, 0.0),
-            (Varied::DurationS, 1e6),
+            (slope, 60.1),
+            (yaw, f64::NAN),
+            (speed, 11.0),
+            (gravity, 0.0),
+            (duration, 0.0),
+            (duration, 1e6),
         ] {
             let error = varied.put(&mut with(&[]), value).unwrap_err();
             assert!(error.to_string().contains(varied.name()) || value == 0.0, "{error}");

@@ -40,14 +40,18 @@ pub struct Numerics {
     pub sample_interval: f64,
 }
 
+impl Numerics {
+    /// Integrated by the implicit solver, ten samples a second.
+    pub const DEFAULT: Self = Self {
+        approach: Approach::Dynamic,
+        integrator: Integrator::Adaptive { tolerance: 1e-6 },
+        sample_interval: 0.1,
+    };
+}
+
 impl Default for Numerics {
     fn default() -> Self {
-        let approach = Approach::Dynamic;
-        Self {
-            approach,
-            integrator: Integrator::Adaptive { tolerance: 1e-6 },
-            sample_interval: 0.1,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -44,12 +44,21 @@ pub struct Mount {
     pub position: Vec3,
 }
 
+/// What a rover is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoverParts {
+    /// The body, without its wheels.
+    pub body: Body,
+    /// A wheel with its motor; all are the same.
+    pub wheel_unit: WheelUnit,
+    /// Where the wheels sit.
+    pub mounts: Vec<Mount>,
+}
+
 /// A rover that can stand and be moved: made by [`Rover::new`], then unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rover {
-    body: Body,
-    wheel_unit: WheelUnit,
-    mounts: Vec<Mount>,
+    parts: RoverParts,
     mass: f64,
     first_moment: Vec2,
     yaw_inertia: f64,
@@ -71,6 +80,34 @@ impl Rover {
         wheel_unit: WheelUnit,
         mounts: Vec<Mount>,
     ) -> Result<Self, ParameterError> {
+        Self::unmade(RoverParts { body, wheel_unit, mounts }).remade()
+    }
+
+    /// A rover of which nothing but the parts is known: to be filled in, and then
+    /// [`remade`](Self::remade).
+    pub(crate) const fn unmade(parts: RoverParts) -> Self {
+        Self {
+            parts,
+            mass: 0.0,
+            first_moment: Vec2::new(0.0, 0.0),
+            yaw_inertia: 0.0,
+            centre_height: 0.0,
+            load_arms: Vec::new(),
+        }
+    }
+
+    /// The parts, to be changed; the rover has to be [`remade`](Self::remade) after that.
+    pub(crate) fn parts_mut(&mut self) -> &mut RoverParts {
+        &mut self.parts
+    }
+
+    /// The rover that its parts make.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn remade(self) -> Result<Self, ParameterError> {
+        let parts = self.parts;
+        let RoverParts { body, wheel_unit, ref mounts } = parts;
         positive("body mass [kg]", body.mass)?;
         positive("wheel unit mass [kg]", wheel_unit.mass)?;
         for (part, inertia) in [("body", body.inertia), ("wheel unit", wheel_unit.inertia)] {
@@ -79,7 +116,7 @@ impl Rover {
             }
         }
         wheel_unit.wheel.check()?;
-        check_stance(&mounts)?;
+        check_stance(mounts)?;
 
         let count = mounts.len() as f64;
         let mass = body.mass + count * wheel_unit.mass;
@@ -93,9 +130,7 @@ impl Rover {
             yaw_inertia: body.inertia.zz + count * wheel_unit.inertia.zz + wheel_unit.mass * spread,
             centre_height: wheel_unit.wheel.shearing_radius() + centre.z - mounts[0].position.z,
             load_arms: plane.map(|position| position - centre.xy()).collect(),
-            body,
-            wheel_unit,
-            mounts,
+            parts,
         })
     }
 
@@ -104,7 +139,7 @@ impl Rover {
     #[must_use]
     pub fn mirrored(&self) -> Self {
         let mut mirrored = self.clone();
-        for mount in &mut mirrored.mounts {
+        for mount in &mut mirrored.parts.mounts {
             mount.position.y = -mount.position.y;
         }
         for arm in &mut mirrored.load_arms {
@@ -119,40 +154,40 @@ impl Rover {
     pub fn is_symmetric(&self) -> bool {
         /// Hubs may be off by this much [m]: a tenth of a millimetre turns no rover.
         const SAME: f64 = 1e-4;
-        self.mounts.iter().all(|mount| {
+        self.parts.mounts.iter().all(|mount| {
             let image = Vec2::new(mount.position.x, -mount.position.y);
-            self.mounts.iter().any(|other| (other.position.xy() - image).amax() <= SAME)
+            self.parts.mounts.iter().any(|other| (other.position.xy() - image).amax() <= SAME)
         })
     }
 
     /// The body.
     #[must_use]
     pub fn body(&self) -> &Body {
-        &self.body
+        &self.parts.body
     }
 
     /// The wheel unit.
     #[must_use]
     pub fn wheel_unit(&self) -> &WheelUnit {
-        &self.wheel_unit
+        &self.parts.wheel_unit
     }
 
     /// The wheel's geometry.
     #[must_use]
     pub fn wheel(&self) -> &Wheel {
-        &self.wheel_unit.wheel
+        &self.parts.wheel_unit.wheel
     }
 
     /// The mounts, in the order of every per-wheel list.
     #[must_use]
     pub fn mounts(&self) -> &[Mount] {
-        &self.mounts
+        &self.parts.mounts
     }
 
     /// How many wheels there are.
     #[must_use]
     pub fn wheel_count(&self) -> usize {
-        self.mounts.len()
+        self.parts.mounts.len()
     }
 
     /// Mass of body and wheels, *m* [kg].

@@ -565,8 +565,8 @@ fn every_end_of_every_range_is_kept() {
     for preset in all_presets() {
         let resolved = read(preset.kind, &Source::Preset(preset), &Overrides::none());
         let resolved = resolved.expect("it is read").resolved;
-        let table: toml_edit::DocumentMut = resolved.parse().expect("it is TOML");
-        visit_numbers(table.as_item(), "", &mut |path| {
+        let table: toml::Table = resolved.parse().expect("it is TOML");
+        visit_numbers(&toml::Value::Table(table), "", &mut |path| {
             let schema_path = path.split('.').filter(|step| step.parse::<usize>().is_err());
             let key = schema_path.collect::<Vec<_>>().join(".");
             let range = document::range(preset.kind, &key);
@@ -586,22 +586,19 @@ fn every_end_of_every_range_is_kept() {
     assert!(ends > 500, "only {ends} ends were tried");
 }
 
-fn visit_numbers(item: &toml_edit::Item, path: &str, visit: &mut dyn FnMut(&str)) {
+fn visit_numbers(value: &toml::Value, path: &str, visit: &mut dyn FnMut(&str)) {
     let join = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
-    if item.is_float() || item.is_integer() {
-        visit(path);
-    } else if let Some(table) = item.as_table_like() {
-        table.iter().for_each(|(key, item)| visit_numbers(item, &join(key), visit));
-    } else if let Some(tables) = item.as_array_of_tables() {
-        for (index, table) in tables.iter().enumerate() {
-            let item = toml_edit::Item::Table(table.clone());
-            visit_numbers(&item, &join(&index.to_string()), visit);
+    match value {
+        toml::Value::Float(_) | toml::Value::Integer(_) => visit(path),
+        toml::Value::Table(table) => {
+            table.iter().for_each(|(key, value)| visit_numbers(value, &join(key), visit));
         }
-    } else if let Some(values) = item.as_array() {
-        for (index, value) in values.iter().enumerate() {
-            let item = toml_edit::Item::Value(value.clone());
-            visit_numbers(&item, &join(&index.to_string()), visit);
+        toml::Value::Array(values) => {
+            for (index, value) in values.iter().enumerate() {
+                visit_numbers(value, &join(&index.to_string()), visit);
+            }
         }
+        _ => {}
     }
 }
 

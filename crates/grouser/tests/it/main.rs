@@ -5,6 +5,7 @@ mod calibration;
 mod campaign;
 mod campaign_documents;
 mod card;
+mod declarations;
 mod documents;
 mod extended;
 mod files;

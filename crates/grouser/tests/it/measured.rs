@@ -151,9 +151,9 @@ fn every_data_set_brings_the_rows_that_its_document_names() {
     for preset in document::presets(Kind::DataSet) {
         let set = document::read_data_set(&Source::Preset(preset), &Overrides::none());
         let set = set.unwrap_or_else(|error| panic!("{error}"));
-        let file = fs::read_to_string(folder.join(&set.document.file)).expect("it is there");
+        let file = fs::read_to_string(folder.join(&set.value.file)).expect("it is there");
         assert_eq!(preset.rows, Some(file.as_str()), "{}", preset.name);
-        for case in &set.value {
+        for case in &set.value.cases {
             let choice = Choice { conditions: case.conditions.clone(), ..Choice::default() };
             let source = measurements::Source::preset(preset.name).expect("it has rows");
             let measured = source.read(&choice).unwrap_or_else(|error| panic!("{error}"));

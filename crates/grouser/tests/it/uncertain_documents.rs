@@ -18,7 +18,7 @@ fn read(text: &str) -> Result<LoadedSoil, DocumentError> {
 }
 
 fn draw(loaded: &LoadedSoil, index: u64) -> Soil {
-    let uncertain = loaded.document.uncertain().expect("it says so");
+    let uncertain = loaded.uncertain.as_ref().expect("it says so");
     uncertain.draw(3, index).expect("it can be drawn")
 }
 
@@ -38,7 +38,7 @@ fn drawn_numbers_take_the_place_of_the_documents() {
     let text = toyoura_with(&(parameter(FRICTION, "1.5") + &parameter(K_PHI, "10")));
     let loaded = read(&text).expect("it is right");
     let nominal = loaded.value;
-    let keys: Vec<&str> = loaded.document.uncertain().expect("it says so").keys().collect();
+    let keys: Vec<&str> = loaded.uncertain.as_ref().expect("it says so").keys().collect();
     assert_eq!(keys, [FRICTION, K_PHI]);
     let soils: Vec<Soil> = (0..200).map(|index| draw(&loaded, index)).collect();
     for soil in &soils {
@@ -61,7 +61,7 @@ fn drawn_numbers_take_the_place_of_the_documents() {
 #[test]
 fn without_a_section_nothing_is_uncertain() {
     let loaded = read(&toyoura_with("")).expect("it is right");
-    assert!(loaded.document.uncertain().is_none() && loaded.companions.is_empty());
+    assert!(loaded.uncertain.is_none() && loaded.companions.is_empty());
     assert!(!loaded.to_toml().contains("uncertainty"));
 }
 
@@ -291,8 +291,8 @@ fn a_resolved_document_is_read_again_with_its_companions() {
     let again = Source::file(folder.0.join("out/run.toml"));
     let again = document::read_scenario(&again, &Overrides::none()).expect("it is all there");
     assert_eq!(again.document, run.document);
-    let first = run.document.soil.inline().and_then(|soil| soil.uncertain()).expect("so");
-    let second = again.document.soil.inline().and_then(|soil| soil.uncertain()).expect("so");
+    let first = run.uncertain.expect("so");
+    let second = again.uncertain.expect("so");
     for index in 0..10 {
         assert_eq!(first.draw(1, index), second.draw(1, index));
     }
@@ -348,7 +348,7 @@ fn the_uncertain_preset_is_toyoura_sand_otherwise() {
     let uncertain = read("toyoura-uncertain");
     assert_eq!(uncertain.value, read("toyoura").value);
     // Every deviation says why.
-    let soils = uncertain.document.uncertain().expect("it says so");
+    let soils = uncertain.uncertain.as_ref().expect("it says so");
     for key in soils.keys() {
         let reason = format!("uncertainty.{key}: ");
         assert!(uncertain.assumptions.iter().any(|one| one.contains(&reason)), "{key}");

@@ -273,9 +273,7 @@ fn scenario() -> LoadedScenario {
 }
 
 fn soils(count: u64) -> Vec<Soil> {
-    let scenario = scenario();
-    let soil = scenario.document.soil.inline().expect("it is read");
-    let uncertain = soil.uncertain().expect("it says so");
+    let uncertain = scenario().uncertain.expect("it says so");
     (0..count).map(|index| uncertain.draw(SEED, index).expect("it can be drawn")).collect()
 }
 

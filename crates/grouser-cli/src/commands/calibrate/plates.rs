@@ -5,7 +5,7 @@ use std::path::Path;
 use grouser::document::calibration::{PlateProblem, Solved};
 use grouser::document::checkpoint::fingerprint;
 use grouser::document::plates::{self, PlateMeasurements};
-use grouser::document::{SoilDocument, escape, measurements};
+use grouser::document::{Document, escape, measurements};
 use grouser::studies::calibration::PlateCurve;
 use serde_json::{Value, json};
 
@@ -69,7 +69,7 @@ fn settings(
     args: &CalibrateArgs,
     file: &Path,
     bytes: &[u8],
-    soil: &SoilDocument,
+    soil: &Document,
     gravity: f64,
 ) -> Value {
     json!({

@@ -2,7 +2,7 @@
 
 use grouser::document::calibration::{ParameterRecord, Solved, WheelFound, samples_csv};
 use grouser::document::validation::GroupRecord;
-use grouser::document::{SAMPLES_FILE, SoilDocument, SoilFamily, to_toml};
+use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
 use grouser::studies::calibration::diagnostics::{Samples, correlations_of};
 use grouser::studies::measurement::Quantity;
@@ -45,10 +45,10 @@ pub(super) fn add_soil(
     folder: &mut OutputFolder,
     family: &SoilFamily,
     solved: &Solved,
-    soil: &SoilDocument,
+    soil: &Document,
 ) -> Result<(), Failure> {
     folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
-    folder.add("soil.toml", to_toml(soil));
+    folder.add("soil.toml", soil.to_toml());
     if let Some(posterior) = &solved.solution.posterior {
         folder.add(SAMPLES_FILE, samples_csv(family, posterior));
     }
@@ -163,8 +163,8 @@ fn errors(what: &str, groups: &[GroupRecord]) -> String {
 /// The page, and the figures as files.
 pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFound, target: &str) {
     let mut page = Page::new("Calibration");
-    let soil = &problem.stand.soil.document.name;
-    let wheel = &problem.stand.wheel.document.name;
+    let soil = problem.stand.soil.document.name();
+    let wheel = problem.stand.wheel.document.name();
     let theory = problem.stand.theory.name();
     page.answer(&format!("{}: theory {theory}, from {soil}, {wheel}", problem.file));
     page.heading("What was found");

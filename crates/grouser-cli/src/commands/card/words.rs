@@ -27,8 +27,8 @@ pub(super) struct Words {
 
 pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
     let document = &inputs.scenario.document;
-    let rover = document.rover.inline().map_or("unnamed rover", |rover| rover.name.as_str());
-    let soil = document.soil.inline().map_or("unnamed soil", |soil| soil.name.as_str());
+    let rover = document.text("rover.name").unwrap_or("unnamed rover");
+    let soil = document.text("soil.name").unwrap_or("unnamed soil");
     let is_symmetric = inputs.scenario.value.rover.is_symmetric();
     let side = match (is_symmetric, args.uphill) {
         (true, _) => "Uphill on the left or on the right: the same heading.",
@@ -57,12 +57,11 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
 /// The documents' assumptions without the names of soil and rover, which stand above.
 fn assumed(inputs: &CardInputs) -> Vec<String> {
     let document = &inputs.scenario.document;
-    let rover = document.rover.inline();
-    let wheel = rover.and_then(|rover| rover.wheel_unit.wheel.inline());
+    let named = |kind: &str, path: &str| Some(format!("{kind} {}: ", document.text(path)?));
     let names = [
-        document.soil.inline().map(|soil| (format!("soil {}: ", soil.name), "")),
-        rover.map(|rover| (format!("rover {}: ", rover.name), "")),
-        wheel.map(|wheel| (format!("wheel {}: ", wheel.name), "wheel: ")),
+        named("soil", "soil.name").map(|name| (name, "")),
+        named("rover", "rover.name").map(|name| (name, "")),
+        named("wheel", "rover.wheel_unit.wheel.name").map(|name| (name, "wheel: ")),
     ];
     let short = |assumption: &String| {
         let named = names.iter().flatten().find(|(name, _)| assumption.starts_with(name));
@@ -101,8 +100,7 @@ fn rule(rule: &Rule, draws: Option<usize>) -> Vec<(&'static str, String)> {
 fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
     let scenario = &inputs.scenario;
     let (document, value) = (&scenario.document, &scenario.value);
-    let soil = document.soil.inline();
-    let source = soil.map_or("not stated", |soil| soil.source.as_str());
+    let source = document.text("soil.source").unwrap_or("not stated");
     let known = match card.draws {
         Some(draws) => format!("as its document states; {draws} draws, seed {}", args.seed),
         None => "NOT STATED: no bands. The margin above stands in for it.".to_owned(),
@@ -120,8 +118,8 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
             format!(
                 "{}; loads {}; moments {}",
                 value.theory.name(),
-                word(&document.loads),
-                word(&document.moments)
+                document.text("loads").unwrap_or("unknown"),
+                document.text("moments").unwrap_or("unknown")
             ),
         ),
         (
@@ -137,8 +135,8 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
 
 fn setting(inputs: &CardInputs) -> String {
     let document = &inputs.scenario.document;
-    let date = document.soil.inline().and_then(|soil| soil.date.as_deref());
-    let gravity = document.gravity_m_s2;
+    let date = document.text("soil.date");
+    let gravity = inputs.scenario.value.site.gravity;
     let named = grouser::document::GRAVITIES.iter().find(|(_, value)| *value == gravity);
     let place = named.map_or(String::new(), |(name, _)| format!(" ({name})"));
     format!(
@@ -162,13 +160,5 @@ fn limit(card: &Card) -> String {
             shown(band.high)
         ),
         None => format!("{nominal}, not a limit to drive by"),
-    }
-}
-
-/// A word of a document as it is written there.
-fn word(value: &impl serde::Serialize) -> String {
-    match serde_json::to_value(value) {
-        Ok(serde_json::Value::String(word)) => word,
-        _ => "unknown".to_owned(),
     }
 }

@@ -84,8 +84,8 @@ fn what_was_compared(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> V
     };
     vec![
         format!("measurements: {file}{rows}"),
-        format!("wheel: {}", stand.wheel.document.name),
-        format!("soil: {}", stand.soil.document.name),
+        format!("wheel: {}", stand.wheel.document.name()),
+        format!("soil: {}", stand.soil.document.name()),
         format!("gravity: {} m/s²", stand.gravity),
     ]
 }

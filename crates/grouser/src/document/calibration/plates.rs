@@ -2,8 +2,10 @@
 
 use serde::Serialize;
 
-use super::super::{FitKey, SAMPLES_FILE, SoilDocument, SoilFamily};
+use super::super::values::Described;
+use super::super::{Document, FitKey, SAMPLES_FILE, SoilFamily};
 use super::{DiscrepancyRecord, ParameterRecord, SamplerRecord, Solved};
+use crate::soil::{PressureSinkage, Soil};
 use crate::studies::calibration::plate_test::PlatePoint;
 use crate::studies::calibration::{
     Calibration, CalibrationError, FitSettings, Observer, ParameterSpace, PlateCurve, PlateLaw,
@@ -17,7 +19,7 @@ const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_p
 /// Everything that a calibration on plate tests is made from.
 #[derive(Clone, Debug)]
 pub struct PlateProblem {
-    soil: SoilDocument,
+    soil: Document,
     law: PlateLaw,
     curves: Vec<PlateCurve>,
     family: SoilFamily,
@@ -29,7 +31,7 @@ pub struct PlateFound {
     /// Parameters, samples, what stays open.
     pub solved: Solved,
     /// The soil of the fit.
-    pub soil: SoilDocument,
+    pub soil: Document,
 }
 
 /// The same in the words of JSON.
@@ -63,19 +65,19 @@ impl PlateProblem {
     /// # Errors
     /// A sentence, if the law's keys cannot be fitted.
     pub fn new(
-        soil: &SoilDocument,
+        soil: &Document,
         law: Option<&str>,
         gravity: f64,
         curves: Vec<PlateCurve>,
     ) -> Result<Self, String> {
-        let soil = law.map_or_else(|| soil.clone(), |law| soil.with_law(law));
-        let law = if soil.follows_reece() {
-            PlateLaw::Reece {
-                cohesion: soil.cohesion_kpa * 1e3,
-                unit_weight: soil.density_kg_m3 * gravity,
-            }
-        } else {
-            PlateLaw::Bekker
+        let soil = law.map_or_else(|| soil.clone(), |law| with_law(soil, law));
+        let value = Soil::of(&soil);
+        let law = match value.pressure_sinkage {
+            PressureSinkage::Reece { .. } => PlateLaw::Reece {
+                cohesion: value.cohesion,
+                unit_weight: value.unit_weight(gravity),
+            },
+            PressureSinkage::Bekker { .. } => PlateLaw::Bekker,
         };
         let key = |name: &&str| FitKey { path: format!("pressure_sinkage.{name}"), bounds: None };
         let keys: Vec<FitKey> = PlateLaw::PARAMETERS.iter().map(key).collect();
@@ -85,7 +87,7 @@ impl PlateProblem {
 
     /// The soil from which the search sets out, under the law that is fitted.
     #[must_use]
-    pub fn soil(&self) -> &SoilDocument {
+    pub fn soil(&self) -> &Document {
         &self.soil
     }
 
@@ -139,7 +141,7 @@ impl PlateProblem {
         points.zip(&found.solved.solution.fit.predictions).map(record).collect()
     }
 
-    fn fitted(&self, file: &str, solved: &Solved) -> SoilDocument {
+    fn fitted(&self, file: &str, solved: &Solved) -> Document {
         let points: usize = self.curves.iter().map(|curve| curve.points.len()).sum();
         let source = format!(
             "pressure_sinkage fitted by Grouser {} to {file} ({points} points of {} plates)",
@@ -150,6 +152,17 @@ impl PlateProblem {
         let theory = self.soil.theory().unwrap_or_default();
         self.family.fitted(&solved.solution.fit.values, &source, theory, samples)
     }
+}
+
+/// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 that wait to be
+/// found.
+fn with_law(soil: &Document, law: &str) -> Document {
+    soil.changed(|keys| {
+        let table = &mut keys["pressure_sinkage"];
+        table["law"] = law.into();
+        table["k_c"] = 1.0.into();
+        table["k_phi"] = 1.0.into();
+    })
 }
 
 impl PlateFound {

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::measurements::Measurements;
 use super::super::validation::GroupRecord;
-use super::super::{SAMPLES_FILE, SoilDocument, SoilFamily, key_of};
+use super::super::{Document, SAMPLES_FILE, SoilFamily, key_of};
 use super::{DiscrepancyRecord, ParameterRecord, ProposalRecord, SamplerRecord, Solved};
 use crate::contact::Theory;
 use crate::error::ParameterError;
@@ -52,7 +52,7 @@ pub struct WheelFound {
     /// The runs to make next, the best first.
     pub proposals: Vec<ProposalRecord>,
     /// The soil of the fit.
-    pub soil: SoilDocument,
+    pub soil: Document,
 }
 
 /// The same in the words of JSON.
@@ -110,7 +110,7 @@ impl WheelProblem<'_> {
     }
 
     /// The soil of the fit, with where its values come from.
-    fn soil(&self, solved: &Solved) -> SoilDocument {
+    fn soil(&self, solved: &Solved) -> Document {
         let keys: Vec<&str> = self.family.parameters().iter().map(key_of).collect();
         let source = format!(
             "{} fitted by Grouser {} to {} ({} trials in {} cells)",

@@ -4,16 +4,17 @@ use super::super::check::range_at;
 use super::super::error::{DocumentError, Problem};
 use super::super::samples::SampleTable;
 use super::super::schema::range;
-use super::super::soil_numbers::meant;
 use super::super::text::{Node, Origin};
 use super::super::uncertainty::{
     CorrelationSection, DistributionWord, UncertainParameter, UncertaintySection, correlations,
+    meant, understood,
 };
-use super::super::{Document, Kind, Reference};
+use super::super::{Document, Kind};
 use super::marginals::{Key, check_marginal, out_of_range};
-use super::numbers::number_keys;
 use super::rows::Base;
-use super::sections::{CampaignDocument, ParameterSection, SampleRows, SamplesSection, StudyWord};
+use super::sections::{ParameterSection, SamplesSection, Settings, Study, Uncertain, soil_of};
+use serde_json::{Value as Json, json};
+
 use crate::studies::campaign::design::{SOBOL_DIMENSIONS, Sampling};
 use crate::studies::campaign::{Matrix, Plan};
 use crate::studies::uncertainty::{Correlation, Distribution};
@@ -53,83 +54,73 @@ impl Prepared {
         }
     }
 
-    pub(super) fn plan(&self, document: &CampaignDocument) -> Plan {
-        let CampaignDocument { sampling, runs, seed, sensitivity, .. } = document;
-        Plan::new(sampling.to_domain(), *runs, *seed, self.distributions.clone(), *sensitivity)
+    pub(super) fn plan(&self, settings: &Settings) -> Plan {
+        let Settings { sampling, runs, seed, sensitivity, .. } = *settings;
+        Plan::new(sampling, runs, seed, self.distributions.clone(), sensitivity)
     }
-}
 
-impl CampaignDocument {
     /// The document with everything that is uncertain in its own keys.
-    pub(super) fn resolved(&self, prepared: &Prepared) -> Self {
-        let csv = |csv: &String| SamplesSection::Inline(SampleRows { csv: csv.clone() });
-        let mut resolved = Self {
-            soil_uncertainty: false,
-            parameter: prepared.parameters.clone(),
-            correlation: prepared.correlations.clone(),
-            samples: prepared.samples.as_ref().map(csv),
-            ..self.clone()
-        };
-        if let Some(soil) = resolved.soil_mut() {
-            soil.uncertainty = None;
-        }
-        resolved
+    pub(super) fn resolved(&self, document: &Document) -> Document {
+        document.changed(|keys| {
+            for place in ["scenario", "wheel_test"] {
+                let soil = keys.get_mut(place).and_then(|base| base.get_mut("soil"));
+                if let Some(Json::Object(soil)) = soil {
+                    soil.shift_remove("uncertainty");
+                }
+            }
+            keys.insert("soil_uncertainty".to_owned(), false.into());
+            keys.insert("parameter".to_owned(), json!(self.parameters));
+            keys.insert("correlation".to_owned(), json!(self.correlations));
+            match &self.samples {
+                Some(csv) => keys.insert("samples".to_owned(), json!({ "csv": csv })),
+                None => keys.shift_remove("samples"),
+            };
+        })
     }
 }
 
 /// The base of a campaign, and what is uncertain about it.
 pub(super) fn prepare(
-    document: &CampaignDocument,
+    document: &Document,
+    settings: &Settings,
     tree: &Node,
 ) -> Result<(Base, Prepared), DocumentError> {
-    let (base, place) = base(document, tree)?;
-    base.check()?;
+    let place = place(settings, tree)?;
     let node = tree.entry(place).map_or(tree, |entry| &entry.node);
-    let reader = Reader { document, tree, place, base: &base, known: known(document) };
+    let said = document.get(place).cloned().unwrap_or_default();
+    let base = if place == "scenario" {
+        Base::scenario(Document::of(Kind::Scenario, &said), node)?
+    } else {
+        Base::stand(document, node)?
+    };
+    let uncertain = serde_json::from_value(document.keys().clone()).unwrap_or_default();
+    let reader = Reader { document, settings, uncertain: &uncertain, tree, place, base: &base };
     let soil = reader.soil(node)?;
     let prepared = reader.read(soil)?;
     reader.check_design(&prepared)?;
     Ok((base, prepared))
 }
 
-/// What is varied, and the key under which it stands.
-fn base(document: &CampaignDocument, tree: &Node) -> Result<(Base, &'static str), DocumentError> {
-    let (needed, other) = match document.study {
-        StudyWord::Traverse | StudyWord::Attitude => ("scenario", "wheel_test"),
-        StudyWord::WheelTest => ("wheel_test", "scenario"),
+/// The key under which what is varied stands.
+fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError> {
+    let (needed, other) = match settings.study {
+        Study::Traverse | Study::Attitude => ("scenario", "wheel_test"),
+        Study::WheelTest => ("wheel_test", "scenario"),
     };
     if let Some(entry) = tree.entry(other) {
         let problem = Problem::Conflict("the study does not use this table");
         return Err(DocumentError::at(&entry.key_origin, problem)
             .with_hint(format!("what it varies stands in `{needed}`")));
     }
-    let missing = || {
-        let problem = Problem::MissingKey { key: needed.to_owned() };
-        let hint = match document.study {
-            StudyWord::WheelTest => "it has the soil, the wheel, load_n and slip_ratio".to_owned(),
-            _ => "a preset such as scenario = \"traverse-10-deg\", a path, or a table".to_owned(),
-        };
-        DocumentError::at(&tree.origin, problem).with_hint(hint)
+    if tree.entry(needed).is_some() {
+        return Ok(needed);
+    }
+    let problem = Problem::MissingKey { key: needed.to_owned() };
+    let hint = match settings.study {
+        Study::WheelTest => "it has the soil, the wheel, load_n and slip_ratio".to_owned(),
+        _ => "a preset such as scenario = \"traverse-10-deg\", a path, or a table".to_owned(),
     };
-    let node = &tree.entry(needed).ok_or_else(missing)?.node;
-    let base = match (&document.scenario, &document.wheel_test) {
-        (Some(Reference::Inline(scenario)), None) => {
-            Base::scenario((**scenario).clone(), node.clone())
-        }
-        (None, Some(stand)) => Base::wheel_test(stand.clone(), node.clone()),
-        _ => return Err(missing()),
-    };
-    Ok((base, needed))
-}
-
-/// The keys of all numbers of the base.
-fn known(document: &CampaignDocument) -> Vec<String> {
-    let tree = match (&document.scenario, &document.wheel_test) {
-        (Some(Reference::Inline(scenario)), _) => toml::Value::try_from(scenario),
-        (_, Some(stand)) => toml::Value::try_from(stand),
-        _ => return Vec::new(),
-    };
-    tree.map(|tree| number_keys(&tree)).unwrap_or_default()
+    Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
 }
 
 /// What the soil says of its own uncertainty, in the base's keys.
@@ -141,24 +132,26 @@ struct OfSoil {
 }
 
 struct Reader<'a> {
-    document: &'a CampaignDocument,
+    document: &'a Document,
+    settings: &'a Settings,
+    uncertain: &'a Uncertain,
     tree: &'a Node,
     /// The key of the base in the tree.
     place: &'static str,
     base: &'a Base,
-    known: Vec<String>,
 }
 
 impl Reader<'_> {
     /// * `node`: the base's tree
     fn soil(&self, node: &Node) -> Result<OfSoil, DocumentError> {
-        if !self.document.soil_uncertainty {
+        if !self.settings.soil_uncertainty {
             return Ok(OfSoil::default());
         }
-        let (Some(soil), Some(entry)) = (self.document.soil(), node.entry("soil")) else {
+        let (Some(soil), Some(entry)) = (soil_of(self.document, self.place), node.entry("soil"))
+        else {
             return Ok(OfSoil::default());
         };
-        let Some(uncertainty) = &soil.uncertainty else {
+        let Some(uncertainty) = UncertaintySection::of(&soil) else {
             let problem = Problem::Conflict("the soil does not say how well it is known");
             return Err(DocumentError::at(self.tree.origin_of("soil_uncertainty"), problem)
                 .with_hint(
@@ -166,15 +159,16 @@ impl Reader<'_> {
                 ));
         };
         // All that can be wrong with it is told in the soil's own words.
-        soil.clone().prepare(&entry.node)?;
-        OfSoil::of(uncertainty, &entry.node)
+        understood(&soil, &entry.node)?;
+        OfSoil::of(&uncertainty, &entry.node)
     }
 
     fn read(&self, soil: OfSoil) -> Result<Prepared, DocumentError> {
         let count = soil.parameters.len();
         let mut keys: Vec<Key> = Vec::new();
         let (mut parameters, mut marginals) = (Vec::new(), Vec::new());
-        for (place, section) in soil.parameters.iter().chain(&self.document.parameter).enumerate() {
+        for (place, section) in soil.parameters.iter().chain(&self.uncertain.parameter).enumerate()
+        {
             let path = match place.checked_sub(count) {
                 None => "soil_uncertainty".to_owned(),
                 Some(own) => format!("parameter.{own}"),
@@ -220,8 +214,8 @@ impl Reader<'_> {
         let names: Vec<&str> = keys.iter().map(String::as_str).collect();
         // Those of the soil were checked as part of its document.
         let mut all = correlations(&of_soil, &names, self.tree, "soil_uncertainty", Vec::new())?;
-        all = correlations(&self.document.correlation, &names, self.tree, "correlation", all)?;
-        let sections = of_soil.into_iter().chain(self.document.correlation.clone()).collect();
+        all = correlations(&self.uncertain.correlation, &names, self.tree, "correlation", all)?;
+        let sections = of_soil.into_iter().chain(self.uncertain.correlation.clone()).collect();
         Ok((sections, all))
     }
 
@@ -232,7 +226,7 @@ impl Reader<'_> {
         mut keys: Vec<Key>,
         prepared: &mut Prepared,
     ) -> Result<(), DocumentError> {
-        let (table, prefix) = match (of_soil, &self.document.samples) {
+        let (table, prefix) = match (of_soil, &self.uncertain.samples) {
             (Some(_), Some(_)) => {
                 let problem = Problem::Conflict(
                     "the soil's uncertainty is a table of samples, too: it is one or the other",
@@ -243,7 +237,7 @@ impl Reader<'_> {
             (None, Some(SamplesSection::File(name))) => {
                 (SampleTable::read(name, self.tree.origin_of(SAMPLES))?, "")
             }
-            (None, Some(SamplesSection::Inline(SampleRows { csv }))) => {
+            (None, Some(SamplesSection::Inline { csv })) => {
                 let label = format!("{}, samples", self.tree.origin.text.label);
                 (SampleTable::of_text(label, csv.clone())?, "")
             }
@@ -265,9 +259,9 @@ impl Reader<'_> {
                 let problem = out_of_range(path, row[column], range);
                 return Err(DocumentError::at(&table.cell_origin(index, column), problem));
             }
-            self.base.check_with(&names, row).map_err(|error| {
-                DocumentError::at(&table.row_origin(index), error.problem().clone())
-            })?;
+            self.base
+                .check_with(&names, row)
+                .map_err(|error| DocumentError::at(&table.row_origin(index), *error.problem))?;
         }
         prepared.keys.extend(names);
         prepared.factors.push(SAMPLES.to_owned());
@@ -282,7 +276,7 @@ impl Reader<'_> {
             let problem = Problem::UnknownKey { key: path.escape_debug().to_string() };
             return Err(DocumentError::at(origin, problem).with_hint(self.hint(path)));
         };
-        let unused = self.document.study.unused_keys();
+        let unused = unused_keys(self.settings.study);
         if unused.iter().any(|start| path.starts_with(start)) {
             let problem = Problem::Conflict("the study does not use this key");
             return Err(DocumentError::at(origin, problem));
@@ -300,7 +294,8 @@ impl Reader<'_> {
     /// What a key that leads nowhere was meant to be.
     fn hint(&self, path: &str) -> String {
         let last = path.rsplit('.').next().unwrap_or(path);
-        let known: Vec<&str> = self.known.iter().map(String::as_str).collect();
+        let known = self.base.document().number_keys();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
         let same_end = known.iter().find(|key| key.rsplit('.').next() == Some(last));
         match same_end {
             Some(key) => format!("did you mean `{key}`?"),
@@ -317,14 +312,14 @@ impl Reader<'_> {
                     .to_owned(),
             ));
         }
-        if self.document.sensitivity && !prepared.correlations.is_empty() {
+        if self.settings.sensitivity && !prepared.correlations.is_empty() {
             let problem = Problem::Conflict(
                 "inputs that are correlated have no Sobol indices of their own: leave out \
                  `sensitivity` or the correlations",
             );
             return Err(DocumentError::at(self.tree.origin_of("sensitivity"), problem));
         }
-        let plan = prepared.plan(self.document);
+        let plan = prepared.plan(self.settings);
         let dimensions = plan.design().dimensions;
         if plan.design().sampling == Sampling::Sobol && dimensions > SOBOL_DIMENSIONS {
             let problem = Problem::WrongLength {
@@ -366,16 +361,14 @@ impl OfSoil {
     }
 }
 
-impl StudyWord {
-    /// What keys that the study does not look at start with.
-    fn unused_keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Attitude => {
-                &["start.", "duration_s", "sample_interval_s", "drive.reference_slip_ratio"]
-            }
-            Self::Traverse => &["sample_interval_s"],
-            Self::WheelTest => &[],
+/// What keys that a study does not look at start with.
+fn unused_keys(study: Study) -> &'static [&'static str] {
+    match study {
+        Study::Attitude => {
+            &["start.", "duration_s", "sample_interval_s", "drive.reference_slip_ratio"]
         }
+        Study::Traverse => &["sample_interval_s"],
+        Study::WheelTest => &[],
     }
 }
 

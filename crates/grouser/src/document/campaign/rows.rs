@@ -1,12 +1,11 @@
 //! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
 
+use super::super::Document;
 use super::super::error::DocumentError;
-use super::super::scenario::ScenarioDocument;
 use super::super::study::{OK, WheelRecord};
 use super::super::text::Node;
-use super::super::{Document, Reference};
-use super::numbers::Numbers;
-use super::sections::{StudyWord, WheelTestSection};
+use super::super::values::{Described, Misfit};
+use super::sections::{Stand, Study};
 use super::table::{Cell, Column, ColumnKind, Role};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Scenario, Simulation};
@@ -14,11 +13,34 @@ use crate::studies::attitude::{AttitudeStudy, NoAttitude};
 use crate::studies::campaign::drive::Drive;
 use crate::vehicle::DriveLaw;
 
-/// What a campaign varies: a document with its tree, for what is wrong with a draw.
+/// What a campaign varies.
 #[derive(Clone, Debug)]
 pub(super) enum Base {
-    Scenario { document: Box<ScenarioDocument>, tree: Box<Node> },
-    WheelTest { document: Box<WheelTestSection>, tree: Box<Node> },
+    Scenario(Box<Varied<Scenario>>),
+    Stand(Box<Varied<Stand>>),
+}
+
+/// A value whose numbers are exchanged, and what its document says.
+#[derive(Clone, Debug)]
+pub(super) struct Varied<V> {
+    value: V,
+    document: Document,
+}
+
+impl<V: Described> Varied<V> {
+    fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
+        let value = V::of(&document).settled().map_err(|misfit| misfit.of(tree))?;
+        Ok(Self { value, document })
+    }
+
+    /// The number under a key.
+    fn number(&self, key: &str) -> Option<f64> {
+        self.document.number(key).filter(|_| self.value.has(key))
+    }
+
+    fn with(&self, keys: &[String], values: &[f64]) -> Result<V, Misfit> {
+        self.value.with(keys.iter().map(String::as_str).zip(values.iter().copied()))
+    }
 }
 
 /// A draw's domain value.
@@ -95,7 +117,7 @@ const WHEEL_TEST: [&str; 15] = [
 /// The columns of a study.
 ///
 /// * `keys`: what is drawn
-pub(super) fn columns(study: StudyWord, sensitivity: bool, keys: &[String]) -> Vec<Column> {
+pub(super) fn columns(study: Study, sensitivity: bool, keys: &[String]) -> Vec<Column> {
     let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
     if sensitivity {
         all.push(Column::new("point", ColumnKind::Whole, Role::Index));
@@ -103,29 +125,23 @@ pub(super) fn columns(study: StudyWord, sensitivity: bool, keys: &[String]) -> V
     }
     all.extend(keys.iter().map(|key| Column::new(key, ColumnKind::Float, Role::Input)));
     let words: &[&str] = match study {
-        StudyWord::Traverse => &["status", "reason", "outcome", "simulation"],
-        StudyWord::Attitude | StudyWord::WheelTest => &["status", "reason"],
+        Study::Traverse => &["status", "reason", "outcome", "simulation"],
+        Study::Attitude | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let results: &[&str] = match study {
-        StudyWord::Traverse => &TRAVERSE,
-        StudyWord::Attitude => &ATTITUDE,
-        StudyWord::WheelTest => &WHEEL_TEST,
+        Study::Traverse => &TRAVERSE,
+        Study::Attitude => &ATTITUDE,
+        Study::WheelTest => &WHEEL_TEST,
     };
     all.extend(results.iter().map(|word| Column::new(*word, ColumnKind::Float, Role::Result)));
     all
 }
 
 /// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
-pub(super) fn run(
-    study: StudyWord,
-    base: &Base,
-    keys: &[String],
-    values: &[f64],
-    row: &mut Vec<Cell>,
-) {
+pub(super) fn run(study: Study, base: &Base, keys: &[String], values: &[f64], row: &mut Vec<Cell>) {
     let answer = base.with(keys, values).and_then(|case| match (study, case) {
-        (StudyWord::Attitude, Case::Scenario(scenario)) => attitude(&scenario),
+        (Study::Attitude, Case::Scenario(scenario)) => attitude(&scenario),
         (_, Case::Scenario(scenario)) => traverse(&scenario),
         (_, Case::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
     });
@@ -139,104 +155,60 @@ pub(super) fn run(
 }
 
 impl Base {
-    /// The base without what it says in words, which no run needs.
-    pub(super) fn scenario(mut document: ScenarioDocument, tree: Node) -> Self {
-        document.assumed.clear();
-        for text in [&mut document.name, &mut document.source, &mut document.notes] {
-            text.clear();
-        }
-        if let Reference::Inline(soil) = &mut document.soil {
-            soil.forget_words();
-        }
-        if let Reference::Inline(rover) = &mut document.rover {
-            rover.forget_words();
-        }
-        Self::Scenario { document: Box::new(document), tree: Box::new(tree) }
+    /// * `tree`: where the scenario was written
+    pub(super) fn scenario(document: Document, tree: &Node) -> Result<Self, DocumentError> {
+        Ok(Self::Scenario(Box::new(Varied::new(document, tree)?)))
     }
 
-    /// The same of a test stand.
-    pub(super) fn wheel_test(mut document: WheelTestSection, tree: Node) -> Self {
-        if let Reference::Inline(soil) = &mut document.soil {
-            soil.forget_words();
+    /// * `campaign`: with the stand
+    /// * `tree`: where the stand was written
+    pub(super) fn stand(campaign: &Document, tree: &Node) -> Result<Self, DocumentError> {
+        let document = campaign.table("wheel_test");
+        Ok(Self::Stand(Box::new(Varied::new(document, tree)?)))
+    }
+
+    /// What it says.
+    pub(super) fn document(&self) -> &Document {
+        match self {
+            Self::Scenario(varied) => &varied.document,
+            Self::Stand(varied) => &varied.document,
         }
-        if let Reference::Inline(wheel) = &mut document.wheel {
-            wheel.forget_words();
-        }
-        Self::WheelTest { document: Box::new(document), tree: Box::new(tree) }
     }
 
     /// The number under a key.
     pub(super) fn number(&self, key: &str) -> Option<f64> {
-        match self.clone() {
-            Self::Scenario { mut document, .. } => document.number_mut(key).copied(),
-            Self::WheelTest { mut document, .. } => document.number_mut(key).copied(),
-        }
-    }
-
-    /// What it means as it is.
-    pub(super) fn check(&self) -> Result<(), DocumentError> {
         match self {
-            Self::Scenario { document, tree } => scenario_case(document, tree).map(drop),
-            Self::WheelTest { document, tree } => wheel_test_case(document, tree).map(drop),
+            Self::Scenario(varied) => varied.number(key),
+            Self::Stand(varied) => varied.number(key),
         }
     }
 
     /// That it means something with other values of some keys.
-    pub(super) fn check_with(&self, keys: &[String], values: &[f64]) -> Result<(), DocumentError> {
+    pub(super) fn check_with(&self, keys: &[String], values: &[f64]) -> Result<(), Misfit> {
         self.case_of(keys, values).map(drop)
     }
 
     fn with(&self, keys: &[String], values: &[f64]) -> Result<Case, Failure> {
         self.case_of(keys, values)
-            .map_err(|error| Failure { status: UNFIT, reason: error.problem().to_string() })
+            .map_err(|misfit| Failure { status: UNFIT, reason: misfit.problem.to_string() })
     }
 
-    fn case_of(&self, keys: &[String], values: &[f64]) -> Result<Case, DocumentError> {
-        match self {
-            Self::Scenario { document, tree } => {
-                let mut document = document.clone();
-                set(&mut *document, keys, values);
-                scenario_case(&document, tree)
+    fn case_of(&self, keys: &[String], values: &[f64]) -> Result<Case, Misfit> {
+        Ok(match self {
+            Self::Scenario(varied) => Case::Scenario(Box::new(varied.with(keys, values)?)),
+            Self::Stand(varied) => {
+                let stand = varied.with(keys, values)?;
+                let contact = Contact {
+                    wheel: stand.wheel,
+                    soil: stand.soil,
+                    slip: Slip::on_test_stand(stand.slip_ratio, stand.slip_angle),
+                    gravity: stand.gravity,
+                };
+                let (theory, load) = (stand.theory, stand.load);
+                Case::WheelTest { contact: Box::new(contact), theory, load }
             }
-            Self::WheelTest { document, tree } => {
-                let mut document = document.clone();
-                set(&mut *document, keys, values);
-                wheel_test_case(&document, tree)
-            }
-        }
+        })
     }
-}
-
-fn set(document: &mut dyn Numbers, keys: &[String], values: &[f64]) {
-    for (key, value) in keys.iter().zip(values) {
-        // That each key leads somewhere was seen when the campaign was read.
-        if let Some(number) = document.number_mut(key) {
-            *number = *value;
-        }
-    }
-}
-
-fn scenario_case(document: &ScenarioDocument, tree: &Node) -> Result<Case, DocumentError> {
-    Ok(Case::Scenario(Box::new(document.to_domain(tree)?)))
-}
-
-fn wheel_test_case(stand: &WheelTestSection, tree: &Node) -> Result<Case, DocumentError> {
-    let at = |key: &str| tree.entry(key).map_or(tree, |entry| &entry.node);
-    let missing = |key: &str| {
-        let problem = super::super::Problem::MissingKey { key: key.to_owned() };
-        DocumentError::at(&tree.origin, problem)
-    };
-    let soil = stand.soil.inline().ok_or_else(|| missing("soil"))?;
-    let wheel = stand.wheel.inline().ok_or_else(|| missing("wheel"))?;
-    let theory = stand.model.map(super::super::soil::TheoryWord::theory).or(soil.theory());
-    let contact = Contact {
-        wheel: wheel.to_domain(at("wheel"))?,
-        soil: soil.to_domain(at("soil"))?,
-        slip: Slip::on_test_stand(stand.slip_ratio, stand.slip_angle_deg.to_radians()),
-        gravity: stand.gravity_m_s2,
-    };
-    let (contact, theory) = (Box::new(contact), theory.unwrap_or_default());
-    Ok(Case::WheelTest { contact, theory, load: stand.load_n })
 }
 
 fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {

@@ -1,0 +1,617 @@
+//! The rows that declare what a document may say: a number, with its key, its unit, its range, what it is
+//! and where it goes in the domain's value, stands in one row of a [`Table`] and nowhere else.
+//!
+//! Reading, checks, messages, JSON Schema, conversion to SI, `--set`, the keys of campaigns and
+//! calibrations are made from these rows. The tables themselves are in [`describe`](super::describe).
+
+use std::ops::RangeInclusive;
+
+use serde_json::Value as Json;
+
+use super::Kind;
+
+/// What a document, or a table in it, may say: keys in the order in which they are written.
+///
+/// `T` is the domain's value that the numbers go to.
+pub(super) struct Table<T: 'static> {
+    /// What it describes.
+    pub doc: &'static str,
+    pub fields: &'static [Field<T>],
+}
+
+/// A key.
+pub(super) struct Field<T: 'static> {
+    pub key: &'static str,
+    /// What it is: a sentence; of a number without its unit and full stop.
+    pub doc: &'static str,
+    pub presence: Presence,
+    pub shape: Shape<T>,
+}
+
+/// What a document that does not have a key means.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Presence {
+    /// That something is missing.
+    Needed,
+    /// Nothing; a resolved document does not have it either, nor an empty text or list.
+    Optional,
+    /// This value.
+    Otherwise(Fill),
+}
+
+/// A value that stands for one that a document does not have.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Fill {
+    Number(f64),
+    Whole(u64),
+    Flag(bool),
+    Word(&'static str),
+    /// A table with these keys, and what they imply.
+    Keys(&'static [(&'static str, Fill)]),
+}
+
+/// What a key takes, and where that goes.
+pub(super) enum Shape<T: 'static> {
+    /// Kind and version of a document.
+    Tag,
+    Text(Text<T>),
+    /// Texts, at least as many and at most as many.
+    Texts(u64, Option<u64>),
+    Flag(fn(&mut T, bool)),
+    Whole(Whole<T>),
+    /// One of some words.
+    Words(&'static [Word<T>]),
+    Number(Number, Reach<T>),
+    Numbers(Numbers<T>),
+    /// A table.
+    Inner(&'static dyn Inner<T>),
+    /// At least so many tables.
+    List(&'static dyn Inner<T>, u64),
+    /// Another document, or its name.
+    Part(Kind, &'static dyn Inner<T>),
+    /// A text that is what the sentence says, or a table.
+    TextOr(&'static str, &'static dyn Inner<T>),
+}
+
+/// Where a number goes; nowhere if the value follows another law.
+pub(super) type Reach<T> = fn(&mut T) -> Option<&mut f64>;
+
+/// What a number may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Number {
+    pub unit: Unit,
+    pub least: f64,
+    pub most: f64,
+    /// Whether the lower end itself is excluded.
+    pub is_open: bool,
+}
+
+/// A text, at least so many characters long.
+pub(super) struct Text<T: 'static> {
+    pub least: u64,
+    pub format: Option<&'static str>,
+    put: fn(&mut T, &str),
+}
+
+/// A whole number.
+pub(super) struct Whole<T: 'static> {
+    pub least: u64,
+    pub most: u64,
+    pub format: &'static str,
+    put: fn(&mut T, u64),
+}
+
+/// A word of a closed set, and what it makes of the value.
+pub(super) struct Word<T: 'static> {
+    pub name: &'static str,
+    pub doc: &'static str,
+    put: fn(&mut T),
+}
+
+/// A list of numbers.
+pub(super) struct Numbers<T: 'static> {
+    pub number: Number,
+    pub form: Form,
+    /// Makes room for as many, or for one alone.
+    begin: fn(&mut T, Option<usize>),
+    reach: fn(&mut T, usize) -> Option<&mut f64>,
+}
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form {
+    /// A list of as many.
+    Exactly(u64),
+    /// One alone, or a list: what either is.
+    OneOrEach(&'static str, &'static str),
+}
+
+/// A unit in which documents give numbers, and the way from it to SI.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unit {
+    pub symbol: &'static str,
+    scale: Scale,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Scale {
+    Same,
+    Thousand,
+    Degrees,
+}
+
+impl Unit {
+    /// A unit that is SI already.
+    pub(super) const fn si(symbol: &'static str) -> Self {
+        Self { symbol, scale: Scale::Same }
+    }
+
+    /// The value in SI units and radians.
+    pub(super) fn to_si(self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Same => value,
+            Scale::Thousand => value * 1e3,
+            Scale::Degrees => value.to_radians(),
+        }
+    }
+}
+
+pub(super) const KPA: Unit = Unit { symbol: "kPa", scale: Scale::Thousand };
+pub(super) const DEG: Unit = Unit { symbol: "°", scale: Scale::Degrees };
+pub(super) const KG_M3: Unit = Unit::si("kg/m³");
+pub(super) const KG: Unit = Unit::si("kg");
+pub(super) const KG_M2: Unit = Unit::si("kg·m²");
+pub(super) const M: Unit = Unit::si("m");
+pub(super) const M_PER_RAD: Unit = Unit::si("m/rad");
+pub(super) const M_PER_RAD2: Unit = Unit::si("m/rad²");
+pub(super) const M_S: Unit = Unit::si("m/s");
+pub(super) const M_S2: Unit = Unit::si("m/s²");
+pub(super) const S: Unit = Unit::si("s");
+pub(super) const N: Unit = Unit::si("N");
+/// A number without a unit.
+pub(super) const ONE: Unit = Unit::si("-");
+/// The unit of another key.
+pub(super) const OF_KEY: Unit = Unit::si("");
+
+/// Tables as those see them that do not know their type.
+pub(super) trait Inner<T>: Sync {
+    /// Its JSON Schema.
+    ///
+    /// * `defs`: of the documents inside it, to be added to
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json;
+
+    /// The same in the table's order, with all that it leaves out; of one that was checked.
+    fn complete(&self, said: &Json) -> Json;
+
+    /// Puts what a complete table says into the value.
+    fn put(&self, value: &mut T, said: &Json);
+
+    /// A number of the value under a dotted key, entries of lists by their place.
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>>;
+}
+
+/// A number in a domain's value, in SI, and the unit that documents give it in.
+pub(super) struct Reached<'t> {
+    value: &'t mut f64,
+    unit: Unit,
+}
+
+impl Reached<'_> {
+    /// Gives it another value, in the document's unit.
+    pub(super) fn set(self, value: f64) {
+        *self.value = self.unit.to_si(value);
+    }
+}
+
+// ---- Rows ----
+
+/// A number that must be there.
+pub(super) const fn number<T>(
+    key: &'static str,
+    unit: Unit,
+    range: RangeInclusive<f64>,
+    doc: &'static str,
+    reach: Reach<T>,
+) -> Field<T> {
+    let number = Number { unit, least: *range.start(), most: *range.end(), is_open: false };
+    field(key, doc, Shape::Number(number, reach))
+}
+
+/// A number above zero that must be there.
+pub(super) const fn positive<T>(
+    key: &'static str,
+    unit: Unit,
+    most: f64,
+    doc: &'static str,
+    reach: Reach<T>,
+) -> Field<T> {
+    let number = Number { unit, least: 0.0, most, is_open: true };
+    field(key, doc, Shape::Number(number, reach))
+}
+
+/// A list of as many numbers as the domain has there.
+pub(super) const fn numbers<T>(
+    key: &'static str,
+    unit: Unit,
+    range: RangeInclusive<f64>,
+    form: Form,
+    doc: &'static str,
+    begin: fn(&mut T, Option<usize>),
+    reach: fn(&mut T, usize) -> Option<&mut f64>,
+) -> Field<T> {
+    let number = Number { unit, least: *range.start(), most: *range.end(), is_open: false };
+    field(key, doc, Shape::Numbers(Numbers { number, form, begin, reach }))
+}
+
+/// A whole number.
+pub(super) const fn whole<T>(
+    key: &'static str,
+    range: RangeInclusive<u64>,
+    format: &'static str,
+    doc: &'static str,
+    put: fn(&mut T, u64),
+) -> Field<T> {
+    let (least, most) = (*range.start(), *range.end());
+    field(key, doc, Shape::Whole(Whole { least, most, format, put }))
+}
+
+/// Whether something is so; it is not, if nothing is said.
+pub(super) const fn flag<T>(
+    key: &'static str,
+    doc: &'static str,
+    put: fn(&mut T, bool),
+) -> Field<T> {
+    field(key, doc, Shape::Flag(put)).otherwise(Fill::Flag(false))
+}
+
+/// A text that must be there.
+///
+/// * `least`: its length
+pub(super) const fn text<T>(
+    key: &'static str,
+    least: u64,
+    doc: &'static str,
+    put: fn(&mut T, &str),
+) -> Field<T> {
+    field(key, doc, Shape::Text(Text { least, format: None, put }))
+}
+
+/// A text that does not go into the domain's value.
+pub(super) const fn note<T>(key: &'static str, doc: &'static str) -> Field<T> {
+    text(key, 0, doc, nothing_with)
+}
+
+/// A day, as text.
+pub(super) const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
+    let text = Text { least: 0, format: Some("date"), put: nothing_with };
+    field(key, doc, Shape::Text(text)).optional()
+}
+
+/// Some texts; none are left out.
+pub(super) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
+    field(key, doc, Shape::Texts(0, None)).optional()
+}
+
+/// One of some words.
+pub(super) const fn words<T>(
+    key: &'static str,
+    doc: &'static str,
+    words: &'static [Word<T>],
+) -> Field<T> {
+    field(key, doc, Shape::Words(words))
+}
+
+/// A word, and what it makes of the value.
+pub(super) const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Word<T> {
+    Word { name, doc, put }
+}
+
+/// A table.
+pub(super) const fn table<T>(
+    key: &'static str,
+    doc: &'static str,
+    inner: &'static dyn Inner<T>,
+) -> Field<T> {
+    field(key, doc, Shape::Inner(inner))
+}
+
+/// At least so many tables.
+pub(super) const fn list<T>(
+    key: &'static str,
+    doc: &'static str,
+    each: &'static dyn Inner<T>,
+    least: u64,
+) -> Field<T> {
+    field(key, doc, Shape::List(each, least))
+}
+
+/// Another document, or its name.
+pub(super) const fn part<T>(
+    key: &'static str,
+    kind: Kind,
+    doc: &'static str,
+    inner: &'static dyn Inner<T>,
+) -> Field<T> {
+    field(key, doc, Shape::Part(kind, inner))
+}
+
+pub(super) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
+    Field { key, doc, presence: Presence::Needed, shape }
+}
+
+/// For words that do not go into the domain's value.
+pub(super) fn nothing<T>(_: &mut T) {}
+
+/// The same for a text.
+fn nothing_with<T>(_: &mut T, _: &str) {}
+
+/// The same for a number.
+pub(super) fn nowhere<T>(_: &mut T) -> Option<&mut f64> {
+    None
+}
+
+impl<T> Field<T> {
+    /// The same, that may be left out.
+    pub(super) const fn optional(mut self) -> Self {
+        self.presence = Presence::Optional;
+        self
+    }
+
+    /// The same, with a value for documents that leave it out.
+    pub(super) const fn otherwise(mut self, fill: Fill) -> Self {
+        self.presence = Presence::Otherwise(fill);
+        self
+    }
+
+    /// The same of a number.
+    pub(super) const fn or(self, number: f64) -> Self {
+        self.otherwise(Fill::Number(number))
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        let float = |said: &Json| said.as_f64().map_or(Json::Null, Json::from);
+        match (&self.shape, said) {
+            (Shape::Numbers(_), Json::Array(all)) => all.iter().map(float).collect(),
+            (Shape::Number(..) | Shape::Numbers(_), said) => float(said),
+            (Shape::List(each, _), Json::Array(all)) => {
+                all.iter().map(|said| each.complete(said)).collect()
+            }
+            (
+                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, inner),
+                Json::Object(_),
+            ) => inner.complete(said),
+            _ => said.clone(),
+        }
+    }
+
+    fn put(&self, value: &mut T, said: &Json) {
+        match (&self.shape, said) {
+            (Shape::Text(Text { put, .. }), Json::String(said)) => put(value, said),
+            (Shape::Flag(put), Json::Bool(said)) => put(value, *said),
+            (Shape::Whole(Whole { put, .. }), said) => put(value, said.as_u64().unwrap_or(0)),
+            (Shape::Words(words), Json::String(said)) => {
+                if let Some(word) = words.iter().find(|word| word.name == said) {
+                    (word.put)(value);
+                }
+            }
+            (Shape::Number(..), said) => self.set(value, "", said),
+            (Shape::Numbers(Numbers { begin, .. }), said) => {
+                let all = said.as_array();
+                begin(value, all.map(Vec::len));
+                match all {
+                    Some(all) => {
+                        for (place, said) in all.iter().enumerate() {
+                            self.set(value, &place.to_string(), said);
+                        }
+                    }
+                    None => self.set(value, "", said),
+                }
+            }
+            (
+                Shape::Inner(inner)
+                | Shape::List(inner, _)
+                | Shape::Part(_, inner)
+                | Shape::TextOr(_, inner),
+                said,
+            ) => inner.put(value, said),
+            _ => {}
+        }
+    }
+
+    fn set(&self, value: &mut T, path: &str, said: &Json) {
+        if let (Some(reached), Some(said)) = (self.reach(value, path), said.as_f64()) {
+            reached.set(said);
+        }
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        match &self.shape {
+            Shape::Number(Number { unit, .. }, reach) if path.is_empty() => {
+                Some(Reached { value: reach(value)?, unit: *unit })
+            }
+            Shape::Numbers(Numbers { number, reach, .. }) => {
+                let place = if path.is_empty() { 0 } else { path.parse().ok()? };
+                Some(Reached { value: reach(value, place)?, unit: number.unit })
+            }
+            Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
+                inner.reach(value, path)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Fill {
+    pub(super) fn to_json(self) -> Json {
+        match self {
+            Self::Number(number) => Json::from(number),
+            Self::Whole(number) => Json::from(number),
+            Self::Flag(flag) => Json::from(flag),
+            Self::Word(word) => Json::from(word),
+            Self::Keys(keys) => {
+                keys.iter().map(|(key, fill)| ((*key).to_owned(), fill.to_json())).collect()
+            }
+        }
+    }
+}
+
+impl<T> Table<T> {
+    /// What a table that does not have a key means by that.
+    pub(super) fn implied(field: &Field<T>) -> Option<Json> {
+        match field.presence {
+            Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
+            Presence::Needed | Presence::Optional => None,
+        }
+    }
+}
+
+impl<T> Inner<T> for Table<T> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        super::schema::of_table(self, None, defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        let is_empty = |said: &Json| match said {
+            Json::String(text) => text.is_empty(),
+            Json::Array(all) => all.is_empty(),
+            _ => false,
+        };
+        let keys = self.fields.iter().filter_map(|field| {
+            let said = match said.get(field.key) {
+                Some(said) => field.complete(said),
+                None => Self::implied(field)?,
+            };
+            let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&said);
+            (!is_left_out).then(|| (field.key.to_owned(), said))
+        });
+        keys.collect()
+    }
+
+    fn put(&self, value: &mut T, said: &Json) {
+        for field in self.fields {
+            if let Some(said) = said.get(field.key) {
+                field.put(value, said);
+            }
+        }
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let (key, rest) = path.split_once('.').unwrap_or((path, ""));
+        self.fields.iter().find(|field| field.key == key)?.reach(value, rest)
+    }
+}
+
+// ---- Tables of one type in values of another ----
+
+/// A table for a part of the value.
+pub(super) struct At<T: 'static, P: 'static> {
+    pub inner: &'static dyn Inner<P>,
+    pub at: fn(&mut T) -> &mut P,
+}
+
+impl<T, P> Inner<T> for At<T, P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.inner.schema(defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        self.inner.complete(said)
+    }
+
+    fn put(&self, value: &mut T, said: &Json) {
+        self.inner.put((self.at)(value), said);
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        self.inner.reach((self.at)(value), path)
+    }
+}
+
+/// A table for each entry of a list.
+pub(super) struct Each<T: 'static, P: 'static> {
+    pub inner: &'static dyn Inner<P>,
+    pub list: fn(&mut T) -> &mut Vec<P>,
+    pub blank: fn() -> P,
+}
+
+impl<T, P> Inner<T> for Each<T, P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.inner.schema(defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        self.inner.complete(said)
+    }
+
+    fn put(&self, value: &mut T, said: &Json) {
+        let all = said.as_array().into_iter().flatten().map(|said| {
+            let mut entry = (self.blank)();
+            self.inner.put(&mut entry, said);
+            entry
+        });
+        *(self.list)(value) = all.collect();
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let (place, rest) = path.split_once('.')?;
+        self.inner.reach((self.list)(value).get_mut(place.parse::<usize>().ok()?)?, rest)
+    }
+}
+
+// ---- Laws ----
+
+/// A table whose keys depend on a word in it.
+pub(super) struct Laws<T: 'static> {
+    /// What it describes.
+    pub doc: &'static str,
+    /// The key of that word.
+    pub key: &'static str,
+    pub all: &'static [Law<T>],
+    /// Whether a table without the word follows the first law.
+    pub may_be_left_out: bool,
+}
+
+/// One of several laws.
+pub(super) struct Law<T: 'static> {
+    pub name: &'static str,
+    /// What the word itself says, where tables may leave it out.
+    pub word: Option<&'static str>,
+    /// Makes the value follow the law, with numbers that wait to be put in.
+    pub choose: fn(&mut T),
+    pub table: Table<T>,
+}
+
+impl<T> Laws<T> {
+    fn named(&self, said: &Json) -> &'static Law<T> {
+        let name = said.get(self.key).and_then(Json::as_str);
+        self.all.iter().find(|law| Some(law.name) == name).unwrap_or(&self.all[0])
+    }
+}
+
+impl<T> Inner<T> for Laws<T> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        super::schema::of_laws(self, defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        let law = self.named(said);
+        let mut complete = serde_json::Map::new();
+        complete.insert(self.key.to_owned(), Json::from(law.name));
+        if let Json::Object(keys) = law.table.complete(said) {
+            complete.extend(keys);
+        }
+        Json::Object(complete)
+    }
+
+    fn put(&self, value: &mut T, said: &Json) {
+        let law = self.named(said);
+        (law.choose)(value);
+        law.table.put(value, said);
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let mut tables = self.all.iter().map(|law| &law.table);
+        let found = tables.find(|table| table.reach(value, path).is_some())?;
+        found.reach(value, path)
+    }
+}
