@@ -161,7 +161,6 @@ pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
             parameter(message, "cross_validate", None, "trials at several slip angles")
         }
         CalibrationError::BadObservation { .. }
-        | CalibrationError::TooManyObservations { .. }
         | CalibrationError::NoStart { .. }
         | CalibrationError::Interrupted
         | CalibrationError::ForeignState { .. } => classes::CalibrationError::new_err(message),
