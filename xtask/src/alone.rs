@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn variables_of_the_project_and_of_python_stay_behind() {
         let ours =
-            ["PATH", "GROUSER_DATA_DIR", "PYTHONPATH", "CARGO_TARGET_DIR", "HOME", "RUSTFLAGS"];
+            ["PATH", "GROUSER_PROGRAM", "PYTHONPATH", "CARGO_TARGET_DIR", "HOME", "RUSTFLAGS"];
         let ours = ours.map(|name| (name.into(), "x".into()));
         let kept = environment(ours, Path::new("h"));
         let names: Vec<_> = kept.iter().map(|(name, _)| name.to_string_lossy()).collect();

@@ -6,6 +6,7 @@ pub(crate) mod folder;
 pub(crate) mod json;
 pub(crate) mod rows;
 
+use std::borrow::Cow;
 use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
 use std::path::Path;
 use std::time::Duration;
@@ -39,7 +40,13 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 /// What the parser of the command line has to say: help and version to the standard output, what
 /// is wrong to the standard error.
 pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
-    let printed = answer.print().and_then(|()| stdout().flush());
+    // It quotes arguments as they are. One that steers a terminal costs the answer its colours.
+    let plain = answer.render().to_string();
+    let printed = match escape::visible(&plain) {
+        Cow::Owned(shown) if answer.use_stderr() => stderr().write_all(shown.as_bytes()),
+        _ => answer.print(),
+    };
+    let printed = printed.and_then(|()| stdout().flush());
     if answer.use_stderr() {
         Err(Failure::UsageToldAlready)
     } else {

@@ -263,3 +263,17 @@ mod unix {
         assert_eq!(mode("new.csv"), 0o604);
     }
 }
+
+/// What is wrong with a line is quoted by the parser of command lines, which knows of no terminals.
+#[test]
+fn arguments_are_quoted_without_what_steers_a_terminal() {
+    let place = Place::new();
+    for argument in ["\u{202e}json", "js\u{9b}31mon", "\u{1b}[31mjson"] {
+        for words in [&["wheel-test", "--format", argument][..], &[argument], &["check", argument]]
+        {
+            let answer = place.run(words);
+            assert_eq!(answer.code(), 2, "{words:?}");
+            check_shown(argument, &answer.stderr);
+        }
+    }
+}
