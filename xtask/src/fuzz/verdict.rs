@@ -16,7 +16,7 @@ use super::subjects::{Oracle, Subject};
 /// What a run may take.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// Address space [KiB]. Its start and two threads take half a gigabyte of it.
+    /// Address space, in KiB. Its start and two threads take half a gigabyte of it.
     memory_kib: u64,
     /// Time of the processors [s]: other work on the machine does not count.
     pub(super) processor_s: u64,
