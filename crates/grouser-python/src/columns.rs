@@ -1,4 +1,4 @@
-//! Records as columns: a list of rows in the words of the door becomes an array for each key.
+//! Records as columns: a list of records becomes an array for each key.
 
 use grouser::document::campaign;
 use grouser::document::study::WheelRecord;

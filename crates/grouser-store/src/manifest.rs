@@ -87,7 +87,7 @@ pub struct Session {
 /// What a column has.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ColumnRecord {
-    /// In the door's words.
+    /// As documents and results name it.
     pub name: String,
     /// `float`, `whole` or `text`.
     pub kind: String,

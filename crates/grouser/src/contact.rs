@@ -1,4 +1,4 @@
-//! Floor 1: what the soil does to one wheel.
+//! Layer 1, contact: what the soil does to one wheel.
 //!
 //! The order of reading is the order of computing. [`slip`] turns speeds into slip ratio and slip
 //! angle; [`patch`] says which arc of the rim touches the soil; [`stress`] gives the normal and

@@ -1,4 +1,4 @@
-//! Floor 5, the door: documents with units in their names, and what they mean in SI.
+//! Layer 5, I/O: documents with units in their names, and what they mean in SI.
 //!
 //! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. Reading one takes these
 //! steps, and this page is their order:

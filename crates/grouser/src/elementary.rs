@@ -7,7 +7,7 @@
 //! fits at Chebyshev points with 60 digits, rounded.
 //!
 //! [`wide`] has the functions of any argument that the rest of the library computes with. Nothing of
-//! ours calls the platform's; a test reads the sources (`tests/it/floors.rs`). The
+//! ours calls the platform's; a test reads the sources (`tests/it/layers.rs`). The
 //! one library that does is the sampler of posteriors (hammer-and-sample), for the logarithm with which
 //! it decides whether a walker takes a step: a last digit that differs there would decide otherwise
 //! once in 10¹⁵ steps.

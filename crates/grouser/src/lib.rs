@@ -4,20 +4,20 @@
 //! It grows from one paper, the dynamics simulator of HAKUTO's four-wheel micro rover, which the
 //! documentation calls [FourWheel].
 //!
-//! # The floors
+//! # The layers
 //!
 //! A module may use those below it, never those above:
 //!
-//! | floor | modules | what they are about |
+//! | layer | modules | what they are about |
 //! |---|---|---|
-//! | 5 door | [`document`] | documents with units in their names, presets, results in words |
+//! | 5 I/O | [`document`] | documents with units in their names, presets, results in words |
 //! | 4 studies | [`studies`] | questions: a wheel test, the attitude, the paper's comparison |
 //! | 3 simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | 2 vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | 1 contact | [`contact`] | what the soil does to one wheel |
-//! | 0 ground | [`units`] [`error`] [`soil`] [`wheel`] [`site`] | what things are |
+//! | 0 foundations | [`units`] [`error`] [`soil`] [`wheel`] [`site`] | what things are |
 //!
-//! Inside, everything is in SI units and radians; the door converts. Below the door there is no
+//! Inside, everything is in SI units and radians; [`document`] converts. Below it there is no
 //! file, no clock and no printing: a [`Scenario`](simulation::Scenario) alone determines its
 //! [`Trajectory`](simulation::Trajectory), bit for bit. What a rover does is a value (it may get
 //! stuck, slide or tip over); what cannot be computed is an error.

@@ -1,4 +1,4 @@
-//! Floor 3: a run, from its [`Scenario`] to its [`Trajectory`].
+//! Layer 3, simulation: a run, from its [`Scenario`] to its [`Trajectory`].
 //!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
 //! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities in [`balance`].

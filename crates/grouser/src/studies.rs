@@ -1,4 +1,4 @@
-//! Floor 4: questions about a wheel or a rover, answered with the floors below.
+//! Layer 4, studies: questions about a wheel or a rover, answered with the layers below.
 //!
 //! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
 //! [`attitude_map`] the same for other courses and several soils, [`attitude_band`] where the soil is uncertain, with what [`uncertainty`] knows of draws,

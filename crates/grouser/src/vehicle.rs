@@ -1,4 +1,4 @@
-//! Floor 2: the rover as a rigid body on wheels.
+//! Layer 2, vehicle: the rover as a rigid body on wheels.
 //!
 //! [`rover`] is what it is, [`state`] where it is and how it moves. From the state,
 //! [`kinematics`] gives the motion of each hub (Eqs 2-3), [`load`] the share of the weight on each

@@ -213,7 +213,7 @@ pub(super) fn meant_number(soil: &Document, name: &str) -> String {
     meant(name, &known.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// That draws can be had: one that takes too many tries at the door takes them everywhere.
+/// That draws can be had: one that takes too many tries here takes them everywhere.
 fn check_first_draw(soils: &UncertainSoil, tree: &Node) -> Result<(), DocumentError> {
     soils.draw(0, 0).map(drop).map_err(|error| {
         let mut ranges = String::new();

@@ -1,7 +1,7 @@
 //! Measured single-wheel tests: what was set, what was read, which trials repeat each other.
 //!
 //! Everything is in SI units and in Grouser's signs: other slip definitions, units and signs end
-//! at the door.
+//! in `document`.
 
 use std::ops::{Index, IndexMut};
 

@@ -3,7 +3,7 @@
 /// What a row has at one place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// In the door's words: `sinkage_mm`, or an input's key.
+    /// As documents and results name it: `sinkage_mm`, or an input's key.
     pub name: String,
     /// What stands in it.
     pub kind: ColumnKind,

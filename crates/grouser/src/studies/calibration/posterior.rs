@@ -53,7 +53,7 @@ impl SamplerSettings {
     }
 }
 
-/// All that a sampler remembers between two blocks: plain numbers, which the door can write down.
+/// All that a sampler remembers between two blocks: plain numbers, which `document` can write down.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PosteriorState {
     /// Blocks that were walked.

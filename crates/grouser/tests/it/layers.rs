@@ -1,13 +1,13 @@
-//! The house stands: no floor imports from above, and none but the door touches the outer world.
+//! No layer imports from one above it, and none but I/O touches the outer world.
 //!
-//! The sources are read as tokens, without comments and strings. What the floors are, and why, is
-//! told in `ARCHITECTURE.md`.
+//! The sources are read as tokens, without comments and strings. What the layers are, and why, is
+//! said in `ARCHITECTURE.md`.
 
 use std::fs;
 use std::path::Path;
 
-/// The modules of each floor, from the ground up.
-const FLOORS: [&[&str]; 6] = [
+/// The modules of each layer, from the foundations up.
+const LAYERS: [&[&str]; 6] = [
     &["units", "error", "elementary", "newton", "root", "soil", "wheel", "site"],
     &["contact"],
     &["vehicle"],
@@ -16,7 +16,7 @@ const FLOORS: [&[&str]; 6] = [
     &["document"],
 ];
 const STUDIES: usize = 4;
-const DOOR: usize = 5;
+const IO: usize = 5;
 
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ struct Breach {
 }
 
 #[test]
-fn no_source_breaks_a_rule_of_its_floor() {
+fn no_source_breaks_a_rule_of_its_layer() {
     let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut breaches = Vec::new();
     let mut count = 0;
@@ -62,30 +62,30 @@ fn breaches_in(name: &str, text: &str) -> Vec<Breach> {
     let modules: Vec<&str> =
         name.trim_end_matches(".rs").split(['/', '\\']).filter(|part| *part != "mod").collect();
     if modules == ["lib"] {
-        // The crate's root lists all floors.
+        // The crate's root lists all layers.
         return Vec::new();
     }
     let tokens = tokens_of(text);
-    let Some(floor) = floor_of(modules[0]) else {
-        return vec![Breach { line: 1, what: format!("`{}` belongs to no floor", modules[0]) }];
+    let Some(layer) = layer_of(modules[0]) else {
+        return vec![Breach { line: 1, what: format!("`{}` belongs to no layer", modules[0]) }];
     };
-    let mut breaches = upward_imports(&tokens, &modules, floor);
+    let mut breaches = upward_imports(&tokens, &modules, layer);
     let shipped = without_tests(&tokens);
-    breaches.extend(outer_world(&shipped, floor));
+    breaches.extend(outer_world(&shipped, layer));
     breaches.extend(platform_functions(&shipped));
-    if floor < DOOR && modules != ["units"] {
+    if layer < IO && modules != ["units"] {
         breaches.extend(units_of_people(&without_error_texts(&shipped)));
     }
     breaches.sort_by_key(|breach| breach.line);
     breaches
 }
 
-fn floor_of(module: &str) -> Option<usize> {
-    FLOORS.iter().position(|modules| modules.contains(&module))
+fn layer_of(module: &str) -> Option<usize> {
+    LAYERS.iter().position(|modules| modules.contains(&module))
 }
 
-/// Paths that lead to a module of a higher floor, or to one of no floor.
-fn upward_imports(tokens: &[Token], modules: &[&str], floor: usize) -> Vec<Breach> {
+/// Paths that lead to a module of a higher layer, or to one of no layer.
+fn upward_imports(tokens: &[Token], modules: &[&str], layer: usize) -> Vec<Breach> {
     let mut breaches = Vec::new();
     // How many blocks are open, and at how many each open inline module started.
     let (mut depth, mut inline) = (0, Vec::new());
@@ -112,7 +112,7 @@ fn upward_imports(tokens: &[Token], modules: &[&str], floor: usize) -> Vec<Breac
                 // Any other path stays in the module tree it starts from.
                 if above == 0 && end > at {
                     for token in heads(tokens, end) {
-                        breaches.extend(upward(token, floor));
+                        breaches.extend(upward(token, layer));
                     }
                 }
             }
@@ -123,11 +123,11 @@ fn upward_imports(tokens: &[Token], modules: &[&str], floor: usize) -> Vec<Breac
     breaches
 }
 
-fn upward(module: &Token, floor: usize) -> Option<Breach> {
-    let what = match floor_of(module.text) {
-        Some(other) if other <= floor => return None,
-        Some(other) => format!("floor {floor} imports `{}` of floor {other}", module.text),
-        None => format!("`{}` belongs to no floor", module.text),
+fn upward(module: &Token, layer: usize) -> Option<Breach> {
+    let what = match layer_of(module.text) {
+        Some(other) if other <= layer => return None,
+        Some(other) => format!("layer {layer} imports `{}` of layer {other}", module.text),
+        None => format!("`{}` belongs to no layer", module.text),
     };
     Some(Breach { line: module.line, what })
 }
@@ -156,8 +156,8 @@ fn heads<'t>(tokens: &'t [Token<'t>], start: usize) -> Vec<&'t Token<'t>> {
     heads
 }
 
-/// Files, clocks, the environment and printing below the door; threads below the studies.
-fn outer_world(tokens: &[Token], floor: usize) -> Vec<Breach> {
+/// Files, clocks, the environment and printing below I/O; threads below the studies.
+fn outer_world(tokens: &[Token], layer: usize) -> Vec<Breach> {
     const MODULES: [&str; 6] = ["fs", "time", "env", "process", "net", "io"];
     const PRINTING: [&str; 5] = ["println", "print", "eprintln", "eprint", "dbg"];
     let mut breaches = Vec::new();
@@ -165,20 +165,20 @@ fn outer_world(tokens: &[Token], floor: usize) -> Vec<Breach> {
         let is_macro = text_at(tokens, at + 1) == "!";
         if token.text == "std" && text_at(tokens, at + 1) == "::" {
             for module in heads(tokens, at + 2) {
-                if floor < DOOR && MODULES.contains(&module.text) {
-                    let what = format!("`std::{}` below the door", module.text);
+                if layer < IO && MODULES.contains(&module.text) {
+                    let what = format!("`std::{}` below I/O", module.text);
                     breaches.push(Breach { line: module.line, what });
                 }
-                if floor < STUDIES && module.text == "thread" {
+                if layer < STUDIES && module.text == "thread" {
                     let what = "threads below the studies".into();
                     breaches.push(Breach { line: module.line, what });
                 }
             }
-        } else if floor < STUDIES && token.text == "rayon" {
+        } else if layer < STUDIES && token.text == "rayon" {
             let what = "threads below the studies".into();
             breaches.push(Breach { line: token.line, what });
-        } else if floor < DOOR && is_macro && PRINTING.contains(&token.text) {
-            let what = format!("`{}!` below the door", token.text);
+        } else if layer < IO && is_macro && PRINTING.contains(&token.text) {
+            let what = format!("`{}!` below I/O", token.text);
             breaches.push(Breach { line: token.line, what });
         }
     }
@@ -398,7 +398,7 @@ fn an_upward_import_is_seen_however_it_is_written() {
 }
 
 #[test]
-fn imports_on_the_same_floor_and_downward_pass() {
+fn imports_on_the_same_layer_and_downward_pass() {
     for text in [
         "use crate::soil::Soil;\nuse super::patch::ContactPatch;",
         "use crate::{error::finite, soil};",
@@ -413,7 +413,7 @@ fn imports_on_the_same_floor_and_downward_pass() {
 }
 
 #[test]
-fn a_module_without_a_floor_is_seen() {
+fn a_module_without_a_layer_is_seen() {
     check_breaches("helpers.rs", "", &[1]);
     check_breaches("soil.rs", "use crate::helpers::f;", &[1]);
 }
