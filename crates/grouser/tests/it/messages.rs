@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::floors::{skipped, visit};
+use super::layers::{skipped, visit};
 
 /// The string literals of a source, without its tests.
 fn strings_of(text: &str) -> Vec<(usize, &str)> {
