@@ -167,3 +167,23 @@ def test_messages_name_no_flags_of_the_program() -> None:
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 flags = re.findall(r"(?<!-)--[a-z][a-z-]*", node.value)
                 assert not flags or id(node) in docstrings, f"{path.name}:{node.lineno}: {flags}"
+
+
+def test_series_with_other_indexes_are_refused() -> None:
+    pandas = pytest.importorskip("pandas")
+    loads = pandas.Series([17.0, 10.0], index=[1, 0])
+    slips = pandas.Series([0.1, 0.2], index=[0, 1])
+    with pytest.raises(gr.ParameterError, match="Series with different indexes"):
+        settle(load_n=loads, slip_ratio=slips)
+    same = settle(load_n=loads.sort_index(), slip_ratio=slips)
+    assert np.array_equal(same.sinkage_mm, settle(load_n=[10.0, 17.0], slip_ratio=[0.1, 0.2]).sinkage_mm)
+
+
+def test_a_masked_action_is_refused() -> None:
+    gymnasium = pytest.importorskip("gymnasium")
+    pytest.importorskip("grouser.gym")
+    environment = gymnasium.make("grouser/LevelTraverse-v0")
+    environment.reset(seed=1)
+    action = np.ma.masked_array([0.1, 0.2], [False, True])
+    with pytest.raises(gr.ParameterError, match="masked"):
+        environment.unwrapped.step(action)

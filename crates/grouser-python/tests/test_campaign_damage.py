@@ -21,7 +21,7 @@ def answers(folder: Path) -> tuple[Any, ...]:
     table = found.to_pandas()
     arrow = found.to_arrow()
     rows = [repr(found.row(run)) for run in range(len(found))]
-    return (found.summarise(), found.count(), repr(table.to_dict()), arrow, rows, found.campaign)
+    return (found.digest, found.summarise(), found.count(), repr(table.to_dict()), arrow, rows, found.campaign)
 
 
 def test_flipped_bits_are_refused_or_change_nothing(tmp_path: Path) -> None:
@@ -49,6 +49,16 @@ def test_flipped_bits_are_refused_or_change_nothing(tmp_path: Path) -> None:
     assert refused == 1000
     (tmp_path / ".lock").write_bytes(b"anything")
     assert answers(tmp_path) == before
+
+
+def test_the_digest_is_that_of_the_shards(tmp_path: Path) -> None:
+    gr.campaign.run(campaigns.wheel_study(), out=tmp_path)
+    file = tmp_path / "runs" / "part-000001.parquet"
+    damaged = bytearray(file.read_bytes())
+    damaged[len(damaged) // 2] ^= 1
+    file.write_bytes(damaged)
+    with pytest.raises(gr.CampaignError, match="part-000001.parquet"):
+        _ = gr.campaign.results(tmp_path).digest
 
 
 def test_exchanged_and_strange_shards_are_refused(tmp_path: Path) -> None:

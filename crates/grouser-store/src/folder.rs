@@ -1,6 +1,7 @@
 //! The folder that a campaign writes: one program at a time, one file for each shard.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use grouser::document::campaign::Table;
@@ -278,6 +279,12 @@ impl Folder {
 /// Takes the folder for this program alone, until it closes the folder or ends in any way.
 fn lock(path: &Path) -> Result<Option<File>, StoreError> {
     let place = path.join(LOCK);
+    // Opening a named pipe would wait for a reader.
+    if place.metadata().is_ok_and(|found| !found.is_file()) {
+        let problem =
+            io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file: remove it");
+        return Err(StoreError::at("write", &place)(problem));
+    }
     let file = OpenOptions::new().create(true).truncate(false).write(true).open(&place);
     let file = file.map_err(StoreError::at("write", &place))?;
     match file.try_lock() {

@@ -2,7 +2,8 @@
 
 use grouser::document::escape;
 use grouser::document::measurements::{
-    self, Choice, Layout, Limits, MeasurementError, MeasurementProblem, SlipDefinition, import,
+    self, Choice, Imported, Layout, Limits, MeasurementError, MeasurementProblem, SlipDefinition,
+    import,
 };
 use grouser::studies::measurement::Quantity;
 
@@ -27,7 +28,10 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     };
     let label = escape::path(&args.file);
     let bytes = measurements::read_bytes(&args.file, layout.limits)?;
-    let text = import(&label, bytes.as_slice(), &args.columns, &layout)?;
+    let Imported { text, left_out } = import(&label, bytes.as_slice(), &args.columns, &layout)?;
+    if !left_out.is_empty() {
+        output::tell(&format!("note: columns not taken: {}", left_out.join(", ")));
+    }
     check(&label, &text, layout.limits)?;
     match &args.out {
         Some(out) => file::write(out, text.as_bytes()),

@@ -23,6 +23,7 @@ pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
             "{out} is a link to {missing}, which does not exist: choose another name"
         )));
     }
+    check_ordinary(out)?;
     if out.exists() && !may_replace {
         let out = escape::path(out);
         return Err(Failure::Usage(format!(
@@ -32,10 +33,24 @@ pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// That what is to be replaced is a file: of a device or a pipe nothing would be left.
+pub(super) fn check_ordinary(out: &Path) -> Result<(), Failure> {
+    if out.metadata().is_ok_and(|found| !found.is_file()) {
+        let out = escape::path(out);
+        return Err(Failure::Usage(format!(
+            "{out} is a device or a pipe, which is not replaced: choose another name"
+        )));
+    }
+    Ok(())
+}
+
 /// Writes beside and renames, so that the file is whole or not there. It has the permissions of the
 /// file that it replaces, or those of any new file.
 pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
     let _not_now = interrupt::not_now();
+    // A link stays one, and leads to the new file.
+    let behind_link = out.is_symlink().then(|| out.canonicalize()).and_then(Result::ok);
+    let out = behind_link.as_deref().unwrap_or(out);
     let folder = match out.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

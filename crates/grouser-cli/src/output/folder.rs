@@ -180,6 +180,7 @@ fn move_entries(from: &Path, to: &Path) -> Result<(), Failure> {
         if target.is_dir() {
             move_entries(&entry.path(), &target)?;
         } else {
+            super::file::check_ordinary(&target)?;
             fs::rename(entry.path(), &target).map_err(Failure::at("cannot write", &target))?;
         }
     }

@@ -224,6 +224,47 @@ mod unix {
         assert!(endless.stderr.contains("is larger than 1048576 bytes"), "{}", endless.stderr);
     }
 
+    /// Renamed over, a pipe would be gone, and of a device the whole system would miss it.
+    #[test]
+    fn only_files_are_replaced() {
+        let place = Place::new();
+        place.write("a.csv", ROWS);
+        assert_eq!(place.shell("mkfifo pipe pipe.svg").code(), 0);
+        for line in [
+            "import a.csv --out pipe --force",
+            "card --out pipe.svg --force",
+            "import a.csv --out pipe",
+        ] {
+            let answer = place.line(line);
+            assert_eq!(answer.code(), 2, "{line}");
+            let said = &answer.stderr;
+            assert!(said.contains("is a device or a pipe, which is not replaced"), "{said}");
+        }
+        assert_eq!(place.shell("test -p pipe && test -p pipe.svg").code(), 0);
+    }
+
+    #[test]
+    fn a_link_stays_one_when_the_file_behind_it_is_replaced() {
+        let place = Place::new();
+        place.write("a.csv", ROWS);
+        place.write("old.csv", "old");
+        symlink("old.csv", place.file("link.csv")).expect("a link");
+        assert_eq!(place.line("import a.csv --out link.csv --force").code(), 0);
+        assert!(place.file("link.csv").is_symlink());
+        assert_eq!(place.read("old.csv"), ROWS);
+    }
+
+    #[test]
+    fn a_lock_that_is_a_pipe_is_refused() {
+        let place = Place::new();
+        let line = "campaign run campaign-wheel-test --set campaign.runs=4 --out runs";
+        assert_eq!(place.line(line).code(), 0);
+        assert_eq!(place.shell("rm runs/.lock && mkfifo runs/.lock").code(), 0);
+        let answer = place.line(line);
+        assert_eq!(answer.code(), 1, "{}", answer.stderr);
+        assert!(answer.stderr.contains("it is no regular file: remove it"), "{}", answer.stderr);
+    }
+
     #[test]
     fn a_link_to_nothing_is_called_one() {
         let place = Place::new();

@@ -151,8 +151,24 @@ def _listed(dims: tuple[str, ...]) -> str:
     return " × ".join(dims)
 
 
+def _refuse_other_index(inputs: Mapping[str, Any]) -> None:
+    """Whether all Series of pandas have the index of the first one."""
+    series = {name: it for name, it in inputs.items() if hasattr(it, "iloc") and hasattr(it, "index")}
+    for name, other in series.items():
+        first_name, first = next(iter(series.items()))
+        if not first.index.equals(other.index):
+            raise ParameterError(
+                f"{first_name} and {name} are Series with different indexes: entries are matched by "
+                "their order. Give what pandas' align makes of them, or their .to_numpy()",
+                name,
+                None,
+                "Series with the same index",
+            )
+
+
 def _refuse_other_labels(inputs: Mapping[str, Any]) -> None:
-    """Whether all DataArrays have the dimensions and coordinates of the first one."""
+    """That labels agree: of DataArrays dimensions and coordinates, of Series the index."""
+    _refuse_other_index(inputs)
     labelled = {name: it for name, it in inputs.items() if _dims(it)}
     if not labelled:
         return

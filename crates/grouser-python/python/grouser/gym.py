@@ -264,7 +264,7 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """Holds an action for ``dt_s``."""
         all_of_one = np.ones(1, dtype=np.bool_)
-        rewards, ended = self._traverses.step(np.asarray(action)[None], all_of_one)
+        rewards, ended = self._traverses.step(np.asanyarray(action)[None], all_of_one)
         observation = self._traverses.observations()[0]
         return observation, float(rewards[0]), bool(ended[0]), False, self._traverses.info(0)
 

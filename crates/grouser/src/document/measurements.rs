@@ -30,7 +30,7 @@ use std::path::Path;
 pub use columns::{Column, Meaning};
 pub use condition::Condition;
 pub use error::{MeasurementError, MeasurementProblem};
-pub use import::{Layout, Mapping, SlipDefinition, import};
+pub use import::{Imported, Layout, Mapping, SlipDefinition, import};
 pub use limits::{Excess, Limits};
 pub use source::Source;
 

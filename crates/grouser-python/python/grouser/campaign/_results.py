@@ -62,10 +62,19 @@ class Results:
         """The folder, or the URL."""
         return self._files.location
 
-    @property
+    @functools.cached_property
     def digest(self) -> str | None:
         """SHA-256 over the bytes of all shards in their order, written down when the last was there;
-        None before. It is the same whoever computed them."""
+        None before. It is the same whoever computed them. The first look reads all shards and checks
+        them."""
+        if self._recorded is not None:
+            for _ in self._shards():
+                pass
+        return self._recorded
+
+    @property
+    def _recorded(self) -> str | None:
+        """The digest as the manifest has it."""
         digest: str | None = self._manifest["digest"]
         return digest
 
@@ -142,7 +151,7 @@ class Results:
             data = self._bytes(shard)
             digest.update(data)
             yield shard, data
-        recorded, found = self.digest, digest.hexdigest()
+        recorded, found = self._recorded, digest.hexdigest()
         if self.is_finished and recorded not in (None, found):
             raise CampaignError(
                 f"{self.location}: its digest was {recorded}, now it is {found}: some shard was computed anew "

@@ -204,7 +204,7 @@ pub fn import(
     source: impl Read,
     mappings: &[Mapping],
     layout: &Layout,
-) -> Result<String, MeasurementError> {
+) -> Result<Imported, MeasurementError> {
     let mut bytes = Vec::new();
     LineEnds::of(source, layout.limits)
         .read_to_end(&mut bytes)
@@ -215,7 +215,11 @@ pub fn import(
         skipped += rest.iter().position(|byte| *byte == b'\n').map_or(rest.len(), |end| end + 1);
     }
     let mut table = Table::new(label, &bytes[skipped..], layout.delimiter, layout.limits);
-    let plan = plan(label, &table.header()?, mappings)?;
+    let header = table.header()?;
+    let plan = plan(label, &header, mappings)?;
+    let is_left_out = |place: &usize| plan.iter().all(|(_, taken)| taken != place);
+    let left_out = (0..header.len()).filter(is_left_out).map(|place| name_of(&header[place]));
+    let left_out = left_out.filter(|name| !name.is_empty()).collect();
     // Writing to memory does not fail.
     let failed = |error: csv::Error| MeasurementError::csv(label, &error, 1);
     let mut writer = Writer::from_writer(Vec::new());
@@ -235,7 +239,16 @@ pub fn import(
     }
     let bytes =
         writer.into_inner().map_err(|error| MeasurementError::io(label, error.error(), 1))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    Ok(Imported { text: String::from_utf8_lossy(&bytes).into_owned(), left_out })
+}
+
+/// A table in our columns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Imported {
+    /// The table, as CSV.
+    pub text: String,
+    /// The names of the columns that were not taken.
+    pub left_out: Vec<String>,
 }
 
 /// Our columns, each with the place of theirs.
@@ -314,7 +327,7 @@ mod tests {
     fn imported(text: &str, mappings: &[&str], layout: &Layout) -> String {
         let mappings: Vec<Mapping> =
             mappings.iter().map(|text| Mapping::parse(text).unwrap()).collect();
-        import("theirs.csv", text.as_bytes(), &mappings, layout).unwrap()
+        import("theirs.csv", text.as_bytes(), &mappings, layout).unwrap().text
     }
 
     #[test]
@@ -374,6 +387,18 @@ mod tests {
             assert!(error.contains(part), "{error}");
         }
         let mapping = Mapping::parse("load_n=Fz").unwrap();
+        let mappings = [Mapping::parse("load_n=W").unwrap()];
+        let some = import(
+            "a.csv",
+            &b"W,Load,sinkage_mm,note\n1,2,3,x\n"[..],
+            &mappings,
+            &Layout::default(),
+        );
+        let Imported { text, left_out } = some.unwrap();
+        assert_eq!(
+            (text.as_str(), left_out.join(" ")),
+            ("load_n,sinkage_mm\n1,3\n", "Load note".into())
+        );
         let error = import("a.csv", &b"Fx,W\n1,2\n"[..], &[mapping], &Layout::default());
         assert!(error.unwrap_err().to_string().contains("its columns are Fx, W"));
     }

@@ -37,7 +37,9 @@ impl Source {
             return Ok(source);
         }
         match text {
-            Some(word) if is_plain_word(word) && !name.exists() => Err(no_such(word)),
+            Some(word) if is_plain_word(word) && name.symlink_metadata().is_err() => {
+                Err(no_such(word))
+            }
             _ => Ok(Self::File(name.to_owned())),
         }
     }
