@@ -68,8 +68,8 @@ class Results:
         None before. It is the same whoever computed them. The first look reads all shards and checks
         them."""
         if self._recorded is not None:
-            for _ in self._shards():
-                pass
+            for shard, data in self._shards():
+                self._read(shard, data, [])
         return self._recorded
 
     @property
