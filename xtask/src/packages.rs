@@ -101,6 +101,13 @@ fn builds(python: &Path, archive: &Path) -> bool {
     let mut build = Command::new(python);
     build.args(["-m", "pip", "wheel", "--quiet", "--no-deps", "--no-build-isolation"]);
     build.arg("--wheel-dir").arg(folder).arg(archive);
+    // Without an environment of its own, the build finds maturin as a shell would.
+    let programs = python.parent().map(Path::to_path_buf);
+    let others = std::env::var_os("PATH").unwrap_or_default();
+    let all = programs.into_iter().chain(std::env::split_paths(&others));
+    if let Ok(path) = std::env::join_paths(all) {
+        build.env("PATH", path);
+    }
     python::done(&mut build, "no wheel can be built from the sources").is_ok()
 }
 
