@@ -1,6 +1,6 @@
 //! What the checks need besides the toolchain, and where it comes from.
 //!
-//! The machine belongs to whoever runs the checks: packages of the system are installed only where the
+//! The machine belongs to the person who runs the checks: packages of the system are installed only where the
 //! environment variable `CI` says that it is a machine of continuous integration. Elsewhere a check that
 //! needs one says so and is counted as skipped.
 

@@ -14,7 +14,7 @@ use serde_json::Value;
 use crate::program::{Answer, Place, keys, number};
 
 /// 60 wheels in 8 shards.
-const WHEELS: &str = r#"
+pub(crate) const WHEELS: &str = r#"
 schema = "campaign/1"
 name = "A wheel on sand that is known roughly"
 study = "wheel-test"

@@ -8,28 +8,17 @@ use std::time::Duration;
 
 use insta::assert_snapshot;
 
+use crate::campaign::WHEELS;
 use crate::program::{Place, number};
 
-const WHEELS: &str = r#"
-schema = "campaign/1"
-name = "A wheel on sand that is known roughly"
-study = "wheel-test"
-runs = 12
-shard_runs = 4
-[wheel_test]
-soil = "toyoura"
-wheel = "hakuto"
-load_n = 17.0
-slip_ratio = 0.2
-[[parameter]]
-key = "soil.friction_angle_deg"
-distribution = "normal"
-standard_deviation = 2.0
-"#;
+/// 12 wheels in 3 shards.
+fn wheels() -> String {
+    WHEELS.replace("runs = 60\nshard_runs = 8\n", "runs = 12\nshard_runs = 4\n")
+}
 
 fn finished() -> Place {
     let place = Place::new();
-    place.write("study.toml", WHEELS);
+    place.write("study.toml", wheels());
     place.results("campaign run study.toml --out out");
     place
 }
@@ -118,7 +107,7 @@ fn what_is_damaged_is_said_and_mended() {
 #[test]
 fn a_campaign_of_a_million_million_runs_starts_at_once() {
     let place = Place::new();
-    place.write("study.toml", WHEELS.replace("runs = 12\n", "runs = 1_000_000_000_000\n"));
+    place.write("study.toml", wheels().replace("runs = 12\n", "runs = 1_000_000_000_000\n"));
     for part in ["1/1000", "1/1"] {
         let name = part.replace('/', "-");
         let child = place

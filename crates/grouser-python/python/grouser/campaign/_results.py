@@ -48,6 +48,8 @@ class Results:
         there = (self._checked.shard_of(name) for name in files.names(RUNS))
         self._there = sorted(shard for shard in there if shard is not None)
         self._missing = self._checked.shards() - len(self._there)
+        # Whether the shards' digest was compared with the manifest's.
+        self._compared = False
 
     @functools.cached_property
     def campaign(self) -> Campaign:
@@ -62,12 +64,12 @@ class Results:
         """The folder, or the URL."""
         return self._files.location
 
-    @functools.cached_property
+    @property
     def digest(self) -> str | None:
         """SHA-256 over the bytes of all shards in their order, written down when the last was there;
-        None before. It is the same whoever computed them. The first look reads all shards and checks
-        them."""
-        if self._recorded is not None:
+        None before. It is the same on every machine that computes them. Unless all shards were read
+        already, the first look reads and checks them."""
+        if self._recorded is not None and not self._compared:
             for shard, data in self._shards():
                 self._read(shard, data, [])
         return self._recorded
@@ -157,6 +159,7 @@ class Results:
                 f"{self.location}: its digest was {recorded}, now it is {found}: some shard was computed anew "
                 "with other numbers; run the campaign in a new folder"
             )
+        self._compared = self.is_finished
 
     def _bytes(self, shard: int) -> bytes:
         return need(self._files, f"{RUNS}/{file_name(shard)}", self._checked.most_bytes(shard))
