@@ -1,0 +1,96 @@
+//! What can be asked of an operator's card.
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
+
+use super::measurements::ReadArgs;
+use super::{BalanceArgs, SettingArgs};
+use crate::list::{self, Numbers};
+use crate::output::Format;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A soil with an [uncertainty] is drawn N times, and every number has a 95 % \
+                        band; on any other soil there is no band, and slopes are judged with a \
+                        margin. docs/guide/card.md shows a card and tells how to read it."
+)]
+pub(crate) struct CardArgs {
+    /// A scenario's file or preset, for its rover, soil, gravity, balance and rim speed; without
+    /// it the default scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: Option<String>,
+    /// The side of the rover that is uphill. On a rover that is its own mirror image it does not
+    /// matter.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) uphill: SideWord,
+    /// Rim speed [m/s], for the power; without it the scenario's.
+    #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) speed_m_s: Option<Numbers>,
+    /// Number of drawn soils, 2 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 500)]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub(crate) samples: u32,
+    /// Seed of the draws: the same seed, the same soils.
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) rule: RuleArgs,
+    /// Compare with measured yaws (CSV): a column `slope_deg`, and others that end in `yaw_deg`. The
+    /// table is then the comparison, and the card shows them as crosses.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) measured: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+    /// Write the card: a file that ends in .html, .pdf, .png or .svg, or a folder for all of them
+    /// with the numbers and the resolved documents.
+    #[arg(long, value_name = "FILE|DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace that file, or files of the same names in that folder.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// When to go and when not to.
+#[derive(Debug, Args)]
+pub(crate) struct RuleArgs {
+    /// Go: a level traverse slips at most this much ...
+    #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.3", allow_hyphen_values = true)]
+    pub(crate) go_slip_ratio: Numbers,
+    /// ... on at least this share of the drawn soils.
+    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.95", allow_hyphen_values = true)]
+    pub(crate) go_probability: Numbers,
+    /// No-go: a level traverse slips at most this much ...
+    #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.6", allow_hyphen_values = true)]
+    pub(crate) no_go_slip_ratio: Numbers,
+    /// ... on less than this share of the drawn soils.
+    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true)]
+    pub(crate) no_go_probability: Numbers,
+    /// On a soil without stated uncertainty a slope is judged as if it were steeper by this [°].
+    #[arg(long, value_name = "DEG", value_parser = list::parse, default_value = "5", allow_hyphen_values = true)]
+    pub(crate) margin_deg: Numbers,
+}
+
+/// A side of the rover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SideWord {
+    /// Uphill is on the left.
+    #[default]
+    Left,
+    /// Uphill is on the right.
+    Right,
+}

@@ -1,0 +1,68 @@
+//! What can be asked of documents.
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
+use clap_complete::Shell;
+use grouser::document::Kind;
+
+use crate::output::Format;
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// Documents to check.
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PresetsArgs {
+    /// The preset to print as TOML; where kinds share its name, --kind says which.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) name: Option<String>,
+    /// Only presets of this kind.
+    #[arg(long, value_enum)]
+    pub(crate) kind: Option<KindWord>,
+    /// Form of the list.
+    #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// The kind of document; without it, the names of all kinds.
+    #[arg(value_enum)]
+    pub(crate) kind: Option<KindWord>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// The shell.
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+/// A kind of document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KindWord {
+    Soil,
+    Wheel,
+    Rover,
+    Scenario,
+    DataSet,
+    Campaign,
+}
+
+impl From<KindWord> for Kind {
+    fn from(word: KindWord) -> Self {
+        match word {
+            KindWord::Soil => Self::Soil,
+            KindWord::Wheel => Self::Wheel,
+            KindWord::Rover => Self::Rover,
+            KindWord::Scenario => Self::Scenario,
+            KindWord::DataSet => Self::DataSet,
+            KindWord::Campaign => Self::Campaign,
+        }
+    }
+}

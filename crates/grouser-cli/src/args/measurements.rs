@@ -1,0 +1,212 @@
+//! What can be asked of measured tests: comparing, calibrating, importing.
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
+use grouser::document::FitKey;
+use grouser::document::calibration::STEPS;
+use grouser::document::measurements::{Condition, Limits, Mapping};
+
+use super::{OutputArgs, SettingArgs};
+use crate::list::{self, Numbers};
+
+/// How much of a file of measurements is read.
+#[derive(Debug, Args)]
+pub(crate) struct ReadArgs {
+    /// The most rows that are read of a file of measurements, and 256 bytes for each.
+    #[arg(long, value_name = "N", default_value_t = Limits::ROWS)]
+    pub(crate) max_rows: usize,
+}
+
+impl ReadArgs {
+    pub(crate) fn limits(&self) -> Limits {
+        Limits { rows: self.max_rows }
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+                      grouser validate --all [--data-dir DIR] [OPTIONS]",
+    after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
+                  other; every cell weighs the same. docs/guide/data.md tells the columns of FILE.csv, \
+                  docs/validation.md what the numbers mean."
+)]
+pub(crate) struct ValidateArgs {
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
+    #[arg(
+        long,
+        value_name = "NAME|FILE.csv",
+        required_unless_present = "all",
+        requires = "wheel",
+        requires = "soil"
+    )]
+    pub(crate) data: Option<PathBuf>,
+    /// The wheel that was tested: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) wheel: Option<String>,
+    /// The soil to judge: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) soil: Option<String>,
+    /// Only rows where a column has one of some values, or none of them:
+    /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
+    #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
+    pub(crate) conditions: Vec<Condition>,
+    /// Rank every theory, with its own soils, on every data set that comes with the program.
+    #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
+    pub(crate) all: bool,
+    /// Rank on the data sets of a folder instead (docs/guide/data.md tells how a document describes one).
+    #[arg(long, value_name = "DIR", requires = "all")]
+    pub(crate) data_dir: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  grouser calibrate --data tests.csv --wheel hakuto --soil toyoura \\\n    \
+                        --fit soil.pressure_sinkage.k_phi,soil.shear.longitudinal_m=0.001:0.1 --out fit\n  \
+                        grouser calibrate --plates plates.csv --plate-law bekker --soil dry-sand --out fit\n\
+                        The same command goes on with a run that was interrupted."
+)]
+pub(crate) struct CalibrateArgs {
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
+    /// (docs/guide/data.md tells its columns).
+    #[arg(
+        long,
+        value_name = "NAME|FILE.csv",
+        required_unless_present = "plates",
+        requires = "wheel",
+        requires = "fit"
+    )]
+    pub(crate) data: Option<PathBuf>,
+    /// The wheel that was tested: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    pub(crate) wheel: Option<String>,
+    /// The soil to start from, for all values that are not fitted: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: String,
+    /// Keys to fit, separated by commas, each with bounds if you like: `soil.stress_peak.a0=0.2:0.8`.
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = FitKey::parse, requires = "data")]
+    pub(crate) fit: Vec<FitKey>,
+    /// Only rows where a column has one of some values, or none of them; can be repeated.
+    #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
+    pub(crate) conditions: Vec<Condition>,
+    /// A file of plate-sinkage curves instead: `plate_width_mm`, `sinkage_mm`, `pressure_kpa`.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "data")]
+    pub(crate) plates: Option<PathBuf>,
+    /// The law of the plates; without it the soil's own.
+    #[arg(long, value_enum, requires = "plates")]
+    pub(crate) plate_law: Option<PlateLawWord>,
+    /// Seed of all random numbers.
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Steps of each walker of the posterior.
+    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(STEPS))]
+    pub(crate) steps: u64,
+    /// Only least squares, no posterior.
+    #[arg(long)]
+    pub(crate) point_fit: bool,
+    /// Also fit without each slip angle in turn, and judge there.
+    #[arg(long, requires = "data")]
+    pub(crate) cross_validate: bool,
+    /// The prediction that the next runs should make sure of, such as
+    /// `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
+    #[arg(
+        long,
+        value_name = "QUANTITY[:SETTINGS]",
+        default_value = "drawbar_pull_n:slip_ratio=0.2"
+    )]
+    pub(crate) target: String,
+    /// How many runs to propose.
+    #[arg(long, value_name = "N", default_value_t = 3)]
+    pub(crate) propose: usize,
+    /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, requires = "data", allow_hyphen_values = true)]
+    pub(crate) candidate_load_n: Option<Numbers>,
+    /// Slip ratios that the stand can run.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-0.6:0.9:0.3", allow_hyphen_values = true)]
+    pub(crate) candidate_slip_ratio: Numbers,
+    /// Slip angles that the stand can run [°].
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0,15,30,45", allow_hyphen_values = true)]
+    pub(crate) candidate_slip_angle_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// A pressure-sinkage law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PlateLawWord {
+    /// p = (k_c/b + k_phi) z^n.
+    Bekker,
+    /// p = (c k_c + density g b k_phi) (z/b)^n.
+    Reece,
+}
+
+impl PlateLawWord {
+    /// The word in documents.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Bekker => "bekker",
+            Self::Reece => "reece",
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  grouser import lab.csv --column 'drawbar_pull_n=Fx [kN]:kN' \\\n    \
+                        --column 'slip_ratio=slip:%' --column load_n=W --out ours.csv\n\
+                        Columns that have our names already are taken along."
+)]
+pub(crate) struct ImportArgs {
+    /// The file (CSV).
+    #[arg(value_name = "FILE.csv")]
+    pub(crate) file: PathBuf,
+    /// A column of ours from one of theirs, with its unit; a minus turns the sign. Can be
+    /// repeated.
+    #[arg(long = "column", value_name = "OURS=[-]THEIRS[:UNIT]", value_parser = Mapping::parse)]
+    pub(crate) columns: Vec<Mapping>,
+    /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) slip_definition: SlipWord,
+    /// What stands between two fields: a character, or `tab`.
+    #[arg(long, value_name = "CHAR", default_value = ",")]
+    pub(crate) delimiter: String,
+    /// Decimals are written with a comma.
+    #[arg(long)]
+    pub(crate) decimal_comma: bool,
+    /// Lines before the header.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) skip_lines: usize,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    /// Write to a file instead of the standard output.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace that file.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}
+
+/// A definition of the slip ratio.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SlipWord {
+    /// (wr - v)/max(wr, v): Grouser's.
+    #[default]
+    Larger,
+    /// 1 - v/wr, in braking too.
+    Rim,
+    /// wr/v - 1, in driving too.
+    Hub,
+}

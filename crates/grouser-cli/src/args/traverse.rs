@@ -1,0 +1,49 @@
+//! What a traverse can be asked.
+
+use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
+
+use super::{BalanceArgs, OutputArgs, SettingArgs};
+
+#[derive(Debug, Args)]
+pub(crate) struct TraverseArgs {
+    /// A scenario's file or preset; without it the default scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: Option<String>,
+    /// Inclination of the slope [°].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Option<String>,
+    /// Yaw at the start [°], positive uphill.
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) yaw_deg: Option<String>,
+    /// Length of the run [s].
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) duration_s: Option<String>,
+    /// Rim speed [m/s], or one for each wheel: `-0.06,-0.06,0.06,0.06`.
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) speed_m_s: Option<String>,
+    /// What turns the wheels: `constant`, `eq18-as-printed` or `eq18`.
+    #[arg(long, value_name = "LAW")]
+    pub(crate) drive: Option<String>,
+    /// Reference slip ratio of the Eq. 18 drives.
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) reference_slip_ratio: Option<String>,
+    /// Motion at the start: `rolling` or `rest`.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) start: Option<String>,
+    /// `dynamic`, or `quasi-steady`: velocities in balance at every instant, many times faster.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) simulation: Option<String>,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}

@@ -1,0 +1,71 @@
+//! What a wheel test can be asked.
+
+use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
+
+use super::{OutputArgs, SettingArgs};
+use crate::list::{self, Numbers};
+
+#[derive(Debug, Args)]
+pub(crate) struct WheelTestArgs {
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), default_value = "toyoura")]
+    pub(crate) soil: String,
+    /// The wheel: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), default_value = "hakuto")]
+    pub(crate) wheel: String,
+    /// Loads on the wheel [N]: a list (5,10) or a range (0:20:5).
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "17", allow_hyphen_values = true)]
+    pub(crate) load_n: Numbers,
+    /// Slip ratios, -2 to 2: driving above 0, skid down to -1 (locked); beyond ±1 rim and hub
+    /// oppose each other.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0:0.9:0.1", allow_hyphen_values = true)]
+    pub(crate) slip_ratio: Numbers,
+    /// Slip angles [°], -90 to 90, positive where the hub moves to the left.
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0", allow_hyphen_values = true)]
+    pub(crate) slip_angle_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) stand: StandArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// A test stand that does not read exactly.
+#[derive(Debug, Args)]
+pub(crate) struct StandArgs {
+    /// Simulate a test stand: run each setting N times, with noise on what the stand reads.
+    #[arg(long, value_name = "N")]
+    pub(crate) trials: Option<usize>,
+    /// Standard deviation of the simulated forces [N].
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 0.3,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_n: f64,
+    /// Standard deviation of the simulated sinkage [mm].
+    #[arg(
+        long,
+        value_name = "MM",
+        default_value_t = 0.5,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_mm: f64,
+    /// Standard deviation of the simulated torque [N·m].
+    #[arg(
+        long,
+        value_name = "NM",
+        default_value_t = 0.02,
+        requires = "trials",
+        allow_negative_numbers = true
+    )]
+    pub(crate) noise_nm: f64,
+    /// What the noise is drawn from: the same seed makes the same test.
+    #[arg(long, default_value_t = 1, requires = "trials")]
+    pub(crate) seed: u64,
+}
