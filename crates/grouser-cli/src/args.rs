@@ -20,13 +20,13 @@ pub(crate) use campaign::{
 };
 pub(crate) use card::{CardArgs, SideWord};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
-pub(crate) use heading::{AttitudeArgs, AttitudeMapArgs};
+pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{CalibrateArgs, ImportArgs, PlateLawWord, SlipWord, ValidateArgs};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 
-/// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the yaw that keeps a
-/// traverse level on a slope, energy.
+/// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the heading that holds
+/// the contour of a slope, energy.
 #[derive(Debug, Parser)]
 #[command(name = "grouser", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "Start with `grouser reproduce`: the source paper's study, as a page to \
@@ -41,23 +41,29 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Run the source paper's study and write its report.
     Reproduce(ReproduceArgs),
-    /// Drive a rover across a slope and say where it ends up.
+    /// Drive a rover across a slope and report where it ends up.
     Traverse(TraverseArgs),
     /// Forces, torque and sinkage of one wheel over load, slip ratio and slip angle.
     WheelTest(WheelTestArgs),
-    /// The yaw that keeps a traverse level on a slope, and the steepest slope that has one.
-    Attitude(AttitudeArgs),
-    /// The yaw that keeps a course on a slope, over slope, course and soil.
-    AttitudeMap(AttitudeMapArgs),
+    /// The heading offset that holds the contour line on a slope, and the steepest slope on which one does.
+    Heading(HeadingArgs),
+    /// The heading offset that holds a course on a slope, over slope, course and soil.
+    HeadingMap(HeadingMapArgs),
+    /// `heading`, by the name of earlier versions: the word of the source paper.
+    #[command(hide = true)]
+    Attitude(HeadingArgs),
+    /// `heading-map`, by the name of earlier versions.
+    #[command(hide = true)]
+    AttitudeMap(HeadingMapArgs),
     /// The operator's card: heading, slip, drift, power and go or no-go for each slope, on one page.
     Card(CardArgs),
-    /// Compare a theory with measured wheel tests, or rank all theories.
+    /// Compare a wheel-soil model with measured wheel tests, or rank all models.
     Validate(ValidateArgs),
-    /// Find the soil that measured wheel tests, or plate tests, speak for, and how surely.
+    /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.
     Calibrate(CalibrateArgs),
-    /// Many runs over what is not known exactly, and what they say together.
+    /// Monte Carlo campaigns: sample uncertain inputs, run, summarise.
     Campaign(CampaignArgs),
-    /// Turn another laboratory's CSV into the layout that `validate` reads.
+    /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.
     Bench(BenchArgs),
@@ -101,7 +107,8 @@ pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// The theory: `ishigami`, `bekker`, `extended` or `rft`; without it the soil's own, or else `ishigami`.
+    /// The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`; without it the soil's own,
+    /// or else `ishigami`.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
@@ -112,15 +119,15 @@ pub(crate) struct SettingArgs {
 /// How the weight acts on the wheels.
 #[derive(Debug, Args)]
 pub(crate) struct BalanceArgs {
-    /// Sharing of the weight: `quasi-static`, `quasi-static-torque` or `uniform`.
-    #[arg(long, value_name = "LAW")]
-    pub(crate) loads: Option<String>,
-    /// The wheels' own moments: `neglected` or `included`.
-    #[arg(long, value_name = "WORD")]
-    pub(crate) moments: Option<String>,
+    /// Load transfer between the wheels: `quasi-static`, `quasi-static-torque` or `uniform`.
+    #[arg(long, alias = "loads", value_name = "LAW")]
+    pub(crate) load_transfer: Option<String>,
+    /// The wheels' own overturning and aligning moments: `neglected` or `included`.
+    #[arg(long, alias = "moments", value_name = "WORD")]
+    pub(crate) wheel_moments: Option<String>,
 }
 
-/// How results are printed that are no rows.
+/// Form of results that are not rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TableOrJson {
     /// For reading.
@@ -141,7 +148,7 @@ pub(crate) struct BenchArgs {
 }
 
 fn bench_seconds(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is no number"))?;
+    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
     let range = 0.1..=600.0;
     range.contains(&seconds).then_some(seconds).ok_or_else(|| "it must be 0.1 to 600".to_owned())
 }

@@ -20,7 +20,7 @@ const WORDS: [(&str, &str); 13] = [
         "a preset is a document to start from",
         "`grouser presets NAME` prints a document to start from",
     ),
-    ("another speed or a rolling start", "another --speed-m-s or a rolling start"),
+    ("another speed or a rolling start", "another --rim-speed-m-s or a rolling start"),
 ];
 
 /// A message of the library with the flags of the program.

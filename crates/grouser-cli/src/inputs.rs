@@ -10,7 +10,7 @@ use grouser::document::{
 use grouser::studies::card::Rule;
 
 use crate::args::{
-    AttitudeArgs, AttitudeMapArgs, BalanceArgs, CardArgs, SettingArgs, StandArgs, TraverseArgs,
+    BalanceArgs, CardArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs, TraverseArgs,
     WheelTestArgs,
 };
 use crate::failure::Failure;
@@ -72,38 +72,46 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
             overrides.flag(flag, key, value)?;
         }
     }
-    if let Some(speeds) = &args.speed_m_s {
-        let Numbers(numbers) = list::parse(speeds)
-            .map_err(|problem| Failure::Usage(format!("--speed-m-s {speeds}: {problem}")))?;
-        overrides.flag_numbers("--speed-m-s", "scenario.drive.speed_m_s", speeds, &numbers)?;
+    let speeds = [
+        ("--rim-speed-m-s", "scenario.drive.rim_speed_m_s", &args.rim_speed_m_s),
+        ("--ground-speed-m-s", "scenario.drive.ground_speed_m_s", &args.ground_speed_m_s),
+        // The former key of both, each under its law.
+        ("--speed-m-s", "scenario.drive.speed_m_s", &args.speed_m_s),
+    ];
+    for (flag, key, value) in speeds {
+        if let Some(value) = value {
+            let Numbers(numbers) = list::parse(value)
+                .map_err(|problem| Failure::Usage(format!("{flag} {value}: {problem}")))?;
+            overrides.flag_numbers(flag, key, value, &numbers)?;
+        }
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
 /// The scenario whose rover, soil and balance an attitude study takes; its slope is not used.
-pub(crate) fn attitude(args: &AttitudeArgs) -> Result<LoadedScenario, Failure> {
+pub(crate) fn attitude(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
     let scenario = args.scenario.as_deref();
     let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
-    balanced("attitude", scenario, rover, soil, &args.setting, &args.balance)
+    balanced("heading", scenario, rover, soil, &args.setting, &args.balance)
 }
 
 /// The scenarios of an attitude map, one for each soil.
-pub(crate) fn attitude_map(args: &AttitudeMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
+pub(crate) fn attitude_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;
     check_numbers("--course-deg", &args.course_deg, &study::COURSE_DEG)?;
-    let [_] = args.speed_m_s.0[..] else {
-        return Err(Failure::Usage("--speed-m-s: one speed, please, for all rows".into()));
+    let [_] = args.rim_speed_m_s.0[..] else {
+        return Err(Failure::Usage("--rim-speed-m-s: expected a single value".into()));
     };
-    check_numbers("--speed-m-s", &args.speed_m_s, &study::MAP_SPEED_M_S)?;
+    check_numbers("--rim-speed-m-s", &args.rim_speed_m_s, &study::MAP_SPEED_M_S)?;
     let soils: Vec<Option<&String>> =
         if args.soil.is_empty() { vec![None] } else { args.soil.iter().map(Some).collect() };
     check_rows((soils.len() * args.slope_deg.0.len() * args.course_deg.0.len()) as f64)?;
     let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
     let read = |soil: Option<&String>| {
-        balanced("attitude-map", scenario, rover, soil, &args.setting, &args.balance)
+        balanced("heading-map", scenario, rover, soil, &args.setting, &args.balance)
     };
     soils.into_iter().map(read).collect()
 }
@@ -127,7 +135,7 @@ fn balanced(
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        "slopes are given by --slope-deg; a level attitude has no drive, start or duration",
+        "slopes are given by --slope-deg; a heading offset has no drive, start or duration",
     )?;
     scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in
@@ -142,7 +150,7 @@ fn balanced(
 
 /// The soils that an attitude study's soil may be.
 pub(crate) fn uncertain_soil<'s>(
-    args: &AttitudeArgs,
+    args: &HeadingArgs,
     scenario: &'s LoadedScenario,
 ) -> Result<&'s UncertainSoil, Failure> {
     check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
@@ -194,8 +202,8 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     if let Some(uncertain) = &scenario.uncertain {
         refuse_sampled_keys(setting, uncertain)?;
     }
-    let rim_speed = match &args.speed_m_s {
-        Some(speed) => single("--speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
+    let rim_speed = match &args.rim_speed_m_s {
+        Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
         None => scenario.value.drive.nominal_rim_speed(),
     };
     Ok(CardInputs { scenario, rim_speed, rule })
@@ -204,7 +212,7 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
 /// The one number of a flag.
 fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<f64, Failure> {
     let [number] = numbers.0[..] else {
-        return Err(Failure::Usage(format!("{flag}: one number, please")));
+        return Err(Failure::Usage(format!("{flag}: expected a single value")));
     };
     check_numbers(flag, numbers, range)?;
     Ok(number)
@@ -239,7 +247,11 @@ pub(crate) fn soil(
     overrides.check_kinds(&[Kind::Soil])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
     let mut scenario = Overrides::none();
-    scenario_settings(&mut scenario, setting, &BalanceArgs { loads: None, moments: None })?;
+    scenario_settings(
+        &mut scenario,
+        setting,
+        &BalanceArgs { load_transfer: None, wheel_moments: None },
+    )?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
     Ok((soil, run.site.gravity))
 }
@@ -266,7 +278,11 @@ pub(crate) fn stand(
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
     // Gravity and theory are keys of scenarios: read them as such, to check them as such.
     let mut scenario = Overrides::none();
-    scenario_settings(&mut scenario, setting, &BalanceArgs { loads: None, moments: None })?;
+    scenario_settings(
+        &mut scenario,
+        setting,
+        &BalanceArgs { load_transfer: None, wheel_moments: None },
+    )?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
     let theory = match &setting.model {
         Some(_) => run.theory,
@@ -282,8 +298,8 @@ fn scenario_settings(
 ) -> Result<(), Failure> {
     let words = [
         ("--model", "scenario.model", &setting.model),
-        ("--loads", "scenario.loads", &balance.loads),
-        ("--moments", "scenario.moments", &balance.moments),
+        ("--load-transfer", "scenario.load_transfer", &balance.load_transfer),
+        ("--wheel-moments", "scenario.wheel_moments", &balance.wheel_moments),
     ];
     for (flag, key, value) in words {
         if let Some(value) = value {

@@ -82,6 +82,7 @@ use crate::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY};
 use crate::vehicle::Rover;
 use crate::wheel::Wheel;
 use describe::scenario::FASTEST;
+use field::Names;
 use text::{Entry, Node, Origin, Value};
 use values::Described;
 
@@ -334,7 +335,10 @@ fn complete(
     overrides: &Overrides,
     prefix: &str,
 ) -> Result<(), DocumentError> {
+    describe::rows(kind).rename(tree, Names::Today);
     overrides.apply(kind, tree)?;
+    // What was set may be a keyword, or a table, of an earlier version.
+    describe::rows(kind).rename(tree, Names::Today);
     for part in kind.parts() {
         let path = part.path.join(".");
         let prefix = if prefix.is_empty() { path } else { format!("{prefix}.{path}") };

@@ -20,13 +20,13 @@ pub(crate) enum CampaignCommand {
     Run(CampaignRunArgs),
     /// Compute one run again, and compare it with what is stored.
     Rerun(CampaignRerunArgs),
-    /// Bring the parts of an array of jobs together.
+    /// Merge the parts of an array of jobs.
     Merge(CampaignMergeArgs),
-    /// What the runs say together: quantiles, probabilities, convergence, sensitivities.
+    /// Statistics of all runs: quantiles, probabilities, convergence, sensitivities.
     Summarise(CampaignSummariseArgs),
     /// The SHA-256 over all results.
     Digest(CampaignDigestArgs),
-    /// Measure what studies cost: runs per core and second, bytes per run, and what that means for many.
+    /// Measure what studies cost: runs per core and second, bytes per run, and the cost of many runs.
     Cost(CampaignCostArgs),
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct CampaignRunArgs {
     /// Threads, or worker processes; without it as many as there are cores.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub(crate) threads: Option<u16>,
-    /// Only part I of N of an array of jobs, counted from 1; `campaign merge` brings parts together.
+    /// Only part I of N of an array of jobs, counted from 1; `campaign merge` merges them.
     #[arg(long, value_name = "I/N", value_parser = parse_part)]
     pub(crate) shard: Option<Part>,
     /// What computes: threads of this program, or the Python package with its processes, Dask or Ray.
@@ -57,7 +57,7 @@ pub(crate) struct CampaignRunArgs {
     /// Override a key of the study, such as `campaign.runs=100`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// `json`: a line now and then of how far it is, and one at the end.
+    /// `json`: a line of progress now and then, and one at the end.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableOrJson,
 }
@@ -135,7 +135,7 @@ pub(crate) struct CampaignCostArgs {
     /// Studies: campaign documents' files or presets.
     #[arg(value_name = "STUDY", required = true)]
     pub(crate) studies: Vec<String>,
-    /// How many runs to tell the cost of.
+    /// Number of runs to estimate the cost of.
     #[arg(long, value_name = "N", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) runs: u64,
     /// How long to measure, in all [s].

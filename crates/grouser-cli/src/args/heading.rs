@@ -7,8 +7,8 @@ use super::{BalanceArgs, OutputArgs, SettingArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
-pub(crate) struct AttitudeArgs {
-    /// A scenario's file or preset, for its rover, soil, gravity and balance; without it the
+pub(crate) struct HeadingArgs {
+    /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
@@ -33,10 +33,10 @@ pub(crate) struct AttitudeArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = "A course is a direction of travel, counted from the contour and positive \
-                        uphill; course 0 is what `attitude` asks. A row without an attitude says \
+                        uphill; course 0 is what `heading` asks. A row without an answer says \
                         why in its status.")]
-pub(crate) struct AttitudeMapArgs {
-    /// A scenario's file or preset, for its rover, soil, gravity and balance; without it the
+pub(crate) struct HeadingMapArgs {
+    /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
@@ -53,8 +53,8 @@ pub(crate) struct AttitudeMapArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-60:60:15", allow_hyphen_values = true)]
     pub(crate) course_deg: Numbers,
     /// Rim speed [m/s], for the power.
-    #[arg(long, value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
-    pub(crate) speed_m_s: Numbers,
+    #[arg(long, alias = "speed-m-s", value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
+    pub(crate) rim_speed_m_s: Numbers,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
@@ -63,18 +63,18 @@ pub(crate) struct AttitudeMapArgs {
     pub(crate) output: OutputArgs,
 }
 
-/// Whether a soil's uncertainty is followed, and by how many draws.
+/// Whether a soil's uncertainty is followed, and by how many samples.
 #[derive(Debug, Args)]
 pub(crate) struct UncertaintyArgs {
-    /// Draw soils as the soil's `[uncertainty]` says, and add 95 % bands and the probability of a
-    /// level traverse.
+    /// Sample soils from the soil's `[uncertainty]`, and add 95 % bands and the probability that a
+    /// heading holds the contour.
     #[arg(long)]
     pub(crate) uncertainty: bool,
-    /// Number of draws, 2 to 100000.
+    /// Number of samples, 2 to 100000.
     #[arg(long, value_name = "N", default_value_t = 500, requires = "uncertainty")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
-    /// Seed of the draws: the same seed, the same soils.
+    /// Seed of the samples: the same seed gives the same soils.
     #[arg(long, value_name = "S", default_value_t = 1, requires = "uncertainty")]
     #[arg(allow_negative_numbers = true)]
     pub(crate) seed: u64,

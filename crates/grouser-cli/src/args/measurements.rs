@@ -30,12 +30,12 @@ impl ReadArgs {
     override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
                       grouser validate --all [--data-dir DIR] [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
-                  other; every cell weighs the same. docs/guide/data.md tells the columns of FILE.csv, \
+                  other; every cell weighs the same. docs/guide/data.md lists the columns of FILE.csv, \
                   docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
     /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
-    /// (docs/guide/data.md tells its columns).
+    /// (docs/guide/data.md lists its columns).
     #[arg(
         long,
         value_name = "NAME|FILE.csv",
@@ -54,10 +54,10 @@ pub(crate) struct ValidateArgs {
     /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// Rank every theory, with its own soils, on every data set that comes with the program.
+    /// Rank every model, with its own soils, on every data set that comes with the program.
     #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
-    /// Rank on the data sets of a folder instead (docs/guide/data.md tells how a document describes one).
+    /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
     #[command(flatten)]
@@ -77,7 +77,7 @@ pub(crate) struct ValidateArgs {
 )]
 pub(crate) struct CalibrateArgs {
     /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
-    /// (docs/guide/data.md tells its columns).
+    /// (docs/guide/data.md lists its columns).
     #[arg(
         long,
         value_name = "NAME|FILE.csv",
@@ -110,13 +110,13 @@ pub(crate) struct CalibrateArgs {
     /// Steps of each walker of the posterior.
     #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(STEPS))]
     pub(crate) steps: u64,
-    /// Only least squares, no posterior.
+    /// Least squares only, without a posterior.
     #[arg(long)]
     pub(crate) point_fit: bool,
-    /// Also fit without each slip angle in turn, and judge there.
+    /// Also fit without each slip angle in turn, and compare there.
     #[arg(long, requires = "data")]
     pub(crate) cross_validate: bool,
-    /// The prediction that the next runs should make sure of, such as
+    /// The prediction whose uncertainty the proposed runs should reduce most, such as
     /// `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
     #[arg(
         long,
@@ -167,20 +167,20 @@ impl PlateLawWord {
 #[command(
     after_help = "Example:\n  grouser import lab.csv --column 'drawbar_pull_n=Fx [kN]:kN' \\\n    \
                         --column 'slip_ratio=slip:%' --column load_n=W --out ours.csv\n\
-                        Columns that have our names already are taken along."
+                        Columns that have Grouser's names already are kept."
 )]
 pub(crate) struct ImportArgs {
     /// The file (CSV).
     #[arg(value_name = "FILE.csv")]
     pub(crate) file: PathBuf,
-    /// A column of ours from one of theirs, with its unit; a minus turns the sign. Can be
-    /// repeated.
+    /// One of Grouser's columns from one of the file's, with the unit there; a minus turns the sign.
+    /// Can be repeated.
     #[arg(long = "column", value_name = "OURS=[-]THEIRS[:UNIT]", value_parser = Mapping::parse)]
     pub(crate) columns: Vec<Mapping>,
     /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) slip_definition: SlipWord,
-    /// What stands between two fields: a character, or `tab`.
+    /// The character between two fields, or `tab`.
     #[arg(long, value_name = "CHAR", default_value = ",")]
     pub(crate) delimiter: String,
     /// Decimals are written with a comma.

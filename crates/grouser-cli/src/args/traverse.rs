@@ -25,8 +25,15 @@ pub(crate) struct TraverseArgs {
     /// Length of the run [s].
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     pub(crate) duration_s: Option<String>,
-    /// Rim speed [m/s], or one for each wheel: `-0.06,-0.06,0.06,0.06`.
+    /// Rim speed [m/s], (r + h_g) ω, or one for each wheel: `-0.06,-0.06,0.06,0.06`.
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) rim_speed_m_s: Option<String>,
+    /// Desired speed along the contour [m/s], for the Eq. 18 drives.
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub(crate) ground_speed_m_s: Option<String>,
+    /// Either of both, as earlier versions had it.
+    #[arg(long, hide = true, value_name = "LIST", allow_hyphen_values = true)]
+    #[arg(conflicts_with_all = ["rim_speed_m_s", "ground_speed_m_s"])]
     pub(crate) speed_m_s: Option<String>,
     /// What turns the wheels: `constant`, `eq18-as-printed` or `eq18`.
     #[arg(long, value_name = "LAW")]
@@ -37,7 +44,7 @@ pub(crate) struct TraverseArgs {
     /// Motion at the start: `rolling` or `rest`.
     #[arg(long, value_name = "WORD")]
     pub(crate) start: Option<String>,
-    /// `dynamic`, or `quasi-steady`: velocities in balance at every instant, many times faster.
+    /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
     #[command(flatten)]

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::Answer;
 use super::attitude_band::{self, Bands};
-use crate::args::AttitudeArgs;
+use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -43,7 +43,8 @@ const COLUMNS_WITH_BANDS: [&str; 9] = [
     "status",
 ];
 
-pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
+/// * `command`: the name by which it was asked for, which its results and files have
+pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::attitude(args)?;
     let curve = AttitudeStudy::of(&scenario.value).curve()?;
@@ -56,14 +57,17 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     let limit = AttitudeLimit::from(&curve);
     let rows = Rows::of(&records);
     let results = Results { limit: &limit, band: bands.as_ref().map(|b| &b.limit), rows: &records };
-    let answer = Answer::new("attitude", settings(args, &scenario), results);
+    let answer = Answer::new(command, settings(args, &scenario), results);
     if let Some(mut folder) = folder {
-        folder.add("attitude.json", answer.to_text());
-        folder.add("attitude.csv", rows.to_csv()?);
+        folder.add(format!("{command}.json"), answer.to_text());
+        folder.add(format!("{command}.csv"), rows.to_csv()?);
         match &bands {
-            None => folder.add("attitude.svg", chart(&curve).to_svg()),
+            None => folder.add(format!("{command}.svg"), chart(&curve).to_svg()),
             Some(bands) => {
-                folder.add("attitude.svg", bands.chart(line("soil as written", &curve)).to_svg());
+                folder.add(
+                    format!("{command}.svg"),
+                    bands.chart(line("soil as written", &curve)).to_svg(),
+                );
                 folder.add("probability.svg", bands.chance_chart().to_svg());
             }
         }
@@ -83,7 +87,7 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
 
 /// A row for each slope.
 fn rows(
-    args: &AttitudeArgs,
+    args: &HeadingArgs,
     curve: &AttitudeCurve,
     rover: &Rover,
     bands: Option<&Bands>,
@@ -97,7 +101,7 @@ fn rows(
 }
 
 /// What the answer was made from.
-fn settings(args: &AttitudeArgs, scenario: &LoadedScenario) -> Value {
+fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
     let mut settings = json!({
         "rover": document.get("rover"),

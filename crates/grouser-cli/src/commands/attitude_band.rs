@@ -9,7 +9,7 @@ use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
 use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
 use grouser::studies::uncertainty::Band;
 
-use crate::args::AttitudeArgs;
+use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -39,7 +39,7 @@ const LEAST_CHANCE: f64 = 0.001;
 /// * `nominal`: the curve of the soil as its document has it
 /// * `charted`: whether there will be charts
 pub(crate) fn draw(
-    args: &AttitudeArgs,
+    args: &HeadingArgs,
     scenario: &LoadedScenario,
     nominal: &AttitudeCurve,
     charted: bool,

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Answer;
-use crate::args::AttitudeMapArgs;
+use crate::args::HeadingMapArgs;
 use crate::chart::HeatMap;
 use crate::failure::Failure;
 use crate::inputs;
@@ -29,7 +29,8 @@ const COLUMNS: [&str; 9] = [
     "status",
 ];
 
-pub(crate) fn run(args: &AttitudeMapArgs) -> Result<(), Failure> {
+/// * `command`: the name by which it was asked for, which its results and files have
+pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenarios = inputs::attitude_map(args)?;
     let studies: Vec<AttitudeStudy> =
@@ -39,13 +40,12 @@ pub(crate) fn run(args: &AttitudeMapArgs) -> Result<(), Failure> {
     let map = AttitudeMap::of(&studies, &courses, &slopes)?;
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
     let records =
-        AttitudeMapRecord::of(&map, &names, &scenarios[0].value.rover, args.speed_m_s.0[0]);
+        AttitudeMapRecord::of(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
     let rows = Rows::of(&records);
-    let answer =
-        Answer::new("attitude-map", settings(args, &scenarios), Results { rows: &records });
+    let answer = Answer::new(command, settings(args, &scenarios), Results { rows: &records });
     if let Some(mut folder) = folder {
-        folder.add("attitude-map.json", answer.to_text());
-        folder.add("attitude-map.csv", rows.to_csv()?);
+        folder.add(format!("{command}.json"), answer.to_text());
+        folder.add(format!("{command}.csv"), rows.to_csv()?);
         for (place, (scenario, name)) in scenarios.iter().zip(&names).enumerate() {
             // One soil needs no number.
             let number =
@@ -74,7 +74,7 @@ fn soil_name(scenario: &LoadedScenario) -> String {
 }
 
 /// What the answer was made from.
-fn settings(args: &AttitudeMapArgs, scenarios: &[LoadedScenario]) -> Value {
+fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
     let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
     let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.theory.name()).collect();
@@ -87,13 +87,13 @@ fn settings(args: &AttitudeMapArgs, scenarios: &[LoadedScenario]) -> Value {
         "moments": first.get("moments"),
         "course_deg": args.course_deg.0,
         "slope_deg": args.slope_deg.0,
-        "speed_m_s": args.speed_m_s.0[0],
+        "speed_m_s": args.rim_speed_m_s.0[0],
     })
 }
 
 /// How far the nose points uphill of the course, and the slip, over slope and course.
 fn figures(
-    args: &AttitudeMapArgs,
+    args: &HeadingMapArgs,
     map: &AttitudeMap,
     soil: usize,
     name: &str,

@@ -71,15 +71,15 @@ impl OutputFolder {
     }
 
     /// Adds a file; folders in its name are made.
-    pub(crate) fn add(&mut self, name: &str, content: impl Into<Vec<u8>>) {
-        self.files.push((name.to_owned(), content.into()));
+    pub(crate) fn add(&mut self, name: impl Into<String>, content: impl Into<Vec<u8>>) {
+        self.files.push((name.into(), content.into()));
     }
 
     /// Adds a resolved document with the files that it names.
     pub(crate) fn add_document<V>(&mut self, name: &str, document: &Loaded<V>) {
         self.add(name, document.to_toml());
         for companion in &document.companions {
-            self.add(&companion.name, companion.content.clone());
+            self.add(companion.name.clone(), companion.content.clone());
         }
     }
 

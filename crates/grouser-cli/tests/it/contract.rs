@@ -345,8 +345,8 @@ fn documents_are_presets_or_files() {
 fn every_flag_of_a_traverse_reaches_the_scenario() {
     let json = Place::new().json(
         "traverse --rover el-dorado-2 --soil simulant-2007 --slope-deg 7.5 --yaw-deg -5 \
-         --duration-s 0.2 --speed-m-s 0.05 --drive eq18 --reference-slip-ratio 0.1 --start rest \
-         --loads uniform --moments included --model bekker --gravity-m-s2 3.71",
+         --duration-s 0.2 --ground-speed-m-s 0.05 --drive eq18 --reference-slip-ratio 0.1 --start rest \
+         --load-transfer uniform --wheel-moments included --model bekker --gravity-m-s2 3.71",
     );
     let scenario = &json["inputs"]["scenario"];
     assert_eq!(scenario["slope_deg"], 7.5);
@@ -354,10 +354,10 @@ fn every_flag_of_a_traverse_reaches_the_scenario() {
     assert_eq!(scenario["start"]["motion"], "rest");
     assert_eq!(scenario["duration_s"], 0.2);
     assert_eq!(scenario["drive"]["law"], "eq18");
-    assert_eq!(scenario["drive"]["speed_m_s"], 0.05);
+    assert_eq!(scenario["drive"]["ground_speed_m_s"], 0.05);
     assert_eq!(scenario["drive"]["reference_slip_ratio"], 0.1);
-    assert_eq!(scenario["loads"], "uniform");
-    assert_eq!(scenario["moments"], "included");
+    assert_eq!(scenario["load_transfer"], "uniform");
+    assert_eq!(scenario["wheel_moments"], "included");
     assert_eq!(scenario["model"], "bekker");
     assert_eq!(scenario["gravity_m_s2"], 3.71);
     assert_eq!(json["samples"][0]["yaw_deg"], -5.0);
@@ -365,8 +365,8 @@ fn every_flag_of_a_traverse_reaches_the_scenario() {
 
 #[test]
 fn a_list_of_speeds_gives_one_to_each_wheel() {
-    let json = Place::new().json("traverse --duration-s 0.1 --speed-m-s -0.06,-0.06,0.06,0.06");
-    let speeds = json["inputs"]["scenario"]["drive"]["speed_m_s"].clone();
+    let json = Place::new().json("traverse --duration-s 0.1 --rim-speed-m-s -0.06,-0.06,0.06,0.06");
+    let speeds = json["inputs"]["scenario"]["drive"]["rim_speed_m_s"].clone();
     assert_eq!(speeds, serde_json::json!([-0.06, -0.06, 0.06, 0.06]));
     let wheels = &json["samples"][1]["wheels"];
     assert!(number(&wheels[0]["wheel_speed_rad_s"]) < 0.0);

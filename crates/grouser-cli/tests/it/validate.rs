@@ -341,8 +341,8 @@ fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
     assert_eq!(
         best,
         [
-            ["smooth", "extended", "cmu-direct90-smooth"],
-            ["grousers", "extended", "cmu-direct90-grouser"]
+            ["smooth", "small-wheel", "cmu-direct90-smooth"],
+            ["grousers", "small-wheel", "cmu-direct90-grouser"]
         ]
     );
     let own = place.json("validate --all --data-dir lab");

@@ -30,7 +30,7 @@ impl Theory {
         match self {
             Self::Ishigami => "ishigami",
             Self::Bekker => "bekker",
-            Self::Extended => "extended",
+            Self::Extended => "small-wheel",
             Self::Rft => "rft",
         }
     }

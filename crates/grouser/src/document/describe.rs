@@ -7,11 +7,25 @@ pub(super) mod scenario;
 pub(super) mod soil;
 pub(super) mod wheel;
 
+use super::Kind;
 use super::field::{
-    Field, Fill, M_S2, Reach, Shape, Word, day, field, note, nothing, number, texts, word, words,
+    Field, Fill, M_S2, Reach, Rows, Shape, Word, day, field, note, nothing, number, texts, word,
+    words,
 };
 use crate::contact::Theory;
 use crate::units::EARTH_GRAVITY;
+
+/// What a kind of document may say.
+pub(super) fn rows(kind: Kind) -> &'static dyn Rows {
+    match kind {
+        Kind::Soil => &soil::SOIL,
+        Kind::Wheel => &wheel::WHEEL,
+        Kind::Rover => &rover::ROVER,
+        Kind::Scenario => &scenario::SCENARIO,
+        Kind::DataSet => &data_set::DATA_SET,
+        Kind::Campaign => &campaign::CAMPAIGN,
+    }
+}
 
 /// Which kind of document it is, and of which version.
 const fn schema<T>(tag: &'static str) -> Field<T> {
@@ -56,7 +70,7 @@ const fn date<T>() -> Field<T> {
     )
 }
 
-/// A theory of the wheel-soil reaction, by its name.
+/// A wheel-soil model, by its name.
 const fn model<T>(doc: &'static str) -> Field<T> {
     words("model", doc, Theories::<T>::WORDS).optional()
 }
@@ -71,7 +85,8 @@ impl<T: 'static> Theories<T> {
             Theory::Extended.name(),
             "Stresses along the arc, with the terms that small wheels need.",
             nothing,
-        ),
+        )
+        .formerly("extended"),
         word(Theory::Rft.name(), "Resistive force theory on the wheel's facets.", nothing),
     ];
 }

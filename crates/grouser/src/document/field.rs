@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 use serde_json::Value as Json;
 
 use super::Kind;
+use super::text::{Node, Value};
 
 /// What a document, or a table in it, may say: keys in the order in which they are written.
 ///
@@ -22,6 +23,8 @@ pub(super) struct Table<T: 'static> {
 /// A key.
 pub(super) struct Field<T: 'static> {
     pub key: &'static str,
+    /// What documents of earlier versions call it.
+    pub formerly: Option<&'static str>,
     /// What it is: a sentence; of a number without its unit and full stop.
     pub doc: &'static str,
     pub presence: Presence,
@@ -104,6 +107,8 @@ pub(super) struct Whole<T: 'static> {
 /// A word of a closed set, and what it makes of the value.
 pub(super) struct Word<T: 'static> {
     pub name: &'static str,
+    /// What documents of earlier versions call it.
+    pub formerly: Option<&'static str>,
     pub doc: &'static str,
     put: fn(&mut T),
 }
@@ -173,8 +178,17 @@ pub(super) const ONE: Unit = Unit::si("-");
 /// The unit of another key.
 pub(super) const OF_KEY: Unit = Unit::si("");
 
-/// Tables as those see them that do not know their type.
-pub(super) trait Inner<T>: Sync {
+/// Which names keys get.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Names {
+    /// Those of this version.
+    Today,
+    /// Those of earlier versions, where they had others.
+    Former,
+}
+
+/// What a document, or a table in it, may say, whatever value its numbers go to.
+pub(super) trait Rows: Sync {
     /// Its JSON Schema.
     ///
     /// * `defs`: of the documents inside it, to be added to
@@ -183,6 +197,17 @@ pub(super) trait Inner<T>: Sync {
     /// The same in the table's order, with all that it leaves out; of one that was checked.
     fn complete(&self, said: &Json) -> Json;
 
+    /// Changes keys and keywords of earlier versions to those of today, or keys of today to theirs.
+    fn rename(&self, table: &mut Node, to: Names);
+
+    /// The same of a dotted key, entries of lists by their place.
+    ///
+    /// * `table`: the document that the key leads into, which says the laws on the way
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>);
+}
+
+/// Rows whose numbers go to a value of one type.
+pub(super) trait Inner<T>: Rows {
     /// Puts what a complete table says into the value.
     fn put(&self, value: &mut T, said: &Json);
 
@@ -303,7 +328,15 @@ pub(super) const fn words<T>(
 
 /// A word, and what it makes of the value.
 pub(super) const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Word<T> {
-    Word { name, doc, put }
+    Word { name, formerly: None, doc, put }
+}
+
+impl<T> Word<T> {
+    /// The same, which had another name in earlier versions.
+    pub(super) const fn formerly(mut self, name: &'static str) -> Self {
+        self.formerly = Some(name);
+        self
+    }
 }
 
 /// A table.
@@ -336,7 +369,7 @@ pub(super) const fn part<T>(
 }
 
 pub(super) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, doc, presence: Presence::Needed, shape }
+    Field { key, formerly: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -360,6 +393,12 @@ impl<T> Field<T> {
     /// The same, with a value for documents that leave it out.
     pub(super) const fn otherwise(mut self, fill: Fill) -> Self {
         self.presence = Presence::Otherwise(fill);
+        self
+    }
+
+    /// The same, which had another key in earlier versions.
+    pub(super) const fn formerly(mut self, key: &'static str) -> Self {
+        self.formerly = Some(key);
         self
     }
 
@@ -418,6 +457,35 @@ impl<T> Field<T> {
         }
     }
 
+    /// Former names inside what the key takes. Documents inside documents are renamed as they are read.
+    fn rename(&self, node: &mut Node, to: Names) {
+        match (&self.shape, &mut node.value) {
+            (Shape::Words(words), Value::String(said)) if to == Names::Today => {
+                if let Some(word) = words.iter().find(|word| word.formerly == Some(said)) {
+                    word.name.clone_into(said);
+                }
+            }
+            (Shape::Inner(inner) | Shape::TextOr(_, inner), Value::Table(_)) => {
+                inner.rename(node, to)
+            }
+            (Shape::List(inner, _), Value::List(nodes)) => {
+                nodes.iter_mut().for_each(|node| inner.rename(node, to));
+            }
+            _ => {}
+        }
+    }
+
+    fn rename_path(&self, path: &mut [String], said: Option<&Json>) {
+        match (&self.shape, path) {
+            (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, inner), path) => {
+                inner.rename_path(path, said);
+            }
+            // Entries of one list have one law, or no former names.
+            (Shape::List(inner, _), [_, path @ ..]) => inner.rename_path(path, None),
+            _ => {}
+        }
+    }
+
     fn set(&self, value: &mut T, path: &str, said: &Json) {
         if let (Some(reached), Some(said)) = (self.reach(value, path), said.as_f64()) {
             reached.set(said);
@@ -456,6 +524,12 @@ impl Fill {
 }
 
 impl<T> Table<T> {
+    /// The row of a key, by its name of today or its former one.
+    fn field(&self, key: &str) -> Option<&Field<T>> {
+        let by_name = self.fields.iter().find(|field| field.key == key);
+        by_name.or_else(|| self.fields.iter().find(|field| field.formerly == Some(key)))
+    }
+
     /// What a table that does not have a key means by that.
     pub(super) fn implied(field: &Field<T>) -> Option<Json> {
         match field.presence {
@@ -465,7 +539,7 @@ impl<T> Table<T> {
     }
 }
 
-impl<T> Inner<T> for Table<T> {
+impl<T> Rows for Table<T> {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
         super::schema::of_table(self, None, defs)
     }
@@ -487,6 +561,35 @@ impl<T> Inner<T> for Table<T> {
         keys.collect()
     }
 
+    fn rename(&self, table: &mut Node, to: Names) {
+        let named = |field: &Field<T>| match to {
+            Names::Today => field.key,
+            Names::Former => field.formerly.unwrap_or(field.key),
+        };
+        // A key under both its names stays unknown by the former one, and is reported so.
+        let is_there = |field: &&Field<T>| table.entry(named(field)).is_some();
+        let there: Vec<_> = self.fields.iter().filter(is_there).map(named).collect();
+        let Value::Table(entries) = &mut table.value else { return };
+        for entry in entries {
+            let Some(field) = self.field(&entry.key) else { continue };
+            let name = named(field);
+            if entry.key == name || !there.contains(&name) {
+                name.clone_into(&mut entry.key);
+                field.rename(&mut entry.node, to);
+            }
+        }
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        let Some((key, rest)) = path.split_first_mut() else { return };
+        if let Some(field) = self.field(key) {
+            field.key.clone_into(key);
+            field.rename_path(rest, table.and_then(|table| table.get(field.key)));
+        }
+    }
+}
+
+impl<T> Inner<T> for Table<T> {
     fn put(&self, value: &mut T, said: &Json) {
         for field in self.fields {
             if let Some(said) = said.get(field.key) {
@@ -497,7 +600,7 @@ impl<T> Inner<T> for Table<T> {
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
         let (key, rest) = path.split_once('.').unwrap_or((path, ""));
-        self.fields.iter().find(|field| field.key == key)?.reach(value, rest)
+        self.field(key)?.reach(value, rest)
     }
 }
 
@@ -509,7 +612,7 @@ pub(super) struct At<T: 'static, P: 'static> {
     pub at: fn(&mut T) -> &mut P,
 }
 
-impl<T, P> Inner<T> for At<T, P> {
+impl<T, P> Rows for At<T, P> {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
         self.inner.schema(defs)
     }
@@ -518,6 +621,16 @@ impl<T, P> Inner<T> for At<T, P> {
         self.inner.complete(said)
     }
 
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.inner.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.inner.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for At<T, P> {
     fn put(&self, value: &mut T, said: &Json) {
         self.inner.put((self.at)(value), said);
     }
@@ -534,7 +647,7 @@ pub(super) struct Each<T: 'static, P: 'static> {
     pub blank: fn() -> P,
 }
 
-impl<T, P> Inner<T> for Each<T, P> {
+impl<T, P> Rows for Each<T, P> {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
         self.inner.schema(defs)
     }
@@ -543,6 +656,16 @@ impl<T, P> Inner<T> for Each<T, P> {
         self.inner.complete(said)
     }
 
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.inner.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.inner.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for Each<T, P> {
     fn put(&self, value: &mut T, said: &Json) {
         let all = said.as_array().into_iter().flatten().map(|said| {
             let mut entry = (self.blank)();
@@ -583,12 +706,16 @@ pub(super) struct Law<T: 'static> {
 
 impl<T> Laws<T> {
     fn named(&self, said: &Json) -> &'static Law<T> {
-        let name = said.get(self.key).and_then(Json::as_str);
+        self.by_word(said.get(self.key))
+    }
+
+    fn by_word(&self, word: Option<&Json>) -> &'static Law<T> {
+        let name = word.and_then(Json::as_str);
         self.all.iter().find(|law| Some(law.name) == name).unwrap_or(&self.all[0])
     }
 }
 
-impl<T> Inner<T> for Laws<T> {
+impl<T> Rows for Laws<T> {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
         super::schema::of_laws(self, defs)
     }
@@ -603,6 +730,19 @@ impl<T> Inner<T> for Laws<T> {
         Json::Object(complete)
     }
 
+    fn rename(&self, table: &mut Node, to: Names) {
+        let word = table.entry(self.key).map(|entry| entry.node.to_json());
+        self.by_word(word.as_ref()).table.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        // Without the table nothing says which law it is, and laws may share a former name.
+        let Some(table) = table else { return };
+        self.named(table).table.rename_path(path, Some(table));
+    }
+}
+
+impl<T> Inner<T> for Laws<T> {
     fn put(&self, value: &mut T, said: &Json) {
         let law = self.named(said);
         (law.choose)(value);

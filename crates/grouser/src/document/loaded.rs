@@ -3,13 +3,7 @@
 use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
-use super::describe::campaign::CAMPAIGN;
-use super::describe::data_set::DATA_SET;
-use super::describe::rover::ROVER;
-use super::describe::scenario::SCENARIO;
-use super::describe::soil::SOIL;
-use super::describe::wheel::WHEEL;
-use super::field::Inner;
+use super::describe;
 use super::{Kind, UncertainSoil};
 use crate::contact::Theory;
 
@@ -68,14 +62,7 @@ impl<V> Loaded<V> {
 impl Document {
     /// The document of a kind that says something checked.
     pub(super) fn of(kind: Kind, said: &Json) -> Self {
-        let keys = match kind {
-            Kind::Soil => SOIL.complete(said),
-            Kind::Wheel => WHEEL.complete(said),
-            Kind::Rover => ROVER.complete(said),
-            Kind::Scenario => SCENARIO.complete(said),
-            Kind::DataSet => DATA_SET.complete(said),
-            Kind::Campaign => CAMPAIGN.complete(said),
-        };
+        let keys = describe::rows(kind).complete(said);
         Self { keys, kind }
     }
 
@@ -103,12 +90,21 @@ impl Document {
         Self { keys: self.keys.get(key).cloned().unwrap_or_default(), kind: self.kind }
     }
 
-    /// What stands under a dotted key, entries of lists by their place.
+    /// What stands under a dotted key, entries of lists by their place. Keys may have the names of
+    /// earlier versions.
     #[must_use]
     pub fn get(&self, path: &str) -> Option<&Json> {
-        path.split('.').try_fold(&self.keys, |said, step| match said {
-            Json::Array(all) => all.get(step.parse::<usize>().ok()?),
-            said => said.get(step),
+        let path: Vec<String> = path.split('.').map(str::to_owned).collect();
+        let under = |path: &[String]| {
+            path.iter().try_fold(&self.keys, |said, step| match said {
+                Json::Array(all) => all.get(step.parse::<usize>().ok()?),
+                said => said.get(step),
+            })
+        };
+        under(&path).or_else(|| {
+            let mut renamed = path;
+            describe::rows(self.kind).rename_path(&mut renamed, Some(&self.keys));
+            under(&renamed)
         })
     }
 

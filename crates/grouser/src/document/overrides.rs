@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use super::check::{keys_at, nearest};
 use super::error::{DocumentError, Problem};
+use super::field::Names;
 use super::text::{Entry, Node, Origin, Text, Value, parse};
-use super::{Companion, Kind};
+use super::{Companion, Kind, describe};
 
 /// Values that replace those of documents, applied in order before anything is checked.
 #[derive(Clone, Debug, Default)]
@@ -209,16 +210,28 @@ impl Overrides {
         }
         let start = text.content.find(key).unwrap_or(0);
         let key_origin = Origin { text: text.clone(), span: start..start + key.len() };
-        let (kind, path) = without_parts(kind, path);
+        let (kind, mut path) = without_parts(kind, path);
+        describe::rows(kind).rename_path(&mut path, None);
         self.all.push(Override { kind, path, key_origin, value, changes_a_source });
         Ok(())
     }
 
     /// Puts the values for one kind of document into its tree.
     pub(super) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
-        for one in self.all.iter().filter(|one| one.kind == kind) {
-            one.put(tree)?;
+        // A law first: it decides which other keys there are.
+        let of_kind = self.all.iter().filter(|one| one.kind == kind);
+        let (laws, others): (Vec<_>, Vec<_>) = of_kind.partition(|one| one.is_a_law());
+        for one in laws {
+            // What another law calls otherwise it keeps, by the name that both had.
+            describe::rows(kind).rename(tree, Names::Former);
+            one.put(&one.path, tree)?;
+            describe::rows(kind).rename(tree, Names::Today);
             one.drop_keys_of_the_former_law(tree);
+        }
+        for one in others {
+            let mut path = one.path.clone();
+            describe::rows(kind).rename_path(&mut path, Some(&tree.to_json()));
+            one.put(&path, tree)?;
         }
         Ok(())
     }
@@ -239,13 +252,13 @@ impl Overrides {
 
 impl Override {
     /// The value at the end of its path; tables on the way are made.
-    fn put(&self, tree: &mut Node) -> Result<(), DocumentError> {
+    fn put(&self, path: &[String], tree: &mut Node) -> Result<(), DocumentError> {
         let not_a_table = || {
             let problem = Problem::Malformed("the key leads through a value that is not a table");
             DocumentError::at(&self.key_origin, problem)
         };
         let mut node = tree;
-        for step in &self.path {
+        for step in path {
             let entries = match &mut node.value {
                 Value::Table(entries) => entries,
                 Value::List(nodes) => {
@@ -271,6 +284,10 @@ impl Override {
         Ok(())
     }
 
+    fn is_a_law(&self) -> bool {
+        self.path.last().is_some_and(|key| key == "law")
+    }
+
     fn no_such_entry(&self, count: usize) -> DocumentError {
         let problem = Problem::Malformed("the key leads to an entry that the list does not have");
         DocumentError::at(&self.key_origin, problem)
@@ -279,10 +296,7 @@ impl Override {
 
     /// A new law has keys of its own: what only the old one knew would be an error nobody made.
     fn drop_keys_of_the_former_law(&self, tree: &mut Node) {
-        let Some(("law", table)) = self.path.split_last().map(|(key, path)| (key.as_str(), path))
-        else {
-            return;
-        };
+        let Some((_, table)) = self.path.split_last() else { return };
         let Some(known) = keys_at(self.kind, tree, table) else { return };
         let mut node = tree;
         for step in table {

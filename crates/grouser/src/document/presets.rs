@@ -20,11 +20,16 @@ pub fn presets(kind: Kind) -> impl Iterator<Item = &'static Preset> {
     PRESETS.iter().filter(move |preset| preset.kind == kind)
 }
 
-/// The preset of a kind and a name.
+/// The preset of a kind and a name, which may be the one that it had in earlier versions.
 #[must_use]
 pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
+    let former = FORMER_NAMES.iter().find(|(former, _)| *former == name);
+    let name = former.map_or(name, |(_, name)| name);
     presets(kind).find(|preset| preset.name == name)
 }
+
+/// Names of presets in earlier versions, and those of today.
+const FORMER_NAMES: [(&str, &str); 1] = [("campaign-attitude", "campaign-heading")];
 
 impl Preset {
     /// What the document calls itself, and where it says its values are from.
@@ -103,7 +108,7 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
     preset!(DataSet, "measurements", "cmu-single-wheel", "cmu_single_wheel.csv"),
-    preset!(Campaign, "campaigns", "campaign-attitude"),
+    preset!(Campaign, "campaigns", "campaign-heading"),
     preset!(Campaign, "campaigns", "campaign-traverse"),
     preset!(Campaign, "campaigns", "campaign-wheel-test"),
 ];

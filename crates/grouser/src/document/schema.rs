@@ -8,13 +8,8 @@ use std::sync::OnceLock;
 use serde_json::{Map, Value as Json, json};
 
 use super::Kind;
-use super::describe::campaign::CAMPAIGN;
-use super::describe::data_set::DATA_SET;
-use super::describe::rover::ROVER;
-use super::describe::scenario::SCENARIO;
-use super::describe::soil::SOIL;
-use super::describe::wheel::WHEEL;
-use super::field::{Field, Form, Inner, Laws, Number, Presence, Shape, Table, Text, Whole};
+use super::describe;
+use super::field::{Field, Form, Laws, Number, Presence, Shape, Table, Text, Whole};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
@@ -47,7 +42,7 @@ pub(super) fn root(kind: Kind) -> &'static Json {
         [const { OnceLock::new() }; Kind::ALL.len()];
     SCHEMAS[kind as usize].get_or_init(|| {
         let mut defs = Map::new();
-        let mut schema = of_kind(kind, &mut defs);
+        let mut schema = describe::rows(kind).schema(&mut defs);
         schema["title"] = kind.tag().into();
         schema["$schema"] = "https://json-schema.org/draft/2020-12/schema".into();
         // Only a file must say what it is; a table inside another document is known by its place.
@@ -58,18 +53,6 @@ pub(super) fn root(kind: Kind) -> &'static Json {
         }
         schema
     })
-}
-
-/// The schema of a document, without what only a file has.
-fn of_kind(kind: Kind, defs: &mut Map<String, Json>) -> Json {
-    match kind {
-        Kind::Soil => SOIL.schema(defs),
-        Kind::Wheel => WHEEL.schema(defs),
-        Kind::Rover => ROVER.schema(defs),
-        Kind::Scenario => SCENARIO.schema(defs),
-        Kind::DataSet => DATA_SET.schema(defs),
-        Kind::Campaign => CAMPAIGN.schema(defs),
-    }
 }
 
 /// A table, under a law if its keys depend on one.
@@ -163,7 +146,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             if !defs.contains_key(kind.name()) {
                 // The place is taken before the parts of the part are described, for their order.
                 defs.insert(kind.name().to_owned(), Json::Null);
-                let schema = of_kind(*kind, defs);
+                let schema = describe::rows(*kind).schema(defs);
                 defs.insert(kind.name().to_owned(), schema);
             }
             let named = "The name of a preset, or a path from the folder of this document.";

@@ -112,7 +112,7 @@ impl Described for Soil {
         self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
         check_exponent(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
         self.shear.check().map_err(Misfit::at("shear"))?;
-        self.extended.check().map_err(Misfit::at("extended"))?;
+        self.extended.check().map_err(Misfit::at("small_wheel"))?;
         self.rft.check().map_err(Misfit::at("rft"))?;
         check_exit(self.exit).map_err(Misfit::at("exit"))?;
         self.check().map_err(Misfit::at("schema"))?;
@@ -236,7 +236,7 @@ impl Described for Scenario {
             let names: Vec<_> =
                 run.rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
             let hint = format!("the wheels are {}, in this order", names.join(", "));
-            Misfit { hint: Some(hint), ..Misfit::new("drive.speed_m_s", error) }
+            Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
         })?;
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)

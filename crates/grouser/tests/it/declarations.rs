@@ -9,14 +9,12 @@ use grouser::document::{self, Kind};
 use serde_json::Value;
 
 /// Keys that name different numbers in different places, and how many rows they have.
-const DIFFERENT_NUMBERS: [(&str, usize); 4] = [
-    // Of the soil in itself, and between soil and rim.
+const DIFFERENT_NUMBERS: [(&str, usize); 3] = [
+    // Of the soil in itself, and between soil and wheel.
     ("friction_angle_deg", 2),
     // Of the body, and of a wheel with its motor.
     ("mass_kg", 2),
     ("inertia_kg_m2", 2),
-    // The rim's in one law of the drive, the rover's along the contour in the others.
-    ("speed_m_s", 2),
 ];
 
 /// The keys of all kinds of documents that end with a unit.

@@ -542,7 +542,7 @@ fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
         ("moments = true", "it must be \"neglected\" or \"included\""),
         ("drive = 1", "`drive` is the integer 1, it must be a table"),
         ("drive.speed_m_s = [1, 2, 3]", "the number of rim speeds is 3"),
-        ("drive.speed_m_s = [1, 2, 3, 11]", "`drive.speed_m_s.3` is 11, it must be -10 to 10"),
+        ("drive.speed_m_s = [1, 2, 3, 11]", "`drive.rim_speed_m_s.3` is 11, it must be -10 to 10"),
         ("drive.speed_m_s = \"fast\"", "it must be a number or a list"),
         ("drive = { law = \"eq18\", speed_m_s = 0 }", "it must be above 0 and at most 10"),
         ("drive = { law = \"eq-18\" }", "did you mean \"eq18\"?"),

@@ -9,6 +9,7 @@ mod declarations;
 mod documents;
 mod extended;
 mod files;
+mod former_names;
 mod given;
 mod integration;
 mod kernel;

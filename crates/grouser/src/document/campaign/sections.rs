@@ -48,7 +48,7 @@ impl Settings {
 pub enum Study {
     /// A run of the scenario, and where it ends.
     Traverse,
-    /// The yaw that keeps a traverse level on the scenario's slope.
+    /// The heading offset that holds the contour of the scenario's slope.
     Attitude,
     /// A wheel on a test stand.
     WheelTest,
@@ -60,7 +60,7 @@ impl Study {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Traverse => "traverse",
-            Self::Attitude => "attitude",
+            Self::Attitude => "heading",
             Self::WheelTest => "wheel-test",
         }
     }

@@ -41,9 +41,10 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
                 }),
                 word(
                     Study::Attitude.name(),
-                    "The yaw that keeps a traverse level on the scenario's slope.",
-                    |all| all.study = Study::Attitude,
-                ),
+                    "The heading offset that holds the contour of the scenario's slope.",
+                    |all: &mut Settings| all.study = Study::Attitude,
+                )
+                .formerly("attitude"),
                 word(Study::WheelTest.name(), "A wheel on a test stand.", |all| {
                     all.study = Study::WheelTest;
                 }),

@@ -74,7 +74,7 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
             &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.soil },
         )
         .otherwise(Fill::Word(DEFAULT_SOIL)),
-        model("The theory; without it the soil's own, or else `ishigami`."),
+        model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
         number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
             Some(&mut run.site.slope)
@@ -89,8 +89,8 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
         })
         .or(Numerics::DEFAULT.sample_interval),
         words(
-            "loads",
-            "How the weight is shared among the wheels.",
+            "load_transfer",
+            "Load transfer: how the weight is shared among the wheels.",
             &[
                 word(
                     "quasi-static",
@@ -105,9 +105,10 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
             ],
         )
-        .otherwise(Fill::Word("quasi-static")),
+        .otherwise(Fill::Word("quasi-static"))
+        .formerly("loads"),
         words(
-            "moments",
+            "wheel_moments",
             "Whether the wheels' own overturning and aligning moments act on the rover.",
             &[
                 word("neglected", "They are reported only.", |run: &mut Scenario| {
@@ -118,10 +119,11 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("neglected")),
+        .otherwise(Fill::Word("neglected"))
+        .formerly("moments"),
         words(
             "simulation",
-            "Whether velocities are integrated or in balance.",
+            "Whether velocities are integrated, or those of a steady state at every instant.",
             &[
                 word("dynamic", "They are integrated with the pose.", |run: &mut Scenario| {
                     run.numerics.approach = Approach::Dynamic;
@@ -161,7 +163,7 @@ static DRIVE: Laws<DriveLaw> = Laws {
             table: Table {
                 doc: "Constant wheel speeds, as in the source's experiments.",
                 fields: &[numbers(
-                    "speed_m_s",
+                    "rim_speed_m_s",
                     M_S,
                     -FASTEST..=FASTEST,
                     Form::OneOrEach(
@@ -180,7 +182,8 @@ static DRIVE: Laws<DriveLaw> = Laws {
                         _ => None,
                     },
                 )
-                .or(PAPERS_SPEED)],
+                .or(PAPERS_SPEED)
+                .formerly("speed_m_s")],
             },
         },
         Law {
@@ -205,13 +208,14 @@ static DRIVE: Laws<DriveLaw> = Laws {
 };
 
 const DESIRED_SPEED: Field<DriveLaw> = positive(
-    "speed_m_s",
+    "ground_speed_m_s",
     M_S,
     FASTEST,
     "Desired speed along the contour, v_des",
     |law: &mut DriveLaw| Some(&mut target(law)?.speed),
 )
-.or(PAPERS_SPEED);
+.or(PAPERS_SPEED)
+.formerly("speed_m_s");
 const REFERENCE_SLIP: Field<DriveLaw> = number(
     "reference_slip_ratio",
     ONE,

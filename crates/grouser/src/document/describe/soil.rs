@@ -87,19 +87,20 @@ pub(in crate::document) static SOIL: Table<Soil> = Table {
         .otherwise(Fill::Keys(&[("ratio", Fill::Number(1.0))])),
         table(
             "bulldozing",
-            "How soil pushed aside loads the flank; without it, law = \"sine\".",
+            "How soil pushed aside loads the side wall; without it, law = \"sine\".",
             &At { inner: &BULLDOZING, at: |soil: &mut Soil| &mut soil.bulldozing },
         )
         .otherwise(Fill::Keys(&[("law", Fill::Word("sine"))])),
         table(
-            "extended",
-            "Terms of the theory `extended`, for one wheel on this soil; all off without it.",
+            "small_wheel",
+            "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
             &At { inner: &EXTENDED, at: |soil: &mut Soil| &mut soil.extended },
         )
-        .optional(),
+        .optional()
+        .formerly("extended"),
         table(
             "rft",
-            "Constants of the theory `rft`, resistive force theory; as published without it.",
+            "Constants of the model `rft`, resistive force theory; as published without it.",
             &At { inner: &RFT, at: |soil: &mut Soil| &mut soil.rft },
         )
         .optional(),
@@ -455,19 +456,23 @@ static EXTENDED: Table<Extended> = Table {
             &At { inner: &EXIT_SHIFT, at: |terms: &mut Extended| &mut terms.exit },
         )
         .otherwise(DEFAULTS),
-        table("rim", "Friction between rim and soil.", &RIM).otherwise(DEFAULTS),
+        table("interface", "Friction between wheel and soil.", &INTERFACE)
+            .otherwise(DEFAULTS)
+            .formerly("rim"),
         table(
-            "flank",
-            "The soil's load on the flank.",
+            "side_wall",
+            "The soil's load on the side wall of the wheel.",
             &At { inner: &FLANK, at: |terms: &mut Extended| &mut terms.flank },
         )
-        .otherwise(DEFAULTS),
+        .otherwise(DEFAULTS)
+        .formerly("flank"),
         table(
-            "heap",
+            "mounds",
             "Soil pushed by the width of the rim.",
             &At { inner: &HEAP, at: |terms: &mut Extended| &mut terms.heap },
         )
-        .otherwise(DEFAULTS),
+        .otherwise(DEFAULTS)
+        .formerly("heap"),
     ],
 };
 
@@ -539,26 +544,26 @@ static EXIT_SHIFT: Table<ExitShift> = Table {
     ],
 };
 
-static RIM: Table<Extended> = Table {
-    doc: "Friction between rim and soil.",
+static INTERFACE: Table<Extended> = Table {
+    doc: "Friction between wheel and soil.",
     fields: &[number(
         "friction_angle_deg",
         DEG,
         1.0..=60.0,
-        "Friction angle between rim and soil, δ, where below the soil's own",
+        "Friction angle of the wheel-soil interface, δ, where below the soil's own",
         |terms: &mut Extended| Some(terms.rim_friction_angle.get_or_insert(0.0)),
     )
     .optional()],
 };
 
 static FLANK: Table<Flank> = Table {
-    doc: "The soil's load on the flank.",
+    doc: "The soil's load on the side wall of the wheel.",
     fields: &[
         number(
             "pressure_factor",
             ONE,
             0.0..=20.0,
-            "Factor on the passive pressure, for the heap on it and for its ends",
+            "Factor on the passive pressure, for the bow wave at the wall and for its ends",
             |flank: &mut Flank| Some(&mut flank.pressure_factor),
         )
         .or(OFF.flank.pressure_factor),
@@ -584,14 +589,16 @@ static FLANK: Table<Flank> = Table {
 static HEAP: Table<Heap> = Table {
     doc: "Soil pushed by the width of the rim, as factors on b R_b(h).",
     fields: &[
-        number("front", ONE, 0.0..=20.0, "In front of a wheel that skids", |heap: &mut Heap| {
+        number("bow_wave", ONE, 0.0..=20.0, "In front of a wheel that skids", |heap: &mut Heap| {
             Some(&mut heap.front)
         })
-        .or(OFF.heap.front),
-        number("behind", ONE, 0.0..=20.0, "Behind a wheel that spins", |heap: &mut Heap| {
+        .or(OFF.heap.front)
+        .formerly("front"),
+        number("rear_mound", ONE, 0.0..=20.0, "Behind a wheel that spins", |heap: &mut Heap| {
             Some(&mut heap.behind)
         })
-        .or(OFF.heap.behind),
+        .or(OFF.heap.behind)
+        .formerly("behind"),
     ],
 };
 
