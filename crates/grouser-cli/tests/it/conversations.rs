@@ -76,8 +76,8 @@ fn help_of_each_command() {
         "reproduce",
         "traverse",
         "wheel-test",
-        "attitude",
-        "attitude-map",
+        "heading",
+        "heading-map",
         "card",
         "validate",
         "import",
@@ -114,24 +114,24 @@ fn wheel_test_for_programs() {
 }
 
 #[test]
-fn attitude_as_a_table() {
-    check_conversation("attitude", "attitude");
-    check_conversation("attitude-on-too-steep-a-slope", "attitude --slope-deg 0,10,25");
-    check_conversation("attitude-of-a-scenario", "attitude moon-10-deg --slope-deg 10");
+fn heading_as_a_table() {
+    check_conversation("heading", "heading");
+    check_conversation("heading-on-too-steep-a-slope", "heading --slope-deg 0,10,25");
+    check_conversation("heading-of-a-scenario", "heading moon-10-deg --slope-deg 10");
 }
 
 #[test]
-fn attitude_for_programs() {
-    let line = "attitude --slope-deg 10,25";
-    check_rounded("attitude-json", &format!("{line} --format json"), rounded_json);
-    check_rounded("attitude-csv", &format!("{line} --format csv"), rounded_csv);
+fn heading_for_programs() {
+    let line = "heading --slope-deg 10,25";
+    check_rounded("heading-json", &format!("{line} --format json"), rounded_json);
+    check_rounded("heading-csv", &format!("{line} --format csv"), rounded_csv);
 }
 
 #[test]
-fn attitude_map_as_a_table_and_for_programs() {
-    let line = "attitude-map --course-deg -30,0,30 --slope-deg 10,20";
-    check_conversation("attitude-map", line);
-    check_rounded("attitude-map-csv", &format!("{line} --format csv"), rounded_csv);
+fn heading_map_as_a_table_and_for_programs() {
+    let line = "heading-map --course-deg -30,0,30 --slope-deg 10,20";
+    check_conversation("heading-map", line);
+    check_rounded("heading-map-csv", &format!("{line} --format csv"), rounded_csv);
 }
 
 #[test]
