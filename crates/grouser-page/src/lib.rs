@@ -21,7 +21,7 @@ mod png;
 mod svg;
 
 pub use font::{Face, width, wrap};
-pub use markup::{is_hidden, markup};
+pub use markup::markup;
 pub use png::PIXELS_PER_MM;
 
 /// A place on the page, or a way across it: to the right, and down [mm].
@@ -152,11 +152,12 @@ pub struct Text {
 }
 
 impl Text {
-    /// Text in a regular face, black, starting at its place.
+    /// Text in a regular face, black, starting at its place. Its characters are drawn as they are, from
+    /// left to right: a caller that takes text from outside decides before what may be in it.
     #[must_use]
     pub fn new(content: impl Into<String>, size: f64) -> Self {
         Self {
-            content: markup::visible(&content.into()),
+            content: content.into(),
             size,
             face: Face::Regular,
             grey: BLACK,
@@ -219,7 +220,7 @@ impl Sheet {
     /// An empty page of a size [mm].
     #[must_use]
     pub fn new(title: &str, width: f64, height: f64) -> Self {
-        Self { title: markup::visible(title), width, height, items: Vec::new() }
+        Self { title: title.to_owned(), width, height, items: Vec::new() }
     }
 
     /// What the page is called.
