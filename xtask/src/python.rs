@@ -68,10 +68,11 @@ pub(crate) fn check_lowest() -> Result<Count> {
 /// The file that says what Python costs.
 const PERFORMANCE: &str = "docs/performance.md";
 
-/// Measures what Python costs beside the native half alone, and writes it into its document.
+/// Measures what Python costs beside a program that does the same, and writes it into its document.
 pub(crate) fn write_times() -> Result<()> {
     let mut command = Command::new(installed()?);
     command.arg(workspace::root().join(PACKAGE).join("benches/ratios.py"));
+    command.arg(workspace::build_work()?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
     let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
