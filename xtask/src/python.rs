@@ -128,7 +128,7 @@ fn folder() -> PathBuf {
 
 fn requirements() -> Result<Vec<Requirement>> {
     let path = workspace::root().join(PACKAGE).join("pyproject.toml");
-    let found = requirements::of_project(&fs::read_to_string(path).context("pyproject.toml")?);
+    let found = requirements::of_project(&fs::read_to_string(path).context("pyproject.toml")?)?;
     ensure!(!found.is_empty(), "pyproject.toml requires nothing");
     Ok(found)
 }
