@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
+use crate::flaw::Flaw;
 use crate::markdown::Page;
-use crate::texts::Flaw;
 use crate::workspace;
 
 /// Where paths that start with `crate::` lead.

@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use crate::flaw::Flaw;
 use crate::markdown::Page;
-use crate::texts::Flaw;
 use crate::workspace;
 
 /// Links that lead nowhere.

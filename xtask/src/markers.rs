@@ -1,7 +1,7 @@
 //! Blocks of Markdown files that a command makes. `CONTRIBUTING.md` shows how they look.
 //!
 //! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or `picture
-//! by`, or `measured by`) and ends with a line `<!-- end -->`. `<!-- measured by: cargo xtask CHORE -->` is that
+//! by`, or `measured by`) and ends with a line `<!-- end -->`. Blocks by `cargo xtask CHORE` are that
 //! chore's to write. Markers in fenced code are examples and do not count.
 
 use anyhow::{Context, Result, bail};
@@ -87,8 +87,8 @@ fn start_of(line: &str, number: usize) -> Result<Option<Block>> {
         Some(("measured by", command)) => (Kind::Measurement, command),
         _ => return Ok(None),
     };
-    if kind == Kind::Measurement && command.trim().starts_with(CHORE) {
-        // What a chore measured, it wrote itself.
+    if kind != Kind::Picture && command.trim().starts_with(CHORE) {
+        // What a chore makes or measures, it writes itself.
         return Ok(None);
     }
     let Some(arguments) = command.trim().strip_prefix(COMMAND) else {
@@ -129,13 +129,22 @@ pub(crate) fn picture_of(content: &str) -> Result<&str> {
     }
 }
 
-/// A text with another content in the block that a chore measures.
-pub(crate) fn with_measured(markdown: &str, chore: &str, content: &str) -> Result<String> {
-    let start = format!("<!-- measured by: {CHORE}{chore} -->\n");
-    let (before, rest) = markdown.split_once(&start).context("the block of the chore")?;
-    let (_, after) = rest.split_once(END).context("the block's end")?;
-    let content = as_markdown(content, &[]);
-    Ok(format!("{before}{start}{content}{END}{after}"))
+/// What stands in the block of a chore.
+///
+/// * `by`: how its marker begins and names the chore, such as `measured by: cargo xtask python-times`
+pub(crate) fn content_by<'t>(markdown: &'t str, by: &str) -> Result<&'t str> {
+    let start = format!("<!-- {by} -->\n");
+    let (_, rest) = markdown.split_once(&start).with_context(|| format!("no block `{by}`"))?;
+    let (content, _) = rest.split_once(END).with_context(|| format!("`{by}` has no `{END}`"))?;
+    Ok(content)
+}
+
+/// A text with another content in the block of a chore.
+pub(crate) fn with_content_by(markdown: &str, by: &str, content: &str) -> Result<String> {
+    let old = content_by(markdown, by)?;
+    let start = old.as_ptr() as usize - markdown.as_ptr() as usize;
+    let (before, after) = (&markdown[..start], &markdown[start + old.len()..]);
+    Ok(format!("{before}{}{after}", as_markdown(content, &[])))
 }
 
 #[cfg(test)]
@@ -210,12 +219,15 @@ between
     }
 
     #[test]
-    fn what_a_chore_measured_is_left_to_it() {
-        let markdown = "a\n<!-- measured by: cargo xtask python-times -->\nold\n<!-- end -->\nb\n";
-        assert!(blocks(markdown).is_empty());
-        let written = with_measured(markdown, "python-times", "1 s\n").expect("its block");
-        assert!(written.contains("```text\n1 s\n```\n<!-- end -->\nb\n"), "{written}");
-        assert!(!written.contains("old") && with_measured("a", "python-times", "1").is_err());
+    fn the_blocks_of_chores_are_left_to_them() {
+        for by in ["measured by: cargo xtask python-times", "made by: cargo xtask count"] {
+            let markdown = format!("a\n<!-- {by} -->\nold\n<!-- end -->\nb\n");
+            assert!(blocks(&markdown).is_empty());
+            let written = with_content_by(&markdown, by, "1 s\n").expect("its block");
+            let expected = format!("a\n<!-- {by} -->\n```text\n1 s\n```\n<!-- end -->\nb\n");
+            assert_eq!(written, expected);
+            assert!(with_content_by("a", by, "1").is_err());
+        }
     }
 
     #[test]
