@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::markdown::{code_of, prose};
-use crate::texts::Flaw;
+use crate::flaw::Flaw;
+use crate::markdown::Page;
 use crate::workspace;
 
 /// Where paths that start with `crate::` lead: the crates of the library, which re-exports all of them.
@@ -22,11 +22,9 @@ pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
         .collect();
     let mut flaws = Vec::new();
     for (path, text) in texts.iter().filter(|(path, _)| workspace::has_extension(path, "md")) {
-        for (number, line) in prose(text) {
-            for code in code_of(line).filter(|code| code.starts_with("crate::")) {
-                if !exists(code, &sources) {
-                    flaws.push(Flaw::new(path, number, format!("there is no {code}")));
-                }
+        for (number, code) in Page::read(text).codes {
+            if code.starts_with("crate::") && !exists(&code, &sources) {
+                flaws.push(Flaw::new(path, number, format!("there is no {code}")));
             }
         }
         if path == LEDGER {
@@ -85,7 +83,7 @@ fn missing_equations(ledger: &str) -> Vec<Flaw> {
     for number in 1..=18 {
         let wanted = EQUATIONS.iter().filter(|equation| **equation == number).count();
         let row = format!("| ({number})");
-        let rows = prose(ledger).filter(|(_, line)| line.starts_with(&row)).count();
+        let rows = ledger.lines().filter(|line| line.starts_with(&row)).count();
         if rows < wanted {
             let what = format!("Equation ({number}) has {rows} rows, it needs {wanted}");
             missing.push(Flaw::new(LEDGER, 1, what));

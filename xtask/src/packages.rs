@@ -6,7 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use crate::ci::Extent;
+use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{python, workspace};
 

@@ -2,23 +2,8 @@
 
 use anyhow::Result;
 
+use crate::flaw::Flaw;
 use crate::{cited, hygiene, links, workspace};
-
-/// Something wrong in a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Flaw {
-    /// From the root.
-    pub(crate) path: String,
-    /// From 1.
-    pub(crate) line: usize,
-    pub(crate) what: String,
-}
-
-impl Flaw {
-    pub(crate) fn new(path: &str, line: usize, what: impl Into<String>) -> Self {
-        Self { path: path.into(), line, what: what.into() }
-    }
-}
 
 /// Whether every text is in order; prints what is not.
 pub(crate) fn check() -> Result<bool> {
