@@ -2,9 +2,11 @@
 
 use grouser::contact::Theory;
 use grouser::document::trajectory::SampleRecord;
-use grouser::document::variation::{VariationError, Varied};
+use grouser::document::{Kind, range, scenario_with};
+use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
+use grouser::studies::ensemble::{outputs, outputs_while};
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -23,9 +25,14 @@ pub(crate) struct Runs {
     base_of: Option<Vec<usize>>,
     soils: Vec<(Soil, Option<Theory>)>,
     soil_of: Option<Vec<usize>>,
-    varied: Vec<(Varied, Vec<f64>)>,
+    /// Keys of scenarios, with a value for each run.
+    varied: Vec<(&'static str, Vec<f64>)>,
     count: usize,
 }
+
+/// The keys of scenarios that may vary; an argument has the name of the key without its tables.
+const KEYS: [&str; 5] =
+    ["slope_deg", "start.yaw_deg", "drive.speed_m_s", "gravity_m_s2", "duration_s"];
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -65,7 +72,7 @@ impl Runs {
     }
 
     /// The scenario of a run.
-    fn scenario(&self, place: usize) -> Result<Scenario, VariationError> {
+    fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
         let of = |index: &Option<Vec<usize>>| index.as_ref().map_or(0, |index| index[place]);
         let (base, names_its_theory) = &self.bases[of(&self.base_of)];
         let mut scenario = base.clone();
@@ -75,14 +82,11 @@ impl Runs {
                 scenario.theory = theory.unwrap_or_default();
             }
         }
-        for (varied, values) in &self.varied {
-            varied.put(&mut scenario, values[place])?;
-        }
-        Ok(scenario)
+        scenario_with(&scenario, self.varied.iter().map(|(key, values)| (*key, values[place])))
     }
 
     /// The first run that cannot be, with its place.
-    fn first_misfit(&self) -> Option<(usize, VariationError)> {
+    fn first_misfit(&self) -> Option<(usize, ParameterError)> {
         let places = (0..self.count).into_par_iter().with_min_len(256);
         places.find_map_first(|place| self.scenario(place).err().map(|error| (place, error)))
     }
@@ -100,18 +104,19 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
     Ok(Some(all))
 }
 
-fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(Varied, Vec<f64>)>> {
+fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
     let mut all = Vec::new();
-    for varied in Varied::ALL {
-        let Some(values) = dict.get_item(varied.name())? else { continue };
+    for key in KEYS {
+        let name = key.rsplit('.').next().unwrap_or(key);
+        let Some(values) = dict.get_item(name)? else { continue };
         let values: PyReadonlyArray1<'_, f64> = values.extract()?;
         let values = values.as_slice()?.to_vec();
-        check(varied.name(), &values, &varied.range())?;
+        check(name, &values, &range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX))?;
         if values.len() != count {
-            let message = format!("{} has {} values for {count} runs", varied.name(), values.len());
-            return Err(errors::parameter(message, varied.name(), None, "a value for each run"));
+            let message = format!("{name} has {} values for {count} runs", values.len());
+            return Err(errors::parameter(message, name, None, "a value for each run"));
         }
-        all.push((varied, values));
+        all.push((key, values));
     }
     Ok(all)
 }
@@ -175,17 +180,17 @@ pub(crate) fn rollout<'py>(
             return Err(misfit);
         }
         let end = |place: usize| {
-            let scenario = runs.scenario(place).map_err(|error| (place, error));
-            (!cancelled.is_set()).then(|| Ok(End::of(&scenario?, keep)))
+            let scenario = runs.scenario(place).map_err(|error| (place, error))?;
+            Ok(End::of(&scenario, keep))
         };
-        let ends = (0..count).into_par_iter().map(end);
-        ends.collect::<Option<Result<Vec<End>, _>>>().unwrap_or_else(|| Ok(Vec::new()))
+        let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
+        ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
     let ends = ends.map_err(|(place, error)| {
-        let VariationError { name, value, expected } = &error;
+        let ParameterError { name, value, expected } = &error;
         let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
         let message = format!("{name} is {value}{at}, it must be {expected}");
-        errors::parameter(message, name, Some(*value), expected.clone())
+        errors::parameter(message, name, Some(*value), *expected)
     })?;
     to_python(py, &ends, keep)
 }
@@ -229,7 +234,7 @@ pub(crate) fn time_rollout<'py>(
             (0..count).filter_map(|place| runs.scenario(place).ok()).collect();
         let start = std::time::Instant::now();
         let end = |scenario: &Scenario| run(scenario).map(|run| (run.last().clone(), run.outcome));
-        let ends: Vec<_> = scenarios.par_iter().map(end).collect();
+        let ends = outputs(&scenarios, end);
         let seconds = start.elapsed().as_secs_f64();
         drop(ends);
         seconds

@@ -1,6 +1,6 @@
 //! Runs and studies: each in a thread of its own, so that Ctrl-C is heard.
 
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::RangeInclusive;
 
 use grouser::document::simulated_test::{NOISE, SimulatedTrialRecord, TRIALS};
 use grouser::document::study::{
@@ -11,7 +11,6 @@ use grouser::document::trajectory::{SampleRecord, TrajectoryRecord, WheelSampleR
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory};
-use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::attitude_band::AttitudeBand;
 use grouser::studies::attitude_map::AttitudeMap;
@@ -195,16 +194,11 @@ pub(crate) fn attitude_band<'py>(
     };
     let study = AttitudeStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
-        let draw = |index| uncertain.draw(seed, u64::from(index));
-        let soils: Vec<Soil> =
-            (0..samples).map(draw).collect::<Result<_, _>>().map_err(|error| {
-                let message = format!("the soil's uncertainty reaches too far: {error}");
-                Problem::Draws(message)
-            })?;
+        let soils = uncertain.draws(seed, samples).map_err(|error| {
+            Problem::Draws(format!("the soil's uncertainty reaches too far: {error}"))
+        })?;
         let slopes: Vec<f64> = slopes.iter().map(|slope| slope.to_radians()).collect();
-        let go_on = || {
-            if cancelled.is_set() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
+        let go_on = || !cancelled.is_set();
         AttitudeBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
     })?;
     let band = found.map_err(|problem| match problem {

@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let studies: Vec<_> = campaign
             .runs_of(shard)
             .map(|run| {
-                let values = campaign.plan().inputs(run).values;
+                let values = campaign.ensemble().inputs(run).values;
                 let mut study = AttitudeStudy::of(&scenario);
                 study.soil.friction_angle = values[0].to_radians();
                 study.soil.density = values[1];

@@ -54,10 +54,11 @@ mod source;
 pub mod study;
 mod text;
 pub mod trajectory;
+mod uncertain_soil;
 mod uncertainty;
 pub mod validation;
 mod values;
-pub mod variation;
+mod varied;
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -74,7 +75,8 @@ pub use presets::{Preset, preset, presets};
 pub use schema::{range, schema};
 pub use soil_family::{FitKey, SoilFamily, key_of};
 pub use source::{LARGEST_FILE, Source};
-pub use uncertainty::{CorrelationSection, DistributionWord, SAMPLES_FILE, UncertainSoil};
+pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
+pub use varied::scenario_with;
 
 use crate::simulation::Scenario;
 use crate::soil::Soil;
@@ -287,10 +289,10 @@ fn read<V: Described>(
     let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
     let mut companions = Vec::new();
     let uncertain = match kind {
-        Kind::Soil => uncertainty::read(&mut document, "", &tree, &mut companions)?,
+        Kind::Soil => uncertain_soil::read(&mut document, "", &tree, &mut companions)?,
         Kind::Scenario => {
             let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
-            uncertainty::read(&mut document, "soil", soil, &mut companions)?
+            uncertain_soil::read(&mut document, "soil", soil, &mut companions)?
         }
         _ => None,
     };

@@ -1,13 +1,11 @@
 //! `grouser attitude --uncertainty`: what the draws of an uncertain soil add to the attitude.
 
-use std::ops::ControlFlow;
-
 use grouser::document::study::{AttitudeBandLimit, AttitudeBandRecord};
 use grouser::document::{LoadedScenario, UncertainSoil};
 use grouser::soil::Soil;
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
 use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
-use grouser::studies::uncertainty::Band;
+use grouser::studies::ensemble::Band;
 
 use crate::args::AttitudeArgs;
 use crate::chart::{Chart, Series, Style};
@@ -54,7 +52,7 @@ pub(crate) fn draw(
     let study = AttitudeStudy::of(&scenario.value);
     let band = AttitudeBand::of(&study, &soils, &slopes, &|| {
         bar.inc(1);
-        ControlFlow::Continue(())
+        true
     });
     bar.finish_and_clear();
     // Nobody breaks it off: Ctrl-C ends the program.
@@ -73,9 +71,7 @@ pub(crate) fn soils(
     seed: u64,
     samples: u32,
 ) -> Result<Vec<Soil>, Failure> {
-    let draw = |index| uncertain.draw(seed, u64::from(index));
-    let soils: Result<Vec<Soil>, _> = (0..samples).map(draw).collect();
-    soils.map_err(|error| {
+    uncertain.draws(seed, samples).map_err(|error| {
         Failure::Usage(format!(
             "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
              keep the draws within the ranges of their keys"

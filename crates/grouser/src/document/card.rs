@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::study::{OK, printed_degrees};
 use crate::studies::card::{Card, CardRow, Rule, Verdict};
-use crate::studies::uncertainty::Band;
+use crate::studies::ensemble::Band;
 
 /// Shares and slip ratios that a rule may have [-].
 pub const SHARE: RangeInclusive<f64> = 0.0..=1.0;

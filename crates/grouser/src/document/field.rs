@@ -55,8 +55,7 @@ pub(super) enum Shape<T: 'static> {
     /// Kind and version of a document.
     Tag,
     Text(Text<T>),
-    /// Texts, at least as many and at most as many.
-    Texts(u64, Option<u64>),
+    Texts(Texts<T>),
     Flag(fn(&mut T, bool)),
     Whole(Whole<T>),
     /// One of some words.
@@ -69,8 +68,8 @@ pub(super) enum Shape<T: 'static> {
     List(&'static dyn Inner<T>, u64),
     /// Another document, or its name.
     Part(Kind, &'static dyn Inner<T>),
-    /// A text that is what the sentence says, or a table.
-    TextOr(&'static str, &'static dyn Inner<T>),
+    /// A text that is what the sentence says and goes somewhere, or a table.
+    TextOr(&'static str, fn(&mut T, &str), &'static dyn Inner<T>),
 }
 
 /// Where a number goes; nowhere if the value follows another law.
@@ -91,6 +90,13 @@ pub(super) struct Text<T: 'static> {
     pub least: u64,
     pub format: Option<&'static str>,
     put: fn(&mut T, &str),
+}
+
+/// Texts, at least as many and at most as many, and where each goes by its place.
+pub(super) struct Texts<T: 'static> {
+    pub least: u64,
+    pub most: Option<u64>,
+    pub put: fn(&mut T, usize, &str),
 }
 
 /// A whole number.
@@ -190,16 +196,21 @@ pub(super) trait Inner<T>: Sync {
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>>;
 }
 
-/// A number in a domain's value, in SI, and the unit that documents give it in.
+/// A number in a domain's value, in SI, and what documents may give it.
 pub(super) struct Reached<'t> {
     value: &'t mut f64,
-    unit: Unit,
+    number: Number,
 }
 
 impl Reached<'_> {
     /// Gives it another value, in the document's unit.
     pub(super) fn set(self, value: f64) {
-        *self.value = self.unit.to_si(value);
+        *self.value = self.number.unit.to_si(value);
+    }
+
+    /// What it may be, in the document's unit; both ends included, also where the lower one is not.
+    pub(super) fn range(&self) -> RangeInclusive<f64> {
+        self.number.least..=self.number.most
     }
 }
 
@@ -289,7 +300,7 @@ pub(super) const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
 
 /// Some texts; none are left out.
 pub(super) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
-    field(key, doc, Shape::Texts(0, None)).optional()
+    field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
 }
 
 /// One of some words.
@@ -345,11 +356,6 @@ pub(super) fn nothing<T>(_: &mut T) {}
 /// The same for a text.
 fn nothing_with<T>(_: &mut T, _: &str) {}
 
-/// The same for a number.
-pub(super) fn nowhere<T>(_: &mut T) -> Option<&mut f64> {
-    None
-}
-
 impl<T> Field<T> {
     /// The same, that may be left out.
     pub(super) const fn optional(mut self) -> Self {
@@ -377,7 +383,7 @@ impl<T> Field<T> {
                 all.iter().map(|said| each.complete(said)).collect()
             }
             (
-                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, inner),
+                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner),
                 Json::Object(_),
             ) => inner.complete(said),
             _ => said.clone(),
@@ -386,7 +392,14 @@ impl<T> Field<T> {
 
     fn put(&self, value: &mut T, said: &Json) {
         match (&self.shape, said) {
-            (Shape::Text(Text { put, .. }), Json::String(said)) => put(value, said),
+            (Shape::Text(Text { put, .. }) | Shape::TextOr(_, put, _), Json::String(said)) => {
+                put(value, said);
+            }
+            (Shape::Texts(Texts { put, .. }), Json::Array(all)) => {
+                for (place, said) in all.iter().filter_map(Json::as_str).enumerate() {
+                    put(value, place, said);
+                }
+            }
             (Shape::Flag(put), Json::Bool(said)) => put(value, *said),
             (Shape::Whole(Whole { put, .. }), said) => put(value, said.as_u64().unwrap_or(0)),
             (Shape::Words(words), Json::String(said)) => {
@@ -396,22 +409,17 @@ impl<T> Field<T> {
             }
             (Shape::Number(..), said) => self.set(value, "", said),
             (Shape::Numbers(Numbers { begin, .. }), said) => {
-                let all = said.as_array();
-                begin(value, all.map(Vec::len));
-                match all {
-                    Some(all) => {
-                        for (place, said) in all.iter().enumerate() {
-                            self.set(value, &place.to_string(), said);
-                        }
-                    }
-                    None => self.set(value, "", said),
+                let Some(all) = said.as_array() else { return self.set(value, "", said) };
+                begin(value, Some(all.len()));
+                for (place, said) in all.iter().enumerate() {
+                    self.set(value, &place.to_string(), said);
                 }
             }
             (
                 Shape::Inner(inner)
                 | Shape::List(inner, _)
                 | Shape::Part(_, inner)
-                | Shape::TextOr(_, inner),
+                | Shape::TextOr(_, _, inner),
                 said,
             ) => inner.put(value, said),
             _ => {}
@@ -426,12 +434,17 @@ impl<T> Field<T> {
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
         match &self.shape {
-            Shape::Number(Number { unit, .. }, reach) if path.is_empty() => {
-                Some(Reached { value: reach(value)?, unit: *unit })
+            Shape::Number(number, reach) if path.is_empty() => {
+                Some(Reached { value: reach(value)?, number: *number })
             }
-            Shape::Numbers(Numbers { number, reach, .. }) => {
+            Shape::Numbers(Numbers { number, begin, reach, .. }) => {
                 let place = if path.is_empty() { 0 } else { path.parse().ok()? };
-                Some(Reached { value: reach(value, place)?, unit: number.unit })
+                reach(value, place)?;
+                if path.is_empty() {
+                    // One number under the list's own key stands for all of them.
+                    begin(value, None);
+                }
+                Some(Reached { value: reach(value, place)?, number: *number })
             }
             Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
                 inner.reach(value, path)
@@ -558,6 +571,25 @@ impl<T, P> Inner<T> for Each<T, P> {
     }
 }
 
+/// A table that does not go into the value, but is read on its own.
+pub(super) struct Beside<P: 'static>(pub &'static dyn Inner<P>);
+
+impl<T, P> Inner<T> for Beside<P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.0.schema(defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        self.0.complete(said)
+    }
+
+    fn put(&self, _: &mut T, _: &Json) {}
+
+    fn reach<'t>(&self, _: &'t mut T, _: &str) -> Option<Reached<'t>> {
+        None
+    }
+}
+
 // ---- Laws ----
 
 /// A table whose keys depend on a word in it.
@@ -569,6 +601,8 @@ pub(super) struct Laws<T: 'static> {
     pub all: &'static [Law<T>],
     /// Whether a table without the word follows the first law.
     pub may_be_left_out: bool,
+    /// Whether a resolved document has the word after the law's keys.
+    pub is_written_last: bool,
 }
 
 /// One of several laws.
@@ -595,12 +629,10 @@ impl<T> Inner<T> for Laws<T> {
 
     fn complete(&self, said: &Json) -> Json {
         let law = self.named(said);
-        let mut complete = serde_json::Map::new();
-        complete.insert(self.key.to_owned(), Json::from(law.name));
-        if let Json::Object(keys) = law.table.complete(said) {
-            complete.extend(keys);
-        }
-        Json::Object(complete)
+        let word = (self.key.to_owned(), Json::from(law.name));
+        let Json::Object(mut keys) = law.table.complete(said) else { return Json::Null };
+        keys.shift_insert(if self.is_written_last { keys.len() } else { 0 }, word.0, word.1);
+        Json::Object(keys)
     }
 
     fn put(&self, value: &mut T, said: &Json) {

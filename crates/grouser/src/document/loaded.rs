@@ -10,6 +10,7 @@ use super::describe::scenario::SCENARIO;
 use super::describe::soil::SOIL;
 use super::describe::wheel::WHEEL;
 use super::field::Inner;
+use super::varied::Key;
 use super::{Kind, UncertainSoil};
 use crate::contact::Theory;
 
@@ -88,9 +89,25 @@ impl Document {
         Self::of(self.kind, &keys)
     }
 
+    /// The same with other values of some keys.
+    pub(super) fn with(&self, keys: &[Key], values: &[f64]) -> Self {
+        let mut changed = self.clone();
+        for (Key { path, .. }, value) in keys.iter().zip(values) {
+            let pointer = format!("/{}", path.replace('.', "/"));
+            if let Some(number) = changed.keys.pointer_mut(&pointer) {
+                *number = Json::from(*value);
+            }
+        }
+        changed
+    }
+
     /// All that it says.
     pub(super) fn keys(&self) -> &Json {
         &self.keys
+    }
+
+    pub(super) fn kind(&self) -> Kind {
+        self.kind
     }
 
     /// The document inside it at a dotted path.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::studies::attitude::{Attitude, AttitudeCurve, NoAttitude};
 use crate::studies::attitude_band::{AttitudeBand, SlopeBand};
 use crate::studies::attitude_map::{AttitudeMap, AttitudeRow};
-use crate::studies::uncertainty::Band;
+use crate::studies::ensemble::Band;
 use crate::studies::wheel_test::WheelTestRow;
 use crate::vehicle::Rover;
 

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use grouser::document::campaign::{Cell, ColumnKind, Role, STATUSES, Table, Values, unit};
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
 use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::campaign::sensitivity::Sensitivity;
-use grouser::studies::campaign::summary::Summary;
+use grouser::studies::ensemble::sensitivity::Sensitivity;
+use grouser::studies::ensemble::statistics::Summary;
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -351,8 +351,9 @@ fn draws_stay_in_the_range_of_their_key() {
     let tables = "[scenario]\n[[parameter]]\nkey = \"soil.exit.ratio\"\ndistribution = \"normal\"\n\
                   mean = 1.4\nstandard_deviation = 0.5\n";
     let campaign = campaign(&text("attitude", "runs = 400", tables));
-    let draws: Vec<f64> =
-        (0..400).filter_map(|run| campaign.plan().inputs(run).values.first().copied()).collect();
+    let draws: Vec<f64> = (0..400)
+        .filter_map(|run| campaign.ensemble().inputs(run).values.first().copied())
+        .collect();
     assert!(draws.iter().all(|ratio| (0.0..=1.5).contains(ratio)));
     assert!(draws.iter().any(|ratio| *ratio > 1.45), "the range is used to its end");
 }
@@ -420,7 +421,11 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
         &["unknown key `soil.cohesion`", "soil.cohesion_kpa"],
     );
     check_refused(&own("friction_angle_deg", normal), &["did you mean `soil.friction_angle_deg`?"]);
-    check_refused(&own("soil.name", normal), &["unknown key"]);
+    check_refused(&own("soil.name", normal), &["`soil.name` is no number of what is varied"]);
+    check_refused(
+        &own("soil.rft.surface_friction_angle_deg", normal),
+        &["gives this key no value"],
+    );
     check_refused(&own("start.yaw_deg", normal), &["the study does not use this key"]);
     check_refused(&own("soil.friction_angle_deg", normal), &["a second time"]);
     check_refused(

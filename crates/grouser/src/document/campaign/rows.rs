@@ -4,13 +4,14 @@ use super::super::Document;
 use super::super::error::DocumentError;
 use super::super::study::{OK, WheelRecord};
 use super::super::text::Node;
-use super::super::values::{Described, Misfit};
+use super::super::values::Misfit;
+use super::super::varied::{Key, Numbers, Varied};
 use super::sections::{Stand, Study};
 use super::table::{Cell, Column, ColumnKind, Role};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Scenario, Simulation};
 use crate::studies::attitude::{AttitudeStudy, NoAttitude};
-use crate::studies::campaign::drive::Drive;
+use crate::studies::drive::Drive;
 use crate::vehicle::DriveLaw;
 
 /// What a campaign varies.
@@ -18,29 +19,6 @@ use crate::vehicle::DriveLaw;
 pub(super) enum Base {
     Scenario(Box<Varied<Scenario>>),
     Stand(Box<Varied<Stand>>),
-}
-
-/// A value whose numbers are exchanged, and what its document says.
-#[derive(Clone, Debug)]
-pub(super) struct Varied<V> {
-    value: V,
-    document: Document,
-}
-
-impl<V: Described> Varied<V> {
-    fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
-        let value = V::of(&document).settled().map_err(|misfit| misfit.of(tree))?;
-        Ok(Self { value, document })
-    }
-
-    /// The number under a key.
-    fn number(&self, key: &str) -> Option<f64> {
-        self.document.number(key).filter(|_| self.value.has(key))
-    }
-
-    fn with(&self, keys: &[String], values: &[f64]) -> Result<V, Misfit> {
-        self.value.with(keys.iter().map(String::as_str).zip(values.iter().copied()))
-    }
 }
 
 /// A draw's domain value.
@@ -117,13 +95,13 @@ const WHEEL_TEST: [&str; 15] = [
 /// The columns of a study.
 ///
 /// * `keys`: what is drawn
-pub(super) fn columns(study: Study, sensitivity: bool, keys: &[String]) -> Vec<Column> {
+pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Column> {
     let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
     if sensitivity {
         all.push(Column::new("point", ColumnKind::Whole, Role::Index));
         all.push(Column::new("matrix", ColumnKind::Text, Role::Index));
     }
-    all.extend(keys.iter().map(|key| Column::new(key, ColumnKind::Float, Role::Input)));
+    all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     let words: &[&str] = match study {
         Study::Traverse => &["status", "reason", "outcome", "simulation"],
         Study::Attitude | Study::WheelTest => &["status", "reason"],
@@ -139,7 +117,7 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[String]) -> Vec<C
 }
 
 /// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
-pub(super) fn run(study: Study, base: &Base, keys: &[String], values: &[f64], row: &mut Vec<Cell>) {
+pub(super) fn run(study: Study, base: &Base, keys: &[Key], values: &[f64], row: &mut Vec<Cell>) {
     let answer = base.with(keys, values).and_then(|case| match (study, case) {
         (Study::Attitude, Case::Scenario(scenario)) => attitude(&scenario),
         (_, Case::Scenario(scenario)) => traverse(&scenario),
@@ -167,33 +145,20 @@ impl Base {
         Ok(Self::Stand(Box::new(Varied::new(document, tree)?)))
     }
 
-    /// What it says.
-    pub(super) fn document(&self) -> &Document {
+    /// What can be varied.
+    pub(super) fn numbers(&self) -> &dyn Numbers {
         match self {
-            Self::Scenario(varied) => &varied.document,
-            Self::Stand(varied) => &varied.document,
+            Self::Scenario(varied) => &**varied,
+            Self::Stand(varied) => &**varied,
         }
     }
 
-    /// The number under a key.
-    pub(super) fn number(&self, key: &str) -> Option<f64> {
-        match self {
-            Self::Scenario(varied) => varied.number(key),
-            Self::Stand(varied) => varied.number(key),
-        }
-    }
-
-    /// That it means something with other values of some keys.
-    pub(super) fn check_with(&self, keys: &[String], values: &[f64]) -> Result<(), Misfit> {
-        self.case_of(keys, values).map(drop)
-    }
-
-    fn with(&self, keys: &[String], values: &[f64]) -> Result<Case, Failure> {
+    fn with(&self, keys: &[Key], values: &[f64]) -> Result<Case, Failure> {
         self.case_of(keys, values)
             .map_err(|misfit| Failure { status: UNFIT, reason: misfit.problem.to_string() })
     }
 
-    fn case_of(&self, keys: &[String], values: &[f64]) -> Result<Case, Misfit> {
+    fn case_of(&self, keys: &[Key], values: &[f64]) -> Result<Case, Misfit> {
         Ok(match self {
             Self::Scenario(varied) => Case::Scenario(Box::new(varied.with(keys, values)?)),
             Self::Stand(varied) => {
