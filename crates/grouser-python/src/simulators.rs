@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use grouser::document::trajectory::{SampleRecord, WheelSampleRecord};
-use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range};
+use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range, scenario_with};
 use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator};
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -55,13 +55,9 @@ impl Led {
                 scenario.site.soil = soil;
             }
         }
-        if let Some(slope) = fresh.slope_deg {
-            scenario.site.slope = slope.to_radians();
-        }
-        if let Some(yaw) = fresh.yaw_deg {
-            scenario.start.yaw = yaw.to_radians();
-        }
-        self.rover = Simulator::new(scenario)?;
+        let numbers = [("slope_deg", fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];
+        let numbers = numbers.into_iter().filter_map(|(key, number)| Some((key, number?)));
+        self.rover = Simulator::new(scenario_with(&scenario, numbers)?)?;
         self.failure = None;
         Ok(())
     }

@@ -73,7 +73,7 @@ pub use loaded::{Companion, Document, Loaded};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
 pub use schema::{range, schema};
-pub use soil_family::{FitKey, SoilFamily, key_of};
+pub use soil_family::{FitKey, SoilFamily};
 pub use source::{LARGEST_FILE, Source};
 pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
 pub use varied::scenario_with;

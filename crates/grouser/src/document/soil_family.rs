@@ -116,6 +116,11 @@ impl SoilFamily {
         &self.parameters
     }
 
+    /// The keys as the document has them.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(|key| &*key.path)
+    }
+
     /// The document that the search starts from, without its own uncertainty.
     #[must_use]
     pub fn base(&self) -> &Document {
@@ -184,12 +189,6 @@ fn no_start(soil: &Document, path: &str) -> String {
         );
     }
     format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
-}
-
-/// The key in the document that a parameter stands for.
-#[must_use]
-pub fn key_of(parameter: &Parameter) -> &str {
-    parameter.name.strip_prefix("soil.").unwrap_or(&parameter.name)
 }
 
 fn parameter(

@@ -358,6 +358,20 @@ fn draws_stay_in_the_range_of_their_key() {
     assert!(draws.iter().any(|ratio| *ratio > 1.45), "the range is used to its end");
 }
 
+/// The range is that of the law in force: speeds of Eq. (18) are positive, constant ones may be negative.
+#[test]
+fn draws_stay_in_the_range_that_their_law_gives_the_key() {
+    for (law, allows_reverse) in [("constant", true), ("eq18", false)] {
+        let tables = format!(
+            "[scenario]\ndrive = {{ law = \"{law}\" }}\n[[parameter]]\nkey = \"drive.speed_m_s\"\n\
+             distribution = \"normal\"\nmean = 0.05\nstandard_deviation = 0.05\n"
+        );
+        let campaign = campaign(&text("attitude", "runs = 400", &tables));
+        let speeds = (0..400).map(|run| campaign.ensemble().inputs(run).values[0]);
+        assert_eq!(speeds.into_iter().any(|speed| speed < 0.0), allows_reverse, "{law}");
+    }
+}
+
 #[test]
 fn any_number_of_the_base_can_be_drawn() {
     for key in [

@@ -237,6 +237,9 @@ fn soils_and_campaigns_speak_one_language() {
     let loaded = read(&text).expect("it is right");
     let again = read(&loaded.to_toml()).expect("it is resolved");
     assert!(loaded.companions.is_empty() && again.document == loaded.document);
+    // Soils have the word after the numbers, as it always was: fingerprints depend on it.
+    let written = "key = \"friction_angle_deg\"\nmean = 35.0\nstandard_deviation = 0.0\ndistribution = \"normal\"";
+    assert!(loaded.to_toml().contains(written), "{}", loaded.to_toml());
     let soils = loaded.uncertain.as_ref().expect("it says so");
     assert_eq!(soils.keys().collect::<Vec<_>>(), [FRICTION, "exit.ratio", "cohesion_kpa"]);
     assert_eq!(soils.sampled_keys().collect::<Vec<_>>(), ["cohesion_kpa"]);
