@@ -8,28 +8,12 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result};
 
+use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{
-    crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, workflows, workspace,
+    count, cpu, crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, workflows,
+    workspace,
 };
-
-/// How much is tested.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extent {
-    /// All but the tests marked `#[ignore]`.
-    Usual,
-    /// Those too.
-    Full,
-}
-
-impl Extent {
-    fn fuzz(self) -> fuzz::Plan {
-        match self {
-            Self::Usual => fuzz::Plan::usual(),
-            Self::Full => fuzz::Plan::full(),
-        }
-    }
-}
 
 /// A step that was taken.
 struct Step {
@@ -52,6 +36,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
         step("texts", || texts::check().map(Count::one)),
         step("crates", crates::check),
+        step("count", count::check),
         step("lints", || {
             let lint = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
             succeeds(workspace::cargo().args(lint))
@@ -73,7 +58,7 @@ pub(crate) fn run(extent: Extent) -> bool {
         step("program", || workspace::build_program().map(|_| Count::one(true))),
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
-        step("fuzz", || fuzz::check(&extent.fuzz())),
+        step("fuzz", || fuzz::check(&fuzz::Plan::of(extent))),
         step("packages", || packages::check(extent)),
         step("wheel", || python::installed().map(|_| Count::one(true))),
     ];
@@ -100,13 +85,12 @@ pub(crate) fn run(extent: Extent) -> bool {
 /// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
 fn step(name: &'static str, take: impl FnOnce() -> Result<Count>) -> Step {
     println!("\n── {name} ──");
-    let (start, before) = (Instant::now(), computed_by_children());
+    let (start, before) = (Instant::now(), cpu::of_children());
     let count = take().unwrap_or_else(|error| {
         println!("{error:#}");
         Count::one(false)
     });
-    let computed =
-        computed_by_children().zip(before).map(|(now, before)| now.saturating_sub(before));
+    let computed = cpu::of_children().zip(before).map(|(now, before)| now.saturating_sub(before));
     Step { name, count, duration: start.elapsed(), computed }
 }
 
@@ -146,16 +130,6 @@ impl Beside {
         let ended = step(name, end);
         Step { duration: start.elapsed(), ..ended }
     }
-}
-
-/// CPU time of all programs that this one started and that have ended, where the system is Linux.
-fn computed_by_children() -> Option<Duration> {
-    // The name of the program, in brackets, may hold blanks; after it come the third field and the next.
-    let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    let ticks = |field: usize| fields.get(field - 3)?.parse::<u64>().ok();
-    // User's and system's time in hundredths of a second, fields 16 and 17 of proc(5).
-    Some(Duration::from_millis(10 * (ticks(16)? + ticks(17)?)))
 }
 
 fn succeeds(command: &mut Command) -> Result<Count> {

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use crate::markdown::{code_of, prose};
-use crate::texts::Flaw;
+use crate::flaw::Flaw;
+use crate::markdown::Page;
 use crate::workspace;
 
-/// Where paths that start with `crate::` lead.
-const SOURCES: &str = "crates/grouser/src";
+/// Where paths that start with `crate::` lead: the crates of the library, which re-exports all of them.
+const SOURCES: [&str; 2] = ["crates/grouser/src", "crates/grouser-core/src"];
 /// The ledger of the source paper's equations.
 const LEDGER: &str = "docs/equations.md";
 /// The numbers of its equations; the paper numbers two of them 10.
@@ -17,16 +17,14 @@ const EQUATIONS: [u32; 19] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 10, 11, 12, 13, 14,
 pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
     let sources: HashMap<&str, &str> = texts
         .iter()
-        .filter(|(path, _)| path.starts_with(SOURCES))
+        .filter(|(path, _)| SOURCES.iter().any(|folder| path.starts_with(folder)))
         .map(|(path, text)| (path.as_str(), text.as_str()))
         .collect();
     let mut flaws = Vec::new();
     for (path, text) in texts.iter().filter(|(path, _)| workspace::has_extension(path, "md")) {
-        for (number, line) in prose(text) {
-            for code in code_of(line).filter(|code| code.starts_with("crate::")) {
-                if !exists(code, &sources) {
-                    flaws.push(Flaw::new(path, number, format!("there is no {code}")));
-                }
+        for (number, code) in Page::read(text).codes {
+            if code.starts_with("crate::") && !exists(&code, &sources) {
+                flaws.push(Flaw::new(path, number, format!("there is no {code}")));
             }
         }
         if path == LEDGER {
@@ -39,8 +37,12 @@ pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
 /// Whether a path such as `crate::contact::slip::slip_ratio` or `crate::soil::Soil::check` names
 /// something that the sources define.
 fn exists(path: &str, sources: &HashMap<&str, &str>) -> bool {
-    let mut place = SOURCES.to_string();
-    let mut text = sources.get(format!("{SOURCES}/lib.rs").as_str()).copied();
+    SOURCES.iter().any(|folder| exists_below(folder, path, sources))
+}
+
+fn exists_below(folder: &str, path: &str, sources: &HashMap<&str, &str>) -> bool {
+    let mut place = folder.to_string();
+    let mut text = sources.get(format!("{folder}/lib.rs").as_str()).copied();
     let mut names = path.trim_end_matches("()").split("::").skip(1).peekable();
     while let Some(name) = names.peek() {
         let Some(module) = sources.get(format!("{place}/{name}.rs").as_str()) else { break };
@@ -81,7 +83,7 @@ fn missing_equations(ledger: &str) -> Vec<Flaw> {
     for number in 1..=18 {
         let wanted = EQUATIONS.iter().filter(|equation| **equation == number).count();
         let row = format!("| ({number})");
-        let rows = prose(ledger).filter(|(_, line)| line.starts_with(&row)).count();
+        let rows = ledger.lines().filter(|line| line.starts_with(&row)).count();
         if rows < wanted {
             let what = format!("Equation ({number}) has {rows} rows, it needs {wanted}");
             missing.push(Flaw::new(LEDGER, 1, what));

@@ -73,6 +73,13 @@ fn features() -> Result<bool> {
     Ok(different == 0)
 }
 
+/// How many crates a package builds with itself, where it runs on Linux with an x86-64 processor.
+pub(crate) fn built_by(package: &str) -> Result<usize> {
+    let platform = ["--target", "x86_64-unknown-linux-gnu"];
+    let arguments = ["--package", package, "--edges", "normal,build", platform[0], platform[1]];
+    Ok(tree(&arguments, "")?.len())
+}
+
 /// A crate with its version, and what a column of `cargo tree` says of it, once for each way in which
 /// it is built.
 type Crates = BTreeMap<String, BTreeSet<String>>;

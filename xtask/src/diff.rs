@@ -2,26 +2,23 @@
 
 use std::borrow::Cow;
 
+use similar::{ChangeTag, TextDiff};
+
 /// Longer stretches and lines are cut: the reader runs the chore anyway.
-const MOST_LINES: usize = 40;
+const MOST_LINES: usize = 80;
 const MOST_CHARACTERS: usize = 300;
 
 /// The lines that differ, with `-` for those that stand there and `+` for those that should; empty
-/// if none do. Only the stretch from the first difference to the last is shown.
+/// if none do.
 pub(crate) fn between(is: &str, should: &str) -> String {
-    let (is, should): (Vec<&str>, Vec<&str>) = (is.lines().collect(), should.lines().collect());
-    let head = is.iter().zip(&should).take_while(|(a, b)| a == b).count();
-    let (is_rest, should_rest) = (&is[head..], &should[head..]);
-    let tail =
-        is_rest.iter().rev().zip(should_rest.iter().rev()).take_while(|(a, b)| a == b).count();
-    let mut lines = Vec::new();
-    for (sign, rest) in [('-', is_rest), ('+', should_rest)] {
-        let differing = &rest[..rest.len() - tail];
-        lines.extend(differing.iter().take(MOST_LINES).map(|line| format!("{sign} {}", cut(line))));
-        if differing.len() > MOST_LINES {
-            lines.push(format!("{sign} … {} more lines", differing.len() - MOST_LINES));
-        }
-    }
+    let difference = TextDiff::from_lines(is, should);
+    let differing = difference.iter_all_changes().filter(|change| change.tag() != ChangeTag::Equal);
+    let mut lines: Vec<String> = differing
+        .map(|change| format!("{} {}", change.tag(), cut(change.value().trim_end_matches('\n'))))
+        .collect();
+    let more = lines.len().saturating_sub(MOST_LINES);
+    lines.truncate(MOST_LINES);
+    lines.extend((more > 0).then(|| format!("… {more} more lines")));
     lines.join("\n")
 }
 

@@ -20,6 +20,7 @@ use std::thread;
 
 use anyhow::{Context, Result, bail};
 
+use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::workspace;
 use subjects::Subject;
@@ -44,13 +45,20 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    pub(crate) fn of(extent: Extent) -> Self {
+        match extent {
+            Extent::Usual => Self::usual(),
+            Extent::Full => Self::full(),
+        }
+    }
+
     /// The cases of `cargo xtask ci`.
-    pub(crate) fn usual() -> Self {
+    fn usual() -> Self {
         Self { seed: 1, first: 0, cases: USUAL, program: None, limits: Limits::GENEROUS }
     }
 
     /// Those of `cargo xtask ci --full`.
-    pub(crate) fn full() -> Self {
+    fn full() -> Self {
         Self { seed: 2, cases: FULL, ..Self::usual() }
     }
 

@@ -1,6 +1,6 @@
 //! What must not stand in the repository: hosts that nobody agreed on, and paths of one machine.
 
-use crate::texts::Flaw;
+use crate::flaw::Flaw;
 
 /// Hosts that a text may name. Another one is added here, on purpose, or stays out.
 const HOSTS: [&str; 6] = [

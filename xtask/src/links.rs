@@ -2,23 +2,23 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::markdown::{prose, without_code};
-use crate::texts::Flaw;
+use crate::flaw::Flaw;
+use crate::markdown::Page;
 use crate::workspace;
 
 /// Links that lead nowhere.
 pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
     let files: HashSet<&str> = texts.iter().map(|(path, _)| path.as_str()).collect();
     let documents = texts.iter().filter(|(path, _)| workspace::has_extension(path, "md"));
+    let pages: Vec<(&str, Page)> =
+        documents.map(|(path, text)| (path.as_str(), Page::read(text))).collect();
     let headings: HashMap<&str, HashSet<String>> =
-        documents.clone().map(|(path, text)| (path.as_str(), anchors(text))).collect();
+        pages.iter().map(|(path, page)| (*path, anchors(&page.headings))).collect();
     let mut flaws = Vec::new();
-    for (path, text) in documents {
-        for (number, line) in prose(text) {
-            for target in targets(&without_code(line)) {
-                if let Some(what) = flaw_of(path, &target, &files, &headings) {
-                    flaws.push(Flaw::new(path, number, what));
-                }
+    for (path, page) in &pages {
+        for (number, target) in &page.targets {
+            if let Some(what) = flaw_of(path, target, &files, &headings) {
+                flaws.push(Flaw::new(path, *number, what));
             }
         }
     }
@@ -50,15 +50,6 @@ fn flaw_of(
     (!known).then(|| format!("the link {target} leads to no heading"))
 }
 
-/// Targets of the links and images in a line.
-fn targets(line: &str) -> Vec<String> {
-    line.split("](")
-        .skip(1)
-        .filter_map(|rest| rest.split_once(')'))
-        .map(|(target, _)| target.split_whitespace().next().unwrap_or_default().to_string())
-        .collect()
-}
-
 /// A path relative to a file, from the root; none where it leads out of the repository.
 fn joined(from: &str, target: &str) -> Option<String> {
     let mut parts: Vec<&str> = from.split('/').collect();
@@ -76,13 +67,9 @@ fn joined(from: &str, target: &str) -> Option<String> {
 }
 
 /// The anchors of a document's headings, as forges make them.
-fn anchors(text: &str) -> HashSet<String> {
+fn anchors(headings: &[String]) -> HashSet<String> {
     let mut anchors = HashSet::new();
-    for (_, line) in prose(text) {
-        let title = line.trim_start_matches('#');
-        if title.len() == line.len() || !title.starts_with(' ') {
-            continue;
-        }
+    for title in headings {
         let anchor: String = title
             .trim()
             .to_lowercase()

@@ -3,9 +3,13 @@
 mod alone;
 mod ci;
 mod cited;
+mod count;
+mod cpu;
 mod crates;
 mod diff;
+mod extent;
 mod figures;
+mod flaw;
 mod fuzz;
 mod hygiene;
 mod instructions;
@@ -46,6 +50,9 @@ cargo xtask CHORE
   site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is
                       with the Python package that is installed already
   python-times        measure what Python costs, and write it into docs/performance.md
+  count [--check | --build]
+                      count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
+                      --check compares what repeats, --build measures a first build instead
   crates              check licences, features and advisories of the crates that we depend on
   workflows           check the workflows of the code host
   texts               check the texts of the repository: links, hosts, paths, cited code
@@ -68,8 +75,8 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             print!("{USAGE}");
             true
         }
-        ["ci"] => ci::run(ci::Extent::Usual),
-        ["ci", "--full"] => ci::run(ci::Extent::Full),
+        ["ci"] => ci::run(extent::Extent::Usual),
+        ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
@@ -82,10 +89,13 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         }
         ["instructions"] => instructions::write()?,
         ["instructions", "--check"] => good(instructions::check()?),
+        ["count"] => count::write()?,
+        ["count", "--check"] => good(count::check()?),
+        ["count", "--build"] => count::write_build()?,
         ["crates"] => good(crates::check()?),
-        ["packages"] => good(packages::check(ci::Extent::Usual)?),
-        ["packages", "--full"] => good(packages::check(ci::Extent::Full)?),
-        ["python"] => good(python::check(ci::Extent::Usual)?),
+        ["packages"] => good(packages::check(extent::Extent::Usual)?),
+        ["packages", "--full"] => good(packages::check(extent::Extent::Full)?),
+        ["python"] => good(python::check(extent::Extent::Usual)?),
         ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build(&python::installed()?)?),
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),

@@ -1,42 +1,51 @@
-//! The little of Markdown that the chores need to know: which lines are prose, which are code.
+//! What the chores ask of Markdown: where links lead, what is code, what headings say.
 
-/// Tells fenced code from prose while lines go by.
-#[derive(Default)]
-pub(crate) struct Fences {
-    open: Option<&'static str>,
+use std::ops::Range;
+
+use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
+
+/// A Markdown file, read. Lines count from 1.
+#[derive(Debug, Default)]
+pub(crate) struct Page {
+    /// Targets of links and images, with their lines.
+    pub(crate) targets: Vec<(usize, String)>,
+    /// Code inside lines, with its lines.
+    pub(crate) codes: Vec<(usize, String)>,
+    /// Texts of headings.
+    pub(crate) headings: Vec<String>,
+    /// Where fenced code stands, fences included [bytes].
+    fenced: Vec<Range<usize>>,
 }
 
-impl Fences {
-    /// Whether the next line is fenced code, or one of its fences.
-    pub(crate) fn is_code(&mut self, line: &str) -> bool {
-        let fence = ["```", "~~~"].into_iter().find(|fence| line.trim_start().starts_with(fence));
-        match (self.open, fence) {
-            (None, None) => return false,
-            (None, Some(_)) => self.open = fence,
-            (Some(_), Some(_)) if self.open == fence => self.open = None,
-            (Some(_), _) => {}
+impl Page {
+    pub(crate) fn read(text: &str) -> Self {
+        let ends: Vec<usize> = text.match_indices('\n').map(|(end, _)| end).collect();
+        let line = |place: usize| ends.partition_point(|&end| end < place) + 1;
+        let mut page = Self::default();
+        let mut heading: Option<String> = None;
+        for (event, range) in Parser::new(text).into_offset_iter() {
+            match event {
+                Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
+                    page.targets.push((line(range.start), dest_url.into_string()));
+                }
+                Event::Start(Tag::CodeBlock(CodeBlockKind::Fenced(_))) => page.fenced.push(range),
+                Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
+                Event::End(TagEnd::Heading(_)) => page.headings.extend(heading.take()),
+                Event::Text(part) => heading = heading.map(|text| text + &*part),
+                Event::Code(code) => {
+                    heading = heading.map(|text| text + &*code);
+                    page.codes.push((line(range.start), code.into_string()));
+                }
+                _ => {}
+            }
         }
-        true
+        page
     }
-}
 
-/// The lines of a text with their numbers from 1, without those of fenced code and its fences.
-pub(crate) fn prose(text: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut fences = Fences::default();
-    text.lines()
-        .enumerate()
-        .filter(move |(_, line)| !fences.is_code(line))
-        .map(|(index, line)| (index + 1, line))
-}
-
-/// A line without what stands between backticks.
-pub(crate) fn without_code(line: &str) -> String {
-    line.split('`').step_by(2).collect::<Vec<_>>().join("``")
-}
-
-/// What stands between backticks in a line.
-pub(crate) fn code_of(line: &str) -> impl Iterator<Item = &str> {
-    line.split('`').skip(1).step_by(2)
+    /// Whether fenced code, or one of its fences, stands at a place [bytes].
+    pub(crate) fn is_fenced(&self, place: usize) -> bool {
+        self.fenced.iter().any(|range| range.contains(&place))
+    }
 }
 
 #[cfg(test)]
@@ -44,15 +53,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fenced_code_is_no_prose() {
-        let text = "one\n```rust\ntwo\n```\nthree\n~~~\n```\n~~~\nfour";
-        let lines: Vec<_> = prose(text).collect();
-        assert_eq!(lines, [(1, "one"), (5, "three"), (9, "four")]);
+    fn links_code_and_headings_are_found_with_their_lines() {
+        let text = "# One `two`\n\nA [link](b.md \"title\") and\n![picture](c.svg), `code`.\n";
+        let page = Page::read(text);
+        assert_eq!(page.headings, ["One two"]);
+        assert_eq!(page.targets, [(3, "b.md".to_owned()), (4, "c.svg".to_owned())]);
+        assert_eq!(page.codes, [(1, "two".to_owned()), (4, "code".to_owned())]);
     }
 
     #[test]
-    fn code_between_backticks_is_told_from_the_rest() {
-        assert_eq!(code_of("a `b` c `d::e`").collect::<Vec<_>>(), ["b", "d::e"]);
-        assert_eq!(without_code("a `b` c"), "a `` c");
+    fn fenced_code_is_told_from_the_rest() {
+        let text = "one\n```rust\n[two](x.md)\n```\nthree\n~~~\n```\n~~~\nfour";
+        let page = Page::read(text);
+        assert!(page.targets.is_empty());
+        for (part, is_fenced) in [("one", false), ("two", true), ("three", false), ("four", false)]
+        {
+            assert_eq!(page.is_fenced(text.find(part).expect("a part")), is_fenced, "{part}");
+        }
     }
 }

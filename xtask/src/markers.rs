@@ -1,12 +1,12 @@
 //! Blocks of Markdown files that a command makes. `CONTRIBUTING.md` shows how they look.
 //!
 //! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or `picture
-//! by`, or `measured by`) and ends with a line `<!-- end -->`. `<!-- measured by: cargo xtask CHORE -->` is that
+//! by`, or `measured by`) and ends with a line `<!-- end -->`. Blocks by `cargo xtask CHORE` are that
 //! chore's to write. Markers in fenced code are examples and do not count.
 
 use anyhow::{Context, Result, bail};
 
-use crate::markdown::Fences;
+use crate::markdown::Page;
 
 /// What a block shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +49,11 @@ pub(crate) fn pieces(markdown: &str) -> Result<Vec<Piece>> {
     let mut pieces = Vec::new();
     let mut text = String::new();
     let mut block: Option<Block> = None;
-    let mut fences = Fences::default();
+    let page = Page::read(markdown);
+    let mut place = 0;
     for (index, line) in markdown.split_inclusive('\n').enumerate() {
+        let start = place;
+        place += line.len();
         if let Some(open) = &mut block {
             if line.trim() == END {
                 pieces.push(Piece::Text(std::mem::take(&mut text)));
@@ -62,7 +65,7 @@ pub(crate) fn pieces(markdown: &str) -> Result<Vec<Piece>> {
             continue;
         }
         text.push_str(line);
-        if !fences.is_code(line) {
+        if !page.is_fenced(start) {
             block =
                 start_of(line.trim(), index + 1).with_context(|| format!("line {}", index + 1))?;
         }
@@ -84,38 +87,15 @@ fn start_of(line: &str, number: usize) -> Result<Option<Block>> {
         Some(("measured by", command)) => (Kind::Measurement, command),
         _ => return Ok(None),
     };
-    if kind == Kind::Measurement && command.trim().starts_with(CHORE) {
-        // What a chore measured, it wrote itself.
+    if kind != Kind::Picture && command.trim().starts_with(CHORE) {
+        // What a chore makes or measures, it writes itself.
         return Ok(None);
     }
     let Some(arguments) = command.trim().strip_prefix(COMMAND) else {
         bail!("a block is made by `{COMMAND}…`, not by `{}`", command.trim());
     };
-    let arguments = words(arguments)?;
+    let arguments = shell_words::split(arguments)?;
     Ok(Some(Block { kind, arguments, line: number, content: String::new() }))
-}
-
-/// The words of a command line; quotes of either kind keep blanks together.
-fn words(line: &str) -> Result<Vec<String>> {
-    let mut words = Vec::new();
-    let mut word: Option<String> = None;
-    let mut quote = None;
-    for c in line.chars() {
-        match quote {
-            Some(open) if c == open => quote = None,
-            None if c == '"' || c == '\'' => {
-                quote = Some(c);
-                word.get_or_insert_default();
-            }
-            None if c.is_whitespace() => words.extend(word.take()),
-            _ => word.get_or_insert_default().push(c),
-        }
-    }
-    if let Some(open) = quote {
-        bail!("the quote {open} is not closed");
-    }
-    words.extend(word);
-    Ok(words)
 }
 
 /// What a program printed, as Markdown: a table as it is, anything else as fenced code.
@@ -149,13 +129,22 @@ pub(crate) fn picture_of(content: &str) -> Result<&str> {
     }
 }
 
-/// A text with another content in the block that a chore measures.
-pub(crate) fn with_measured(markdown: &str, chore: &str, content: &str) -> Result<String> {
-    let start = format!("<!-- measured by: {CHORE}{chore} -->\n");
-    let (before, rest) = markdown.split_once(&start).context("the block of the chore")?;
-    let (_, after) = rest.split_once(END).context("the block's end")?;
-    let content = as_markdown(content, &[]);
-    Ok(format!("{before}{start}{content}{END}{after}"))
+/// What stands in the block of a chore.
+///
+/// * `by`: how its marker begins and names the chore, such as `measured by: cargo xtask python-times`
+pub(crate) fn content_by<'t>(markdown: &'t str, by: &str) -> Result<&'t str> {
+    let start = format!("<!-- {by} -->\n");
+    let (_, rest) = markdown.split_once(&start).with_context(|| format!("no block `{by}`"))?;
+    let (content, _) = rest.split_once(END).with_context(|| format!("`{by}` has no `{END}`"))?;
+    Ok(content)
+}
+
+/// A text with another content in the block of a chore.
+pub(crate) fn with_content_by(markdown: &str, by: &str, content: &str) -> Result<String> {
+    let old = content_by(markdown, by)?;
+    let start = old.as_ptr() as usize - markdown.as_ptr() as usize;
+    let (before, after) = (&markdown[..start], &markdown[start + old.len()..]);
+    Ok(format!("{before}{}{after}", as_markdown(content, &[])))
 }
 
 #[cfg(test)]
@@ -222,25 +211,23 @@ between
     }
 
     #[test]
-    fn a_block_without_end_and_another_command_are_refused() {
+    fn a_block_without_end_or_with_a_bad_command_is_refused() {
         assert!(pieces("<!-- made by: cargo run --release -- presets -->\n").is_err());
         assert!(pieces("<!-- made by: rm -rf . -->\n<!-- end -->\n").is_err());
+        let open = "<!-- made by: cargo run --release -- card --name 'open -->\n<!-- end -->\n";
+        assert!(pieces(open).is_err());
     }
 
     #[test]
-    fn what_a_chore_measured_is_left_to_it() {
-        let markdown = "a\n<!-- measured by: cargo xtask python-times -->\nold\n<!-- end -->\nb\n";
-        assert!(blocks(markdown).is_empty());
-        let written = with_measured(markdown, "python-times", "1 s\n").expect("its block");
-        assert!(written.contains("```text\n1 s\n```\n<!-- end -->\nb\n"), "{written}");
-        assert!(!written.contains("old") && with_measured("a", "python-times", "1").is_err());
-    }
-
-    #[test]
-    fn quotes_keep_blanks_together() {
-        let words = words("card --name 'two words' \"\"").expect("good quotes");
-        assert_eq!(words, ["card", "--name", "two words", ""]);
-        assert!(super::words("'open").is_err());
+    fn the_blocks_of_chores_are_left_to_them() {
+        for by in ["measured by: cargo xtask python-times", "made by: cargo xtask count"] {
+            let markdown = format!("a\n<!-- {by} -->\nold\n<!-- end -->\nb\n");
+            assert!(blocks(&markdown).is_empty());
+            let written = with_content_by(&markdown, by, "1 s\n").expect("its block");
+            let expected = format!("a\n<!-- {by} -->\n```text\n1 s\n```\n<!-- end -->\nb\n");
+            assert_eq!(written, expected);
+            assert!(with_content_by("a", by, "1").is_err());
+        }
     }
 
     #[test]

@@ -6,14 +6,15 @@ use std::process::Command;
 
 use anyhow::{Context, Result};
 
-use crate::ci::Extent;
+use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{python, workspace};
 
 /// Whose files the sources of the Python package must have: the package, and the crates that it is made
 /// of.
-const IN_THE_SOURCES: [&str; 4] = [
+const IN_THE_SOURCES: [&str; 5] = [
     "crates/grouser/src/",
+    "crates/grouser-core/src/",
     "crates/grouser-store/src/",
     "crates/grouser-python/src/",
     "crates/grouser-python/python/",

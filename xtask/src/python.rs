@@ -10,14 +10,24 @@ use std::sync::OnceLock;
 
 use anyhow::{Context, Error, Result, ensure};
 
-use crate::ci::Extent;
+use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::requirements::{self, Requirement};
 use crate::tools::RENDERER;
-use crate::{markers, site, workspace};
+use crate::{markers, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
+
+/// What builds the site, besides what tests the package.
+const SITE: [&str; 6] = [
+    "sphinx>=8.1,<10",
+    "myst-nb>=1.3,<2",
+    "pydata-sphinx-theme>=0.16,<1",
+    "numpydoc>=1.8,<2",
+    "sphinx-design",
+    "sphinx-copybutton",
+];
 
 /// What builds and tests the package besides what it requires itself, by name: where from is for pip's
 /// own settings to say.
@@ -67,16 +77,19 @@ pub(crate) fn check_lowest() -> Result<Count> {
 
 /// The file that says what Python costs.
 const PERFORMANCE: &str = "docs/performance.md";
+/// Its block.
+const TIMES: &str = "measured by: cargo xtask python-times";
 
-/// Measures what Python costs beside the native half alone, and writes it into its document.
+/// Measures what Python costs beside a program that does the same, and writes it into its document.
 pub(crate) fn write_times() -> Result<()> {
     let mut command = Command::new(installed()?);
     command.arg(workspace::root().join(PACKAGE).join("benches/ratios.py"));
+    command.arg(workspace::build_work()?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
     let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
     let text = fs::read_to_string(&path).context(PERFORMANCE)?;
-    let text = markers::with_measured(&text, "python-times", &told).context(PERFORMANCE)?;
+    let text = markers::with_content_by(&text, TIMES, &told).context(PERFORMANCE)?;
     print!("{told}");
     fs::write(&path, text).context(PERFORMANCE)
 }
@@ -111,7 +124,7 @@ fn make_environment() -> Result<PathBuf> {
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
     needed.extend([BUILDING, TYPES, YAML].map(String::from));
     needed.extend(TESTING.map(String::from));
-    needed.extend(site::NEEDED.map(String::from));
+    needed.extend(SITE.map(String::from));
     install(&python, &needed)?;
     Ok(python)
 }
@@ -127,7 +140,7 @@ fn folder() -> PathBuf {
 
 fn requirements() -> Result<Vec<Requirement>> {
     let path = workspace::root().join(PACKAGE).join("pyproject.toml");
-    let found = requirements::of_project(&fs::read_to_string(path).context("pyproject.toml")?);
+    let found = requirements::of_project(&fs::read_to_string(path).context("pyproject.toml")?)?;
     ensure!(!found.is_empty(), "pyproject.toml requires nothing");
     Ok(found)
 }
@@ -159,13 +172,18 @@ fn install_wheel(python: &Path, wheel: &Path) -> Result<()> {
     done(Command::new(python).args(install).arg(wheel), "the wheel cannot be installed")
 }
 
+/// Where the wheel is built.
+pub(crate) fn wheels() -> PathBuf {
+    folder().join("wheels")
+}
+
 /// The wheel, optimised, built once in a run.
 fn wheel() -> Result<PathBuf> {
     static WHEEL: OnceLock<PathBuf> = OnceLock::new();
     if let Some(wheel) = WHEEL.get() {
         return Ok(wheel.clone());
     }
-    let wheels = folder().join("wheels");
+    let wheels = wheels();
     if wheels.exists() {
         fs::remove_dir_all(&wheels).context("old wheels")?;
     }

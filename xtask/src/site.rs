@@ -11,16 +11,6 @@ use crate::libtest::Count;
 use crate::tools::RENDERER;
 use crate::{python, workspace};
 
-/// What builds the site, besides what the package is tested with.
-pub(crate) const NEEDED: [&str; 6] = [
-    "sphinx>=8.1,<10",
-    "myst-nb>=1.3,<2",
-    "pydata-sphinx-theme>=0.16,<1",
-    "numpydoc>=1.8,<2",
-    "sphinx-design",
-    "sphinx-copybutton",
-];
-
 /// Builds the site into `target/site`, and counts it; without a renderer the notebook that draws
 /// MuJoCo's models is not run, and counted as skipped.
 ///

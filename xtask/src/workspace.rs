@@ -66,7 +66,7 @@ pub(crate) fn build_program() -> Result<PathBuf> {
     build(&format!("grouser{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Builds the program that does one unit of work and returns its path.
+/// Builds the program that does what is counted and measured, and returns its path.
 pub(crate) fn build_work() -> Result<PathBuf> {
     build(&format!("work{}", std::env::consts::EXE_SUFFIX))
 }

@@ -5,10 +5,12 @@
 //! measurements differ by the code and the machine alone. There is no clock here.
 
 mod accuracy;
+mod arrays;
 mod fixtures;
 mod unit;
 
 pub use accuracy::Accuracy;
+pub use arrays::Arrays;
 pub use fixtures::Fixtures;
 pub use unit::{Done, Unit};
 

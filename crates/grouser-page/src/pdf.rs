@@ -7,8 +7,8 @@ use pdf_writer::types::UnicodeCmap;
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 
 use crate::font::{FACES, Face, Step};
+use crate::sheet::{Item, Place, Shape, Sheet, Text};
 use crate::svg::letters;
-use crate::{Item, Place, Shape, Sheet, Text};
 
 /// Points in a millimetre.
 const POINTS: f64 = 72.0 / 25.4;
@@ -20,7 +20,15 @@ const MOST: usize = 255;
 /// The codes of a face's letters: from 1; 0 is for letters beyond what a font can have.
 type Codes = BTreeMap<char, u8>;
 
-pub(crate) fn write(sheet: &Sheet) -> Vec<u8> {
+impl Sheet {
+    /// The page as a PDF document.
+    #[must_use]
+    pub fn to_pdf(&self) -> Vec<u8> {
+        write(self)
+    }
+}
+
+fn write(sheet: &Sheet) -> Vec<u8> {
     let mut next = 0;
     let mut id = || {
         next += 1;

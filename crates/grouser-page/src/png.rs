@@ -6,12 +6,20 @@ use tiny_skia::{
 };
 
 use crate::font::{Glyph, Step};
-use crate::{Grey, Item, Place, Shape, Sheet, Text};
+use crate::sheet::{Grey, Item, Place, Shape, Sheet, Text};
 
 /// Resolution of a picture: 254 dots per inch.
 pub const PIXELS_PER_MM: f64 = 10.0;
 
-pub(crate) fn write(sheet: &Sheet) -> Vec<u8> {
+impl Sheet {
+    /// The page as a PNG picture in greys.
+    #[must_use]
+    pub fn to_png(&self) -> Vec<u8> {
+        write(self)
+    }
+}
+
+fn write(sheet: &Sheet) -> Vec<u8> {
     let [width, height] = [sheet.width, sheet.height].map(pixels);
     let mut canvas = Pixmap::new(width, height).expect("a page has a size");
     canvas.fill(Color::WHITE);

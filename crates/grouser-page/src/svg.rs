@@ -4,9 +4,18 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use crate::font::{Face, Step};
-use crate::{Grey, Item, Place, Shape, Sheet, Text, markup};
+use crate::markup::markup;
+use crate::sheet::{Grey, Item, Place, Shape, Sheet, Text};
 
-pub(crate) fn write(sheet: &Sheet) -> String {
+impl Sheet {
+    /// The page as an SVG document.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        write(self)
+    }
+}
+
+fn write(sheet: &Sheet) -> String {
     let [width, height] = [sheet.width, sheet.height].map(short);
     let title = markup(&sheet.title);
     let mut svg = format!(

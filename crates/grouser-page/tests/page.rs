@@ -76,6 +76,15 @@ fn text_can_be_read_and_is_escaped() {
     assert!(!svg.contains("font-family") && svg.contains("<use href=\"#b31\""));
 }
 
+/// An SVG document with one of these in it cannot be read at all.
+#[test]
+fn characters_that_xml_cannot_hold_are_written_out() {
+    let mut sheet = Sheet::new("a\u{0}", 40.0, 20.0);
+    sheet.text(Text::new("\u{1b}[2J \u{ffff}", 4.0), [5.0, 15.0]);
+    let svg = sheet.to_svg();
+    assert!(svg.contains("<title>a\\u{0}</title>") && svg.contains(">\\u{1b}[2J \\u{ffff}</text>"));
+}
+
 /// A PDF reader finds objects by the table at the end, whose place the last lines tell.
 #[test]
 fn a_pdf_leads_to_its_table() {

@@ -45,7 +45,7 @@ mod _core {
         read_document_text, to_toml,
     };
     #[pymodule_export]
-    use super::rollouts::{rollout, time_rollout};
+    use super::rollouts::rollout;
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
@@ -55,7 +55,7 @@ mod _core {
     #[pymodule_export]
     use super::validation::{validate, validate_all};
     #[pymodule_export]
-    use super::wheels::{not_carried, settle, time_settle, wheel_forces};
+    use super::wheels::{not_carried, settle, wheel_forces};
 
     /// Gravities by name [m/s²], defaults, and the version.
     #[pymodule_init]

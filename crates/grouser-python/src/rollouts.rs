@@ -6,7 +6,7 @@ use grouser::document::{Kind, range, scenario_with};
 use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
-use grouser::studies::ensemble::{outputs, outputs_while};
+use grouser::studies::ensemble::outputs_while;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -216,28 +216,4 @@ fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'
         dict.set_item("samples", samples)?;
     }
     Ok(dict)
-}
-
-/// How long the same runs take [s], on as many cores, with scenarios at hand and nothing told to
-/// Python: what `rollout` is measured against.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
-pub(crate) fn time_rollout<'py>(
-    py: Python<'py>,
-    scenarios: Vec<PyRef<'py, Document>>,
-    varied: &Bound<'py, PyDict>,
-    count: usize,
-) -> PyResult<f64> {
-    let runs = Runs::new(&scenarios, &None, &[], &None, varied, count)?;
-    let seconds = listening(py, move |_| {
-        let scenarios: Vec<Scenario> =
-            (0..count).filter_map(|place| runs.scenario(place).ok()).collect();
-        let start = std::time::Instant::now();
-        let end = |scenario: &Scenario| run(scenario).map(|run| (run.last().clone(), run.outcome));
-        let ends = outputs(&scenarios, end);
-        let seconds = start.elapsed().as_secs_f64();
-        drop(ends);
-        seconds
-    })?;
-    Ok(seconds)
 }

@@ -191,42 +191,6 @@ pub(crate) fn settle<'py>(
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("capacity_n")))
 }
 
-/// How long the same wheels take to settle [s], on as many cores, with contacts at hand and nothing
-/// told to Python: what `settle` is measured against.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-pub(crate) fn time_settle<'py>(
-    py: Python<'py>,
-    soil: PyRef<'py, Document>,
-    wheel: &Document,
-    setting: &Document,
-    load_n: PyReadonlyArray1<'py, f64>,
-    slip_ratio: PyReadonlyArray1<'py, f64>,
-    slip_angle_deg: PyReadonlyArray1<'py, f64>,
-) -> PyResult<f64> {
-    let stand = Stand::new(&[soil], wheel, setting)?;
-    let inputs = Inputs {
-        pressed: load_n.as_slice()?,
-        slip_ratios: slip_ratio.as_slice()?,
-        slip_angles_deg: slip_angle_deg.as_slice()?,
-        soils: None,
-    };
-    inputs.check(1, "load_n", &LOAD_N)?;
-    let count = inputs.pressed.len();
-    let wheels: Vec<_> =
-        (0..count).map(|it| (stand.contact(&inputs, it), inputs.pressed[it])).collect();
-    threads::detached(py, || {
-        let start = std::time::Instant::now();
-        let one = |((contact, theory), load): &((Contact, Theory), f64)| {
-            settle_one(theory.model(), contact, *load)
-        };
-        let settled: Vec<_> = wheels.par_iter().with_min_len(SHARE).map(one).collect();
-        let seconds = start.elapsed().as_secs_f64();
-        drop(settled);
-        seconds
-    })
-}
-
 /// The forces on wheels at given sinkages. Its last row is that sinkage once more.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]

@@ -47,16 +47,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod contact;
+pub use grouser_core::{contact, error, simulation, site, soil, units, vehicle, wheel};
+use grouser_core::{elementary, newton, root};
+
 pub mod document;
-mod elementary;
-pub mod error;
-mod newton;
-mod root;
-pub mod simulation;
-pub mod site;
-pub mod soil;
 pub mod studies;
-pub mod units;
-pub mod vehicle;
-pub mod wheel;

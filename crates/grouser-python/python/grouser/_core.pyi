@@ -48,8 +48,6 @@ __all__ = [
     "simulate",
     "simulated_wheel_test",
     "simulator_columns",
-    "time_rollout",
-    "time_settle",
     "study_difference",
     "to_toml",
     "unit_of",
@@ -164,15 +162,6 @@ def rollout(
     count: int,
     keep: bool,
 ) -> dict[str, Any]: ...
-def time_rollout(scenarios: Sequence[Document], varied: dict[str, Any], count: int) -> float: ...
-def time_settle(
-    soil: Document,
-    wheel: Document,
-    setting: Document,
-    load_n: _Floats,
-    slip_ratio: _Floats,
-    slip_angle_deg: _Floats,
-) -> float: ...
 def attitude(
     scenario: Document, slope_deg: _Floats
 ) -> tuple[dict[str, Any], float | None, str]: ...

@@ -10,7 +10,6 @@ use super::describe::scenario::SCENARIO;
 use super::describe::soil::SOIL;
 use super::describe::wheel::WHEEL;
 use super::field::Inner;
-use super::varied::Key;
 use super::{Kind, UncertainSoil};
 use crate::contact::Theory;
 
@@ -90,12 +89,12 @@ impl Document {
     }
 
     /// The same with other values of some keys.
-    pub(super) fn with(&self, keys: &[Key], values: &[f64]) -> Self {
+    pub(super) fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Self {
         let mut changed = self.clone();
-        for (Key { path, .. }, value) in keys.iter().zip(values) {
+        for (path, value) in values {
             let pointer = format!("/{}", path.replace('.', "/"));
             if let Some(number) = changed.keys.pointer_mut(&pointer) {
-                *number = Json::from(*value);
+                *number = Json::from(value);
             }
         }
         changed

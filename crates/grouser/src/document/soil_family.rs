@@ -138,7 +138,7 @@ impl SoilFamily {
     /// The document with these values of the keys, and otherwise as it was.
     #[must_use]
     pub fn document(&self, values: &[f64]) -> Document {
-        self.base.document.with(&self.keys, values)
+        self.base.document.with(self.keys().zip(values.iter().copied()))
     }
 
     /// The same as a calibration's result: with its source, and its samples as uncertainty.

@@ -2,8 +2,9 @@
 //!
 //! A sample puts numbers in the document's place of them and passes the same checks as the document itself.
 
-use super::describe::uncertainty::{Samples, Stated};
+use super::describe::uncertainty::{Samples, Stated, UNCERTAINTY};
 use super::error::{DocumentError, Problem};
+use super::field::Inner as _;
 use super::text::Node;
 use super::uncertainty::{Inputs, Statement};
 use super::values::Described;
@@ -112,7 +113,9 @@ pub(super) fn read(
 ///
 /// * `tree`: the soil's tree
 pub(super) fn stated(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentError> {
-    let Some(stated) = Stated::of(soil) else { return Ok(None) };
+    let Some(said) = soil.get("uncertainty") else { return Ok(None) };
+    let mut stated = Stated::default();
+    UNCERTAINTY.put(&mut stated, said);
     if stated.samples.is_some() || !stated.parameters.is_empty() {
         return Ok(Some(stated));
     }

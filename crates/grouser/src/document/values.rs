@@ -180,14 +180,14 @@ impl Described for Rover {
     }
 
     fn blank() -> Self {
-        Self::unmade(rover::BLANK)
+        Self::draft(rover::BLANK)
     }
 
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
-        self.remade().map_err(|error| Misfit::new(place, error))
+        self.checked().map_err(|error| Misfit::new(place, error))
     }
 }
 

@@ -2,9 +2,8 @@
 //! end says so itself.
 
 use std::fs;
-use std::path::Path;
 
-use super::layers::{skipped, visit};
+use super::layers::{skipped, sources_of_the_library, visit};
 
 /// The string literals of a source, without its tests.
 fn strings_of(text: &str) -> Vec<(usize, &str)> {
@@ -30,17 +29,18 @@ fn of_the_program(string: &str) -> bool {
 
 #[test]
 fn no_message_names_a_flag_or_a_command() {
-    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let (mut found, mut count) = (Vec::new(), 0);
-    visit(&sources, &mut |file| {
-        let text = fs::read_to_string(file).expect("a source is text");
-        for (line, string) in strings_of(&text) {
-            count += 1;
-            if of_the_program(string) {
-                found.push(format!("{}:{line}: {string}", file.display()));
+    for sources in sources_of_the_library() {
+        visit(&sources, &mut |file| {
+            let text = fs::read_to_string(file).expect("a source is text");
+            for (line, string) in strings_of(&text) {
+                count += 1;
+                if of_the_program(string) {
+                    found.push(format!("{}:{line}: {string}", file.display()));
+                }
             }
-        }
-    });
+        });
+    }
     assert!(count > 1000, "only {count} strings were found");
     assert!(found.is_empty(), "\n{}\n", found.join("\n"));
 }

@@ -1,9 +1,9 @@
 //! The table of the card: numbers, and charts whose axis of slopes is the table's rows.
 
 use grouser::document::card::CardRecord;
-use grouser_page::{Anchor, Face, Place, Shape, Sheet, Stroke, Text, WHITE};
+use grouser_page::{Anchor, Face, Place, Shape, Sheet, Stroke, WHITE};
 
-use super::layout::{LEFT, RIGHT, fitting};
+use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::measured::Measured;
 use super::words::Words;
 
@@ -134,9 +134,8 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
             sheet.hatch(corner, size, 2.4, Stroke::black(0.45));
         }
         sheet.draw(Shape::rectangle(corner, size, WHITE).outlined(Stroke::black(0.6)).unfilled());
-        let text = Text::new(word, fitting(word, 7.0, height - 3.0))
-            .face(Face::Bold)
-            .anchor(Anchor::Middle);
+        let text =
+            shown(word, fitting(word, 7.0, height - 3.0)).face(Face::Bold).anchor(Anchor::Middle);
         let (middle, half) = ([f64::midpoint(LEFT, STRIP), top + height / 2.0], text.width() / 2.0);
         sheet.draw(Shape::rectangle(
             [middle[0] - 3.6, middle[1] - half - 1.2],
@@ -149,15 +148,14 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
 
 fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool) {
     let y = table.top - 2.0;
-    let bold =
-        |text: &str, size: f64| Text::new(text, size).face(Face::Bold).anchor(Anchor::Middle);
+    let bold = |text: &str, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::Middle);
     sheet.text(bold("SLOPE", 4.4), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
     let middle = f64::midpoint(SLOPE, HEADING);
     sheet.draw(Shape::rectangle([SLOPE, table.top - 15.0], [HEADING - SLOPE, 15.0], 0.0));
     sheet.text(bold("TURN NOSE", 4.2).grey(WHITE), [middle, y - 6.6]);
     sheet.text(bold("UPHILL BY", 4.2).grey(WHITE), [middle, y - 1.4]);
     let middle = f64::midpoint(HEADING, RANGE);
-    let small = |text: &str| Text::new(text, 3.0).anchor(Anchor::Middle);
+    let small = |text: &str| shown(text, 3.0).anchor(Anchor::Middle);
     sheet.text(small(&words.band), [middle, y - 4.0]);
     sheet.text(small(if words.has_bands { "need" } else { "stated" }), [middle, y]);
     for chart in &CHARTS {
@@ -171,7 +169,7 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
     if words.has_bands {
         let middle = f64::midpoint(CHANCE, RIGHT);
         for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
-            let text = Text::new(*text, 2.35).anchor(Anchor::Middle);
+            let text = shown(text, 2.35).anchor(Anchor::Middle);
             sheet.text(text, [middle, y - 6.6 + 3.3 * index as f64]);
         }
     }
@@ -184,7 +182,7 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
     // one line of text for those who copy it, too.
     let line = table.middle(row.slope_deg) + 0.365 * large;
     let at = |x: f64| [x, line];
-    let bold = |text: String, size: f64| Text::new(text, size).face(Face::Bold).anchor(Anchor::End);
+    let bold = |text: String, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::End);
     sheet.text(bold(format!("{}°", row.slope_deg), large), at(SLOPE - 3.0));
     let [low, heading, high] = (CHARTS[0].values)(row);
     if let Some(heading) = heading {
@@ -194,18 +192,18 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
     if let (Some(low), Some(high)) = (low, high) {
         let text = format!("{low:.1} to {high:.1}°");
         let size = fitting(&text, small, RANGE - HEADING - 2.0);
-        sheet.text(Text::new(text, size).anchor(Anchor::Middle), at(f64::midpoint(HEADING, RANGE)));
+        sheet.text(shown(text, size).anchor(Anchor::Middle), at(f64::midpoint(HEADING, RANGE)));
     }
     for chart in &CHARTS {
         if let (Some(end), [_, Some(value), _]) = (chart.numbers, (chart.values)(row)) {
             let text = format!("{value:.*}", decimals(end_of(table, chart), chart.digits));
-            sheet.text(Text::new(text, small).anchor(Anchor::End), at(end));
+            sheet.text(shown(text, small).anchor(Anchor::End), at(end));
         }
     }
     if let Some(level) = row.probability_level.filter(|_| words.has_bands) {
         // Rounded down: 100 % is all of them.
         let text = format!("{} %", (level * 100.0 + 1e-9).floor());
-        sheet.text(Text::new(text, small).anchor(Anchor::End), at(RIGHT - 1.5));
+        sheet.text(shown(text, small).anchor(Anchor::End), at(RIGHT - 1.5));
     }
 }
 
@@ -241,7 +239,7 @@ fn axis(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
             1.0 => Anchor::End,
             _ => Anchor::Middle,
         };
-        let text = Text::new(plain(end * share), 2.5).anchor(anchor);
+        let text = shown(plain(end * share), 2.5).anchor(anchor);
         // The half is left out where it would run into the whole.
         if share != 0.5 || 3.4 * text.width() < chart.to - chart.from {
             sheet.text(text, [x, bottom + 3.2]);

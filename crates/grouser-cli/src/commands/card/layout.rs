@@ -7,6 +7,7 @@
 //! The page is A4; what is on it fits into the margins of a letter page as well.
 
 use grouser::document::card::CardRecord;
+use grouser::document::escape;
 use grouser_page::{Anchor, BLACK, Face, Place, Shape, Sheet, Stroke, Text, WHITE, width, wrap};
 
 use super::columns::{self, Table};
@@ -32,7 +33,8 @@ const HIGHEST_ROW: f64 = 7.4;
 
 /// Draws the card.
 pub(super) fn draw(words: &Words, records: &[CardRecord], measured: &[Measured]) -> Sheet {
-    let mut sheet = Sheet::new(&format!("Operator's card: {}", words.title), PAGE[0], PAGE[1]);
+    let title = format!("Operator's card: {}", words.title);
+    let mut sheet = Sheet::new(&escape::line(&title), PAGE[0], PAGE[1]);
     head(&mut sheet, words);
     pictogram(&mut sheet, [167.0, 45.0]);
     // Level ground needs no card, and slopes between whole degrees were asked for elsewhere.
@@ -56,10 +58,9 @@ fn head(sheet: &mut Sheet, words: &Words) {
     /// Room beside the picture [mm].
     const ROOM: f64 = 138.0;
     let size = fitting(&words.title, 8.6, RIGHT - LEFT);
-    sheet.text(Text::new(&words.title, size).face(Face::Bold), [LEFT, TOP + 7.0]);
+    sheet.text(shown(&words.title, size).face(Face::Bold), [LEFT, TOP + 7.0]);
     sheet.text(
-        Text::new("OPERATOR'S CARD: how to cross a slope without drifting down", 4.6)
-            .face(Face::Bold),
+        shown("OPERATOR'S CARD: how to cross a slope without drifting down", 4.6).face(Face::Bold),
         [LEFT, TOP + 14.5],
     );
     let steps = [
@@ -71,8 +72,13 @@ fn head(sheet: &mut Sheet, words: &Words) {
     ];
     for (index, step) in steps.iter().enumerate() {
         let size = fitting(step, 4.0, ROOM);
-        sheet.text(Text::new(step, size), [LEFT, TOP + 21.0 + 5.0 * index as f64]);
+        sheet.text(shown(step, size), [LEFT, TOP + 21.0 + 5.0 * index as f64]);
     }
+}
+
+/// A line of text from anywhere, its hidden characters written out.
+pub(super) fn shown(content: impl AsRef<str>, size: f64) -> Text {
+    Text::new(escape::line(content.as_ref()), size)
 }
 
 /// The largest size at which a text fits [mm], up to one.
@@ -92,7 +98,7 @@ fn pictogram(sheet: &mut Sheet, centre: Place) {
     let (from, to) = ([centre[0] - 15.0, centre[1]], [centre[0] + 24.0, centre[1]]);
     sheet.draw(line([from, to], Stroke::black(0.5).dashed(1.6, 1.0)));
     sheet.draw(arrow_head([to[0] + 3.5, to[1]], [1.0, 0.0], 3.5));
-    let travel = Text::new("travel", 3.2).anchor(Anchor::End);
+    let travel = shown("travel", 3.2).anchor(Anchor::End);
     sheet.text(travel, [to[0] + 2.0, to[1] + 4.4]);
     // Body and wheels.
     let corners = |x: f64, y: f64, length: f64, width: f64| {
@@ -108,7 +114,7 @@ fn pictogram(sheet: &mut Sheet, centre: Place) {
     let tip = at(21.5, 0.0);
     sheet.draw(arrow_head(tip, [cos, -sin], 3.5));
     sheet.text(
-        Text::new("nose", 3.2).face(Face::Bold).anchor(Anchor::End),
+        shown("nose", 3.2).face(Face::Bold).anchor(Anchor::End),
         [tip[0] - 2.0, tip[1] - 1.0],
     );
     let arc = (0..=10).map(|step| {
@@ -121,7 +127,7 @@ fn pictogram(sheet: &mut Sheet, centre: Place) {
     let top = [foot[0], foot[1] - 14.0];
     sheet.draw(line([foot, top], Stroke::black(0.9)));
     sheet.draw(arrow_head([top[0], top[1] - 3.8], [0.0, -1.0], 3.8));
-    sheet.text(Text::new("UPHILL", 3.2).face(Face::Bold).upright(), [foot[0] - 1.6, foot[1]]);
+    sheet.text(shown("UPHILL", 3.2).face(Face::Bold).upright(), [foot[0] - 1.6, foot[1]]);
 }
 
 /// An arrow's head.
@@ -142,9 +148,9 @@ fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
         0.0 => "NO-GO   on any slope".to_owned(),
         _ => format!("NO-GO   {from_deg}° and steeper"),
     };
-    sheet.text(Text::new(text, 7.0).face(Face::Bold).grey(WHITE), [LEFT + 3.0, top + 7.5]);
+    sheet.text(shown(text, 7.0).face(Face::Bold).grey(WHITE), [LEFT + 3.0, top + 7.5]);
     let what = "no heading: do not cross";
-    sheet.text(Text::new(what, 4.2).grey(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 6.6]);
+    sheet.text(shown(what, 4.2).grey(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 6.6]);
 }
 
 /// Rule, facts and assumptions, as large as they fit.
@@ -205,9 +211,9 @@ fn paragraphs(
     let indent = left + names.fold(0.0, f64::max) + size;
     let mut y = top;
     for (name, text) in all {
-        sheet.text(Text::new(*name, size).face(Face::Bold), [left, y]);
+        sheet.text(shown(name, size).face(Face::Bold), [left, y]);
         for line in wrap(text, Face::Regular, size, right - indent) {
-            sheet.text(Text::new(line, size), [indent, y]);
+            sheet.text(shown(line, size), [indent, y]);
             y += size * LEADING;
         }
     }

@@ -37,7 +37,7 @@ pub(in crate::document) static ROVER_OF_PARTS: At<Rover, RoverParts> =
 /// A scenario before its numbers are put in.
 pub(in crate::document) fn blank() -> Scenario {
     Scenario {
-        rover: Rover::unmade(rover::BLANK),
+        rover: Rover::draft(rover::BLANK),
         site: Site { soil: soil::BLANK, slope: 0.0, gravity: 0.0 },
         theory: Theory::default(),
         sharing: LoadSharing::QuasiStatic,

@@ -1,9 +1,8 @@
 //! How well numbers are known: one language for soils and campaigns.
 
-use super::super::Document;
 use super::super::field::{
-    Each, Field, Inner, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list,
-    number, text,
+    Each, Field, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list, number,
+    text,
 };
 use crate::studies::ensemble::Marginal;
 
@@ -38,15 +37,6 @@ pub(in crate::document) struct Parameter {
 pub(in crate::document) struct Pair {
     pub between: [String; 2],
     pub value: f64,
-}
-
-impl Stated {
-    /// What a soil says of itself.
-    pub(in crate::document) fn of(soil: &Document) -> Option<Self> {
-        let mut stated = Self::default();
-        UNCERTAINTY.put(&mut stated, soil.get("uncertainty")?);
-        Some(stated)
-    }
 }
 
 impl Parameter {

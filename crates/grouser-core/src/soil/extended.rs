@@ -96,7 +96,11 @@ impl Extended {
         heap: Heap { front: 0.0, behind: 0.0 },
     };
 
-    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+    /// That the parameters belong to a small wheel's model.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first one that does not.
+    pub fn check(&self) -> Result<(), ParameterError> {
         let Self { sinkage, exit, rim_friction_angle, flank, heap } = self;
         not_negative("sinkage growth with slip angle", sinkage.with_slip_angle)?;
         not_negative("sinkage growth with slip", sinkage.with_slip)?;

@@ -5,7 +5,7 @@
 /// Chandrupatla's method (1997): inverse quadratic interpolation where the last three points
 /// allow it, bisection where they do not, so that it converges for any continuous function. The
 /// best point seen is returned. Where the signs do not differ that is the better of the two ends.
-pub(crate) fn between(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
+pub fn between(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f64) -> f64 {
     let (f_low, f_high) = (f(low), f(high));
     bracketed(f, (low, f_low), (high, f_high), tolerance, 0.0).0
 }
@@ -15,7 +15,7 @@ const MOST_STEPS: usize = 106;
 
 /// As [`between`], from two points whose values are known: the root and its value. Ends early at
 /// a point whose |value| is at most `close`.
-pub(crate) fn bracketed(
+pub fn bracketed(
     mut f: impl FnMut(f64) -> f64,
     one_end: (f64, f64),
     other_end: (f64, f64),

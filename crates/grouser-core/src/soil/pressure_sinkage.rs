@@ -124,7 +124,11 @@ impl PressureSinkage {
         ScaledPressure { at_scale, scale, exponent: exponent.at(slip_ratio) }
     }
 
-    pub(crate) fn check(&self, cohesion: f64) -> Result<(), ParameterError> {
+    /// That the law gives a pressure, for a soil of this cohesion [Pa].
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first one that does not.
+    pub fn check(&self, cohesion: f64) -> Result<(), ParameterError> {
         let (k_c, k_phi, exponent) = match *self {
             Self::Bekker { k_c, k_phi, exponent } => (k_c, k_phi, exponent),
             Self::Reece { k_c, k_phi, exponent } => (cohesion * k_c, k_phi, exponent),

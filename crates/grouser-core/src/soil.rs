@@ -83,7 +83,11 @@ pub enum Shear {
 }
 
 impl Shear {
-    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+    /// That the law's constants belong to a soil.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first one that does not.
+    pub fn check(&self) -> Result<(), ParameterError> {
         match self {
             Self::Anisotropic { longitudinal, lateral } => {
                 longitudinal.check("longitudinal shear modulus [m]")?;

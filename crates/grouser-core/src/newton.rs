@@ -3,13 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// A zero, and what was learnt on the way to it.
-pub(crate) struct Zero<T> {
+pub struct Zero<T> {
     /// Where it is.
-    pub(crate) at: Vector3<f64>,
+    pub at: Vector3<f64>,
     /// What the functions come from there.
-    pub(crate) value: T,
+    pub value: T,
     /// The inverse Jacobian, as far as it was needed.
-    pub(crate) inverse: Matrix3<f64>,
+    pub inverse: Matrix3<f64>,
 }
 
 /// Steps after which a search is given up.
@@ -22,7 +22,7 @@ const MOST_STEPS: usize = 12;
 /// * `f`: their values, and what those come from
 /// * `size`: of a step
 /// * `is_zero`: told the values and the step that they would lead to
-pub(crate) fn zero_near<T>(
+pub fn zero_near<T>(
     f: impl Fn(&Vector3<f64>) -> Option<(Vector3<f64>, T)>,
     guess: &Vector3<f64>,
     mut inverse: Matrix3<f64>,

@@ -14,7 +14,7 @@
 
 #![expect(clippy::inline_always, reason = "a call in the lanes' loop would end its vectors")]
 
-pub(crate) mod wide;
+pub mod wide;
 
 use std::f64::consts::{FRAC_PI_2, LOG2_E};
 
@@ -26,7 +26,8 @@ const LN_2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 /// eˣ for every x but NaN, to 1 ulp: 0 below −708, where doubles begin to lose digits, and infinite
 /// above 709.
 #[inline(always)]
-pub(crate) fn exp(x: f64) -> f64 {
+#[must_use]
+pub fn exp(x: f64) -> f64 {
     /// Added and taken away it rounds to whole numbers, and leaves them in the lowest bits.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     const BIAS: u64 = 1023;
@@ -49,7 +50,8 @@ pub(crate) fn exp(x: f64) -> f64 {
 
 /// ln x for normal x > 0, to 1 ulp.
 #[inline(always)]
-pub(crate) fn ln(x: f64) -> f64 {
+#[must_use]
+pub fn ln(x: f64) -> f64 {
     /// √½ as bits: mantissas are taken from there to √2.
     const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
     const ONE: u64 = 0x3FF0_0000_0000_0000;
@@ -75,14 +77,16 @@ pub(crate) fn ln(x: f64) -> f64 {
 
 /// xʸ for normal x > 0, and 0 for x ≤ 0; the error grows with the power, to 2 + |y ln x| ulp.
 #[inline(always)]
-pub(crate) fn pow(x: f64, y: f64) -> f64 {
+#[must_use]
+pub fn pow(x: f64, y: f64) -> f64 {
     let power = exp(y * ln(x));
     if x > 0.0 { power } else { 0.0 }
 }
 
 /// sin x and cos x for |x| up to π/2, to 1 ulp and to 2⁻⁵³.
 #[inline(always)]
-pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
     let z = x * x;
     let (z2, z4) = (z * z, (z * z) * (z * z));
     let cos = ((0.041_666_666_666_666_66 - 0.001_388_888_888_888_476_5 * z)
@@ -94,7 +98,8 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 
 /// sin x for |x| up to π/2, to 1 ulp.
 #[inline(always)]
-pub(crate) fn sin(x: f64) -> f64 {
+#[must_use]
+pub fn sin(x: f64) -> f64 {
     let z = x * x;
     let (z2, z4) = (z * z, (z * z) * (z * z));
     let low = (-0.166_666_666_666_666_66 + 0.008_333_333_333_333_316 * z)
@@ -106,7 +111,8 @@ pub(crate) fn sin(x: f64) -> f64 {
 
 /// sinh x and cosh x for x from 0 to 700, to 2 ulp.
 #[inline(always)]
-pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
+#[must_use]
+pub fn sinh_cosh(x: f64) -> (f64, f64) {
     let z = x * x;
     let (z2, z4) = (z * z, (z * z) * (z * z));
     // Taylor's series up to x¹⁹/19!.
@@ -122,7 +128,8 @@ pub(crate) fn sinh_cosh(x: f64) -> (f64, f64) {
 
 /// asin x for x from 0 to 1, to 2 ulp.
 #[inline(always)]
-pub(crate) fn asin(x: f64) -> f64 {
+#[must_use]
+pub fn asin(x: f64) -> f64 {
     // From one half up by the complement: asin x = π/2 − 2 asin √((1 − x)/2).
     let near = x <= 0.5;
     let z = if near { x * x } else { 0.5 * (1.0 - x) };

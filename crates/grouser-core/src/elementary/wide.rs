@@ -10,7 +10,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, PI, TAU};
 ///
 /// An angle beyond a million radians is first reduced by the nearest double to 2π: an error no
 /// larger than that of its own last digit.
-pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
     /// As many quarter turns as the leading parts of π/2 can be multiplied by without rounding.
     const FAR: f64 = 1e6;
     let x = if x.abs() > FAR { x % TAU } else { x };
@@ -43,28 +44,33 @@ fn less_quarters(x: f64, n: f64) -> (f64, f64) {
 }
 
 /// sin x, to 2 ulp.
-pub(crate) fn sin(x: f64) -> f64 {
+#[must_use]
+pub fn sin(x: f64) -> f64 {
     sin_cos(x).0
 }
 
 /// cos x, to 2 ulp.
-pub(crate) fn cos(x: f64) -> f64 {
+#[must_use]
+pub fn cos(x: f64) -> f64 {
     sin_cos(x).1
 }
 
 /// tan x, to 4 ulp.
-pub(crate) fn tan(x: f64) -> f64 {
+#[must_use]
+pub fn tan(x: f64) -> f64 {
     let (sin, cos) = sin_cos(x);
     sin / cos
 }
 
 /// asin x, to 2 ulp; NaN beyond −1 and 1.
-pub(crate) fn asin(x: f64) -> f64 {
+#[must_use]
+pub fn asin(x: f64) -> f64 {
     super::asin(x.abs()).copysign(x)
 }
 
 /// acos x, to 2 ulp; NaN beyond −1 and 1.
-pub(crate) fn acos(x: f64) -> f64 {
+#[must_use]
+pub fn acos(x: f64) -> f64 {
     if x > 0.5 {
         2.0 * super::asin((0.5 * (1.0 - x)).sqrt())
     } else if x < -0.5 {
@@ -76,7 +82,8 @@ pub(crate) fn acos(x: f64) -> f64 {
 
 /// The angle of a point (x, y) from the x axis, −π to π, to 3 ulp. That of the origin is 0 or ±π by
 /// the signs of its zeros, as in the standard library.
-pub(crate) fn atan2(y: f64, x: f64) -> f64 {
+#[must_use]
+pub fn atan2(y: f64, x: f64) -> f64 {
     let (height, length) = (y.abs(), x.abs());
     let angle = if height == 0.0 && length == 0.0 {
         0.0
@@ -116,7 +123,8 @@ fn narrow(t: f64) -> f64 {
 }
 
 /// ln x, to 1 ulp: −∞ at 0, NaN below.
-pub(crate) fn ln(x: f64) -> f64 {
+#[must_use]
+pub fn ln(x: f64) -> f64 {
     const TWO_54: f64 = 18_014_398_509_481_984.0;
     if x >= f64::MIN_POSITIVE {
         if x == f64::INFINITY { x } else { super::ln(x) }
@@ -130,13 +138,15 @@ pub(crate) fn ln(x: f64) -> f64 {
 }
 
 /// ln(1 + x), to 4 ulp also where x is small (Kahan: the rounding of 1 + x cancels in the ratio).
-pub(crate) fn ln_1p(x: f64) -> f64 {
+#[must_use]
+pub fn ln_1p(x: f64) -> f64 {
     let sum = 1.0 + x;
     if sum == 1.0 || sum == f64::INFINITY { x } else { ln(sum) * (x / (sum - 1.0)) }
 }
 
 /// eˣ − 1, to 4 ulp also where x is small (Kahan).
-pub(crate) fn exp_m1(x: f64) -> f64 {
+#[must_use]
+pub fn exp_m1(x: f64) -> f64 {
     let power = super::exp(x);
     let less_one = power - 1.0;
     if power == 1.0 {
@@ -149,13 +159,15 @@ pub(crate) fn exp_m1(x: f64) -> f64 {
 }
 
 /// asinh x for x ≥ 0 whose square is a number, to 5 ulp.
-pub(crate) fn asinh(x: f64) -> f64 {
+#[must_use]
+pub fn asinh(x: f64) -> f64 {
     let square = x * x;
     ln_1p(x + square / (1.0 + (1.0 + square).sqrt()))
 }
 
 /// √(x² + y²), to 2 ulp, without overflow.
-pub(crate) fn hypot(x: f64, y: f64) -> f64 {
+#[must_use]
+pub fn hypot(x: f64, y: f64) -> f64 {
     /// Squares of numbers between these lose no digits that count.
     const SMALL: f64 = 1e-140;
     const LARGE: f64 = 1e150;
@@ -172,7 +184,8 @@ pub(crate) fn hypot(x: f64, y: f64) -> f64 {
 
 /// xⁿ, by squaring: always the same multiplications. (What those of the standard library are is
 /// left open.)
-pub(crate) fn powi(x: f64, n: i32) -> f64 {
+#[must_use]
+pub fn powi(x: f64, n: i32) -> f64 {
     let (mut square, mut left, mut power) = (x, n.unsigned_abs(), 1.0);
     while left > 0 {
         if left % 2 == 1 {

@@ -18,7 +18,11 @@ impl Rft {
     /// The published theory on a rough wheel.
     pub const PUBLISHED: Self = Self { scale: 1.0, surface_friction_angle: None };
 
-    pub(crate) fn check(&self) -> Result<(), ParameterError> {
+    /// That scale and surface friction belong to a wheel on a soil.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first one that does not.
+    pub fn check(&self) -> Result<(), ParameterError> {
         positive("scale of resistive force theory", self.scale)?;
         let Some(angle) = self.surface_friction_angle else { return Ok(()) };
         positive("surface friction angle [rad]", angle)?;

@@ -80,12 +80,13 @@ impl Rover {
         wheel_unit: WheelUnit,
         mounts: Vec<Mount>,
     ) -> Result<Self, ParameterError> {
-        Self::unmade(RoverParts { body, wheel_unit, mounts }).remade()
+        Self::draft(RoverParts { body, wheel_unit, mounts }).checked()
     }
 
     /// A rover of which nothing but the parts is known: to be filled in, and then
-    /// [`remade`](Self::remade).
-    pub(crate) const fn unmade(parts: RoverParts) -> Self {
+    /// [`checked`](Self::checked).
+    #[must_use]
+    pub const fn draft(parts: RoverParts) -> Self {
         Self {
             parts,
             mass: 0.0,
@@ -96,8 +97,8 @@ impl Rover {
         }
     }
 
-    /// The parts, to be changed; the rover has to be [`remade`](Self::remade) after that.
-    pub(crate) fn parts_mut(&mut self) -> &mut RoverParts {
+    /// The parts, to be changed; the rover has to be [`checked`](Self::checked) after that.
+    pub fn parts_mut(&mut self) -> &mut RoverParts {
         &mut self.parts
     }
 
@@ -105,7 +106,7 @@ impl Rover {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub(crate) fn remade(self) -> Result<Self, ParameterError> {
+    pub fn checked(self) -> Result<Self, ParameterError> {
         let parts = self.parts;
         let RoverParts { body, wheel_unit, ref mounts } = parts;
         positive("body mass [kg]", body.mass)?;

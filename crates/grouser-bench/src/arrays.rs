@@ -1,0 +1,74 @@
+//! What Python asks for in arrays, made ready once: the work that its calls are measured against.
+
+use grouser::contact::{Contact, Slip, settle};
+use grouser::document::{self, DocumentError, Kind, Overrides, Source};
+use grouser::simulation::{Approach, Scenario, Simulation};
+use grouser::units::EARTH_GRAVITY;
+use rayon::prelude::*;
+
+/// Inputs for which all is read and converted already.
+pub enum Arrays {
+    /// Wheels of the paper's rover on Toyoura sand, each with its load [N].
+    Wheels(Vec<(Contact, f64)>),
+    /// Runs of the paper's rover.
+    Traverses(Vec<Scenario>),
+}
+
+/// Wheels that a thread takes at once, as the Python package gives them out.
+const SHARE: usize = 256;
+
+impl Arrays {
+    /// Wheels, one for each `[load_n, slip_ratio, slip_angle_deg]`.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if a preset cannot be read.
+    pub fn wheels(rows: &[[f64; 3]]) -> Result<Self, DocumentError> {
+        let wheel =
+            document::read_wheel(&Source::find(Kind::Wheel, "hakuto")?, &Overrides::none())?;
+        let soil = document::read_soil(&Source::find(Kind::Soil, "toyoura")?, &Overrides::none())?;
+        let (wheel, soil) = (wheel.value, soil.value);
+        let loaded = |&[load, ratio, angle]: &[f64; 3]| {
+            let slip = Slip::on_test_stand(ratio, angle.to_radians());
+            (Contact { wheel, soil, slip, gravity: EARTH_GRAVITY }, load)
+        };
+        Ok(Self::Wheels(rows.iter().map(loaded).collect()))
+    }
+
+    /// Traverses of 20 s, one for each `[slope_deg, yaw_deg]`.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if the scenario cannot be read.
+    pub fn traverses(approach: Approach, rows: &[[f64; 2]]) -> Result<Self, DocumentError> {
+        let base = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+        let varied = |&[slope, yaw]: &[f64; 2]| {
+            let mut scenario = base.clone();
+            scenario.numerics.approach = approach;
+            scenario.site.slope = slope.to_radians();
+            scenario.start.yaw = yaw.to_radians();
+            scenario
+        };
+        Ok(Self::Traverses(rows.iter().map(varied).collect()))
+    }
+
+    /// Computes all of them on all cores; how many settled, or were run to their end.
+    #[must_use]
+    pub fn compute(&self) -> usize {
+        match self {
+            Self::Wheels(wheels) => {
+                // The theory of a scenario that names none.
+                let model = grouser::contact::Theory::default().model();
+                let one = |(contact, load): &(Contact, f64)| settle(model, contact, *load);
+                let settled: Vec<_> = wheels.par_iter().with_min_len(SHARE).map(one).collect();
+                settled.into_iter().flatten().count()
+            }
+            Self::Traverses(scenarios) => {
+                let end = |scenario: &Scenario| {
+                    let run = Simulation::new(scenario).and_then(Simulation::run)?;
+                    Ok::<_, grouser::simulation::SimulationError>((run.last().clone(), run.outcome))
+                };
+                let ends: Vec<_> = scenarios.par_iter().map(end).collect();
+                ends.into_iter().flatten().count()
+            }
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! What is on the page.
+
+use crate::font::{Face, width};
+
+/// A place on the page, or a way across it: to the right, and down [mm].
+pub type Place = [f64; 2];
+
+/// A grey: 0 is black, 1 is white.
+pub type Grey = f64;
+
+/// Black.
+pub const BLACK: Grey = 0.0;
+/// White.
+pub const WHITE: Grey = 1.0;
+
+/// A page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    pub(crate) title: String,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) items: Vec<Item>,
+}
+
+/// What is on it, from the back to the front.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Item {
+    Shape(Shape),
+    Text { text: Text, at: Place },
+}
+
+/// A line through points, or the area that they enclose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shape {
+    pub(crate) points: Vec<Place>,
+    pub(crate) closed: bool,
+    pub(crate) fill: Option<Grey>,
+    pub(crate) stroke: Option<Stroke>,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Its width [mm].
+    pub width: f64,
+    /// Its grey.
+    pub grey: Grey,
+    /// Lengths of dashes and gaps [mm].
+    pub dash: Option<[f64; 2]>,
+}
+
+impl Stroke {
+    /// A full black line.
+    #[must_use]
+    pub const fn black(width: f64) -> Self {
+        Self { width, grey: BLACK, dash: None }
+    }
+
+    /// A full grey line.
+    #[must_use]
+    pub const fn grey(width: f64, grey: Grey) -> Self {
+        Self { width, grey, dash: None }
+    }
+
+    /// The same, dashed.
+    #[must_use]
+    pub const fn dashed(self, on: f64, off: f64) -> Self {
+        Self { dash: Some([on, off]), ..self }
+    }
+}
+
+impl Shape {
+    /// A line through points.
+    #[must_use]
+    pub fn line(points: impl IntoIterator<Item = Place>, stroke: Stroke) -> Self {
+        let points = points.into_iter().collect();
+        Self { points, closed: false, fill: None, stroke: Some(stroke) }
+    }
+
+    /// An area.
+    #[must_use]
+    pub fn area(points: impl IntoIterator<Item = Place>, fill: Grey) -> Self {
+        let points = points.into_iter().collect();
+        Self { points, closed: true, fill: Some(fill), stroke: None }
+    }
+
+    /// A rectangle by its upper left corner and its size.
+    #[must_use]
+    pub fn rectangle([left, top]: Place, [width, height]: Place, fill: Grey) -> Self {
+        let (right, bottom) = (left + width, top + height);
+        Self::area([[left, top], [right, top], [right, bottom], [left, bottom]], fill)
+    }
+
+    /// Only the line around it.
+    #[must_use]
+    pub fn unfilled(self) -> Self {
+        Self { fill: None, ..self }
+    }
+
+    /// The same area with a line around it.
+    #[must_use]
+    pub fn outlined(self, stroke: Stroke) -> Self {
+        Self { stroke: Some(stroke), ..self }
+    }
+}
+
+/// Where a text's place is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Anchor {
+    /// At its start.
+    #[default]
+    Start,
+    /// In its middle.
+    Middle,
+    /// At its end.
+    End,
+}
+
+/// A line of text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    pub(crate) content: String,
+    /// Height of the font [mm]; a capital is 0.73 of it.
+    pub(crate) size: f64,
+    pub(crate) face: Face,
+    pub(crate) grey: Grey,
+    anchor: Anchor,
+    /// Reads from the bottom up.
+    pub(crate) upright: bool,
+}
+
+impl Text {
+    /// Text in a regular face, black, starting at its place. Its characters are drawn as they are, from
+    /// left to right: a caller that takes text from outside decides before what may be in it.
+    #[must_use]
+    pub fn new(content: impl Into<String>, size: f64) -> Self {
+        Self {
+            content: content.into(),
+            size,
+            face: Face::Regular,
+            grey: BLACK,
+            anchor: Anchor::Start,
+            upright: false,
+        }
+    }
+
+    /// The same in another face.
+    #[must_use]
+    pub fn face(self, face: Face) -> Self {
+        Self { face, ..self }
+    }
+
+    /// The same in another grey.
+    #[must_use]
+    pub fn grey(self, grey: Grey) -> Self {
+        Self { grey, ..self }
+    }
+
+    /// The same with its place elsewhere.
+    #[must_use]
+    pub fn anchor(self, anchor: Anchor) -> Self {
+        Self { anchor, ..self }
+    }
+
+    /// The same, read from the bottom up.
+    #[must_use]
+    pub fn upright(self) -> Self {
+        Self { upright: true, ..self }
+    }
+
+    /// How wide it is [mm].
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        width(&self.content, self.face, self.size)
+    }
+
+    /// How far left of its place it starts [mm].
+    fn offset(&self) -> f64 {
+        match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => self.width() / 2.0,
+            Anchor::End => self.width(),
+        }
+    }
+
+    /// Where its base line starts, and the way along it for a millimetre of text.
+    pub(crate) fn base_line(&self, at: Place) -> (Place, Place) {
+        let offset = self.offset();
+        if self.upright {
+            ([at[0], at[1] + offset], [0.0, -1.0])
+        } else {
+            ([at[0] - offset, at[1]], [1.0, 0.0])
+        }
+    }
+}
+
+impl Sheet {
+    /// An empty page of a size [mm].
+    #[must_use]
+    pub fn new(title: &str, width: f64, height: f64) -> Self {
+        Self { title: title.to_owned(), width, height, items: Vec::new() }
+    }
+
+    /// What the page is called.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Draws a shape; one of less than two points shows nothing.
+    pub fn draw(&mut self, shape: Shape) {
+        if shape.points.len() > 1 {
+            self.items.push(Item::Shape(shape));
+        }
+    }
+
+    /// Writes a line of text with its base line at a place.
+    pub fn text(&mut self, text: Text, at: Place) {
+        self.items.push(Item::Text { text, at });
+    }
+
+    /// Fills a rectangle with parallel lines that rise to the right at 45°.
+    ///
+    /// * `distance`: from line to line, along the rectangle's edge [mm]
+    pub fn hatch(
+        &mut self,
+        [left, top]: Place,
+        [width, height]: Place,
+        distance: f64,
+        stroke: Stroke,
+    ) {
+        // The line that starts at (left + c, bottom) and rises is x + y = c, y counted upwards.
+        let mut c = distance / 2.0 - height;
+        while c < width {
+            let start = c.max(0.0);
+            let end = (c + height).min(width);
+            let at = |x: f64| [left + x, top + height - (x - c)];
+            self.draw(Shape::line([at(start), at(end)], stroke));
+            c += distance;
+        }
+    }
+}
