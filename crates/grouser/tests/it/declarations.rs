@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::document::campaign::unit;
+use grouser::document::unit_of;
 use grouser::document::{self, Kind};
 use serde_json::Value;
 
@@ -37,7 +37,7 @@ fn keys() -> BTreeSet<String> {
     for kind in Kind::ALL {
         collect(&serde_json::from_str(&document::schema(kind)).expect("it is JSON"), &mut keys);
     }
-    keys.retain(|key| unit(key).is_some());
+    keys.retain(|key| unit_of(key).is_some());
     keys
 }
 

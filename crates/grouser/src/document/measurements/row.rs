@@ -3,8 +3,8 @@
 use csv::StringRecord;
 
 use super::super::check::nearest;
+use super::super::columns::OK;
 use super::super::escape;
-use super::super::study::OK;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
