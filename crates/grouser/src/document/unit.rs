@@ -75,6 +75,7 @@ pub(super) const M_PER_M: Unit = Unit::si("m/m");
 pub(super) const M_PER_RAD: Unit = Unit::si("m/rad");
 pub(super) const M_PER_RAD2: Unit = Unit::si("m/rad²");
 pub(super) const M_S: Unit = Unit::si("m/s");
+pub(super) const MM_S: Unit = Unit::scaled("mm/s", Scale::Milli);
 pub(super) const M_S2: Unit = Unit::si("m/s²");
 pub(super) const RAD_S: Unit = Unit::si("rad/s");
 pub(super) const S: Unit = Unit::si("s");

@@ -5,7 +5,7 @@ use super::super::table::Table;
 use super::super::unit::{M_S, ONE};
 use super::{
     Column, DRAWBAR_PULL, LOAD, OK, Quantity, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STATUS,
-    TORQUE, maybe, quantity, text, whole,
+    TORQUE, quantity, text, whole,
 };
 use crate::contact::{SettleError, Settled};
 use crate::studies::measurement::{Quantity as Measured, Trial};
@@ -25,13 +25,16 @@ pub const fn column_of(measured: Measured) -> Quantity {
 /// Slip by the total speed.
 pub const TOTAL_SLIP: Quantity = quantity("slip_ratio_total_speed", ONE);
 
+/// Rim speed that was set.
+pub(in super::super) const RIM_SPEED_SETTING: Quantity = quantity("rim_speed_setting_m_s", M_S);
+
 /// A cell's condition.
 const CELL: [Column<CellComparison>; 7] = [
     SLIP_ANGLE.given("Slip angle", |it| Some(it.slip_angle)),
     text(MOTION, "`driven` or `skid`", |it| Some(motion(Some(it.driven)).into())),
     TOTAL_SLIP.number("Slip by the total speed", |it| it.total_slip),
     LOAD.number("Load, the mean over the trials", |it| it.load),
-    maybe("rim_speed_setting_m_s", M_S, "Rim speed that was set", |it| it.rim_speed),
+    RIM_SPEED_SETTING.maybe("Rim speed that was set", |it| it.rim_speed),
     whole("trials", "How many trials it has", |it| Some(it.trials)),
     whole(UNSETTLED, "How many of them the soil cannot carry, by the model", |it| {
         Some(it.unsettled)

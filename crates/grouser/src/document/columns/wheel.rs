@@ -9,6 +9,7 @@ use super::{
 use crate::contact::Settled;
 use crate::studies::wheel_test::WheelTestRow;
 
+pub(in super::super) const NORMAL_FORCE: Quantity = quantity("normal_force_n", N);
 const ENTRY_ANGLE: Quantity = quantity("entry_angle_deg", DEG);
 pub(super) const MAX_NORMAL_STRESS: Quantity = quantity("max_normal_stress_kpa", KPA);
 
@@ -33,7 +34,7 @@ pub const WHEEL: [Column<Settled>; 15] = [
         "Full load of the soil that the side wall pushes aside, before the slip angle's share",
         |it| it.forces.bulldozing_load,
     ),
-    number("normal_force_n", N, "Force out of the ground", |it| it.forces.normal_force),
+    NORMAL_FORCE.number("Force out of the ground", |it| it.forces.normal_force),
     TORQUE.number("Torque of the drive, positive while it drives the wheel forward", |it| {
         it.forces.torque
     }),
