@@ -2,7 +2,7 @@
 
 use grouser::contact::Settled;
 use grouser::document::columns::Column;
-use grouser::document::columns::heading::{BAND, held};
+use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
 use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
@@ -45,6 +45,7 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("sample", declared(&SAMPLE))?;
     dict.set_item("attitude", declared(&held()))?;
     dict.set_item("attitude_band", declared(&BAND))?;
+    dict.set_item("attitude_band_limit", declared(&BAND_LIMIT))?;
     dict.set_item("stand", declared(&TRIALS))?;
     Ok(dict)
 }

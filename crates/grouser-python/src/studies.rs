@@ -2,7 +2,7 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 
-use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::run::{ENERGY_ERROR, SAMPLE, WHEEL_SAMPLE};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE, heading,
@@ -59,7 +59,7 @@ fn to_python<'py>(
     dict.set_item("reason", run.outcome.reason())?;
     dict.set_item("simulation", run.method.name())?;
     dict.set_item("simulation_reason", run.method.reason())?;
-    dict.set_item("energy_error_j", run.energy_error())?;
+    dict.set_item(ENERGY_ERROR.name, ENERGY_ERROR.unit.from_si(run.energy_error()))?;
     dict.set_item("wheels", names)?;
     let rover = PyDict::new(py);
     for one in &SAMPLE {

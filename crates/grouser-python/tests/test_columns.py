@@ -14,8 +14,6 @@ from grouser import _core, _tables
 
 COLUMNS = _core.result_columns()
 
-QUANTILES = ("p2_5", "p50", "p97_5")
-
 #: Results with the columns of their numbers, and what they have besides.
 RESULTS = [
     (gr.WheelForces, "wheel", {"slip_ratio", "slip_angle_deg"}),
@@ -23,7 +21,7 @@ RESULTS = [
     (gr.Rollout, "sample", set()),
     (gr.Attitudes, "attitude", {"slope_deg", "limit_slope_deg"}),
     (gr.AttitudeMap, "attitude", {"course_deg", "slope_deg", "limit_slope_deg"}),
-    (gr.AttitudeBand, "attitude_band", {f"limit_slope_deg_{end}" for end in QUANTILES}),
+    (gr.AttitudeBand, "attitude_band", {name for name, _, _ in COLUMNS["attitude_band_limit"]}),
     (gr.SimulatedWheelTest, "stand", set()),
 ]
 

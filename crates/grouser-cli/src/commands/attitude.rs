@@ -27,7 +27,7 @@ pub(crate) fn run(args: &AttitudeArgs) -> Result<(), Failure> {
     } else {
         None
     };
-    let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| slope.to_radians()).collect();
+    let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
     if let Some(bands) = &bands {
         table = heading::with_bands(table, &bands.asked);

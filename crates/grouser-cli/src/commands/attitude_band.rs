@@ -47,7 +47,7 @@ pub(crate) fn draw(
 ) -> Result<Bands, Failure> {
     let uncertain = inputs::uncertain_soil(args, scenario)?;
     let soils = soils(uncertain, args.uncertainty.seed, args.uncertainty.samples)?;
-    let asked: Vec<f64> = args.slope_deg.0.iter().map(|slope| slope.to_radians()).collect();
+    let asked: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let charted = if charted { chart_slopes(nominal) } else { Vec::new() };
     let slopes: Vec<f64> = asked.iter().chain(&charted).copied().collect();
     let bar = output::progress_bar(soils.len() as u64);
@@ -86,7 +86,7 @@ pub(crate) fn soils(
 
 /// Every degree, and the points of the nominal curve, which crowd where it bends.
 fn chart_slopes(nominal: &AttitudeCurve) -> Vec<f64> {
-    let degrees = (0..=STEEPEST_DEG).map(|degree| f64::from(degree).to_radians());
+    let degrees = (0..=STEEPEST_DEG).map(|degree| SLOPE.unit.to_si(f64::from(degree)));
     let points = nominal.attitudes().into_iter().map(|attitude| attitude.slope);
     let mut slopes: Vec<f64> = degrees.chain(points).collect();
     slopes.sort_by(f64::total_cmp);

@@ -1,7 +1,7 @@
 //! `grouser attitude-map`
 
 use grouser::document::LoadedScenario;
-use grouser::document::columns::heading;
+use grouser::document::columns::{COURSE, Quantity, SLOPE, YAW, heading};
 use grouser::document::table::Table;
 use grouser::studies::attitude::{Attitude, AttitudeStudy};
 use grouser::studies::attitude_map::AttitudeMap;
@@ -22,8 +22,11 @@ pub(crate) fn run(args: &AttitudeMapArgs) -> Result<(), Failure> {
     let scenarios = inputs::attitude_map(args)?;
     let studies: Vec<AttitudeStudy> =
         scenarios.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
-    let radians = |list: &[f64]| list.iter().map(|number| number.to_radians()).collect::<Vec<_>>();
-    let (courses, slopes) = (radians(&args.course_deg.0), radians(&args.slope_deg.0));
+    let in_si = |quantity: Quantity, list: &[f64]| {
+        list.iter().map(|number| quantity.unit.to_si(*number)).collect::<Vec<_>>()
+    };
+    let courses = in_si(COURSE, &args.course_deg.0);
+    let slopes = in_si(SLOPE, &args.slope_deg.0);
     let map = AttitudeMap::of(&studies, &courses, &slopes)?;
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
     let table = heading::map_table(&map, &names, &scenarios[0].value.rover, args.speed_m_s.0[0]);
@@ -102,7 +105,7 @@ fn figures(
         (
             "crab",
             figure("Yaw beyond the course [°]", |attitude| {
-                (attitude.yaw - attitude.course).to_degrees()
+                YAW.unit.from_si(attitude.yaw - attitude.course)
             }),
         ),
         ("slip", figure("Slip ratio", |attitude| attitude.slip_ratio)),

@@ -9,8 +9,8 @@ mod words;
 use std::path::Path;
 
 use grouser::document::card::RuleRecord;
-use grouser::document::columns::YAW;
 use grouser::document::columns::card::{self, MeasuredYaw};
+use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
 use grouser::soil::Soil;
@@ -83,7 +83,7 @@ fn compute(
     let study = CardStudy { attitude, rim_speed: inputs.rim_speed, rule: inputs.rule };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
-    let mut slopes: Vec<f64> = degrees.chain(asked).map(f64::to_radians).collect();
+    let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
     let bar = output::progress_bar(soils.len() as u64);

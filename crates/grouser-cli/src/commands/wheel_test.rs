@@ -1,6 +1,6 @@
 //! `grouser wheel-test`
 
-use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::table::Table;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
@@ -26,7 +26,12 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
         gravity: inputs.gravity,
         theory: inputs.theory,
         loads: args.load_n.0.clone(),
-        slip_angles: args.slip_angle_deg.0.iter().map(|angle| angle.to_radians()).collect(),
+        slip_angles: args
+            .slip_angle_deg
+            .0
+            .iter()
+            .map(|angle| SLIP_ANGLE.unit.to_si(*angle))
+            .collect(),
         slip_ratios: args.slip_ratio.0.clone(),
     };
     let mut settings = json!({
@@ -63,7 +68,7 @@ fn on_a_stand(plan: WheelTest, args: &StandArgs, trials: usize) -> SimulatedTest
     let noise = PerQuantity {
         drawbar_pull: args.noise_n,
         side_force: args.noise_n,
-        sinkage: args.noise_mm * 1e-3,
+        sinkage: SINKAGE.unit.to_si(args.noise_mm),
         torque: args.noise_nm,
     };
     SimulatedTest { plan, trials, noise, seed: args.seed }

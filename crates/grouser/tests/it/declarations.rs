@@ -116,9 +116,7 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 8] = [
-    // The paper's tables beside the program's answers, whose names say which of the two.
-    ("sinkage_mm", "report/tables.rs"),
+const OTHER_PLACES: [(&str, &str); 6] = [
     // Plates sink, too, in files and results of their own.
     ("sinkage_mm", "document/plates.rs"),
     ("sinkage_mm", "document/calibration/plates.rs"),
@@ -127,8 +125,6 @@ const OTHER_PLACES: [(&str, &str); 8] = [
     ("course_deg", "commands/attitude_map.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),
     ("sinkage_mm", "grouser-python/src/wheels.rs"),
-    // Beside a trajectory's arrays in Python.
-    ("energy_error_j", "grouser-python/src/studies.rs"),
 ];
 
 /// Names in quotes, and names of fields, in a line of a source.

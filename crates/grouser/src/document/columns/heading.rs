@@ -201,7 +201,7 @@ pub const DRAWS: &str = "draws";
 pub const DRAWS_MOBILE: &str = "draws_mobile";
 
 /// What samples say of the steepest slope.
-const BAND_LIMIT: [Column<AttitudeBand>; 3] = [
+pub const BAND_LIMIT: [Column<AttitudeBand>; 3] = [
     LIMIT_SLOPE
         .band("The steepest slope, over the draws on which the rover can move", |it| it.limit),
     whole(DRAWS_MOBILE, "Draws on which the rover can move on level ground", |it| {

@@ -6,8 +6,8 @@ use super::super::table::Table;
 use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, RAD_S};
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
-    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TIME, X, Y,
-    YAW, maybe, number, text,
+    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TIME,
+    X, Y, YAW, maybe, number, quantity, text,
 };
 use crate::contact::Settled;
 use crate::simulation::{Sample, Trajectory, WheelSample};
@@ -44,6 +44,9 @@ pub const WHEEL_SAMPLE: [Column<WheelSample>; 5] = [
     POWER.number("Power of its motor", WheelSample::power),
 ];
 
+/// What the energy balance cannot account for.
+pub const ENERGY_ERROR: Quantity = quantity("energy_error_j", J);
+
 /// What became of the rover.
 const RUN: [Column<Trajectory>; 6] = [
     text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
@@ -55,9 +58,7 @@ const RUN: [Column<Trajectory>; 6] = [
     }),
     text("simulation_reason", "Since when and why it fell back", |it| it.method.reason()),
     ENERGY.number("Work of the motors over the run", |it| it.last().energy.motors),
-    number("energy_error_j", J, "What the energy balance cannot account for", |it| {
-        it.energy_error()
-    }),
+    ENERGY_ERROR.number("What the energy balance cannot account for", Trajectory::energy_error),
 ];
 
 /// A run in a few numbers, means over wheels and samples: what a campaign keeps beside the end.
