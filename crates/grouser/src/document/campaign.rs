@@ -27,13 +27,14 @@ pub use rows::FAILED;
 pub use sections::Study;
 pub(super) use sections::{Settings, Stand};
 pub use statistics::{Frequencies, QuantityStatistics};
-pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
+pub use table::{Column, Role};
 
 use self::inputs::Prepared;
 use self::rows::Base;
 use super::describe::campaign::CAMPAIGN;
 use super::error::DocumentError;
 use super::field::Inner;
+use super::table::{Cell, Table};
 use super::{Document, Kind, Overrides, Source, Written, written};
 use crate::studies::campaign::Plan;
 pub use rows::STATUSES;
@@ -198,6 +199,7 @@ impl Campaign {
             })
             .collect();
         let rows: Vec<Vec<Cell>> = rows.into_iter().collect::<Option<_>>()?;
-        Some(Table::of(&self.columns, rows))
+        let columns = self.columns.iter().map(|column| (column.name.as_str(), column.kind));
+        Some(Table::of_cells(columns, rows))
     }
 }
