@@ -255,6 +255,15 @@ impl<R> Column<R> {
         }
     }
 
+    /// How many names it has.
+    fn ends(&self) -> usize {
+        match self.value {
+            Value::Band(_) | Value::Probability(_) | Value::Compared(_) => 3,
+            Value::Measured(_) => 2,
+            _ => 1,
+        }
+    }
+
     /// What stands in it.
     #[must_use]
     pub fn kind(&self) -> ColumnKind {
@@ -302,13 +311,16 @@ impl<R> Column<R> {
 
     /// Writes a row's value as an entry of an object of JSON, or several.
     pub(super) fn write<M: SerializeMap>(&self, map: &mut M, row: &R) -> Result<(), M::Error> {
+        if self.ends() == 1 {
+            return map.serialize_entry(self.name, &self.cell(Some(row), 0));
+        }
         let mut names = self.names().into_iter().enumerate();
         names.try_for_each(|(end, name)| map.serialize_entry(&name, &self.cell(Some(row), end)))
     }
 
     /// The cells of a row under all its names.
     pub(super) fn cells<'r>(&'r self, row: &'r R) -> impl Iterator<Item = Cell> + 'r {
-        (0..self.names().len()).map(|end| self.cell(Some(row), end))
+        (0..self.ends()).map(|end| self.cell(Some(row), end))
     }
 }
 
