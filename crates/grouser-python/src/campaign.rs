@@ -7,7 +7,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use grouser::document::campaign::{Campaign, Cell, Frequencies, QuantityStatistics, Table, Values};
+use grouser::document::campaign::{Campaign, Frequencies, QuantityStatistics};
+use grouser::document::table::{Cell, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::studies::ensemble::sensitivity::SobolIndex;
 use grouser::studies::ensemble::statistics::{Estimate, Quantile, Summary};

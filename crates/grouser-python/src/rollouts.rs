@@ -1,7 +1,7 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
 use grouser::contact::Theory;
-use grouser::document::trajectory::SampleRecord;
+use grouser::document::columns::run::SAMPLE;
 use grouser::document::{Kind, range, scenario_with};
 use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::studies::{SAMPLE_FIELDS, run};
+use crate::studies::run;
 use crate::wheels::{check, column};
 
 /// Many runs, which share what is the same for them.
@@ -122,7 +122,7 @@ fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static s
 }
 
 /// The numbers of a sample.
-type Row = [f64; SAMPLE_FIELDS.len()];
+type Row = [f64; SAMPLE.len()];
 
 /// What is kept of a run.
 struct End {
@@ -135,10 +135,7 @@ struct End {
 
 impl End {
     fn of(scenario: &Scenario, keep: bool) -> Self {
-        let row = |sample| {
-            let record = SampleRecord::of_body(sample);
-            SAMPLE_FIELDS.map(|(_, get)| get(&record))
-        };
+        let row = |sample| SAMPLE.each_ref().map(|column| column.number(sample));
         match run(scenario) {
             Ok(run) => Self {
                 outcome: run.outcome.name(),
@@ -149,7 +146,7 @@ impl End {
             Err(error) => Self {
                 outcome: "failed",
                 reason: Some(error.to_string()),
-                last: [f64::NAN; SAMPLE_FIELDS.len()],
+                last: [f64::NAN; SAMPLE.len()],
                 samples: Vec::new(),
             },
         }
@@ -199,13 +196,13 @@ fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'
     let dict = PyDict::new(py);
     dict.set_item("outcome", PyList::new(py, ends.iter().map(|end| end.outcome))?)?;
     dict.set_item("reason", PyList::new(py, ends.iter().map(|end| end.reason.as_deref()))?)?;
-    for (place, (name, _)) in SAMPLE_FIELDS.into_iter().enumerate() {
+    for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
         dict.set_item(name, column(py, ends.iter().map(|end| end.last[place])))?;
     }
     if keep {
         let longest = ends.iter().map(|end| end.samples.len()).max().unwrap_or(0);
         let samples = PyDict::new(py);
-        for (place, (name, _)) in SAMPLE_FIELDS.into_iter().enumerate() {
+        for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
             let row = |end: &End| {
                 let told = end.samples.iter().map(|row| row[place]);
                 told.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()

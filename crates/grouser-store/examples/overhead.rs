@@ -10,7 +10,7 @@
 
 use std::time::{Duration, Instant};
 
-use grouser::document::campaign::Values;
+use grouser::document::table::Values;
 use grouser::document::{Kind, Overrides, Source, read_campaign, read_scenario};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser_store::{Folder, Study, shard_bytes};

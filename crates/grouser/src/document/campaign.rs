@@ -22,13 +22,14 @@ pub use rows::FAILED;
 pub use sections::Study;
 pub(super) use sections::{Settings, Stand};
 pub use statistics::{Frequencies, QuantityStatistics};
-pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
+pub use table::{Column, Role};
 
 use self::inputs::Prepared;
 use self::rows::Base;
 use super::describe::campaign::CAMPAIGN;
 use super::error::DocumentError;
 use super::field::Inner;
+use super::table::{Cell, Table};
 use super::{Document, Kind, Overrides, Source, Written, written};
 use crate::studies::ensemble::{Ensemble, outputs_while};
 pub use rows::STATUSES;
@@ -173,6 +174,7 @@ impl Campaign {
     #[must_use]
     pub fn shard(&self, shard: u64, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Table> {
         let rows = outputs_while(self.runs_of(shard), go_on, |index| self.run(index))?;
-        Some(Table::of(&self.columns, rows))
+        let columns = self.columns.iter().map(|column| (column.name.as_str(), column.kind));
+        Some(Table::of_cells(columns, rows))
     }
 }

@@ -9,6 +9,9 @@ use std::ops::RangeInclusive;
 use serde_json::Value as Json;
 
 use super::Kind;
+pub(super) use super::unit::{
+    DEG, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N, OF_KEY, ONE, S, Unit,
+};
 
 /// What a document, or a table in it, may say: keys in the order in which they are written.
 ///
@@ -131,53 +134,6 @@ pub(super) enum Form {
     /// One alone, or a list: what either is.
     OneOrEach(&'static str, &'static str),
 }
-
-/// A unit in which documents give numbers, and the way from it to SI.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Unit {
-    pub symbol: &'static str,
-    scale: Scale,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Scale {
-    Same,
-    Thousand,
-    Degrees,
-}
-
-impl Unit {
-    /// A unit that is SI already.
-    pub(super) const fn si(symbol: &'static str) -> Self {
-        Self { symbol, scale: Scale::Same }
-    }
-
-    /// The value in SI units and radians.
-    pub(super) fn to_si(self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Same => value,
-            Scale::Thousand => value * 1e3,
-            Scale::Degrees => value.to_radians(),
-        }
-    }
-}
-
-pub(super) const KPA: Unit = Unit { symbol: "kPa", scale: Scale::Thousand };
-pub(super) const DEG: Unit = Unit { symbol: "°", scale: Scale::Degrees };
-pub(super) const KG_M3: Unit = Unit::si("kg/m³");
-pub(super) const KG: Unit = Unit::si("kg");
-pub(super) const KG_M2: Unit = Unit::si("kg·m²");
-pub(super) const M: Unit = Unit::si("m");
-pub(super) const M_PER_RAD: Unit = Unit::si("m/rad");
-pub(super) const M_PER_RAD2: Unit = Unit::si("m/rad²");
-pub(super) const M_S: Unit = Unit::si("m/s");
-pub(super) const M_S2: Unit = Unit::si("m/s²");
-pub(super) const S: Unit = Unit::si("s");
-pub(super) const N: Unit = Unit::si("N");
-/// A number without a unit.
-pub(super) const ONE: Unit = Unit::si("-");
-/// The unit of another key.
-pub(super) const OF_KEY: Unit = Unit::si("");
 
 /// Tables as those see them that do not know their type.
 pub(super) trait Inner<T>: Sync {

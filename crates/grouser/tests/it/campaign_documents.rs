@@ -2,7 +2,9 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use grouser::document::campaign::{Cell, ColumnKind, Role, STATUSES, Table, Values, unit};
+use grouser::document::campaign::{Role, STATUSES};
+use grouser::document::table::{Cell, ColumnKind, Table, Values};
+use grouser::document::unit_of;
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::ensemble::sensitivity::Sensitivity;
@@ -291,7 +293,7 @@ fn columns_say_their_kind_role_and_unit() {
         ("slip_ratio", None),
         ("soil.pressure_sinkage.n", None),
     ] {
-        assert_eq!(unit(name), expected, "{name}");
+        assert_eq!(unit_of(name).map(|unit| unit.symbol), expected, "{name}");
     }
     let matrices = texts(&whole(&campaign), "matrix");
     let one = ["a", "b", "soil.friction_angle_deg"].map(|name| Some(name.to_owned()));

@@ -1,13 +1,17 @@
 //! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
 
 use super::super::Document;
+use super::super::columns::heading::{Held, held};
+use super::super::columns::run::{DRIVE, END};
+use super::super::columns::wheel::WHEEL;
+use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
-use super::super::study::{OK, WheelRecord};
+use super::super::table::{Cell, ColumnKind};
 use super::super::text::Node;
 use super::super::values::Misfit;
 use super::super::varied::{Key, Numbers, Varied};
 use super::sections::{Stand, Study};
-use super::table::{Cell, Column, ColumnKind, Role};
+use super::table::{Column, Role};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Scenario, Simulation};
 use crate::studies::attitude::{AttitudeStudy, NoAttitude};
@@ -50,48 +54,6 @@ pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_ATTITUDE, CANNOT_MOVE, SUNK, NOT_
 /// Statuses of rows that could not be computed: all others are answers, or findings.
 pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
 
-const ATTITUDE: [&str; 7] = [
-    "yaw_deg",
-    "slip_ratio",
-    "sinkage_mm",
-    "torque_nm",
-    "power_w",
-    "energy_j_per_m",
-    "yaw_moment_nm",
-];
-
-const TRAVERSE: [&str; 11] = [
-    "time_s",
-    "x_m",
-    "y_m",
-    "yaw_deg",
-    "distance_m",
-    "drift_m_per_m",
-    "slip_ratio",
-    "sinkage_mm",
-    "power_w",
-    "energy_j",
-    "energy_j_per_m",
-];
-
-const WHEEL_TEST: [&str; 15] = [
-    "sinkage_mm",
-    "entry_angle_deg",
-    "exit_angle_deg",
-    "max_stress_angle_deg",
-    "drawbar_pull_n",
-    "side_force_n",
-    "side_force_from_shear_n",
-    "bulldozing_load_n",
-    "normal_force_n",
-    "torque_nm",
-    "overturning_moment_nm",
-    "aligning_moment_nm",
-    "thrust_n",
-    "motion_resistance_n",
-    "max_normal_stress_kpa",
-];
-
 /// The columns of a study.
 ///
 /// * `keys`: what is drawn
@@ -107,13 +69,17 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
         Study::Attitude | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
-    let results: &[&str] = match study {
-        Study::Traverse => &TRAVERSE,
-        Study::Attitude => &ATTITUDE,
-        Study::WheelTest => &WHEEL_TEST,
+    let names: Vec<&str> = match study {
+        Study::Traverse => names(END).chain(names(&DRIVE)).collect(),
+        Study::Attitude => names(&held()).collect(),
+        Study::WheelTest => names(&WHEEL).collect(),
     };
-    all.extend(results.iter().map(|word| Column::new(*word, ColumnKind::Float, Role::Result)));
+    all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
     all
+}
+
+fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str> {
+    results.iter().map(|column| column.name)
 }
 
 /// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
@@ -187,20 +153,21 @@ fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
             };
             Failure { status, reason: error.to_string() }
         })?;
-    let power = match scenario.drive {
-        DriveLaw::Constant(speed) => Some(attitude.power(&scenario.rover, speed)),
+    let rim_speed = match scenario.drive {
+        DriveLaw::Constant(speed) => Some(speed),
         _ => None,
     };
-    let floats = [
-        Some(attitude.yaw.to_degrees()),
-        Some(attitude.slip_ratio),
-        Some(attitude.mean_sinkage() * 1e3),
-        Some(attitude.torque()),
-        power,
-        Some(attitude.energy_per_metre(&scenario.rover)),
-        Some(attitude.yaw_moment),
-    ];
-    Ok(std::iter::once(Cell::Text(None)).chain(floats.map(Cell::Float)).collect())
+    let held_row = Held { attitude: &attitude, rover: &scenario.rover, rim_speed };
+    Ok(cells([Cell::Text(None)], &held(), &held_row).collect())
+}
+
+/// Words, then the results of a row.
+fn cells<'r, R, const WORDS: usize>(
+    words: [Cell; WORDS],
+    columns: &'r [columns::Column<R>],
+    row: &'r R,
+) -> impl Iterator<Item = Cell> + 'r {
+    words.into_iter().chain(columns.iter().flat_map(move |column| column.cells(row)))
 }
 
 fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
@@ -213,20 +180,7 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
     ];
-    let floats = [
-        Some(end.time),
-        Some(end.state.position.x),
-        Some(end.state.position.y),
-        Some(end.state.yaw.to_degrees()),
-        Some(drive.distance),
-        drive.drift,
-        drive.slip_ratio,
-        drive.sinkage.map(|sinkage| sinkage * 1e3),
-        drive.power,
-        Some(drive.energy),
-        drive.energy_per_metre,
-    ];
-    Ok(words.into_iter().chain(floats.map(Cell::Float)).collect())
+    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect())
 }
 
 fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
@@ -237,23 +191,5 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         };
         Failure { status, reason: error.to_string() }
     })?;
-    let wheel = WheelRecord::new(&settled);
-    let floats = [
-        wheel.sinkage_mm,
-        wheel.entry_angle_deg,
-        wheel.exit_angle_deg,
-        wheel.max_stress_angle_deg,
-        wheel.drawbar_pull_n,
-        wheel.side_force_n,
-        wheel.side_force_from_shear_n,
-        wheel.bulldozing_load_n,
-        wheel.normal_force_n,
-        wheel.torque_nm,
-        wheel.overturning_moment_nm,
-        wheel.aligning_moment_nm,
-        wheel.thrust_n,
-        wheel.motion_resistance_n,
-        wheel.max_normal_stress_kpa,
-    ];
-    Ok(std::iter::once(Cell::Text(None)).chain(floats.map(Cell::Float)).collect())
+    Ok(cells([Cell::Text(None)], &WHEEL, &settled).collect())
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::study::OK;
+use super::super::columns::OK;
 use super::Campaign;
 use crate::simulation::Outcome;
 use crate::studies::ensemble::sensitivity::Sensitivity;

@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use grouser::document::Campaign;
-use grouser::document::campaign::{
-    Column, ColumnKind, Frequencies, QuantityStatistics, Role, Values,
-};
+use grouser::document::campaign::{Column, Frequencies, QuantityStatistics, Role};
+use grouser::document::table::{ColumnKind, Values};
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::{Convergence, Estimate, Quantile, Summary};
 use grouser_store::{Finished, Results};
