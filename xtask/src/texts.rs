@@ -1,6 +1,8 @@
 //! Checks the texts of the repository, whatever language they are in.
 
-use anyhow::Result;
+use std::process::Command;
+
+use anyhow::{Context, Result};
 
 use crate::flaw::Flaw;
 use crate::{cited, hygiene, links, workspace};
@@ -24,5 +26,13 @@ pub(crate) fn check() -> Result<bool> {
         println!("{path}:{line}: {what}");
     }
     println!("{} texts, {} flaws", texts.len(), flaws.len());
-    Ok(flaws.is_empty())
+    let is_wrapped = is_wrapped()?;
+    Ok(flaws.is_empty() && is_wrapped)
+}
+
+/// Whether the prose of every Markdown file is wrapped at one width; names the files that are not.
+fn is_wrapped() -> Result<bool> {
+    let mut wrap = Command::new("python3");
+    wrap.args(["docs/site/wrap.py", "--check"]).current_dir(workspace::root());
+    Ok(wrap.status().context("python3 did not start")?.success())
 }

@@ -168,8 +168,8 @@ pub(crate) fn uncertain_soil<'s>(
 
 /// What the samples say in every draw cannot be set by hand.
 fn refuse_sampled_keys(setting: &SettingArgs, uncertain: &UncertainSoil) -> Result<(), Failure> {
-    if uncertain.is_sampled() {
-        let keys: Vec<&str> = uncertain.keys().collect();
+    let keys: Vec<&str> = uncertain.sampled_keys().collect();
+    if !keys.is_empty() {
         let hint = "the samples give this key a value in every draw";
         Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
     }

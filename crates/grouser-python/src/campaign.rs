@@ -7,10 +7,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use grouser::document::campaign::{Campaign, Cell, Frequencies, QuantityStatistics, Table, Values};
+use grouser::document::campaign::{Campaign, Frequencies, QuantityStatistics};
+use grouser::document::table::{Cell, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
-use grouser::studies::campaign::sensitivity::SobolIndex;
-use grouser::studies::campaign::summary::{Estimate, Quantile, Summary};
+use grouser::studies::ensemble::sensitivity::SobolIndex;
+use grouser::studies::ensemble::statistics::{Estimate, Quantile, Summary};
 use grouser_store::{ColumnRecord, Folder, Manifest, Part, StoreError, Study, merge, shard};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};

@@ -1,49 +1,83 @@
-//! Records as columns: a list of records becomes an array for each key.
+//! Results as columns: an array for each column of the library's.
 
-use grouser::document::campaign;
-use grouser::document::study::WheelRecord;
+use grouser::contact::Settled;
+use grouser::document::columns::Column;
+use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
+use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::stand::TRIALS;
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::table::{ColumnKind, Table, Values};
+use grouser::document::{self, Unit};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-macro_rules! wheel_columns {
-    ($($name:ident),+ $(,)?) => {
-        /// Names of a wheel's results.
-        pub(crate) const WHEEL_COLUMNS: [&str; [$(stringify!($name)),+].len()] =
-            [$(stringify!($name)),+];
-
-        /// A wheel's results in the order of [`WHEEL_COLUMNS`]; NaN, Python's word for none, where
-        /// there are none.
-        pub(crate) fn wheel_row(record: &WheelRecord) -> [f64; WHEEL_COLUMNS.len()] {
-            [$(record.$name.unwrap_or(f64::NAN)),+]
-        }
-    };
+/// Names of a wheel's results.
+pub(crate) fn wheel_names() -> impl Iterator<Item = &'static str> {
+    WHEEL.iter().map(|column| column.name)
 }
 
-wheel_columns!(
-    sinkage_mm,
-    entry_angle_deg,
-    exit_angle_deg,
-    max_stress_angle_deg,
-    drawbar_pull_n,
-    side_force_n,
-    side_force_from_shear_n,
-    bulldozing_load_n,
-    normal_force_n,
-    torque_nm,
-    overturning_moment_nm,
-    aligning_moment_nm,
-    thrust_n,
-    motion_resistance_n,
-    max_normal_stress_kpa,
-);
+/// A wheel's results in the order of [`WHEEL`].
+pub(crate) fn wheel_row(settled: &Settled) -> [f64; WHEEL.len()] {
+    WHEEL.each_ref().map(|column| column.number(settled))
+}
+
+/// The same where there are none: NaN, Python's word for none.
+pub(crate) const NO_WHEEL: [f64; WHEEL.len()] = [f64::NAN; WHEEL.len()];
 
 /// The unit that a name ends with, by the library's table; `None` for a ratio, a count or a text.
 #[pyfunction]
 pub(crate) fn unit_of(name: &str) -> Option<&'static str> {
-    campaign::unit(name)
+    document::unit_of(name).map(|unit| unit.symbol)
+}
+
+/// Name, unit and what it is.
+type Declared = (String, Option<&'static str>, &'static str);
+
+/// The library's columns of numbers by what they are of: a name, its unit if it has one, and what it is.
+#[pyfunction]
+pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("wheel", declared(&WHEEL))?;
+    dict.set_item("wheel_sample", declared(&WHEEL_SAMPLE))?;
+    dict.set_item("sample", declared(&SAMPLE))?;
+    dict.set_item("attitude", declared(&held()))?;
+    dict.set_item("attitude_band", declared(&BAND))?;
+    dict.set_item("attitude_band_limit", declared(&BAND_LIMIT))?;
+    dict.set_item("stand", declared(&TRIALS))?;
+    Ok(dict)
+}
+
+fn declared<R>(columns: &[Column<R>]) -> Vec<Declared> {
+    let unit = |name: &str| document::unit_of(name).map(|unit: Unit| unit.symbol);
+    let numbers = columns.iter().filter(|column| column.kind() != ColumnKind::Text);
+    let each = |column: &Column<R>| {
+        let doc = column.doc;
+        column.names().into_iter().map(move |name| (name.clone(), unit(&name), doc))
+    };
+    numbers.flat_map(each).collect()
+}
+
+/// A table as a dictionary of columns: numbers and counts as arrays, with NaN where there is none; texts as
+/// lists, with `None`.
+pub(crate) fn table_to_python(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, values) in table.columns {
+        match values {
+            Values::Float(values) => {
+                let values = values.into_iter().map(|value| value.unwrap_or(f64::NAN));
+                dict.set_item(name, PyArray1::from_iter(py, values))?;
+            }
+            Values::Whole(values) => {
+                let float = |count: Option<u64>| count.map_or(f64::NAN, |count| count as f64);
+                dict.set_item(name, PyArray1::from_iter(py, values.into_iter().map(float)))?;
+            }
+            Values::Text(values) => dict.set_item(name, PyList::new(py, values)?)?,
+        }
+    }
+    Ok(dict)
 }
 
 /// A dictionary of columns: numbers as arrays, with NaN where there is none; texts as lists, with

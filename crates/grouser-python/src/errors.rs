@@ -69,7 +69,7 @@ fn facts(problem: &Problem) -> Facts {
         Problem::UnknownKey { key }
         | Problem::MissingKey { key }
         | Problem::RepeatedName { key, .. }
-        | Problem::NotANumber { key }
+        | Problem::NotANumber { key, .. }
         | Problem::NotUncertain { key } => (Some(key.clone()), None, None),
         Problem::WrongType { key, expected, .. } => {
             (Some(key.clone()), None, Some(expected.clone()))

@@ -38,7 +38,7 @@ mod _core {
         most_shard_bytes, seal_manifest, study_difference,
     };
     #[pymodule_export]
-    use super::columns::unit_of;
+    use super::columns::{result_columns, unit_of};
     #[pymodule_export]
     use super::descriptions::{
         Document, find_document, presets, read_document_file, read_document_table,

@@ -1,10 +1,12 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
 use grouser::contact::Theory;
-use grouser::document::trajectory::SampleRecord;
-use grouser::document::variation::{VariationError, Varied};
+use grouser::document::columns::run::SAMPLE;
+use grouser::document::{Kind, range, scenario_with};
+use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
+use grouser::studies::ensemble::outputs_while;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -13,7 +15,7 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::studies::{SAMPLE_FIELDS, run};
+use crate::studies::run;
 use crate::wheels::{check, column};
 
 /// Many runs, which share what is the same for them.
@@ -23,9 +25,14 @@ pub(crate) struct Runs {
     base_of: Option<Vec<usize>>,
     soils: Vec<(Soil, Option<Theory>)>,
     soil_of: Option<Vec<usize>>,
-    varied: Vec<(Varied, Vec<f64>)>,
+    /// Keys of scenarios, with a value for each run.
+    varied: Vec<(&'static str, Vec<f64>)>,
     count: usize,
 }
+
+/// The keys of scenarios that may vary; an argument has the name of the key without its tables.
+const KEYS: [&str; 5] =
+    ["slope_deg", "start.yaw_deg", "drive.speed_m_s", "gravity_m_s2", "duration_s"];
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -65,7 +72,7 @@ impl Runs {
     }
 
     /// The scenario of a run.
-    fn scenario(&self, place: usize) -> Result<Scenario, VariationError> {
+    fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
         let of = |index: &Option<Vec<usize>>| index.as_ref().map_or(0, |index| index[place]);
         let (base, names_its_theory) = &self.bases[of(&self.base_of)];
         let mut scenario = base.clone();
@@ -75,14 +82,11 @@ impl Runs {
                 scenario.theory = theory.unwrap_or_default();
             }
         }
-        for (varied, values) in &self.varied {
-            varied.put(&mut scenario, values[place])?;
-        }
-        Ok(scenario)
+        scenario_with(&scenario, self.varied.iter().map(|(key, values)| (*key, values[place])))
     }
 
     /// The first run that cannot be, with its place.
-    fn first_misfit(&self) -> Option<(usize, VariationError)> {
+    fn first_misfit(&self) -> Option<(usize, ParameterError)> {
         let places = (0..self.count).into_par_iter().with_min_len(256);
         places.find_map_first(|place| self.scenario(place).err().map(|error| (place, error)))
     }
@@ -100,24 +104,25 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
     Ok(Some(all))
 }
 
-fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(Varied, Vec<f64>)>> {
+fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
     let mut all = Vec::new();
-    for varied in Varied::ALL {
-        let Some(values) = dict.get_item(varied.name())? else { continue };
+    for key in KEYS {
+        let name = key.rsplit('.').next().unwrap_or(key);
+        let Some(values) = dict.get_item(name)? else { continue };
         let values: PyReadonlyArray1<'_, f64> = values.extract()?;
         let values = values.as_slice()?.to_vec();
-        check(varied.name(), &values, &varied.range())?;
+        check(name, &values, &range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX))?;
         if values.len() != count {
-            let message = format!("{} has {} values for {count} runs", varied.name(), values.len());
-            return Err(errors::parameter(message, varied.name(), None, "a value for each run"));
+            let message = format!("{name} has {} values for {count} runs", values.len());
+            return Err(errors::parameter(message, name, None, "a value for each run"));
         }
-        all.push((varied, values));
+        all.push((key, values));
     }
     Ok(all)
 }
 
 /// The numbers of a sample.
-type Row = [f64; SAMPLE_FIELDS.len()];
+type Row = [f64; SAMPLE.len()];
 
 /// What is kept of a run.
 struct End {
@@ -130,10 +135,7 @@ struct End {
 
 impl End {
     fn of(scenario: &Scenario, keep: bool) -> Self {
-        let row = |sample| {
-            let record = SampleRecord::of_body(sample);
-            SAMPLE_FIELDS.map(|(_, get)| get(&record))
-        };
+        let row = |sample| SAMPLE.each_ref().map(|column| column.number(sample));
         match run(scenario) {
             Ok(run) => Self {
                 outcome: run.outcome.name(),
@@ -144,7 +146,7 @@ impl End {
             Err(error) => Self {
                 outcome: "failed",
                 reason: Some(error.to_string()),
-                last: [f64::NAN; SAMPLE_FIELDS.len()],
+                last: [f64::NAN; SAMPLE.len()],
                 samples: Vec::new(),
             },
         }
@@ -175,17 +177,17 @@ pub(crate) fn rollout<'py>(
             return Err(misfit);
         }
         let end = |place: usize| {
-            let scenario = runs.scenario(place).map_err(|error| (place, error));
-            (!cancelled.is_set()).then(|| Ok(End::of(&scenario?, keep)))
+            let scenario = runs.scenario(place).map_err(|error| (place, error))?;
+            Ok(End::of(&scenario, keep))
         };
-        let ends = (0..count).into_par_iter().map(end);
-        ends.collect::<Option<Result<Vec<End>, _>>>().unwrap_or_else(|| Ok(Vec::new()))
+        let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
+        ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
     let ends = ends.map_err(|(place, error)| {
-        let VariationError { name, value, expected } = &error;
+        let ParameterError { name, value, expected } = &error;
         let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
         let message = format!("{name} is {value}{at}, it must be {expected}");
-        errors::parameter(message, name, Some(*value), expected.clone())
+        errors::parameter(message, name, Some(*value), *expected)
     })?;
     to_python(py, &ends, keep)
 }
@@ -194,13 +196,13 @@ fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'
     let dict = PyDict::new(py);
     dict.set_item("outcome", PyList::new(py, ends.iter().map(|end| end.outcome))?)?;
     dict.set_item("reason", PyList::new(py, ends.iter().map(|end| end.reason.as_deref()))?)?;
-    for (place, (name, _)) in SAMPLE_FIELDS.into_iter().enumerate() {
+    for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
         dict.set_item(name, column(py, ends.iter().map(|end| end.last[place])))?;
     }
     if keep {
         let longest = ends.iter().map(|end| end.samples.len()).max().unwrap_or(0);
         let samples = PyDict::new(py);
-        for (place, (name, _)) in SAMPLE_FIELDS.into_iter().enumerate() {
+        for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
             let row = |end: &End| {
                 let told = end.samples.iter().map(|row| row[place]);
                 told.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()

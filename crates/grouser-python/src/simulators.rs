@@ -2,17 +2,17 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use grouser::document::trajectory::{SampleRecord, WheelSampleRecord};
-use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range};
-use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator};
+use grouser::document::columns::run::SAMPLE;
+use grouser::document::columns::{SLOPE, YAW};
+use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range, scenario_with};
+use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator, WheelSample};
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::columns::{WHEEL_COLUMNS, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
-use crate::studies::{SAMPLE_FIELDS, WHEEL_FIELDS, wheel_names};
+use crate::studies::{wheel_names, wheel_sample_columns};
 use crate::threads;
 use crate::wheels::check;
 
@@ -55,13 +55,9 @@ impl Led {
                 scenario.site.soil = soil;
             }
         }
-        if let Some(slope) = fresh.slope_deg {
-            scenario.site.slope = slope.to_radians();
-        }
-        if let Some(yaw) = fresh.yaw_deg {
-            scenario.start.yaw = yaw.to_radians();
-        }
-        self.rover = Simulator::new(scenario)?;
+        let numbers = [(SLOPE.name, fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];
+        let numbers = numbers.into_iter().filter_map(|(key, number)| Some((key, number?)));
+        self.rover = Simulator::new(scenario_with(&scenario, numbers)?)?;
         self.failure = None;
         Ok(())
     }
@@ -76,10 +72,6 @@ impl Led {
             self.failure = Some(error.to_string());
         }
         done
-    }
-
-    fn record(&self) -> SampleRecord {
-        SampleRecord::new(self.rover.now(), &self.nominal.rover)
     }
 
     /// `None` while it is under way.
@@ -157,10 +149,10 @@ impl Simulators {
             let message = "there is not one value for every rover".to_owned();
             return Err(errors::parameter(message, "reset", None, "one value for each rover"));
         }
-        let slopes = range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
+        let slopes = range(Kind::Scenario, SLOPE.name).unwrap_or(0.0..=60.0);
         let yaws = range(Kind::Scenario, "start.yaw_deg").unwrap_or(-180.0..=180.0);
-        check("slope_deg", &slope_deg.iter().flatten().copied().collect::<Vec<_>>(), &slopes)?;
-        check("yaw_deg", &yaw_deg.iter().flatten().copied().collect::<Vec<_>>(), &yaws)?;
+        check(SLOPE.name, &slope_deg.iter().flatten().copied().collect::<Vec<_>>(), &slopes)?;
+        check(YAW.name, &yaw_deg.iter().flatten().copied().collect::<Vec<_>>(), &yaws)?;
         let mut fresh = vec![None; self.radii.len()];
         for (k, place) in places.into_iter().enumerate() {
             let (slope_deg, yaw_deg) = (slope_deg[k], yaw_deg[k]);
@@ -210,10 +202,7 @@ impl Simulators {
     /// A row for each rover with the columns of a trajectory.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<Vec<f64>> = py.detach(|| {
-            let row = |led: &Led| {
-                let record = led.record();
-                SAMPLE_FIELDS.iter().map(|(_, get)| get(&record)).collect()
-            };
+            let row = |led: &Led| SAMPLE.iter().map(|it| it.number(led.rover.now())).collect();
             self.lock().iter().map(row).collect()
         });
         Ok(PyArray2::from_vec2(py, &rows)?)
@@ -222,19 +211,18 @@ impl Simulators {
     /// A matrix of rovers and wheels for each column of a wheel; NaN where a rover has just tipped
     /// over or sunk.
     fn wheel_samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let records: Vec<SampleRecord> =
-            py.detach(|| self.lock().iter().map(Led::record).collect());
-        let matrix = |get: &dyn Fn(&WheelSampleRecord) -> f64| -> Vec<Vec<f64>> {
-            let wheels = 0..self.wheels.len();
-            let row = |record: &SampleRecord| {
-                wheels.clone().map(|k| record.wheels.get(k).map_or(f64::NAN, get)).collect()
+        let wheels = 0..self.wheels.len();
+        let matrix = |get: &dyn Fn(&WheelSample) -> f64, rovers: &[Led]| {
+            let row = |led: &Led| {
+                let now = &led.rover.now().wheels;
+                wheels.clone().map(|k| now.get(k).map_or(f64::NAN, get)).collect()
             };
-            records.iter().map(row).collect()
+            rovers.iter().map(row).collect::<Vec<Vec<f64>>>()
         };
-        let own = WHEEL_FIELDS.iter().map(|(_, get)| matrix(get));
-        let forces =
-            (0..WHEEL_COLUMNS.len()).map(|place| matrix(&|wheel| wheel_row(&wheel.forces)[place]));
-        let all: Vec<Vec<Vec<f64>>> = own.chain(forces).collect();
+        let all: Vec<Vec<Vec<f64>>> = py.detach(|| {
+            let rovers = self.lock();
+            wheel_sample_columns().map(|(_, get)| matrix(&*get, &rovers)).collect()
+        });
         Ok(PyArray3::from_vec3(py, &all)?)
     }
 
@@ -283,6 +271,6 @@ impl Simulators {
 /// The names of the columns of [`Simulators::samples`] and [`Simulators::wheel_samples`].
 #[pyfunction]
 pub(crate) fn simulator_columns() -> (Vec<&'static str>, Vec<&'static str>) {
-    let own = WHEEL_FIELDS.iter().map(|(name, _)| *name);
-    (SAMPLE_FIELDS.iter().map(|(name, _)| *name).collect(), own.chain(WHEEL_COLUMNS).collect())
+    let wheel = wheel_sample_columns().map(|(name, _)| name);
+    (SAMPLE.iter().map(|it| it.name).collect(), wheel.collect())
 }

@@ -1,17 +1,18 @@
 //! Runs and studies: each in a thread of its own, so that Ctrl-C is heard.
 
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::RangeInclusive;
 
-use grouser::document::simulated_test::{NOISE, SimulatedTrialRecord, TRIALS};
-use grouser::document::study::{
-    self, AttitudeBandLimit, AttitudeBandRecord, AttitudeLimit, AttitudeMapRecord, AttitudeRecord,
-    COURSE_DEG, MAP_SPEED_M_S,
+use grouser::document::columns::run::{ENERGY_ERROR, SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{
+    self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE, heading,
 };
-use grouser::document::trajectory::{SampleRecord, TrajectoryRecord, WheelSampleRecord};
+use grouser::document::simulated_test::{NOISE, TRIALS};
+use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
+use grouser::document::table::Table;
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
-use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory};
-use grouser::soil::Soil;
+use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory, WheelSample};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::attitude_band::AttitudeBand;
 use grouser::studies::attitude_map::AttitudeMap;
@@ -22,38 +23,20 @@ use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::columns::{WHEEL_COLUMNS, columns, wheel_row};
+use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
 use crate::validation::in_words;
 use crate::wheels::{check, column, theory_and_gravity};
 
-/// A field of a record, by name.
-pub(crate) type Field<R> = (&'static str, fn(&R) -> f64);
-
-macro_rules! fields {
-    ($record:ty: $($name:ident),+ $(,)?) => {
-        [$((stringify!($name), |record: &$record| record.$name)),+]
-    };
-}
-
-pub(crate) const SAMPLE_FIELDS: [Field<SampleRecord>; 12] = fields!(SampleRecord:
-    time_s, x_m, y_m, yaw_deg, forward_speed_m_s, lateral_speed_m_s, yaw_rate_deg_s, power_w,
-    energy_j, soil_energy_j, kinetic_energy_j, potential_energy_j);
-
-pub(crate) const WHEEL_FIELDS: [Field<WheelSampleRecord>; 5] = fields!(WheelSampleRecord:
-    wheel_speed_rad_s, slip_ratio, slip_angle_deg, load_n, power_w);
-
 /// A run from its start to its end.
 #[pyfunction]
 pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bound<'py, PyDict>> {
     let scenario = scenario.scenario()?.value.clone();
     let names = wheel_names(&scenario);
-    let record = listening(py, move |_| {
-        run(&scenario).map(|run| TrajectoryRecord::new(&run, &scenario.rover))
-    })?;
-    to_python(py, &record.map_err(|error| errors::of_simulation(&error))?, &names)
+    let found = listening(py, move |_| run(&scenario))?;
+    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &names)
 }
 
 pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
@@ -67,22 +50,22 @@ pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
 /// A trajectory: words, columns over time, and columns over time and wheel.
 fn to_python<'py>(
     py: Python<'py>,
-    record: &TrajectoryRecord,
+    run: &Trajectory,
     names: &[String],
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
-    dict.set_item("outcome", record.outcome)?;
-    dict.set_item("reason", &record.reason)?;
-    dict.set_item("simulation", record.simulation)?;
-    dict.set_item("simulation_reason", &record.simulation_reason)?;
-    dict.set_item("energy_error_j", record.energy_error_j)?;
+    dict.set_item("outcome", run.outcome.name())?;
+    dict.set_item("reason", run.outcome.reason())?;
+    dict.set_item("simulation", run.method.name())?;
+    dict.set_item("simulation_reason", run.method.reason())?;
+    dict.set_item(ENERGY_ERROR.name, ENERGY_ERROR.unit.from_si(run.energy_error()))?;
     dict.set_item("wheels", names)?;
     let rover = PyDict::new(py);
-    for (name, get) in SAMPLE_FIELDS {
-        rover.set_item(name, column(py, record.samples.iter().map(get)))?;
+    for one in &SAMPLE {
+        rover.set_item(one.name, column(py, run.samples.iter().map(|it| one.number(it))))?;
     }
     dict.set_item("rover", rover)?;
-    dict.set_item("each_wheel", each_wheel(py, &record.samples, names.len())?)?;
+    dict.set_item("each_wheel", each_wheel(py, run, names.len())?)?;
     Ok(dict)
 }
 
@@ -90,24 +73,33 @@ fn to_python<'py>(
 /// over or sunk.
 fn each_wheel<'py>(
     py: Python<'py>,
-    samples: &[SampleRecord],
+    run: &Trajectory,
     count: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let array = |get: &dyn Fn(&WheelSampleRecord) -> f64| {
-        let row = |sample: &SampleRecord| {
-            (0..count).map(|k| sample.wheels.get(k).map_or(f64::NAN, get)).collect::<Vec<f64>>()
-        };
-        let rows: Vec<Vec<f64>> = samples.iter().map(row).collect();
-        PyArray2::from_vec2(py, &rows)
-    };
     let dict = PyDict::new(py);
-    for (name, get) in WHEEL_FIELDS {
-        dict.set_item(name, array(&get)?)?;
-    }
-    for (place, name) in WHEEL_COLUMNS.into_iter().enumerate() {
-        dict.set_item(name, array(&|wheel| wheel_row(&wheel.forces)[place])?)?;
+    for (name, get) in wheel_sample_columns() {
+        let rows = run.samples.iter().map(|sample| {
+            (0..count).map(|k| sample.wheels.get(k).map_or(f64::NAN, &get)).collect::<Vec<f64>>()
+        });
+        dict.set_item(name, PyArray2::from_vec2(py, &rows.collect::<Vec<_>>())?)?;
     }
     Ok(dict)
+}
+
+/// A number of a wheel at one time.
+type WheelNumber = Box<dyn Fn(&WheelSample) -> f64>;
+
+/// The columns of a wheel at one time: its own, then its results.
+pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, WheelNumber)> {
+    let own = WHEEL_SAMPLE.iter().map(|it| {
+        let number: WheelNumber = Box::new(|wheel| it.number(wheel));
+        (it.name, number)
+    });
+    let results = WHEEL.iter().map(|it| {
+        let number: WheelNumber = Box::new(|wheel| it.number(&wheel.reaction.settled));
+        (it.name, number)
+    });
+    own.chain(results)
 }
 
 /// The level attitude on each slope, the steepest slope, and what ends the curve there.
@@ -122,12 +114,11 @@ pub(crate) fn attitude<'py>(
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
         let curve = AttitudeStudy::of(&scenario).curve()?;
-        let record = |slope: &f64| AttitudeRecord::of(&curve, &scenario.rover, slope.to_radians());
-        let records: Vec<AttitudeRecord> = slopes.iter().map(record).collect();
-        Ok((records, AttitudeLimit::from(&curve)))
+        Ok((heading::table(&curve, &scenario.rover, &slopes), heading::steepest(&curve)))
     })?;
-    let (records, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
-    Ok((columns(py, &records)?, limit.limit_slope_deg, limit.limit_reason))
+    let (table, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
+    let reason = limit.texts(heading::LIMIT_REASON)[0].clone().unwrap_or_default();
+    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason))
 }
 
 /// The attitude over slope, course and soil: a row for each, slopes fastest, then courses.
@@ -141,8 +132,8 @@ pub(crate) fn attitude_map<'py>(
     speed_m_s: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let slopes = slopes(&slope_deg)?;
-    let courses = course_deg.as_slice()?.to_vec();
-    check("course_deg", &courses, &COURSE_DEG)?;
+    check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
+    let courses = in_si(COURSE, course_deg.as_slice()?);
     check("speed_m_s", &[speed_m_s], &MAP_SPEED_M_S)?;
     let all = scenarios.iter().map(|scenario| scenario.scenario());
     let all = all.collect::<PyResult<Vec<_>>>()?;
@@ -155,24 +146,22 @@ pub(crate) fn attitude_map<'py>(
         return Err(errors::parameter(message, "soil", None, "at least one soil"));
     };
     let studies: Vec<_> = all.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
-    let records = listening(py, move |cancelled| {
-        let radians = |list: &[f64]| list.iter().map(|it| it.to_radians()).collect::<Vec<f64>>();
-        let (courses, slopes) = (radians(&courses), radians(&slopes));
-        let mut records = Vec::new();
+    let table = listening(py, move |cancelled| {
+        let nothing = AttitudeMap { slopes: Vec::new(), rows: Vec::new() };
+        let mut table = heading::map_table(&nothing, &[], &rover, speed_m_s);
         for (study, name) in studies.iter().zip(&names) {
             for courses in courses.chunks(COURSES) {
                 if cancelled.is_set() {
-                    return Ok(Vec::new());
+                    return Ok(table);
                 }
                 let map = AttitudeMap::of(std::slice::from_ref(study), courses, &slopes)?;
                 let name = std::slice::from_ref(name);
-                records.extend(AttitudeMapRecord::of(&map, name, &rover, speed_m_s));
+                table.append(heading::map_table(&map, name, &rover, speed_m_s));
             }
         }
-        Ok(records)
+        Ok(table)
     })?;
-    let records = records.map_err(|error: ParameterError| errors::of_parameter(&error))?;
-    columns(py, &records)
+    table_to_python(py, table.map_err(|error: ParameterError| errors::of_parameter(&error))?)
 }
 
 /// What the draws of the soil's uncertainty say on each slope, and of the steepest slope.
@@ -195,16 +184,10 @@ pub(crate) fn attitude_band<'py>(
     };
     let study = AttitudeStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
-        let draw = |index| uncertain.draw(seed, u64::from(index));
-        let soils: Vec<Soil> =
-            (0..samples).map(draw).collect::<Result<_, _>>().map_err(|error| {
-                let message = format!("the soil's uncertainty reaches too far: {error}");
-                Problem::Draws(message)
-            })?;
-        let slopes: Vec<f64> = slopes.iter().map(|slope| slope.to_radians()).collect();
-        let go_on = || {
-            if cancelled.is_set() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
+        let soils = uncertain.draws(seed, samples).map_err(|error| {
+            Problem::Draws(format!("the soil's uncertainty reaches too far: {error}"))
+        })?;
+        let go_on = || !cancelled.is_set();
         AttitudeBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
     })?;
     let band = found.map_err(|problem| match problem {
@@ -213,9 +196,9 @@ pub(crate) fn attitude_band<'py>(
         }
         Problem::Parameter(error) => errors::of_parameter(&error),
     })?;
-    let records = band.iter().flat_map(|band| &band.slopes).map(AttitudeBandRecord::from);
-    let limit = band.as_ref().map(AttitudeBandLimit::from);
-    Ok((columns(py, &records.collect::<Vec<_>>())?, in_words(py, &limit)?))
+    let table = Table::of(&heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
+    let limit = band.as_ref().map(heading::band_limit);
+    Ok((table_to_python(py, table)?, in_words(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
 /// Draws that may be asked for.
@@ -247,9 +230,9 @@ pub(crate) fn simulated_wheel_test<'py>(
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (theory, gravity) = theory_and_gravity(soil, setting)?;
-    check("load_n", load_n.as_slice()?, &study::LOAD_N)?;
-    check("slip_angle_deg", slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
-    check("slip_ratio", slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
+    check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
+    check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
+    check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
     check("trials", &[trials as f64], &TRIALS)?;
     for (name, deviation) in ["noise_n", "noise_mm", "noise_nm"].into_iter().zip(noise) {
         check(name, &[deviation], &NOISE)?;
@@ -262,30 +245,31 @@ pub(crate) fn simulated_wheel_test<'py>(
             gravity,
             theory,
             loads: load_n.as_slice()?.to_vec(),
-            slip_angles: slip_angle_deg.as_slice()?.iter().map(|it| it.to_radians()).collect(),
+            slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
             slip_ratios: slip_ratio.as_slice()?.to_vec(),
         },
         trials,
         noise: PerQuantity {
             drawbar_pull: forces,
             side_force: forces,
-            sinkage: sinkage * 1e-3,
+            sinkage: SINKAGE.unit.to_si(sinkage),
             torque,
         },
         seed,
     };
-    let records: Vec<SimulatedTrialRecord> =
-        listening(py, move |_| test.run().iter().map(SimulatedTrialRecord::from).collect())?;
-    columns(py, &records)
+    table_to_python(py, listening(py, move |_| columns::stand::table(&test.run()))?)
 }
 
 /// Courses of a map between two looks for signals: a part of a second.
 const COURSES: usize = 64;
 
-/// Slopes in their range.
+/// Slopes in their range [rad].
 fn slopes(slope_deg: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
-    let slopes = slope_deg.as_slice()?.to_vec();
-    let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
-    check("slope_deg", &slopes, &range)?;
-    Ok(slopes)
+    let range = document::range(Kind::Scenario, SLOPE.name).unwrap_or(0.0..=60.0);
+    check(SLOPE.name, slope_deg.as_slice()?, &range)?;
+    Ok(in_si(SLOPE, slope_deg.as_slice()?))
+}
+
+fn in_si(quantity: Quantity, values: &[f64]) -> Vec<f64> {
+    values.iter().map(|value| quantity.unit.to_si(*value)).collect()
 }

@@ -2,14 +2,15 @@
 
 use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{Settled, SteppedWheel, SteppingWheel, Theory, TimeStep};
-use grouser::document::study::WheelRecord;
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{SLIP_ANGLE, SLIP_RATIO};
 use grouser::soil::Soil;
 use grouser::wheel::Wheel;
 use nalgebra::{DMatrix, DVector};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::columns::{WHEEL_COLUMNS, wheel_row};
+use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
 use crate::wheels::theory_and_gravity;
@@ -65,7 +66,7 @@ impl SteppingWheels {
     #[getter]
     #[allow(clippy::unused_self, reason = "how a property comes from Python")]
     fn names(&self) -> Vec<&'static str> {
-        WHEEL_COLUMNS.into_iter().chain(["slip_ratio", "slip_angle_deg"]).collect()
+        wheel_names().chain([SLIP_RATIO.name, SLIP_ANGLE.name]).collect()
     }
 
     /// Shearing radius of each wheel [m].
@@ -114,7 +115,7 @@ impl SteppingWheels {
             sinkage,
         });
         let stepped = step.reaction(&wheels.collect::<Vec<_>>());
-        let results = PyArray2::zeros(py, [WHEEL_COLUMNS.len() + 2, count], false);
+        let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         {
             let mut cells = results.readwrite();
             let cells = cells.as_slice_mut()?;
@@ -130,8 +131,8 @@ impl SteppingWheels {
 
 fn row(wheel: &SteppedWheel) -> impl IntoIterator<Item = f64> {
     let SteppedWheel { sinkage, slip, forces } = *wheel;
-    let record = WheelRecord::new(&Settled { sinkage, forces, evaluations: 1 });
-    wheel_row(&record).into_iter().chain([slip.ratio, slip.angle.to_degrees()])
+    let settled = Settled { sinkage, forces, evaluations: 1 };
+    wheel_row(&settled).into_iter().chain([slip.ratio, SLIP_ANGLE.unit.from_si(slip.angle)])
 }
 
 /// Defaults of the sinkage damping [s/m] and of the rest speed [m/s].

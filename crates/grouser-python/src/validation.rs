@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
+use grouser::document::columns::fit;
 use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
 use grouser::document::ranking::rank_all;
-use grouser::document::validation::{CellRecord, GroupRecord, trials};
+use grouser::document::validation::GroupRecord;
 use grouser::studies::validation::{Validation, ValidationStudy};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde::Serialize;
 
-use crate::columns::columns;
+use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
 use crate::wheels::theory_and_gravity;
@@ -61,7 +62,6 @@ pub(crate) fn validation_to_python<'py>(
     measured: &Measurements,
     validation: &Validation,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
     let group = |group: &_| in_words(py, &GroupRecord::from(group));
     let groups = validation.groups.iter().map(group);
     let dict = PyDict::new(py);
@@ -69,8 +69,8 @@ pub(crate) fn validation_to_python<'py>(
     dict.set_item("overall", group(&validation.overall)?)?;
     dict.set_item("driven", validation.driven.as_ref().map(group).transpose()?)?;
     dict.set_item("skid", validation.skid.as_ref().map(group).transpose()?)?;
-    dict.set_item("cells", columns(py, &cells)?)?;
-    dict.set_item("trials", columns(py, &trials(measured, validation))?)?;
+    dict.set_item("cells", table_to_python(py, fit::cells(&validation.cells))?)?;
+    dict.set_item("trials", table_to_python(py, fit::trials(measured, validation))?)?;
     dict.set_item("notes", &measured.notes)?;
     Ok(dict)
 }

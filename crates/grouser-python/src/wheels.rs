@@ -4,14 +4,16 @@ use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
-use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO, WheelRecord};
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::study;
 use grouser::soil::Soil;
 use grouser::wheel::Wheel;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::columns::{WHEEL_COLUMNS, wheel_row};
+use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::{errors, threads};
 
@@ -57,7 +59,7 @@ impl Stand {
     fn contact(&self, inputs: &Inputs<'_>, place: usize) -> (Contact, Theory) {
         let soil = inputs.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0));
         let (soil, theory) = self.soils[soil];
-        let angle = inputs.slip_angles_deg[place].to_radians();
+        let angle = SLIP_ANGLE.unit.to_si(inputs.slip_angles_deg[place]);
         let slip = Slip::on_test_stand(inputs.slip_ratios[place], angle);
         (Contact { wheel: self.wheel, soil, slip, gravity: self.gravity }, theory)
     }
@@ -79,8 +81,8 @@ impl Inputs<'_> {
             return Err(errors::parameter(message, "soil", None, "at least one soil"));
         }
         check(name, self.pressed, pressed)?;
-        check("slip_ratio", self.slip_ratios, &SLIP_RATIO)?;
-        check("slip_angle_deg", self.slip_angles_deg, &SLIP_ANGLE_DEG)
+        check(SLIP_RATIO.name, self.slip_ratios, &study::SLIP_RATIO)?;
+        check(SLIP_ANGLE.name, self.slip_angles_deg, &study::SLIP_ANGLE_DEG)
     }
 }
 
@@ -104,12 +106,12 @@ pub(crate) fn theory_and_gravity(soil: &Document, setting: &Document) -> PyResul
     Ok((theory, setting.value.site.gravity))
 }
 
-/// A column for each of [`WHEEL_COLUMNS`], then what one of them adds.
-type Row = [f64; WHEEL_COLUMNS.len() + 1];
+/// A column for each of [`WHEEL`], then what one of them adds.
+type Row = [f64; WHEEL.len() + 1];
 
-fn row(record: &WheelRecord, last: f64) -> Row {
-    let mut row = [last; WHEEL_COLUMNS.len() + 1];
-    row[..WHEEL_COLUMNS.len()].copy_from_slice(&wheel_row(record));
+fn row(results: &[f64; WHEEL.len()], last: f64) -> Row {
+    let mut row = [last; WHEEL.len() + 1];
+    row[..WHEEL.len()].copy_from_slice(results);
     row
 }
 
@@ -119,7 +121,7 @@ fn evaluate(
     count: usize,
     one: impl Fn(usize) -> Row + Sync,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let results = PyArray2::<f64>::zeros(py, [WHEEL_COLUMNS.len() + 1, count], false);
+    let results = PyArray2::<f64>::zeros(py, [WHEEL.len() + 1, count], false);
     {
         let mut results = results.readwrite();
         let cells = results.as_slice_mut()?;
@@ -153,7 +155,7 @@ fn evaluate(
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>);
 
 fn names(last: &'static str) -> Vec<&'static str> {
-    WHEEL_COLUMNS.into_iter().chain([last]).collect()
+    wheel_names().chain([last]).collect()
 }
 
 /// The sinkages at which wheels carry their loads, and the forces there. A row that is NaN but for
@@ -178,14 +180,14 @@ pub(crate) fn settle<'py>(
         slip_angles_deg: slip_angle_deg.as_slice()?,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
-    inputs.check(stand.soils.len(), "load_n", &LOAD_N)?;
+    inputs.check(stand.soils.len(), LOAD.name, &study::LOAD_N)?;
     let one = |place: usize| {
         let (contact, theory) = stand.contact(&inputs, place);
         match settle_one(theory.model(), &contact, inputs.pressed[place]) {
-            Ok(settled) => row(&WheelRecord::new(&settled), f64::NAN),
-            Err(SettleError::SunkToAxle { capacity, .. }) => row(&WheelRecord::default(), capacity),
+            Ok(settled) => row(&wheel_row(&settled), f64::NAN),
+            Err(SettleError::SunkToAxle { capacity, .. }) => row(&NO_WHEEL, capacity),
             // Loads were checked.
-            Err(SettleError::BadLoad { .. }) => row(&WheelRecord::default(), f64::NAN),
+            Err(SettleError::BadLoad { .. }) => row(&NO_WHEEL, f64::NAN),
         }
     };
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("capacity_n")))
@@ -212,13 +214,14 @@ pub(crate) fn wheel_forces<'py>(
         slip_angles_deg: slip_angle_deg.as_slice()?,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
-    let deepest = stand.wheel.shearing_radius() * 1e3;
-    inputs.check(stand.soils.len(), "sinkage_mm", &(0.0..=deepest))?;
+    let deepest = SINKAGE.unit.from_si(stand.wheel.shearing_radius());
+    inputs.check(stand.soils.len(), SINKAGE.name, &(0.0..=deepest))?;
     let one = |place: usize| {
         let (contact, theory) = stand.contact(&inputs, place);
-        let sinkage = inputs.pressed[place] * 1e-3;
+        let sinkage = SINKAGE.unit.to_si(inputs.pressed[place]);
         let forces = theory.model().forces(&contact, sinkage);
-        row(&WheelRecord::new(&Settled { sinkage, forces, evaluations: 1 }), inputs.pressed[place])
+        let settled = Settled { sinkage, forces, evaluations: 1 };
+        row(&wheel_row(&settled), inputs.pressed[place])
     };
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("given_sinkage_mm")))
 }

@@ -10,7 +10,7 @@
 
 use std::time::{Duration, Instant};
 
-use grouser::document::campaign::Values;
+use grouser::document::table::Values;
 use grouser::document::{Kind, Overrides, Source, read_campaign, read_scenario};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser_store::{Folder, Study, shard_bytes};
@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let studies: Vec<_> = campaign
             .runs_of(shard)
             .map(|run| {
-                let values = campaign.plan().inputs(run).values;
+                let values = campaign.ensemble().inputs(run).values;
                 let mut study = AttitudeStudy::of(&scenario);
                 study.soil.friction_angle = values[0].to_radians();
                 study.soil.density = values[1];

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::document::campaign::{Cell, Values};
+use grouser::document::table::{Cell, Values};
 
 use crate::manifest::Manifest;
 use crate::study::Study;

@@ -4,7 +4,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grouser::document::campaign::Table;
+use grouser::document::table::Table;
 
 use crate::error::{ShardFault, StoreError};
 use crate::manifest::{self, Manifest, Part, Session};

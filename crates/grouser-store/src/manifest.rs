@@ -5,7 +5,8 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use grouser::document::campaign::{Column, ColumnKind, Role};
+use grouser::document::campaign::{Column, Role};
+use grouser::document::table::ColumnKind;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 

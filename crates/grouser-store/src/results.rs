@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use bytes::Bytes;
-use grouser::document::campaign::{Cell, Table, Values};
+use grouser::document::table::{Cell, Table, Values};
 use parquet::errors::ParquetError;
 use sha2::{Digest as _, Sha256};
 

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::document::campaign::{Cell, Column, ColumnKind, Role, Table, Values};
+use grouser::document::campaign::{Column, Role};
+use grouser::document::table::{Cell, ColumnKind, Table, Values};
 use sha2::{Digest as _, Sha256};
 
 use crate::shard::{Checked, check, encode, file_name};

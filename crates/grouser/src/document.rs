@@ -32,6 +32,7 @@ pub mod campaign;
 pub mod card;
 mod check;
 pub mod checkpoint;
+pub mod columns;
 mod data_set;
 mod describe;
 mod error;
@@ -52,12 +53,14 @@ pub mod simulated_test;
 mod soil_family;
 mod source;
 pub mod study;
+pub mod table;
 mod text;
-pub mod trajectory;
+mod uncertain_soil;
 mod uncertainty;
+mod unit;
 pub mod validation;
 mod values;
-pub mod variation;
+mod varied;
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -72,9 +75,11 @@ pub use loaded::{Companion, Document, Loaded};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
 pub use schema::{range, schema};
-pub use soil_family::{FitKey, SoilFamily, key_of};
+pub use soil_family::{FitKey, SoilFamily};
 pub use source::{LARGEST_FILE, Source};
-pub use uncertainty::{CorrelationSection, DistributionWord, SAMPLES_FILE, UncertainSoil};
+pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
+pub use unit::{UNITS, Unit, unit_of};
+pub use varied::scenario_with;
 
 use crate::simulation::Scenario;
 use crate::soil::Soil;
@@ -288,10 +293,10 @@ fn read<V: Described>(
     let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
     let mut companions = Vec::new();
     let uncertain = match kind {
-        Kind::Soil => uncertainty::read(&mut document, "", &tree, &mut companions)?,
+        Kind::Soil => uncertain_soil::read(&mut document, "", &tree, &mut companions)?,
         Kind::Scenario => {
             let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
-            uncertainty::read(&mut document, "soil", soil, &mut companions)?
+            uncertain_soil::read(&mut document, "soil", soil, &mut companions)?
         }
         _ => None,
     };

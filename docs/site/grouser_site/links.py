@@ -1,15 +1,13 @@
 """Links of the chapters to files that are no pages of the site.
 
 On the code host every relative link leads somewhere. Here those to pages do; one to a file outside `docs/`
-becomes a download of that file, or the page that shows it here."""
+becomes a download of that file."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-#: Parts of documents outside `docs/` that are pages here.
-_PAGES = {"README.md#how-far-to-trust-it": "trust.md"}
 _LINK = re.compile(r"\]\((\.\./[^)\s]+)\)")
 
 
@@ -19,15 +17,12 @@ def lead_outside(app, name: str, source: list[str]) -> None:
     here = (docs / name).parent
 
     def answered(match: re.Match[str]) -> str:
-        target, _, anchor = match[1].partition("#")
+        target = match[1].partition("#")[0]
         path = (here / target).resolve()
         if path.is_relative_to(docs) or not path.is_relative_to(root):
             return match[0]
-        whole = str(path.relative_to(root)) + (f"#{anchor}" if anchor else "")
-        if whole in _PAGES:
-            return f"](/{_PAGES[whole]})"
         if path.is_file():
-            return f"](path:{match[1].partition('#')[0]})"
+            return f"](path:{target})"
         return match[0]
 
     source[0] = _LINK.sub(answered, source[0])

@@ -1,11 +1,10 @@
 //! `grouser attitude`
 
 use grouser::document::LoadedScenario;
-use grouser::document::study::{
-    AttitudeBandLimit, AttitudeBandRecord, AttitudeLimit, AttitudeRecord,
-};
+use grouser::document::columns::heading::{self, LIMIT_REASON};
+use grouser::document::columns::{LIMIT_SLOPE, SLOPE, YAW};
+use grouser::document::table::{Row, Table};
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
-use grouser::vehicle::Rover;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -19,30 +18,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, rounded_down};
 use crate::output::{self, Format};
 
-/// Columns of the table on a terminal.
-const COLUMNS: [&str; 7] = [
-    "slope_deg",
-    "yaw_deg",
-    "slip_ratio",
-    "sinkage_mm",
-    "energy_j_per_m",
-    "yaw_moment_nm",
-    "status",
-];
-
-/// The same, with the draws of an uncertain soil.
-const COLUMNS_WITH_BANDS: [&str; 9] = [
-    "slope_deg",
-    "yaw_deg",
-    "yaw_deg_p2_5",
-    "yaw_deg_p97_5",
-    "slip_ratio",
-    "slip_ratio_p97_5",
-    "probability_level",
-    "draws_level",
-    "status",
-];
-
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
@@ -53,10 +28,15 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     } else {
         None
     };
-    let records = rows(args, &curve, &scenario.value.rover, bands.as_ref());
-    let limit = AttitudeLimit::from(&curve);
-    let rows = Rows::of(&records);
-    let results = Results { limit: &limit, band: bands.as_ref().map(|b| &b.limit), rows: &records };
+    let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
+    let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
+    if let Some(bands) = &bands {
+        table = heading::with_bands(table, &bands.asked);
+    }
+    let limit = heading::steepest(&curve);
+    let rows = Rows::of_table(&table);
+    let band = bands.as_ref().map(|bands| bands.limit.row(0));
+    let results = Results { limit: limit.row(0), band, rows: &table };
     let answer = Answer::new(command, settings(args, &scenario), results);
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
@@ -76,28 +56,13 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     }
     match args.output.format {
         Format::Table => {
-            let columns: &[&str] = if bands.is_some() { &COLUMNS_WITH_BANDS } else { &COLUMNS };
+            let brief = if bands.is_some() { heading::bands_brief() } else { heading::brief() };
             let band_line = bands.as_ref().map_or(String::new(), Bands::limit_line);
-            output::print(&(rows.to_table(columns) + &limit_line(&limit) + &band_line))
+            output::print(&(rows.to_table(&brief) + &limit_line(&limit) + &band_line))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
-}
-
-/// A row for each slope.
-fn rows(
-    args: &HeadingArgs,
-    curve: &AttitudeCurve,
-    rover: &Rover,
-    bands: Option<&Bands>,
-) -> Vec<Row> {
-    let slopes = args.slope_deg.0.iter().enumerate();
-    let row = |(place, slope): (usize, &f64)| Row {
-        attitude: AttitudeRecord::of(curve, rover, slope.to_radians()),
-        band: bands.map(|bands| bands.records[place].clone()),
-    };
-    slopes.map(row).collect()
 }
 
 /// What the answer was made from.
@@ -122,27 +87,21 @@ fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
 #[derive(Serialize)]
 struct Results<'a> {
     #[serde(flatten)]
-    limit: &'a AttitudeLimit,
+    limit: Row<'a>,
     #[serde(flatten)]
-    band: Option<&'a AttitudeBandLimit>,
-    rows: &'a [Row],
+    band: Option<Row<'a>>,
+    rows: &'a Table,
 }
 
-#[derive(Serialize)]
-struct Row {
-    #[serde(flatten)]
-    attitude: AttitudeRecord,
-    #[serde(flatten)]
-    band: Option<AttitudeBandRecord>,
-}
-
-fn limit_line(limit: &AttitudeLimit) -> String {
-    match limit.limit_slope_deg {
+fn limit_line(limit: &Table) -> String {
+    let slope = limit.numbers(LIMIT_SLOPE.name)[0];
+    let reason = limit.texts(LIMIT_REASON)[0].as_deref().unwrap_or_default();
+    match slope {
         Some(slope) => {
             let slope = rounded_down(slope);
-            format!("steepest slope with a level attitude: {slope}°, {}\n", limit.limit_reason)
+            format!("steepest slope with a level attitude: {slope}°, {reason}\n")
         }
-        None => format!("no level attitude on any slope: {}\n", limit.limit_reason),
+        None => format!("no level attitude on any slope: {reason}\n"),
     }
 }
 
@@ -157,7 +116,6 @@ fn chart(curve: &AttitudeCurve) -> Chart {
 }
 
 fn line(name: &str, curve: &AttitudeCurve) -> Series {
-    let attitudes = curve.attitudes();
-    let points = attitudes.iter().map(|point| (point.slope.to_degrees(), point.yaw.to_degrees()));
-    Series::new(name, Style::Line, 1, points)
+    let points = heading::curve(curve);
+    Series::new(name, Style::Line, 1, points.points(SLOPE.name, YAW.name))
 }

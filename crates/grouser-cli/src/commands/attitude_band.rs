@@ -1,13 +1,12 @@
 //! `grouser attitude --uncertainty`: what the draws of an uncertain soil add to the attitude.
 
-use std::ops::ControlFlow;
-
-use grouser::document::study::{AttitudeBandLimit, AttitudeBandRecord};
+use grouser::document::columns::heading::{self, DRAWS, DRAWS_MOBILE};
+use grouser::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
+use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, UncertainSoil};
 use grouser::soil::Soil;
 use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
 use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
-use grouser::studies::uncertainty::Band;
 
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
@@ -19,11 +18,11 @@ use crate::output::rows::rounded_down;
 /// What the draws say.
 pub(crate) struct Bands {
     /// On each slope that was asked for.
-    pub(crate) records: Vec<AttitudeBandRecord>,
-    /// Of the steepest slope.
-    pub(crate) limit: AttitudeBandLimit,
+    pub(crate) asked: Vec<SlopeBand>,
+    /// Of the steepest slope: one row.
+    pub(crate) limit: Table,
     /// On the slopes of the charts, from level ground up; empty if nobody wants any.
-    along: Vec<SlopeBand>,
+    along: Table,
 }
 
 /// Steepest slope of the charts [°]: the steepest that is looked at.
@@ -46,7 +45,7 @@ pub(crate) fn draw(
 ) -> Result<Bands, Failure> {
     let uncertain = inputs::uncertain_soil(args, scenario)?;
     let soils = soils(uncertain, args.uncertainty.seed, args.uncertainty.samples)?;
-    let asked: Vec<f64> = args.slope_deg.0.iter().map(|slope| slope.to_radians()).collect();
+    let asked: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let charted = if charted { chart_slopes(nominal) } else { Vec::new() };
     let slopes: Vec<f64> = asked.iter().chain(&charted).copied().collect();
     let bar = output::progress_bar(soils.len() as u64);
@@ -54,16 +53,16 @@ pub(crate) fn draw(
     let study = AttitudeStudy::of(&scenario.value);
     let band = AttitudeBand::of(&study, &soils, &slopes, &|| {
         bar.inc(1);
-        ControlFlow::Continue(())
+        true
     });
     bar.finish_and_clear();
     // Nobody breaks it off: Ctrl-C ends the program.
     let band = band?.unwrap_or_else(|| unreachable!("it was not broken off"));
     let (asked, along) = band.slopes.split_at(asked.len());
     Ok(Bands {
-        records: asked.iter().map(AttitudeBandRecord::from).collect(),
-        limit: AttitudeBandLimit::from(&band),
-        along: along.to_vec(),
+        asked: asked.to_vec(),
+        limit: heading::band_limit(&band),
+        along: heading::bands(along),
     })
 }
 
@@ -73,9 +72,7 @@ pub(crate) fn soils(
     seed: u64,
     samples: u32,
 ) -> Result<Vec<Soil>, Failure> {
-    let draw = |index| uncertain.draw(seed, u64::from(index));
-    let soils: Result<Vec<Soil>, _> = (0..samples).map(draw).collect();
-    soils.map_err(|error| {
+    uncertain.draws(seed, samples).map_err(|error| {
         Failure::Usage(format!(
             "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
              keep the draws within the ranges of their keys"
@@ -85,7 +82,7 @@ pub(crate) fn soils(
 
 /// Every degree, and the points of the nominal curve, which crowd where it bends.
 fn chart_slopes(nominal: &AttitudeCurve) -> Vec<f64> {
-    let degrees = (0..=STEEPEST_DEG).map(|degree| f64::from(degree).to_radians());
+    let degrees = (0..=STEEPEST_DEG).map(|degree| SLOPE.unit.to_si(f64::from(degree)));
     let points = nominal.attitudes().into_iter().map(|attitude| attitude.slope);
     let mut slopes: Vec<f64> = degrees.chain(points).collect();
     slopes.sort_by(f64::total_cmp);
@@ -95,18 +92,13 @@ fn chart_slopes(nominal: &AttitudeCurve) -> Vec<f64> {
 impl Bands {
     /// A sentence on the steepest slope.
     pub(crate) fn limit_line(&self) -> String {
-        let AttitudeBandLimit {
-            limit_slope_deg_p2_5,
-            limit_slope_deg_p50,
-            limit_slope_deg_p97_5,
-            draws_mobile,
-            draws,
-        } = &self.limit;
-        let ends = (limit_slope_deg_p2_5, limit_slope_deg_p50, limit_slope_deg_p97_5);
-        let (Some(low), Some(median), Some(high)) = ends else {
+        let ends = LIMIT_SLOPE.quantiles().map(|name| self.limit.numbers(&name)[0]);
+        let [draws, draws_mobile] =
+            [DRAWS, DRAWS_MOBILE].map(|name| self.limit.count(name).unwrap_or_default());
+        let [Some(low), Some(median), Some(high)] = ends else {
             return format!("no level attitude in any of {draws} draws\n");
         };
-        let [low, median, high] = [low, median, high].map(|slope| rounded_down(*slope));
+        let [low, median, high] = [low, median, high].map(rounded_down);
         let stuck = match draws - draws_mobile {
             0 => String::new(),
             stuck => format!("; on {stuck} more the rover cannot move at all"),
@@ -114,18 +106,30 @@ impl Bands {
         format!("over {draws_mobile} draws: {low}° to {high}° (95 %), median {median}°{stuck}\n")
     }
 
+    fn draws(&self) -> u64 {
+        self.limit.count(DRAWS).unwrap_or_default()
+    }
+
+    /// A probability on a slope of the charts [-].
+    fn probability(&self, name: &str, row: usize) -> f64 {
+        self.along.numbers(name)[row].unwrap_or_default()
+    }
+
     /// Yaw over slope, with its band.
     pub(crate) fn chart(&self, nominal: Series) -> Chart {
-        let drawn = |band: &&SlopeBand| band.level.estimate() >= LEAST_DRAWN;
-        let edges = self.along.iter().filter(drawn).filter_map(|on_slope| {
-            let Band { low, high, .. } = on_slope.yaw?;
-            Some((on_slope.slope.to_degrees(), low.to_degrees(), high.to_degrees()))
-        });
-        let medians = self.along.iter().filter(drawn).filter_map(|on_slope| {
-            Some((on_slope.slope.to_degrees(), on_slope.yaw?.median.to_degrees()))
-        });
+        let [low, median, high] = YAW.quantiles();
+        let drawn: Vec<usize> = (0..self.along.rows())
+            .filter(|row| self.probability(PROBABILITY_LEVEL.name, *row) >= LEAST_DRAWN)
+            .collect();
+        let along = self.along.rows_at(&drawn);
+        let edges: Vec<_> = along
+            .points(SLOPE.name, &low)
+            .zip(along.points(SLOPE.name, &high))
+            .map(|((slope, low), (_, high))| (slope, low, high))
+            .collect();
+        let medians: Vec<_> = along.points(SLOPE.name, &median).collect();
         Chart {
-            title: format!("Yaw that keeps a traverse level, {} draws", self.limit.draws),
+            title: format!("Yaw that keeps a traverse level, {} draws", self.draws()),
             x_label: "slope [°]".into(),
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
@@ -138,17 +142,19 @@ impl Bands {
 
     /// The chance of a level traverse over slope.
     pub(crate) fn chance_chart(&self) -> Chart {
-        let impossible = |band: &SlopeBand| band.level.estimate() < LEAST_CHANCE;
-        let end = self.along.iter().position(impossible).map_or(self.along.len(), |end| end + 1);
-        let shown = &self.along[..end];
-        let edges = shown.iter().map(|on_slope| {
-            let (low, high) = on_slope.level.interval();
-            (on_slope.slope.to_degrees(), low, high)
-        });
-        let chances =
-            shown.iter().map(|on_slope| (on_slope.slope.to_degrees(), on_slope.level.estimate()));
+        let [level, low, high] = PROBABILITY_LEVEL.interval();
+        let rows = 0..self.along.rows();
+        let is_impossible = |row: usize| self.probability(&level, row) < LEAST_CHANCE;
+        let end = rows.clone().position(is_impossible).map_or(rows.end, |end| end + 1);
+        let shown = self.along.rows_at(&(0..end).collect::<Vec<_>>());
+        let edges: Vec<_> = shown
+            .points(SLOPE.name, &low)
+            .zip(shown.points(SLOPE.name, &high))
+            .map(|((slope, low), (_, high))| (slope, low, high))
+            .collect();
+        let chances: Vec<_> = shown.points(SLOPE.name, &level).collect();
         Chart {
-            title: format!("Probability of a level traverse, {} draws", self.limit.draws),
+            title: format!("Probability of a level traverse, {} draws", self.draws()),
             x_label: "slope [°]".into(),
             y_label: "probability".into(),
             series: vec![

@@ -1,7 +1,8 @@
 //! `grouser attitude-map`
 
 use grouser::document::LoadedScenario;
-use grouser::document::study::AttitudeMapRecord;
+use grouser::document::columns::{COURSE, Quantity, SLOPE, YAW, heading};
+use grouser::document::table::Table;
 use grouser::studies::attitude::{Attitude, AttitudeStudy};
 use grouser::studies::attitude_map::AttitudeMap;
 use serde::Serialize;
@@ -16,33 +17,23 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 
-/// Columns of the table on a terminal.
-const COLUMNS: [&str; 9] = [
-    "soil",
-    "course_deg",
-    "slope_deg",
-    "yaw_deg",
-    "slip_ratio",
-    "sinkage_mm",
-    "energy_j_per_m",
-    "power_w",
-    "status",
-];
-
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenarios = inputs::attitude_map(args)?;
     let studies: Vec<AttitudeStudy> =
         scenarios.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
-    let radians = |list: &[f64]| list.iter().map(|number| number.to_radians()).collect::<Vec<_>>();
-    let (courses, slopes) = (radians(&args.course_deg.0), radians(&args.slope_deg.0));
+    let in_si = |quantity: Quantity, list: &[f64]| {
+        list.iter().map(|number| quantity.unit.to_si(*number)).collect::<Vec<_>>()
+    };
+    let courses = in_si(COURSE, &args.course_deg.0);
+    let slopes = in_si(SLOPE, &args.slope_deg.0);
     let map = AttitudeMap::of(&studies, &courses, &slopes)?;
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
-    let records =
-        AttitudeMapRecord::of(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
-    let rows = Rows::of(&records);
-    let answer = Answer::new(command, settings(args, &scenarios), Results { rows: &records });
+    let table =
+        heading::map_table(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
+    let rows = Rows::of_table(&table);
+    let answer = Answer::new(command, settings(args, &scenarios), Results { rows: &table });
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
         folder.add(format!("{command}.csv"), rows.to_csv()?);
@@ -58,7 +49,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(&COLUMNS)),
+        Format::Table => output::print(&rows.to_table(&heading::map_brief())),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
@@ -66,7 +57,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
 
 #[derive(Serialize)]
 struct Results<'a> {
-    rows: &'a [AttitudeMapRecord],
+    rows: &'a Table,
 }
 
 fn soil_name(scenario: &LoadedScenario) -> String {
@@ -116,7 +107,7 @@ fn figures(
         (
             "crab",
             figure("Yaw beyond the course [°]", |attitude| {
-                (attitude.yaw - attitude.course).to_degrees()
+                YAW.unit.from_si(attitude.yaw - attitude.course)
             }),
         ),
         ("slip", figure("Slip ratio", |attitude| attitude.slip_ratio)),

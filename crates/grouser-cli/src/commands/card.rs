@@ -3,12 +3,16 @@
 mod columns;
 mod layout;
 mod measured;
+mod row;
 mod words;
 
 use std::path::Path;
 
-use grouser::document::card::{CardRecord, MeasuredRecord, RuleRecord};
+use grouser::document::card::RuleRecord;
+use grouser::document::columns::card::{self, MeasuredYaw};
+use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
+use grouser::document::table::{Row, Table};
 use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy};
@@ -23,35 +27,7 @@ use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
 use crate::output::{self, Format, file};
-use measured::Measured;
-
-/// Columns of the table on a terminal.
-const COLUMNS: [&str; 6] =
-    ["slope_deg", "verdict", "yaw_deg", "slip_ratio", "downhill_m_per_m", "power_w"];
-
-/// The same, with the draws of an uncertain soil.
-const COLUMNS_WITH_BANDS: [&str; 9] = [
-    "slope_deg",
-    "verdict",
-    "yaw_deg_p50",
-    "yaw_deg_p2_5",
-    "yaw_deg_p97_5",
-    "slip_ratio_p97_5",
-    "downhill_m_per_m_p97_5",
-    "power_w_p97_5",
-    "probability_level",
-];
-
-/// Columns of the comparison with measured yaws.
-const MEASURED_COLUMNS: [&str; 7] = [
-    "slope_deg",
-    "measured",
-    "measured_yaw_deg",
-    "yaw_deg_p2_5",
-    "yaw_deg_p97_5",
-    "probability_level",
-    "place",
-];
+use row::CardRow;
 
 /// Steepest slope that is looked at [°].
 const STEEPEST_DEG: u8 = 60;
@@ -65,19 +41,26 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     };
     let soils = soils(args, &inputs)?;
     let card = compute(args, &inputs, &soils, &measured)?;
-    let records = shown(CardRecord::of(&card), &measured);
-    let beside = measured::beside(&measured, &records);
+    let rows = shown(&card::table(&card), &measured);
+    let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
-        let sheet = layout::draw(&words::of(args, &inputs, &card), &records, &measured);
+        let sheet = layout::draw(&words::of(args, &inputs, &card), &rows, &measured);
         target.write(
-            &Answers { args, inputs: &inputs, card: &card, rows: &records, beside: &beside },
+            &Answers { args, inputs: &inputs, card: &card, rows: &rows, beside: &beside },
             &sheet,
         )?;
     }
     match args.format {
-        Format::Table => output::print(&table(&card, &records, &beside)),
-        Format::Csv => output::print(&Rows::of(&records).to_csv()?),
-        Format::Json => output::print_json(&answer(args, &inputs, &card, &records, &beside)),
+        Format::Table => output::print(&table(&card, &rows, &beside)),
+        Format::Csv => output::print(&Rows::of_table(&rows).to_csv()?),
+        Format::Json => output::print_json(&answer(
+            args,
+            &inputs,
+            &card,
+            &card::steepest(&card),
+            &rows,
+            &beside,
+        )),
     }
 }
 
@@ -91,7 +74,7 @@ fn compute(
     args: &CardArgs,
     inputs: &CardInputs,
     soils: &[Soil],
-    measured: &[Measured],
+    measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
     let mut attitude = AttitudeStudy::of(&inputs.scenario.value);
     if args.uphill == SideWord::Right {
@@ -99,8 +82,8 @@ fn compute(
     }
     let study = CardStudy { attitude, rim_speed: inputs.rim_speed, rule: inputs.rule };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
-    let asked = measured.iter().map(|point| point.slope_deg);
-    let mut slopes: Vec<f64> = degrees.chain(asked).map(f64::to_radians).collect();
+    let asked = measured.iter().map(|point| point.slope);
+    let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
     let bar = output::progress_bar(soils.len() as u64);
@@ -111,24 +94,22 @@ fn compute(
 }
 
 /// The rows up to the first slope that no soil can be crossed on, and those that were measured on.
-fn shown(records: Vec<CardRecord>, measured: &[Measured]) -> Vec<CardRecord> {
-    let is_last = |row: &CardRecord| {
-        row.verdict == "no-go" && row.yaw_deg.is_none() && row.yaw_deg_p50.is_none()
-    };
-    let last = records.iter().position(is_last).unwrap_or(records.len());
-    let kept = records.into_iter().enumerate().filter(|(place, row)| {
-        *place <= last || measured.iter().any(|point| point.slope_deg == row.slope_deg)
-    });
-    kept.map(|(_, row)| row).collect()
+fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
+    let is_last = |row: &CardRow<'_>| row.is_no_go() && row.middle(YAW).is_none();
+    let last = CardRow::all(rows).position(|row| is_last(&row)).unwrap_or(rows.rows());
+    let is_measured = |row: CardRow<'_>| measured.iter().any(|it| it.slope == row.slope());
+    let kept = CardRow::all(rows).enumerate();
+    let kept = kept.filter(|(place, row)| *place <= last || is_measured(*row));
+    rows.rows_at(&kept.map(|(place, _)| place).collect::<Vec<_>>())
 }
 
 /// The card's rows, or the comparison where one is asked for.
-fn table(card: &Card, records: &[CardRecord], beside: &[MeasuredRecord]) -> String {
-    if !beside.is_empty() {
-        return Rows::of(beside).to_table(&MEASURED_COLUMNS);
+fn table(card: &Card, rows: &Table, beside: &Table) -> String {
+    if beside.rows() > 0 {
+        return Rows::of_table(beside).to_table(&card::beside_brief());
     }
-    let columns: &[&str] = if card.draws.is_some() { &COLUMNS_WITH_BANDS } else { &COLUMNS };
-    let mut text = Rows::of(records).to_table(columns);
+    let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
+    let mut text = Rows::of_table(rows).to_table(&brief);
     if card.draws.is_none() {
         text +=
             "no uncertainty of this soil is stated: no bands; slopes are judged with a margin\n";
@@ -138,33 +119,23 @@ fn table(card: &Card, records: &[CardRecord], beside: &[MeasuredRecord]) -> Stri
 
 #[derive(Serialize)]
 struct Results<'a> {
-    draws: Option<usize>,
-    limit_slope_deg: Option<f64>,
-    limit_slope_deg_p2_5: Option<f64>,
-    limit_slope_deg_p50: Option<f64>,
-    limit_slope_deg_p97_5: Option<f64>,
-    rows: &'a [CardRecord],
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    measured: &'a [MeasuredRecord],
+    #[serde(flatten)]
+    steepest: Row<'a>,
+    rows: &'a Table,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    measured: Option<&'a Table>,
 }
 
 fn answer<'a>(
     args: &CardArgs,
     inputs: &CardInputs,
     card: &Card,
-    rows: &'a [CardRecord],
-    measured: &'a [MeasuredRecord],
+    steepest: &'a Table,
+    rows: &'a Table,
+    measured: &'a Table,
 ) -> Answer<Results<'a>> {
-    let band = card.limit_band;
-    let results = Results {
-        draws: card.draws,
-        limit_slope_deg: card.limit.as_ref().ok().map(|(limit, _)| limit.to_degrees()),
-        limit_slope_deg_p2_5: band.map(|band| band.low.to_degrees()),
-        limit_slope_deg_p50: band.map(|band| band.median.to_degrees()),
-        limit_slope_deg_p97_5: band.map(|band| band.high.to_degrees()),
-        rows,
-        measured,
-    };
+    let measured = (measured.rows() > 0).then_some(measured);
+    let results = Results { steepest: steepest.row(0), rows, measured };
     Answer::new("card", settings(args, inputs, card), results)
 }
 
@@ -232,8 +203,8 @@ struct Answers<'a> {
     args: &'a CardArgs,
     inputs: &'a CardInputs,
     card: &'a Card,
-    rows: &'a [CardRecord],
-    beside: &'a [MeasuredRecord],
+    rows: &'a Table,
+    beside: &'a Table,
 }
 
 /// Where the card goes.
@@ -270,8 +241,11 @@ impl<'a> Target<'a> {
             folder.add(&format!("card.{ending}"), form.bytes(sheet));
         }
         let Answers { args, inputs, card, rows, beside } = answers;
-        folder.add("card.json", answer(args, inputs, card, rows, beside).to_text());
-        folder.add("card.csv", Rows::of(rows).to_csv()?);
+        folder.add(
+            "card.json",
+            answer(args, inputs, card, &card::steepest(card), rows, beside).to_text(),
+        );
+        folder.add("card.csv", Rows::of_table(rows).to_csv()?);
         folder.add_document("scenario.toml", &inputs.scenario);
         folder.finish()
     }

@@ -77,7 +77,7 @@ fn of_import(label: &str, error: MeasurementError) -> Failure {
 }
 
 fn document_word(quantity: Quantity) -> &'static str {
-    grouser::document::validation::column_of(quantity)
+    grouser::document::columns::fit::column_of(quantity).name
 }
 
 fn delimiter(text: &str) -> Result<u8, Failure> {

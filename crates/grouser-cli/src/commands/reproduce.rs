@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use grouser::document::columns::run::table as run_table;
 use grouser::document::{self, LoadedScenario, Overrides, Source, escape, experiment, file};
 use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError};
 
-use super::traverse::sample_csv;
 use crate::args::ReproduceArgs;
 use crate::failure::Failure;
 use crate::output;
 use crate::output::folder::{OldFiles, OutputFolder, has_entries};
+use crate::output::rows::Rows;
 use crate::report::figures;
 use crate::report::page::{self, Page};
 use crate::report::tables::{self, Table};
@@ -150,8 +151,7 @@ fn write_report(
     for runs in &study.slopes {
         let slope = runs.measured.slope.to_degrees().round();
         let mut add = |name: &str, run: &grouser::simulation::Trajectory| {
-            let record = document::trajectory::TrajectoryRecord::new(run, rover);
-            let rows = sample_csv(&record.samples)?;
+            let rows = Rows::of_table(&run_table(run, rover)).to_csv()?;
             folder.add(&format!("data/traverse-{slope}deg-{name}.csv"), rows);
             Ok::<(), Failure>(())
         };

@@ -6,8 +6,11 @@ mod ranking;
 
 use std::path::Path;
 
+use grouser::document::columns::SLIP_ANGLE;
+use grouser::document::columns::fit::{self, column_of};
 use grouser::document::measurements::{self, Choice, Measurements};
-use grouser::document::validation::{CellRecord, GroupRecord, column_of, trials};
+use grouser::document::table::Table;
+use grouser::document::validation::GroupRecord;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::{Validation, ValidationStudy};
 use serde::Serialize;
@@ -35,7 +38,7 @@ struct Results<'a> {
     driven: Option<GroupRecord>,
     skid: Option<GroupRecord>,
     rows: &'a [GroupRecord],
-    cells: &'a [CellRecord],
+    cells: &'a Table,
     notes: &'a [String],
 }
 
@@ -54,7 +57,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     }
     let validation = judge(&measured, &stand);
     let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();
-    let cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
+    let cells = fit::cells(&validation.cells);
     let results = Results {
         overall: &GroupRecord::from(&validation.overall),
         driven: validation.driven.as_ref().map(GroupRecord::from),
@@ -68,8 +71,8 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", long_rows(&validation).to_csv()?);
-        folder.add("cells.csv", Rows::of(&cells).to_csv()?);
-        folder.add("trials.csv", Rows::of(&trials(&measured, &validation)).to_csv()?);
+        folder.add("cells.csv", Rows::of_table(&cells).to_csv()?);
+        folder.add("trials.csv", Rows::of_table(&fit::trials(&measured, &validation)).to_csv()?);
         folder.add("validation.html", page::html(args, data, &stand, &validation));
         for figure in figures::all(&validation) {
             folder.add(&format!("figures/{}.svg", figure.file), figure.chart.to_svg());
@@ -122,11 +125,11 @@ fn long_rows(validation: &Validation) -> Rows {
         for quantity in Quantity::ALL {
             let Some(errors) = group.errors(quantity) else { continue };
             let row = json!({
-                "slip_angle_deg": group.slip_angle_deg,
-                "motion": group.motion,
-                "quantity": column_of(quantity),
+                (SLIP_ANGLE.name): group.slip_angle(),
+                "motion": group.motion(),
+                "quantity": column_of(quantity).name,
                 "cells": errors.cells,
-                "unsettled_trials": group.unsettled_trials,
+                "unsettled_trials": group.0.unsettled,
                 "rmse": errors.rmse,
                 "bias": errors.bias,
                 "r2": errors.r2,
@@ -155,12 +158,12 @@ fn text_of(validation: &Validation) -> String {
 fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {
     let rows = error_rows(groups, quantity);
     let table = aligned(&ERRORS.map(str::to_owned), &rows);
-    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity)))
+    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity).name))
 }
 
 /// Columns of a quantity's errors.
 const ERRORS: [&str; 7] =
-    ["slip_angle_deg", "motion", "cells", "rmse", "repeatability", "bias", "r2"];
+    [SLIP_ANGLE.name, "motion", "cells", "rmse", "repeatability", "bias", "r2"];
 
 /// A quantity's errors for people, a row for each group.
 fn error_rows(groups: &[GroupRecord], quantity: Quantity) -> Vec<Vec<String>> {
@@ -168,8 +171,8 @@ fn error_rows(groups: &[GroupRecord], quantity: Quantity) -> Vec<Vec<String>> {
     let row = |group: &GroupRecord| {
         let errors = group.errors(quantity)?;
         Some(vec![
-            group.slip_angle_deg.map_or("all".to_owned(), four_digits),
-            group.motion.to_owned(),
+            group.slip_angle().map_or("all".to_owned(), four_digits),
+            group.motion().to_owned(),
             errors.cells.to_string(),
             four_digits(errors.rmse),
             number(errors.repeatability),

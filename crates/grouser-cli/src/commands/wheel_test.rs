@@ -1,7 +1,7 @@
 //! `grouser wheel-test`
 
-use grouser::document::simulated_test::SimulatedTrialRecord;
-use grouser::document::study::WheelTestRecord;
+use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::table::Table;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
@@ -17,32 +17,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 
-/// Columns of the table on a terminal.
-const COLUMNS_OF_STAND: [&str; 9] = [
-    "load_n",
-    "slip_angle_deg",
-    "slip_ratio",
-    "trial",
-    "sinkage_mm",
-    "drawbar_pull_n",
-    "side_force_n",
-    "torque_nm",
-    "status",
-];
-
-/// The same, for what the theory itself says.
-const COLUMNS: [&str; 9] = [
-    "load_n",
-    "slip_angle_deg",
-    "slip_ratio",
-    "sinkage_mm",
-    "drawbar_pull_n",
-    "side_force_n",
-    "torque_nm",
-    "entry_angle_deg",
-    "status",
-];
-
 pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let inputs = inputs::wheel_test(args)?;
@@ -52,7 +26,12 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
         gravity: inputs.gravity,
         theory: inputs.theory,
         loads: args.load_n.0.clone(),
-        slip_angles: args.slip_angle_deg.0.iter().map(|angle| angle.to_radians()).collect(),
+        slip_angles: args
+            .slip_angle_deg
+            .0
+            .iter()
+            .map(|angle| SLIP_ANGLE.unit.to_si(*angle))
+            .collect(),
         slip_ratios: args.slip_ratio.0.clone(),
     };
     let mut settings = json!({
@@ -66,12 +45,9 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     });
     match args.stand.trials {
         None => {
-            let records: Vec<_> = test.run().iter().map(WheelTestRecord::from).collect();
-            let pulls = records
-                .iter()
-                .map(|it| (it.load_n, it.slip_angle_deg, it.slip_ratio, it.wheel.drawbar_pull_n));
-            let chart = chart(pulls, Style::Line);
-            tell(args, folder, &inputs, settings, &records, &COLUMNS, &chart)
+            let table = columns::wheel::table(&test.run());
+            let brief = columns::wheel::brief();
+            tell(args, folder, &inputs, settings, &table, &brief, &chart(&table, Style::Line))
         }
         Some(trials) => {
             settings["simulated_stand"] = json!({
@@ -81,16 +57,9 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
                 "noise_nm": args.stand.noise_nm,
                 "seed": args.stand.seed,
             });
-            let records: Vec<_> = on_a_stand(test, &args.stand, trials)
-                .run()
-                .iter()
-                .map(SimulatedTrialRecord::from)
-                .collect();
-            let pulls = records
-                .iter()
-                .map(|it| (it.load_n, it.slip_angle_deg, it.slip_ratio, it.drawbar_pull_n));
-            let chart = chart(pulls, Style::Dots);
-            tell(args, folder, &inputs, settings, &records, &COLUMNS_OF_STAND, &chart)
+            let table = columns::stand::table(&on_a_stand(test, &args.stand, trials).run());
+            let brief = columns::stand::brief();
+            tell(args, folder, &inputs, settings, &table, &brief, &chart(&table, Style::Dots))
         }
     }
 }
@@ -99,28 +68,28 @@ fn on_a_stand(plan: WheelTest, args: &StandArgs, trials: usize) -> SimulatedTest
     let noise = PerQuantity {
         drawbar_pull: args.noise_n,
         side_force: args.noise_n,
-        sinkage: args.noise_mm * 1e-3,
+        sinkage: SINKAGE.unit.to_si(args.noise_mm),
         torque: args.noise_nm,
     };
     SimulatedTest { plan, trials, noise, seed: args.seed }
 }
 
 #[derive(Serialize)]
-struct Results<'a, T> {
-    rows: &'a [T],
+struct Results<'a> {
+    rows: &'a Table,
 }
 
-fn tell<T: Serialize>(
+fn tell(
     args: &WheelTestArgs,
     folder: Option<OutputFolder>,
     inputs: &StandInputs,
     settings: Value,
-    records: &[T],
-    columns: &[&str],
+    table: &Table,
+    brief: &[String],
     chart: &Chart,
 ) -> Result<(), Failure> {
-    let rows = Rows::of(records);
-    let answer = Answer::new("wheel-test", settings, Results { rows: records });
+    let rows = Rows::of_table(table);
+    let answer = Answer::new("wheel-test", settings, Results { rows: table });
     if let Some(mut folder) = folder {
         folder.add("wheel-test.json", answer.to_text());
         folder.add("wheel-test.csv", rows.to_csv()?);
@@ -130,23 +99,25 @@ fn tell<T: Serialize>(
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(columns)),
+        Format::Table => output::print(&rows.to_table(brief)),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
 }
 
 /// Drawbar pull over slip ratio, a series for each load and slip angle.
-///
-/// * `pulls`: load, slip angle, slip ratio, drawbar pull, as they are printed
-fn chart(pulls: impl Iterator<Item = (f64, f64, f64, Option<f64>)>, style: Style) -> Chart {
+fn chart(table: &Table, style: Style) -> Chart {
     let mut series: Vec<Series> = Vec::new();
-    for (load, angle, slip_ratio, pull) in pulls {
+    let [loads, angles, ratios, pulls] =
+        [LOAD, SLIP_ANGLE, SLIP_RATIO, DRAWBAR_PULL].map(|it| table.numbers(it.name));
+    for (row, pull) in pulls.iter().enumerate() {
+        let [load, angle, slip_ratio] =
+            [loads, angles, ratios].map(|column| column[row].unwrap_or_default());
         let name = format!("{load} N, {angle}°");
         if series.last().is_none_or(|last| last.name != name) {
             series.push(Series::new(name, style, series.len(), []));
         }
-        if let (Some(last), Some(pull)) = (series.last_mut(), pull) {
+        if let (Some(last), Some(pull)) = (series.last_mut(), *pull) {
             last.points.push((slip_ratio, pull));
         }
     }

@@ -3,6 +3,7 @@
 use std::borrow::Borrow;
 
 use grouser::document::escape;
+use grouser::document::table::Table;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -23,6 +24,12 @@ impl Rows {
         Self(records.iter().map(object).collect())
     }
 
+    /// The rows of a table of the library's.
+    pub(crate) fn of_table(table: &Table) -> Self {
+        let rows: Vec<_> = (0..table.rows()).map(|row| table.row(row)).collect();
+        Self::of(&rows)
+    }
+
     /// Rows from maps that are at hand already.
     pub(crate) fn from_maps(maps: Vec<Map<String, Value>>) -> Self {
         Self(maps)
@@ -36,10 +43,13 @@ impl Rows {
     }
 
     /// The rows as an aligned table of some of their columns; a column's header is its key.
-    pub(crate) fn to_table(&self, columns: &[&str]) -> String {
-        let header: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
+    pub(crate) fn to_table(&self, columns: &[impl AsRef<str>]) -> String {
+        let header: Vec<String> = columns.iter().map(|column| column.as_ref().to_owned()).collect();
         let cells = self.0.iter().map(|row| {
-            columns.iter().map(|column| row.get(*column).map_or(String::new(), short)).collect()
+            columns
+                .iter()
+                .map(|column| row.get(column.as_ref()).map_or(String::new(), short))
+                .collect()
         });
         aligned(&header, &cells.collect::<Vec<Vec<String>>>())
     }

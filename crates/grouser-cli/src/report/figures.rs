@@ -1,6 +1,7 @@
 //! The figures of the report, each with its data.
 
 use grouser::contact::Settled;
+use grouser::document::columns::{SINKAGE, SLIP_ANGLE, SLOPE, YAW};
 use grouser::simulation::{Trajectory, WheelSample};
 use grouser::studies::comparison::MeasuredTraverse;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
@@ -66,10 +67,12 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
 /// Fig. 10: attitude over slope.
 pub(crate) fn attitude(study: &Reproduction) -> Figure {
     let curve = study.attitudes.attitudes();
-    let line = curve.iter().map(|a| (a.slope.to_degrees(), a.yaw.to_degrees()));
+    let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
         let measured = study.slopes.iter().map(|runs| &runs.measured);
-        measured.map(|m| (m.slope.to_degrees(), yaw(m).to_degrees())).collect::<Vec<_>>()
+        measured
+            .map(|m| (SLOPE.unit.from_si(m.slope), YAW.unit.from_si(yaw(m))))
+            .collect::<Vec<_>>()
     };
     Figure {
         file: "fig10-attitude",
@@ -175,7 +178,8 @@ fn by_slip_angle(
     y_label: &str,
     quantity: fn(&Settled) -> f64,
 ) -> Figure {
-    let key = |row: &WheelTestRow| format!("slip angle {:.0}°", row.slip_angle.to_degrees());
+    let key =
+        |row: &WheelTestRow| format!("slip angle {:.0}°", SLIP_ANGLE.unit.from_si(row.slip_angle));
     Figure {
         file,
         caption: format!(
@@ -205,7 +209,7 @@ fn sinkage_by_load(study: &Reproduction) -> Figure {
             series: curves(
                 &study.by_load,
                 |row| format!("load {} N", row.load),
-                |settled| 1e3 * settled.sinkage,
+                |settled| SINKAGE.unit.from_si(settled.sinkage),
             ),
         },
     }
@@ -283,7 +287,9 @@ fn sinkage_along_run(study: &Reproduction, rover: &Rover) -> Figure {
             title: "Sinkage along a run from rest".into(),
             x_label: "time [s]".into(),
             y_label: "sinkage [mm]".into(),
-            series: along_run(study, rover, |wheel| 1e3 * wheel.reaction.settled.sinkage),
+            series: along_run(study, rover, |wheel| {
+                SINKAGE.unit.from_si(wheel.reaction.settled.sinkage)
+            }),
         },
     }
 }

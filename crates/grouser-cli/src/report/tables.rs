@@ -1,5 +1,6 @@
 //! The tables of the report: our attitudes and runs beside the paper's model and measurements.
 
+use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use serde_json::{Map, Value, json};
@@ -69,10 +70,10 @@ pub(crate) fn attitudes(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let attitude = runs.attitude.as_ref().ok();
         row_of(json!({
-            "slope_deg": printed(runs.measured.slope),
-            "yaw_deg": attitude.map(|a| a.yaw.to_degrees()),
-            "slip_ratio": attitude.map(|a| a.slip_ratio),
-            "sinkage_mm": attitude.map(|a| a.mean_sinkage() * 1e3),
+            (SLOPE.name): printed(runs.measured.slope),
+            (YAW.name): attitude.map(|a| YAW.unit.from_si(a.yaw)),
+            (SLIP_RATIO.name): attitude.map(|a| a.slip_ratio),
+            (SINKAGE.name): attitude.map(|a| SINKAGE.unit.from_si(a.mean_sinkage())),
             "paper_model_yaw_deg": printed(runs.measured.model_yaw),
             "measured_initial_yaw_deg": printed(runs.measured.initial_yaw),
             "measured_final_yaw_deg": printed(runs.measured.final_yaw),
@@ -82,10 +83,10 @@ pub(crate) fn attitudes(study: &Reproduction) -> Table {
         caption: "Yaw that keeps a traverse level, in degrees",
         file: "attitudes",
         columns: vec![
-            column("slope_deg", "slope", 0),
-            column("yaw_deg", "Grouser", 2),
-            column("slip_ratio", "slip ratio", 3),
-            column("sinkage_mm", "sinkage [mm]", 1),
+            column(SLOPE.name, "slope", 0),
+            column(YAW.name, "Grouser", 2),
+            column(SLIP_RATIO.name, "slip ratio", 3),
+            column(SINKAGE.name, "sinkage [mm]", 1),
             column("paper_model_yaw_deg", "paper's model", 1),
             column("measured_initial_yaw_deg", "measured, start", 2),
             column("measured_final_yaw_deg", "measured, end", 2),
@@ -102,7 +103,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
         let percent = |measured: f64, predicted: f64| 100.0 * yaw_error(measured, predicted);
         let run = Levelness::of(&runs.from_measured_yaw);
         row_of(json!({
-            "slope_deg": printed(slope),
+            (SLOPE.name): printed(slope),
             "initial_error_percent": ours.map(|ours| percent(initial_yaw, ours)),
             "final_error_percent": ours.map(|ours| percent(final_yaw, ours)),
             "rms_distance_error_percent": 100.0 * run.rms_distance_error,
@@ -119,7 +120,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
         caption: "Table 4 of the paper, beside the same errors against Grouser's attitude",
         file: "table4",
         columns: vec![
-            column("slope_deg", "slope [°]", 0),
+            column(SLOPE.name, "slope [°]", 0),
             column("paper_initial_error_percent", "initial yaw, paper [%]", 2),
             column("initial_error_percent", "initial yaw, Grouser [%]", 2),
             column("paper_final_error_percent", "final yaw, paper [%]", 2),
@@ -136,9 +137,9 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
 /// Yaw lost during the runs: measured, and with two ways of sharing the weight.
 pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
-        let loss = |run| Levelness::of(run).yaw_loss.to_degrees();
+        let loss = |run| YAW.unit.from_si(Levelness::of(run).yaw_loss);
         row_of(json!({
-            "slope_deg": printed(runs.measured.slope),
+            (SLOPE.name): printed(runs.measured.slope),
             "measured_yaw_loss_deg": printed(runs.measured.yaw_loss()),
             "quasi_static_yaw_loss_deg": loss(&runs.from_measured_yaw),
             "quasi_static_torque_yaw_loss_deg": loss(&runs.from_measured_yaw_with_torque),
@@ -148,7 +149,7 @@ pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
         caption: "Yaw lost on the way from the measured start, in degrees",
         file: "yaw-loss",
         columns: vec![
-            column("slope_deg", "slope", 0),
+            column(SLOPE.name, "slope", 0),
             column("measured_yaw_loss_deg", "measured", 2),
             column("quasi_static_yaw_loss_deg", "loads quasi-static", 2),
             column("quasi_static_torque_yaw_loss_deg", "loads quasi-static-torque", 2),
@@ -163,7 +164,7 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
         let end = |run: &grouser::simulation::Trajectory| run.last().state.position;
         let compensated = runs.compensated.as_ref();
         row_of(json!({
-            "slope_deg": printed(runs.measured.slope),
+            (SLOPE.name): printed(runs.measured.slope),
             "uncompensated_x_m": end(&runs.uncompensated).x,
             "uncompensated_y_m": end(&runs.uncompensated).y,
             "compensated_x_m": compensated.map(|run| end(run).x),
@@ -176,7 +177,7 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
         caption: "Where the runs end",
         file: "drift",
         columns: vec![
-            column("slope_deg", "slope [°]", 0),
+            column(SLOPE.name, "slope [°]", 0),
             column("uncompensated_x_m", "x nose level [m]", 3),
             column("uncompensated_y_m", "y nose level [m]", 4),
             column("compensated_x_m", "x at the attitude [m]", 3),
@@ -193,7 +194,7 @@ pub(crate) fn limit_sentence(study: &Reproduction) -> String {
     match study.attitudes.limit() {
         Ok((slope, reason)) => format!(
             "The steepest slope with a level attitude is {}°, {reason}.",
-            rounded_down(slope.to_degrees())
+            rounded_down(SLOPE.unit.from_si(slope))
         ),
         Err(error) => format!("{error}."),
     }
@@ -201,5 +202,5 @@ pub(crate) fn limit_sentence(study: &Reproduction) -> String {
 
 /// Degrees as the paper prints them: 3.31, not 3.3100000000000001.
 fn printed(angle: f64) -> f64 {
-    (angle.to_degrees() * 1e6).round() / 1e6
+    (YAW.unit.from_si(angle) * 1e6).round() / 1e6
 }

@@ -66,11 +66,8 @@ class AttitudeBand(_tables.Tabular):
     @classmethod
     def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> AttitudeBand:
         found, limit = _core.attitude_band(run._document, slopes, seed, samples)
-        found.pop("draws", None)
-        # Without slopes there are no rows to tell the columns.
-        names = [field.name for field in fields(cls) if field.name not in (*limit, "draws")]
-        columns = {name: found.get(name, np.empty(0)) for name in names}
-        return cls(**columns, **limit)
+        del found["draws"]
+        return cls(**found, **limit)
 
     def _table(self) -> dict[str, Any]:
         arrays = {field.name: getattr(self, field.name) for field in fields(self)}

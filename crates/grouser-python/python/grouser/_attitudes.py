@@ -21,8 +21,10 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Fields of `Attitudes`, and of an `AttitudeMap`.
-_ATTITUDE = ("yaw_deg", "slip_ratio", "sinkage_mm", "torque_nm", "energy_j_per_m", "yaw_moment_nm")
+#: Fields of an `AttitudeMap`; `Attitudes` have all but the power.
+_ATTITUDE = _tables.COLUMNS["attitude"]
+#: In the order of the program's tables.
+_LEVEL = tuple(name for name in _ATTITUDE if name != "power_w")
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +56,7 @@ class Attitudes(_tables.Tabular):
 
     def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, ("slope_deg", *_ATTITUDE)), "status": self.status, **band}
+        return {**columns_of(self, ("slope_deg", *_LEVEL)), "status": self.status, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -132,12 +134,8 @@ def attitude(
     if uncertainty:
         draws = whole_number("samples", samples, most=2**32 - 1)
         band = AttitudeBand._of(run, slopes, whole_number("seed", seed), draws)
-    status = np.array(found.pop("status", []), dtype=object)
-    # Without slopes there are no rows to tell the columns.
-    columns = {name: found.get(name, np.empty(0)) for name in ("slope_deg", *_ATTITUDE)}
-    return Attitudes(
-        limit_slope_deg=limit, limit_message=reason, status=status, band=band, **columns
-    )
+    status = np.array(found.pop("status"), dtype=object)
+    return Attitudes(limit_slope_deg=limit, limit_message=reason, status=status, band=band, **found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +169,7 @@ class AttitudeMap(_tables.Tabular):
     """The steepest slope of the soil and course [°], the same on every slope."""
 
     def _columns(self) -> dict[str, Any]:
-        names = (*_ATTITUDE, "power_w", "limit_slope_deg")
+        names = (*_LEVEL, "power_w", "limit_slope_deg")
         return {**columns_of(self, names), "status": self.status}
 
     def _table(self) -> dict[str, Any]:
@@ -251,11 +249,7 @@ def attitude_map(
     speed = number("speed_m_s", speed_m_s)
     found = _core.attitude_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
-    # Without slopes or courses there are no rows to tell the columns.
-    numbers = {
-        name: np.asarray(found.get(name, np.empty(0)), dtype=np.float64).reshape(shape)
-        for name in (*_ATTITUDE, "power_w", "limit_slope_deg")
-    }
-    status = np.array(found.get("status", []), dtype=object).reshape(shape)
+    numbers = {name: found[name].reshape(shape) for name in (*_ATTITUDE, "limit_slope_deg")}
+    status = np.array(found["status"], dtype=object).reshape(shape)
     names = tuple(run.soil.name for run in runs)
     return AttitudeMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)

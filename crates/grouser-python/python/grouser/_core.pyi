@@ -42,6 +42,7 @@ __all__ = [
     "read_document_file",
     "read_document_table",
     "read_document_text",
+    "result_columns",
     "rollout",
     "seal_manifest",
     "settle",
@@ -118,6 +119,7 @@ class Simulators:
 
 def simulator_columns() -> tuple[list[str], list[str]]: ...
 def unit_of(name: str) -> str | None: ...
+def result_columns() -> dict[str, list[tuple[str, str | None, str]]]: ...
 def arrow_stream(
     columns: Sequence[tuple[str, str | None, Any]], notes: dict[str, str]
 ) -> object: ...

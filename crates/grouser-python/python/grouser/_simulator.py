@@ -18,8 +18,9 @@ from ._errors import ParameterError, SimulationError
 Commands = Literal["wheel_speed_rad_s", "speed_m_s"]
 
 _SAMPLES, _WHEELS = _core.simulator_columns()
-_STATE = ("x_m", "y_m", "yaw_deg", "forward_speed_m_s", "lateral_speed_m_s", "yaw_rate_deg_s")
-_STATE_PLACES = [_SAMPLES.index(name) for name in _STATE]
+#: Pose and velocities stand between the time and the power.
+_STATE_PLACES = range(1, _SAMPLES.index("power_w"))
+_STATE = tuple(_SAMPLES[place] for place in _STATE_PLACES)
 
 
 class SimulatorBatch:

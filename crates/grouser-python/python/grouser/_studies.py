@@ -21,20 +21,7 @@ def columns_of(result: Any, names: Iterable[str]) -> dict[str, Any]:
 
 
 #: Fields of a `Trajectory` over time, and of a `Rollout` over runs.
-SAMPLE = (
-    "time_s",
-    "x_m",
-    "y_m",
-    "yaw_deg",
-    "forward_speed_m_s",
-    "lateral_speed_m_s",
-    "yaw_rate_deg_s",
-    "power_w",
-    "energy_j",
-    "soil_energy_j",
-    "kinetic_energy_j",
-    "potential_energy_j",
-)
+SAMPLE = _tables.COLUMNS["sample"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,8 +1,7 @@
-"""Results for pandas and xarray. Units come from names, by the library's one table."""
+"""Results for pandas and xarray. Columns and units are the library's."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,13 +15,15 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: What a quantile of a quantity ends with: ``yaw_deg_p2_5``.
-_QUANTILE = re.compile(r"_p\d+(_\d)?$")
+#: Names of the library's columns of numbers, by what they are of.
+COLUMNS = {
+    kind: tuple(name for name, _, _ in columns) for kind, columns in _core.result_columns().items()
+}
 
 
 def unit_of(name: str) -> str:
     """The unit in a name, by the library's table; 1 for ratios."""
-    return _core.unit_of(_QUANTILE.sub("", name)) or "1"
+    return _core.unit_of(name) or "1"
 
 
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+#: What is set on a test stand, and the number of the run.
+_COORDS = ("load_n", "slip_angle_deg", "slip_ratio", "trial")
+
+
 @dataclass(frozen=True, eq=False)
 class WheelTest(_tables.Tabular):
     """A wheel test: every load with every slip angle and every slip ratio."""
@@ -42,7 +46,7 @@ class WheelTest(_tables.Tabular):
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
-        coords = {name: getattr(self, name) for name in ("load_n", "slip_angle_deg", "slip_ratio")}
+        coords = {name: getattr(self, name) for name in _COORDS[:3]}
         columns = {k: v for k, v in self.wheels._table().items() if k not in coords}
         return _tables.dataset(tuple(coords), columns, coords)
 
@@ -88,17 +92,12 @@ class SimulatedWheelTest(_tables.Tabular):
     """Torque of the drive [N·m]."""
 
     def _readings(self) -> dict[str, Any]:
-        names = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
+        names = [name for name in _tables.COLUMNS["stand"] if name not in _COORDS]
         return {"status": self.status, **{name: getattr(self, name) for name in names}}
 
     def _coords(self) -> dict[str, Any]:
         trial = np.arange(1, self.status.shape[-1] + 1)
-        return {
-            "load_n": self.load_n,
-            "slip_angle_deg": self.slip_angle_deg,
-            "slip_ratio": self.slip_ratio,
-            "trial": trial,
-        }
+        return dict(zip(_COORDS, (self.load_n, self.slip_angle_deg, self.slip_ratio, trial)))
 
     def _table(self) -> dict[str, Any]:
         coords = self._coords()
@@ -236,13 +235,11 @@ def wheel_test(
             *documents, loads, angles, ratios, count, noise, whole_number("seed", seed)
         )
         shape = (len(loads), len(angles), len(ratios), count)
-        # Without settings there are no rows to tell the columns.
+        status = np.array(found.pop("status"), dtype=object).reshape(shape)
         readings = {
-            name: np.asarray(found.get(name, np.empty(0))).reshape(shape)
-            for name in ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
+            name: values.reshape(shape) for name, values in found.items() if name not in _COORDS
         }
-        status = np.array(found.get("status", []), dtype=object).reshape(shape)
-        settings = {"load_n": loads, "slip_angle_deg": angles, "slip_ratio": ratios}
+        settings = dict(zip(_COORDS, (loads, angles, ratios)))
         return SimulatedWheelTest(**settings, status=status, **readings)
     wheels = settle(
         soil_of(soil),

@@ -56,7 +56,7 @@ class WheelForces(_tables.Tabular):
     side_force_from_shear_n: Floats
     """Part of the side force from shear [N]."""
     bulldozing_load_n: Floats
-    """Full load of the soil that the flank pushes aside [N], before the slip angle's share."""
+    """Full load of the soil that the side wall pushes aside [N], before the slip angle's share."""
     normal_force_n: Floats
     """Force out of the ground [N]."""
     torque_nm: Floats

@@ -14,7 +14,7 @@ pub use solved::{
 };
 pub use wheel::{WheelFound, WheelProblem, WheelResults};
 
-use super::validation::column_of;
+use super::columns::fit::column_of;
 use crate::studies::calibration::design::{Proposal, Setting};
 use crate::studies::calibration::diagnostics::Summary;
 use crate::studies::calibration::identifiability::{Combination, Identifiability, Pair};
@@ -95,7 +95,7 @@ pub fn channel_name(channel: &Channel) -> String {
                 Regime::Driven => ", driven",
                 Regime::Skid => ", skid",
             };
-            format!("{}{regime}", column_of(*quantity))
+            format!("{}{regime}", column_of(*quantity).name)
         }
         Channel::PlatePressure => "pressure_kpa".to_owned(),
         Channel::Other => "other".to_owned(),

@@ -7,35 +7,31 @@
 //! 1. The document is read as any other, with the scenario, or the soil and the wheel, that it names.
 //! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from the
 //!    soil's own `[uncertainty]` if asked for; each key is a number of the resolved base (`inputs`).
-//! 3. It becomes a [`Plan`]. A run puts the plan's values in the base document's place of them, makes
+//! 3. It becomes an [`Ensemble`]. A run puts the ensemble's values in the base document's place of them, makes
 //!    a domain's value of it, and computes (`rows`).
 //!
 //! The resolved document holds all of that in one text: samples, too. Its hash names the campaign.
 
 mod inputs;
-mod marginals;
 mod rows;
 mod sections;
 mod statistics;
 mod table;
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use rayon::prelude::*;
-
 pub use rows::FAILED;
 pub use sections::Study;
 pub(super) use sections::{Settings, Stand};
 pub use statistics::{Frequencies, QuantityStatistics};
-pub use table::{Cell, Column, ColumnKind, Role, Table, UNITS, Values, unit};
+pub use table::{Column, Role};
 
 use self::inputs::Prepared;
 use self::rows::Base;
 use super::describe::campaign::CAMPAIGN;
 use super::error::DocumentError;
 use super::field::Inner;
+use super::table::{Cell, Table};
 use super::{Document, Kind, Overrides, Source, Written, written};
-use crate::studies::campaign::Plan;
+use crate::studies::ensemble::{Ensemble, outputs_while};
 pub use rows::STATUSES;
 
 /// A campaign that was read and checked: ready to run.
@@ -43,11 +39,9 @@ pub use rows::STATUSES;
 pub struct Campaign {
     study: Study,
     base: Base,
-    plan: Plan,
     shard_runs: u64,
     columns: Vec<Column>,
     prepared: Prepared,
-    document: Document,
     resolved: String,
     assumptions: Vec<String>,
 }
@@ -61,16 +55,13 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
     let mut settings = Settings::BLANK;
     CAMPAIGN.put(&mut settings, document.keys());
     let (base, prepared) = inputs::prepare(&document, &settings, &tree)?;
-    let document = prepared.resolved(&document);
     Ok(Campaign {
         study: settings.study,
-        plan: prepared.plan(&settings),
         columns: rows::columns(settings.study, settings.sensitivity, prepared.keys()),
         base,
         shard_runs: settings.shard_runs,
+        resolved: prepared.resolved.to_toml(),
         prepared,
-        resolved: document.to_toml(),
-        document,
         assumptions,
     })
 }
@@ -79,7 +70,7 @@ impl Campaign {
     /// What it calls itself.
     #[must_use]
     pub fn name(&self) -> &str {
-        self.document.name()
+        self.document().name()
     }
 
     /// What every run computes.
@@ -92,13 +83,13 @@ impl Campaign {
     /// than there are inputs.
     #[must_use]
     pub fn runs(&self) -> u64 {
-        self.plan.runs()
+        self.ensemble().runs()
     }
 
     /// What tells its draws from those of the same document with another seed.
     #[must_use]
     pub fn seed(&self) -> u64 {
-        self.plan.design().seed
+        self.ensemble().design().seed
     }
 
     /// Runs of every shard but the last, which may have fewer.
@@ -126,13 +117,13 @@ impl Campaign {
         &self.columns
     }
 
-    /// How it is planned.
+    /// The inputs of its runs.
     #[must_use]
-    pub fn plan(&self) -> &Plan {
-        &self.plan
+    pub fn ensemble(&self) -> &Ensemble {
+        &self.prepared.ensemble
     }
 
-    /// What a sensitivity can be asked of, in the plan's order of dimensions: the keys, and `samples`
+    /// What a sensitivity can be asked of, in the ensemble's order of dimensions: the keys, and `samples`
     /// for rows of samples, which are one.
     #[must_use]
     pub fn factors(&self) -> &[String] {
@@ -142,7 +133,7 @@ impl Campaign {
     /// The document with everything in its place, samples included.
     #[must_use]
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.prepared.resolved
     }
 
     /// The document with everything in its place, samples included, as TOML: read again it is the same
@@ -161,7 +152,7 @@ impl Campaign {
     /// Run number `index`: its row. It depends on the document and the number alone.
     #[must_use]
     pub fn run(&self, index: u64) -> Vec<Cell> {
-        let inputs = self.plan.inputs(index);
+        let inputs = self.ensemble().inputs(index);
         let mut row = Vec::with_capacity(self.columns.len());
         row.push(Cell::Whole(Some(index)));
         if let Some(place) = inputs.place {
@@ -182,22 +173,8 @@ impl Campaign {
     /// * `go_on`: asked before each run, from any thread
     #[must_use]
     pub fn shard(&self, shard: u64, go_on: &(dyn Fn() -> bool + Sync)) -> Option<Table> {
-        let stopped = AtomicBool::new(false);
-        let rows: Vec<Option<Vec<Cell>>> = self
-            .runs_of(shard)
-            .into_par_iter()
-            .map(|index| {
-                if stopped.load(Ordering::Relaxed) {
-                    return None;
-                }
-                if go_on() {
-                    return Some(self.run(index));
-                }
-                stopped.store(true, Ordering::Relaxed);
-                None
-            })
-            .collect();
-        let rows: Vec<Vec<Cell>> = rows.into_iter().collect::<Option<_>>()?;
-        Some(Table::of(&self.columns, rows))
+        let rows = outputs_while(self.runs_of(shard), go_on, |index| self.run(index))?;
+        let columns = self.columns.iter().map(|column| (column.name.as_str(), column.kind));
+        Some(Table::of_cells(columns, rows))
     }
 }

@@ -4,8 +4,6 @@
 //! ranges and lengths. What only all values together can show is checked where the domain's values
 //! are made.
 
-use std::ops::RangeInclusive;
-
 use serde_json::Value as Json;
 
 use super::Kind;
@@ -25,16 +23,6 @@ pub(super) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), Documen
 pub(super) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'static str>> {
     let table = table_at(kind, tree, path.iter().map(String::as_str))?;
     Some(keys(table).map(|(key, _)| key).collect())
-}
-
-/// The range that a number of a document may have, given the laws that it names; both ends
-/// included.
-pub(super) fn range_at(kind: Kind, tree: &Node, path: &str) -> Option<RangeInclusive<f64>> {
-    let (tables, key) = path.rsplit_once('.').map_or((None, path), |(a, b)| (Some(a), b));
-    let table = table_at(kind, tree, tables.into_iter().flat_map(|tables| tables.split('.')))?;
-    let schema = table.get("properties")?.get(key)?;
-    let end = |name: &str| schema.get(name).and_then(Json::as_f64);
-    Some(end("minimum")?..=end("maximum")?)
 }
 
 /// The schema of a table of a document, given the laws that it names.

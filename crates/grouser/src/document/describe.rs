@@ -5,6 +5,7 @@ pub(super) mod data_set;
 pub(super) mod rover;
 pub(super) mod scenario;
 pub(super) mod soil;
+pub(super) mod uncertainty;
 pub(super) mod wheel;
 
 use super::Kind;

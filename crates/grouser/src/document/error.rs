@@ -9,7 +9,7 @@ use super::file::FileProblem;
 use super::text::{Origin, Text};
 use super::{Kind, escape};
 use crate::error::ParameterError;
-use crate::studies::uncertainty::{Contradiction, NothingAccepted};
+use crate::studies::ensemble::{Contradiction, NothingAccepted};
 
 /// A document, or a value set on the command line, that cannot be used.
 ///
@@ -191,10 +191,12 @@ pub enum Problem {
     #[error("{0}")]
     Unfit(#[from] ParameterError),
     /// Something that cannot be uncertain.
-    #[error("`{key}` is no number of this soil, only numbers can be uncertain")]
+    #[error("`{key}` is no number of {whole}, only numbers can be uncertain")]
     NotANumber {
         /// The key.
         key: String,
+        /// What has the key.
+        whole: &'static str,
     },
     /// A correlation of a key that is not uncertain.
     #[error("`{key}` has a correlation, but no standard deviation")]

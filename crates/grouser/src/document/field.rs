@@ -10,6 +10,9 @@ use serde_json::Value as Json;
 
 use super::Kind;
 use super::text::{Node, Value};
+pub(super) use super::unit::{
+    DEG, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N, OF_KEY, ONE, S, Unit,
+};
 
 /// What a document, or a table in it, may say: keys in the order in which they are written.
 ///
@@ -58,8 +61,7 @@ pub(super) enum Shape<T: 'static> {
     /// Kind and version of a document.
     Tag,
     Text(Text<T>),
-    /// Texts, at least as many and at most as many.
-    Texts(u64, Option<u64>),
+    Texts(Texts<T>),
     Flag(fn(&mut T, bool)),
     Whole(Whole<T>),
     /// One of some words.
@@ -72,8 +74,8 @@ pub(super) enum Shape<T: 'static> {
     List(&'static dyn Inner<T>, u64),
     /// Another document, or its name.
     Part(Kind, &'static dyn Inner<T>),
-    /// A text that is what the sentence says, or a table.
-    TextOr(&'static str, &'static dyn Inner<T>),
+    /// A text that is what the sentence says and goes somewhere, or a table.
+    TextOr(&'static str, fn(&mut T, &str), &'static dyn Inner<T>),
 }
 
 /// Where a number goes; nowhere if the value follows another law.
@@ -94,6 +96,13 @@ pub(super) struct Text<T: 'static> {
     pub least: u64,
     pub format: Option<&'static str>,
     put: fn(&mut T, &str),
+}
+
+/// Texts, at least as many and at most as many, and where each goes by its place.
+pub(super) struct Texts<T: 'static> {
+    pub least: u64,
+    pub most: Option<u64>,
+    pub put: fn(&mut T, usize, &str),
 }
 
 /// A whole number.
@@ -130,53 +139,6 @@ pub(super) enum Form {
     /// One alone, or a list: what either is.
     OneOrEach(&'static str, &'static str),
 }
-
-/// A unit in which documents give numbers, and the way from it to SI.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Unit {
-    pub symbol: &'static str,
-    scale: Scale,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Scale {
-    Same,
-    Thousand,
-    Degrees,
-}
-
-impl Unit {
-    /// A unit that is SI already.
-    pub(super) const fn si(symbol: &'static str) -> Self {
-        Self { symbol, scale: Scale::Same }
-    }
-
-    /// The value in SI units and radians.
-    pub(super) fn to_si(self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Same => value,
-            Scale::Thousand => value * 1e3,
-            Scale::Degrees => value.to_radians(),
-        }
-    }
-}
-
-pub(super) const KPA: Unit = Unit { symbol: "kPa", scale: Scale::Thousand };
-pub(super) const DEG: Unit = Unit { symbol: "°", scale: Scale::Degrees };
-pub(super) const KG_M3: Unit = Unit::si("kg/m³");
-pub(super) const KG: Unit = Unit::si("kg");
-pub(super) const KG_M2: Unit = Unit::si("kg·m²");
-pub(super) const M: Unit = Unit::si("m");
-pub(super) const M_PER_RAD: Unit = Unit::si("m/rad");
-pub(super) const M_PER_RAD2: Unit = Unit::si("m/rad²");
-pub(super) const M_S: Unit = Unit::si("m/s");
-pub(super) const M_S2: Unit = Unit::si("m/s²");
-pub(super) const S: Unit = Unit::si("s");
-pub(super) const N: Unit = Unit::si("N");
-/// A number without a unit.
-pub(super) const ONE: Unit = Unit::si("-");
-/// The unit of another key.
-pub(super) const OF_KEY: Unit = Unit::si("");
 
 /// Which names keys get.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,16 +177,21 @@ pub(super) trait Inner<T>: Rows {
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>>;
 }
 
-/// A number in a domain's value, in SI, and the unit that documents give it in.
+/// A number in a domain's value, in SI, and what documents may give it.
 pub(super) struct Reached<'t> {
     value: &'t mut f64,
-    unit: Unit,
+    number: Number,
 }
 
 impl Reached<'_> {
     /// Gives it another value, in the document's unit.
     pub(super) fn set(self, value: f64) {
-        *self.value = self.unit.to_si(value);
+        *self.value = self.number.unit.to_si(value);
+    }
+
+    /// What it may be, in the document's unit; both ends included, also where the lower one is not.
+    pub(super) fn range(&self) -> RangeInclusive<f64> {
+        self.number.least..=self.number.most
     }
 }
 
@@ -314,7 +281,7 @@ pub(super) const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
 
 /// Some texts; none are left out.
 pub(super) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
-    field(key, doc, Shape::Texts(0, None)).optional()
+    field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
 }
 
 /// One of some words.
@@ -378,11 +345,6 @@ pub(super) fn nothing<T>(_: &mut T) {}
 /// The same for a text.
 fn nothing_with<T>(_: &mut T, _: &str) {}
 
-/// The same for a number.
-pub(super) fn nowhere<T>(_: &mut T) -> Option<&mut f64> {
-    None
-}
-
 impl<T> Field<T> {
     /// The same, that may be left out.
     pub(super) const fn optional(mut self) -> Self {
@@ -416,7 +378,7 @@ impl<T> Field<T> {
                 all.iter().map(|said| each.complete(said)).collect()
             }
             (
-                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, inner),
+                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner),
                 Json::Object(_),
             ) => inner.complete(said),
             _ => said.clone(),
@@ -425,7 +387,14 @@ impl<T> Field<T> {
 
     fn put(&self, value: &mut T, said: &Json) {
         match (&self.shape, said) {
-            (Shape::Text(Text { put, .. }), Json::String(said)) => put(value, said),
+            (Shape::Text(Text { put, .. }) | Shape::TextOr(_, put, _), Json::String(said)) => {
+                put(value, said);
+            }
+            (Shape::Texts(Texts { put, .. }), Json::Array(all)) => {
+                for (place, said) in all.iter().filter_map(Json::as_str).enumerate() {
+                    put(value, place, said);
+                }
+            }
             (Shape::Flag(put), Json::Bool(said)) => put(value, *said),
             (Shape::Whole(Whole { put, .. }), said) => put(value, said.as_u64().unwrap_or(0)),
             (Shape::Words(words), Json::String(said)) => {
@@ -435,22 +404,17 @@ impl<T> Field<T> {
             }
             (Shape::Number(..), said) => self.set(value, "", said),
             (Shape::Numbers(Numbers { begin, .. }), said) => {
-                let all = said.as_array();
-                begin(value, all.map(Vec::len));
-                match all {
-                    Some(all) => {
-                        for (place, said) in all.iter().enumerate() {
-                            self.set(value, &place.to_string(), said);
-                        }
-                    }
-                    None => self.set(value, "", said),
+                let Some(all) = said.as_array() else { return self.set(value, "", said) };
+                begin(value, Some(all.len()));
+                for (place, said) in all.iter().enumerate() {
+                    self.set(value, &place.to_string(), said);
                 }
             }
             (
                 Shape::Inner(inner)
                 | Shape::List(inner, _)
                 | Shape::Part(_, inner)
-                | Shape::TextOr(_, inner),
+                | Shape::TextOr(_, _, inner),
                 said,
             ) => inner.put(value, said),
             _ => {}
@@ -465,7 +429,7 @@ impl<T> Field<T> {
                     word.name.clone_into(said);
                 }
             }
-            (Shape::Inner(inner) | Shape::TextOr(_, inner), Value::Table(_)) => {
+            (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {
                 inner.rename(node, to)
             }
             (Shape::List(inner, _), Value::List(nodes)) => {
@@ -477,7 +441,7 @@ impl<T> Field<T> {
 
     fn rename_path(&self, path: &mut [String], said: Option<&Json>) {
         match (&self.shape, path) {
-            (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, inner), path) => {
+            (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner), path) => {
                 inner.rename_path(path, said);
             }
             // Entries of one list have one law, or no former names.
@@ -494,12 +458,17 @@ impl<T> Field<T> {
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
         match &self.shape {
-            Shape::Number(Number { unit, .. }, reach) if path.is_empty() => {
-                Some(Reached { value: reach(value)?, unit: *unit })
+            Shape::Number(number, reach) if path.is_empty() => {
+                Some(Reached { value: reach(value)?, number: *number })
             }
-            Shape::Numbers(Numbers { number, reach, .. }) => {
+            Shape::Numbers(Numbers { number, begin, reach, .. }) => {
                 let place = if path.is_empty() { 0 } else { path.parse().ok()? };
-                Some(Reached { value: reach(value, place)?, unit: number.unit })
+                reach(value, place)?;
+                if path.is_empty() {
+                    // One number under the list's own key stands for all of them.
+                    begin(value, None);
+                }
+                Some(Reached { value: reach(value, place)?, number: *number })
             }
             Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
                 inner.reach(value, path)
@@ -681,6 +650,35 @@ impl<T, P> Inner<T> for Each<T, P> {
     }
 }
 
+/// A table that does not go into the value, but is read on its own.
+pub(super) struct Beside<P: 'static>(pub &'static dyn Inner<P>);
+
+impl<P> Rows for Beside<P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.0.schema(defs)
+    }
+
+    fn complete(&self, said: &Json) -> Json {
+        self.0.complete(said)
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.0.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.0.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for Beside<P> {
+    fn put(&self, _: &mut T, _: &Json) {}
+
+    fn reach<'t>(&self, _: &'t mut T, _: &str) -> Option<Reached<'t>> {
+        None
+    }
+}
+
 // ---- Laws ----
 
 /// A table whose keys depend on a word in it.
@@ -692,6 +690,8 @@ pub(super) struct Laws<T: 'static> {
     pub all: &'static [Law<T>],
     /// Whether a table without the word follows the first law.
     pub may_be_left_out: bool,
+    /// Whether a resolved document has the word after the law's keys.
+    pub is_written_last: bool,
 }
 
 /// One of several laws.
@@ -722,12 +722,10 @@ impl<T> Rows for Laws<T> {
 
     fn complete(&self, said: &Json) -> Json {
         let law = self.named(said);
-        let mut complete = serde_json::Map::new();
-        complete.insert(self.key.to_owned(), Json::from(law.name));
-        if let Json::Object(keys) = law.table.complete(said) {
-            complete.extend(keys);
-        }
-        Json::Object(complete)
+        let word = (self.key.to_owned(), Json::from(law.name));
+        let Json::Object(mut keys) = law.table.complete(said) else { return Json::Null };
+        keys.shift_insert(if self.is_written_last { keys.len() } else { 0 }, word.0, word.1);
+        Json::Object(keys)
     }
 
     fn rename(&self, table: &mut Node, to: Names) {

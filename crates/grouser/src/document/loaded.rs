@@ -75,9 +75,25 @@ impl Document {
         Self::of(self.kind, &keys)
     }
 
+    /// The same with other values of some keys.
+    pub(super) fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Self {
+        let mut changed = self.clone();
+        for (path, value) in values {
+            let pointer = format!("/{}", path.replace('.', "/"));
+            if let Some(number) = changed.keys.pointer_mut(&pointer) {
+                *number = Json::from(value);
+            }
+        }
+        changed
+    }
+
     /// All that it says.
     pub(super) fn keys(&self) -> &Json {
         &self.keys
+    }
+
+    pub(super) fn kind(&self) -> Kind {
+        self.kind
     }
 
     /// The document inside it at a dotted path.
@@ -94,18 +110,20 @@ impl Document {
     /// earlier versions.
     #[must_use]
     pub fn get(&self, path: &str) -> Option<&Json> {
-        let path: Vec<String> = path.split('.').map(str::to_owned).collect();
-        let under = |path: &[String]| {
-            path.iter().try_fold(&self.keys, |said, step| match said {
+        let under = |path: &str| {
+            path.split('.').try_fold(&self.keys, |said, step| match said {
                 Json::Array(all) => all.get(step.parse::<usize>().ok()?),
                 said => said.get(step),
             })
         };
-        under(&path).or_else(|| {
-            let mut renamed = path;
-            describe::rows(self.kind).rename_path(&mut renamed, Some(&self.keys));
-            under(&renamed)
-        })
+        under(path).or_else(|| under(&self.todays_key(path)))
+    }
+
+    /// A dotted key by the names of today.
+    pub(super) fn todays_key(&self, path: &str) -> String {
+        let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
+        describe::rows(self.kind).rename_path(&mut steps, Some(&self.keys));
+        steps.join(".")
     }
 
     /// The text under a dotted key.

@@ -118,7 +118,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             }
             text
         }
-        Shape::Texts(least, most) => list_of(&json!({ "type": "string" }), *least, *most),
+        Shape::Texts(texts) => list_of(&json!({ "type": "string" }), texts.least, texts.most),
         Shape::Flag(_) => json!({ "type": "boolean" }),
         Shape::Whole(Whole { least, most, format, .. }) => {
             json!({ "type": "integer", "format": format, "minimum": least, "maximum": most })
@@ -158,7 +158,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                 },
             ]})
         }
-        Shape::TextOr(doc, inner) => {
+        Shape::TextOr(doc, _, inner) => {
             json!({ "anyOf": [{ "type": "string", "description": doc }, inner.schema(defs)] })
         }
     };

@@ -1,16 +1,13 @@
 //! Soils that differ in a few numbers of one document: what a calibration chooses among.
 
 use std::ops::RangeInclusive;
-use std::sync::Arc;
 
-use serde_json::Value as Json;
+use serde_json::{Value as Json, json};
 
-use super::check::range_at;
-use super::schema::range;
-use super::text::{Text, parse};
-use super::uncertainty::{UncertaintySection, meant_number, numbers};
+use super::uncertain_soil::numbers;
 use super::values::{Described, Misfit};
-use super::{Document, Kind};
+use super::varied::{Key, Numbers, Varied, meant_number};
+use super::{Document, Kind, range};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -19,8 +16,8 @@ use crate::studies::calibration::{Parameter, Scale};
 /// A soil's document, and the keys whose values are to be found.
 #[derive(Clone, Debug)]
 pub struct SoilFamily {
-    base: Document,
-    value: Soil,
+    base: Varied<Soil>,
+    keys: Vec<Key>,
     parameters: Vec<Parameter>,
 }
 
@@ -79,20 +76,7 @@ impl SoilFamily {
     /// A sentence for a key that is no number of the document, is named twice, or has bounds
     /// outside its range or without the document's value.
     pub fn new(base: &Document, keys: &[FitKey]) -> Result<Self, String> {
-        let base = numbers(base);
-        let mut parameters: Vec<Parameter> = Vec::new();
-        for key in keys {
-            let name = format!("soil.{}", key.path);
-            if parameters.iter().any(|parameter| parameter.name == name) {
-                return Err(format!("{name} is named twice"));
-            }
-            let start = base.number(&key.path);
-            let start = start.ok_or_else(|| no_start(&base, &key.path))?;
-            let allowed = allowed_range(&base, &key.path);
-            parameters.push(parameter(name, start, &allowed, key.bounds)?);
-        }
-        let value = Soil::of(&base);
-        Ok(Self { base, value, parameters })
+        Self::starting(base, keys, &[])
     }
 
     /// The family of a document whose keys are searched from other values than its own, within
@@ -103,14 +87,27 @@ impl SoilFamily {
     /// # Errors
     /// As for [`new`](Self::new).
     pub fn around(base: &Document, keys: &[FitKey], starts: &[f64]) -> Result<Self, String> {
-        let mut family = Self::new(base, keys)?;
-        for ((parameter, key), start) in family.parameters.iter_mut().zip(keys).zip(starts) {
-            let allowed = allowed_range(&family.base, &key.path);
-            let start = start.clamp(*allowed.start(), *allowed.end());
-            let name = std::mem::take(&mut parameter.name);
-            *parameter = self::parameter(name, start, &allowed, key.bounds)?;
+        Self::starting(base, keys, starts)
+    }
+
+    /// * `starts`: of the first keys; the others start from the document's values
+    fn starting(base: &Document, fitted: &[FitKey], starts: &[f64]) -> Result<Self, String> {
+        let document = numbers(base);
+        let base = Varied { value: Soil::of(&document), document };
+        let (mut keys, mut parameters) = (Vec::<Key>::new(), Vec::new());
+        for (place, FitKey { path, bounds }) in fitted.iter().enumerate() {
+            let name = format!("soil.{path}");
+            if keys.iter().any(|key| key.path == *path) {
+                return Err(format!("{name} is named twice"));
+            }
+            let key = base.key(path).map_err(|_| no_start(&base.document, path))?;
+            let start = starts.get(place);
+            let start =
+                start.map_or(key.value, |start| start.clamp(*key.range.start(), *key.range.end()));
+            parameters.push(parameter(name, start, &key.range, *bounds)?);
+            keys.push(key);
         }
-        Ok(family)
+        Ok(Self { base, keys, parameters })
     }
 
     /// The keys as parameters: names with `soil.` before them, bounds in the keys' units.
@@ -119,10 +116,15 @@ impl SoilFamily {
         &self.parameters
     }
 
+    /// The keys as the document has them.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(|key| &*key.path)
+    }
+
     /// The document that the search starts from, without its own uncertainty.
     #[must_use]
     pub fn base(&self) -> &Document {
-        &self.base
+        &self.base.document
     }
 
     /// The soil with these values of the keys.
@@ -130,25 +132,13 @@ impl SoilFamily {
     /// # Errors
     /// [`ParameterError`] if they are no soil together.
     pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
-        let pairs = self.parameters.iter().map(key_of).zip(values.iter().copied());
-        self.value.with(pairs).map_err(Misfit::of_numbers)
+        self.base.with(&self.keys, values).map_err(Misfit::of_numbers)
     }
 
     /// The document with these values of the keys, and otherwise as it was.
     #[must_use]
     pub fn document(&self, values: &[f64]) -> Document {
-        self.base.changed(|keys| {
-            let mut said = Json::Object(std::mem::take(keys));
-            for (parameter, value) in self.parameters.iter().zip(values) {
-                let pointer = format!("/{}", key_of(parameter).replace('.', "/"));
-                if let Some(number) = said.pointer_mut(&pointer) {
-                    *number = Json::from(*value);
-                }
-            }
-            if let Json::Object(said) = said {
-                *keys = said;
-            }
-        })
+        self.base.document.with(self.keys().zip(values.iter().copied()))
     }
 
     /// The same as a calibration's result: with its source, and its samples as uncertainty.
@@ -167,7 +157,7 @@ impl SoilFamily {
         let document = self.document(values);
         let is_fitted = |assumed: &Json| {
             let key = assumed.as_str().and_then(|text| text.split(':').next());
-            self.parameters.iter().any(|parameter| Some(key_of(parameter)) == key)
+            self.keys.iter().any(|fitted| Some(&*fitted.path) == key)
         };
         let named = document.theory().is_some() || theory != Theory::default();
         document.changed(|keys| {
@@ -184,7 +174,7 @@ impl SoilFamily {
                 keys.insert("model".to_owned(), theory.name().into());
             }
             if let Some(file) = samples {
-                keys.insert("uncertainty".to_owned(), UncertaintySection::of_samples(file));
+                keys.insert("uncertainty".to_owned(), json!({ "samples": file }));
             }
         })
     }
@@ -199,22 +189,6 @@ fn no_start(soil: &Document, path: &str) -> String {
         );
     }
     format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
-}
-
-/// The key in the document that a parameter stands for.
-#[must_use]
-pub fn key_of(parameter: &Parameter) -> &str {
-    parameter.name.strip_prefix("soil.").unwrap_or(&parameter.name)
-}
-
-/// The range of a key under the laws that the document has chosen.
-fn allowed_range(base: &Document, path: &str) -> RangeInclusive<f64> {
-    let content = base.to_toml();
-    let label = base.name().to_owned();
-    let text = Text { label, content, ..Text::default() };
-    let tree = parse(&Arc::new(text)).ok();
-    let chosen = tree.and_then(|tree| range_at(Kind::Soil, &tree, path));
-    chosen.or_else(|| range(Kind::Soil, path)).unwrap_or(f64::MIN..=f64::MAX)
 }
 
 fn parameter(

@@ -1,6 +1,8 @@
 //! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
 //! the checks of what only several values together can show.
 
+use std::ops::RangeInclusive;
+
 use super::Document;
 use super::campaign::Stand;
 use super::describe::campaign::STAND;
@@ -44,11 +46,11 @@ impl Misfit {
         Self { part, ..self }
     }
 
-    /// What is wrong with the numbers of a soil.
+    /// What is wrong with the numbers of a value that was one.
     pub(super) fn of_numbers(self) -> ParameterError {
         match *self.problem {
             Problem::Unfit(error) => error,
-            _ => unreachable!("a soil has nothing but numbers that may not go together"),
+            _ => unreachable!("new numbers leave names as they were"),
         }
     }
 
@@ -80,9 +82,9 @@ pub(super) trait Described: Clone + 'static {
         value
     }
 
-    /// Whether a dotted key leads to a number of the value.
-    fn has(&self, path: &str) -> bool {
-        Self::table().reach(&mut self.clone(), path).is_some()
+    /// What the number under a dotted key may be, in the key's unit; nothing for what leads to none.
+    fn range(&self, path: &str) -> Option<RangeInclusive<f64>> {
+        Self::table().reach(&mut self.clone(), path).map(|reached| reached.range())
     }
 
     /// The same with other values of some keys, in the keys' units.

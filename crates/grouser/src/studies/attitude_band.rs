@@ -4,13 +4,8 @@
 //! posterior) makes them, and this study only asks [`attitude`](super::attitude) of each. They are
 //! plain values, drawn before anything is computed, so that a draw that fails is told at once.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
-
-use rayon::prelude::*;
-
 use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy, NoAttitude};
-use super::uncertainty::{Band, Probability};
+use super::ensemble::{Band, Probability, outputs_while};
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
@@ -64,11 +59,10 @@ impl AttitudeBand {
     ///
     /// * `soils`: one for each draw; at least one
     /// * `slopes`: [rad]
-    /// * `done`: called after each draw, from any thread; it may break the study off, which then
-    ///   has no result
+    /// * `go_on`: asked before each soil, from any thread; without it there is no result
     ///
     /// # Errors
-    /// [`ParameterError`] for the first soil that is none.
+    /// [`ParameterError`] for the first invalid soil.
     ///
     /// # Panics
     /// If there are no soils.
@@ -76,29 +70,17 @@ impl AttitudeBand {
         study: &AttitudeStudy,
         soils: &[Soil],
         slopes: &[f64],
-        done: &(dyn Fn() -> ControlFlow<()> + Sync),
+        go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
         assert!(!soils.is_empty(), "a band needs draws");
-        let broken_off = AtomicBool::new(false);
         let one = |soil: &Soil| {
-            if broken_off.load(Ordering::Relaxed) {
-                return Ok(None);
-            }
             let curve = AttitudeStudy { soil: *soil, ..study.clone() }.curve()?;
-            let draw = Draw::of(&curve, study, slopes);
-            if done().is_break() {
-                broken_off.store(true, Ordering::Relaxed);
-            }
-            Ok(Some(draw))
+            Ok(Draw::of(&curve, study, slopes))
         };
-        let all: Vec<Result<Option<Draw>, ParameterError>> = soils.par_iter().map(one).collect();
-        if broken_off.into_inner() {
-            return Ok(None);
-        }
+        let Some(draws) = outputs_while(soils, go_on, one) else { return Ok(None) };
         // Collected in order, so that the error is always that of the first soil.
-        let draws = all.into_iter().collect::<Result<Vec<Option<Draw>>, ParameterError>>()?;
-        let draws: Option<Vec<Draw>> = draws.into_iter().collect();
-        Ok(draws.map(|draws| Self::over(&draws, slopes)))
+        let draws = draws.into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
+        Ok(Some(Self::over(&draws, slopes)))
     }
 
     fn over(draws: &[Draw], slopes: &[f64]) -> Self {

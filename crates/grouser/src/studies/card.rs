@@ -7,10 +7,8 @@
 //! as if it were steeper by a margin. The [`Rule`] is the caller's; a verdict never gets better on
 //! a steeper slope.
 
-use rayon::prelude::*;
-
 use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy};
-use super::uncertainty::{Band, Probability};
+use super::ensemble::{Band, Probability, outputs};
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
@@ -196,9 +194,9 @@ impl CardStudy {
             done();
             draw
         };
-        let all: Vec<Result<Draw, ParameterError>> = soils.par_iter().map(drawn).collect();
-        // Collected in order, so that the error is always that of the first soil.
-        let draws = all.into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
+        // In order, so that the error is always that of the first soil.
+        let draws =
+            outputs(soils, drawn).into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
         let judged: Vec<Vec<Option<f64>>> = if draws.is_empty() {
             let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
             let levels = self.draw(&self.attitude.soil, &steeper)?.levels;

@@ -1,10 +1,9 @@
 //! Campaigns without documents: designs, cut distributions, and statistics with known answers.
 
-use grouser::studies::campaign::design::{Design, SOBOL_LENGTH, Sampling};
-use grouser::studies::campaign::sensitivity::Sensitivity;
-use grouser::studies::campaign::summary::{Convergence, Quantile, Summary};
-use grouser::studies::campaign::{Matrix, Plan};
-use grouser::studies::uncertainty::{Correlation, Distribution, Marginal};
+use grouser::studies::ensemble::design::{Design, SOBOL_LENGTH, Sampling};
+use grouser::studies::ensemble::sensitivity::Sensitivity;
+use grouser::studies::ensemble::statistics::{Convergence, Quantile, Summary};
+use grouser::studies::ensemble::{Correlation, Distribution, Ensemble, Marginal, Matrix};
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -248,7 +247,7 @@ fn a_summary_tells_moments_and_what_is_missing() {
         &[],
     )
     .expect("one value");
-    let plan = Plan::new(Sampling::Sobol, 4096, 2, vec![one], false);
+    let plan = Ensemble::new(Sampling::Sobol, 4096, 2, one, false);
     let mut draws: Vec<Option<f64>> =
         (0..plan.runs()).map(|run| Some(plan.inputs(run).values[0])).collect();
     draws.extend([None; 4]);
@@ -285,7 +284,7 @@ fn sensitivity(
 ) -> Sensitivity {
     let inputs = marginals.len();
     let distribution = Distribution::of_marginals(marginals.to_vec(), &[]).expect("independent");
-    let plan = Plan::new(sampling, points, 4, vec![distribution], true);
+    let plan = Ensemble::new(sampling, points, 4, distribution, true);
     assert_eq!(plan.runs(), points * (inputs as u64 + 2));
     let outputs: Vec<Option<f64>> =
         (0..plan.runs()).map(|run| function(&plan.inputs(run).values)).collect();
@@ -358,7 +357,7 @@ fn intervals_of_indices_cover_as_often_as_they_say() {
     let covered: Vec<[bool; 2]> = (0..CAMPAIGNS)
         .into_par_iter()
         .map(|seed| {
-            let plan = Plan::new(Sampling::MonteCarlo, 512, seed, vec![x.clone()], true);
+            let plan = Ensemble::new(Sampling::MonteCarlo, 512, seed, x.clone(), true);
             let outputs: Vec<Option<f64>> = (0..plan.runs())
                 .map(|run| plan.inputs(run).values)
                 .map(|x| Some(x[0] + x[0] * x[1]))
@@ -396,7 +395,7 @@ fn matrices_exchange_one_dimension_at_a_time() {
     let values = Distribution::of_marginals(vec![normal; 2], &[]).expect("two values");
     let rows = (0..50).map(|row| vec![f64::from(row), -f64::from(row)]).collect();
     let samples = Distribution::of_samples(rows);
-    let plan = Plan::new(Sampling::LatinHypercube, 10, 3, vec![values, samples], true);
+    let plan = Ensemble::new(Sampling::LatinHypercube, 10, 3, values.and(samples), true);
     assert_eq!((plan.dimensions(), plan.runs_per_point(), plan.runs()), (3, 5, 50));
     for point in 0..10 {
         let [a, b, first, second, third] =
@@ -418,7 +417,7 @@ fn correlated_inputs_are_correlated_in_every_design() {
     let pair = [Correlation { between: [0, 1], value: 0.6 }];
     let both = Distribution::of_marginals(vec![normal; 2], &pair).expect("they can be");
     for sampling in ALL {
-        let plan = Plan::new(sampling, 4096, 8, vec![both.clone()], false);
+        let plan = Ensemble::new(sampling, 4096, 8, both.clone(), false);
         let products = (0..4096).map(|run| plan.inputs(run).values).map(|x| x[0] * x[1]);
         let found = products.sum::<f64>() / 4096.0;
         assert!((found - 0.6).abs() < 4.0 / 64.0, "{sampling:?}: {found}");

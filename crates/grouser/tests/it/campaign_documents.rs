@@ -2,11 +2,13 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use grouser::document::campaign::{Cell, ColumnKind, Role, STATUSES, Table, Values, unit};
+use grouser::document::campaign::{Role, STATUSES};
+use grouser::document::table::{Cell, ColumnKind, Table, Values};
+use grouser::document::unit_of;
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
 use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::campaign::sensitivity::Sensitivity;
-use grouser::studies::campaign::summary::Summary;
+use grouser::studies::ensemble::sensitivity::Sensitivity;
+use grouser::studies::ensemble::statistics::Summary;
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -291,7 +293,7 @@ fn columns_say_their_kind_role_and_unit() {
         ("slip_ratio", None),
         ("soil.pressure_sinkage.n", None),
     ] {
-        assert_eq!(unit(name), expected, "{name}");
+        assert_eq!(unit_of(name).map(|unit| unit.symbol), expected, "{name}");
     }
     let matrices = texts(&whole(&campaign), "matrix");
     let one = ["a", "b", "soil.friction_angle_deg"].map(|name| Some(name.to_owned()));
@@ -351,10 +353,25 @@ fn draws_stay_in_the_range_of_their_key() {
     let tables = "[scenario]\n[[parameter]]\nkey = \"soil.exit.ratio\"\ndistribution = \"normal\"\n\
                   mean = 1.4\nstandard_deviation = 0.5\n";
     let campaign = campaign(&text("attitude", "runs = 400", tables));
-    let draws: Vec<f64> =
-        (0..400).filter_map(|run| campaign.plan().inputs(run).values.first().copied()).collect();
+    let draws: Vec<f64> = (0..400)
+        .filter_map(|run| campaign.ensemble().inputs(run).values.first().copied())
+        .collect();
     assert!(draws.iter().all(|ratio| (0.0..=1.5).contains(ratio)));
     assert!(draws.iter().any(|ratio| *ratio > 1.45), "the range is used to its end");
+}
+
+/// The range is that of the law in force: speeds of Eq. (18) are positive, constant ones may be negative.
+#[test]
+fn draws_stay_in_the_range_that_their_law_gives_the_key() {
+    for (law, allows_reverse) in [("constant", true), ("eq18", false)] {
+        let tables = format!(
+            "[scenario]\ndrive = {{ law = \"{law}\" }}\n[[parameter]]\nkey = \"drive.speed_m_s\"\n\
+             distribution = \"normal\"\nmean = 0.05\nstandard_deviation = 0.05\n"
+        );
+        let campaign = campaign(&text("attitude", "runs = 400", &tables));
+        let speeds = (0..400).map(|run| campaign.ensemble().inputs(run).values[0]);
+        assert_eq!(speeds.into_iter().any(|speed| speed < 0.0), allows_reverse, "{law}");
+    }
 }
 
 #[test]
@@ -366,7 +383,7 @@ fn any_number_of_the_base_can_be_drawn() {
         "rover.wheel_unit.wheel.grousers.height_m",
         "rover.mount.0.position_m.0",
         "soil.shear.lateral_per_rad_m",
-        "drive.speed_m_s",
+        "drive.rim_speed_m_s",
         "gravity_m_s2",
     ] {
         let own = format!(
@@ -420,7 +437,11 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
         &["unknown key `soil.cohesion`", "soil.cohesion_kpa"],
     );
     check_refused(&own("friction_angle_deg", normal), &["did you mean `soil.friction_angle_deg`?"]);
-    check_refused(&own("soil.name", normal), &["unknown key"]);
+    check_refused(&own("soil.name", normal), &["`soil.name` is no number of what is varied"]);
+    check_refused(
+        &own("soil.rft.surface_friction_angle_deg", normal),
+        &["gives this key no value"],
+    );
     check_refused(&own("start.yaw_deg", normal), &["the study does not use this key"]);
     check_refused(&own("soil.friction_angle_deg", normal), &["a second time"]);
     check_refused(

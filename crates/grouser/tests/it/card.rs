@@ -5,7 +5,7 @@ use grouser::simulation::Scenario;
 use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy, Rule, Verdict};
-use grouser::studies::uncertainty::{Band, Probability};
+use grouser::studies::ensemble::{Band, Probability};
 use grouser::units::deg;
 
 use super::given;

@@ -1,10 +1,16 @@
-//! A number of a document is declared once: as a row of a table in `document/describe`.
+//! A number of a document is declared once, as a row of a table in `document/describe`; a result once, as a
+//! column in `document/columns`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::document::campaign::unit;
+use grouser::document::columns::Column;
+use grouser::document::columns::heading::{BAND, held};
+use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::stand::TRIALS;
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::unit_of;
 use grouser::document::{self, Kind};
 use serde_json::Value;
 
@@ -35,14 +41,18 @@ fn keys() -> BTreeSet<String> {
     for kind in Kind::ALL {
         collect(&serde_json::from_str(&document::schema(kind)).expect("it is JSON"), &mut keys);
     }
-    keys.retain(|key| unit(key).is_some());
+    keys.retain(|key| unit_of(key).is_some());
     keys
 }
 
 /// The sources below a folder of the library.
 fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+    sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder))
+}
+
+fn sources_below(folder: &Path) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
-    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder)];
+    let mut folders = vec![folder.to_owned()];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder of sources") {
             let path = entry.expect("it can be listed").path();
@@ -95,4 +105,104 @@ fn no_type_that_is_read_repeats_a_key_with_its_unit() {
         }
     }
     assert!(repeated.is_empty(), "\n{}\n", repeated.join("\n"));
+}
+
+/// Results that have the name of a document's key, such as a slope: the key has its row, and options and
+/// settings repeat it.
+fn is_a_key_too(name: &str) -> bool {
+    keys().contains(name)
+}
+
+/// Where a name that only results have stands once more, and why.
+const OTHER_PLACES: [(&str, &str); 6] = [
+    // Plates sink, too, in files and results of their own.
+    ("sinkage_mm", "document/plates.rs"),
+    ("sinkage_mm", "document/calibration/plates.rs"),
+    // Options of the program and arguments of Python's functions, which results repeat.
+    ("course_deg", "src/args/heading.rs"),
+    ("course_deg", "commands/attitude_map.rs"),
+    ("course_deg", "grouser-python/src/studies.rs"),
+    ("sinkage_mm", "grouser-python/src/wheels.rs"),
+];
+
+/// Names in quotes, and names of fields, in a line of a source.
+fn names_of(line: &str) -> Vec<&str> {
+    let code = line.split("//").next().unwrap_or_default();
+    let quoted = code.split('"').skip(1).step_by(2);
+    let field = code.trim().trim_start_matches("pub ").trim_start_matches("pub(crate) ");
+    quoted.chain(field.split_once(':').map(|(name, _)| name)).collect()
+}
+
+/// The lines of a source before its tests.
+fn lines_of(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().take_while(|line| *line != "#[cfg(test)]")
+}
+
+#[test]
+fn a_result_has_one_column() {
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let (columns, others): (Vec<_>, Vec<_>) =
+        ["src", "../grouser-cli/src", "../grouser-python/src"]
+            .iter()
+            .flat_map(|folder| sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)))
+            .partition(|(path, _)| {
+                path.starts_with(library.join("document/columns"))
+                    || path.ends_with("document/columns.rs")
+            });
+    let declared = columns.iter().flat_map(|(_, text)| lines_of(text)).flat_map(|line| {
+        let quoted = names_of(line).into_iter();
+        quoted.filter(|name| {
+            let is_name =
+                |letter: char| letter.is_ascii_lowercase() || "_0123456789".contains(letter);
+            name.chars().all(is_name) && unit_of(name).is_some()
+        })
+    });
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    declared.for_each(|name| *counts.entry(name).or_default() += 1);
+    assert!(counts.len() > 35 && counts.contains_key("sinkage_mm"), "{counts:?}");
+    let several: Vec<_> = counts.iter().filter(|(_, count)| **count != 1).collect();
+    assert!(several.is_empty(), "declared more than once: {several:?}");
+
+    let mut used = BTreeSet::new();
+    let mut again = Vec::new();
+    for (path, text) in &others {
+        for (number, line) in lines_of(text).enumerate() {
+            for name in names_of(line) {
+                if !counts.contains_key(name) || is_a_key_too(name) {
+                    continue;
+                }
+                let path = path.display().to_string();
+                let other =
+                    OTHER_PLACES.iter().find(|(it, end)| *it == name && path.ends_with(end));
+                match other {
+                    Some(place) => drop(used.insert(*place)),
+                    None => again.push(format!("{path}:{}: {}", number + 1, line.trim())),
+                }
+            }
+        }
+    }
+    assert!(again.is_empty(), "\n{}\n", again.join("\n"));
+    let idle: Vec<_> = OTHER_PLACES.iter().filter(|place| !used.contains(*place)).collect();
+    assert!(idle.is_empty(), "nothing to excuse: {idle:?}");
+}
+
+/// The unit of a column is that of its name's end, so that a reader of the name converts as the library does.
+#[test]
+fn a_column_has_the_unit_of_its_name() {
+    fn check<R>(columns: &[Column<R>]) {
+        for column in columns {
+            let expected = unit_of(column.name).map_or("-", |unit| unit.symbol);
+            assert_eq!(column.unit.symbol, expected, "{}", column.name);
+            for name in column.names().iter().filter(|name| name.starts_with(column.name)) {
+                assert_eq!(unit_of(name), unit_of(column.name), "{name}");
+            }
+            assert!(!column.doc.is_empty() && !column.doc.ends_with('.'), "{}", column.name);
+        }
+    }
+    check(&WHEEL);
+    check(&SAMPLE);
+    check(&WHEEL_SAMPLE);
+    check(&held());
+    check(&BAND);
+    check(&TRIALS);
 }

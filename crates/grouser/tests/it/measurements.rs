@@ -166,7 +166,7 @@ fn the_guide_tells_every_column() {
     let told: Vec<&str> = first_cells
         .flat_map(|line| line.split('|').nth(1).unwrap_or_default().split('`').skip(1).step_by(2))
         .collect();
-    for column in &columns::COLUMNS {
+    for column in columns::COLUMNS.iter() {
         assert!(told.contains(&column.name), "`{}` is in no row of the tables", column.name);
     }
     for name in told {

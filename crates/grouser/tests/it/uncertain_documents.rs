@@ -32,6 +32,14 @@ fn correlation(one: &str, other: &str, value: &str) -> String {
 
 const FRICTION: &str = "friction_angle_deg";
 const K_PHI: &str = "pressure_sinkage.k_phi";
+const N: &str = "pressure_sinkage.n";
+const N_PER_SLIP: &str = "pressure_sinkage.n_per_slip";
+
+fn uniform(key: &str, low: &str, high: &str) -> String {
+    format!(
+        "[[uncertainty.parameter]]\nkey = \"{key}\"\ndistribution = \"uniform\"\nlow = {low}\nhigh = {high}\n"
+    )
+}
 
 #[test]
 fn drawn_numbers_take_the_place_of_the_documents() {
@@ -119,7 +127,7 @@ fn the_mean_is_the_documents_even_if_it_was_set_from_outside() {
 
 fn check_wrong(text: &str, spot: &str, message: &str) {
     let error = read(text).expect_err(message).to_string();
-    assert!(error.starts_with("sand.toml:"), "{error}");
+    assert!(error.starts_with("sand.toml"), "{error}");
     assert!(error.contains(message), "no `{message}` in: {error}");
     let shown = error.lines().nth(2).unwrap_or_default();
     assert!(shown.contains(spot), "no `{spot}` in: {error}");
@@ -137,8 +145,8 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
         (parameter("name", "1"), "\"name\"", "`name` is no number of this soil"),
         (parameter("shear.law", "1"), "\"shear.law\"", "`shear.law` is no number of this soil"),
         (
-            parameter("extended.heap.front", "1"),
-            "\"extended.heap.front\"",
+            parameter("small_wheel.mounds.bow_wave", "1"),
+            "\"small_wheel.mounds.bow_wave\"",
             "the document gives this key no value",
         ),
         (parameter(FRICTION, "-1"), "-1", "standard_deviation` is -1, it must be 0 to"),
@@ -148,18 +156,21 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
         (
             parameter(FRICTION, "1") + "distribution = \"gauss\"",
             "gauss",
-            "it must be \"normal\" or \"lognormal\"",
+            "it must be \"normal\", \"lognormal\", \"uniform\" or \"triangular\"",
         ),
         (
             parameter("cohesion_kpa", "1") + "distribution = \"lognormal\"",
             "cohesion_kpa",
             "`cohesion_kpa` is 0, it must be above 0 to be lognormal",
         ),
+        (parameter(FRICTION, "1") + "low = 3", "low", "unknown key `uncertainty.parameter.0.low`"),
         (
-            parameter(FRICTION, "1") + "mean = 3",
-            "mean",
-            "unknown key `uncertainty.parameter.0.mean`",
+            parameter(FRICTION, "1") + "low = 3",
+            "low",
+            "it goes with distribution = \"uniform\" or \"triangular\"",
         ),
+        (uniform(FRICTION, "30", "61"), "61", "`friction_angle_deg` is 61, it must be 5 to 60"),
+        (uniform(FRICTION, "40", "30"), "30", "above low, 40"),
         (good.clone() + &correlation(FRICTION, K_PHI, "1.1"), "1.1", "is 1.1, it must be -1 to 1"),
         (good.clone() + &correlation(FRICTION, K_PHI, "1"), "correlation", "not positive definite"),
         (good.clone() + &correlation(FRICTION, "k_phi", "0"), "k_phi", "`pressure_sinkage.k_phi`?"),
@@ -187,19 +198,57 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
         ("[uncertainty]\nsample = \"x\"".to_owned(), "sample", "hint: did you mean `samples`"),
         ("[uncertainty]\nsamples = 1".to_owned(), "1", "it must be a text in quotes"),
         (
-            "[uncertainty]\nsamples = \"x.csv\"\n".to_owned() + &good,
-            "x.csv",
-            "it is one or the other",
+            "[uncertainty]\nsamples = { csv = \"friction_angle_deg\\n38\\n39\" }\n".to_owned()
+                + &good,
+            "friction_angle_deg",
+            "a second time",
         ),
         (
             "[uncertainty]\nsamples = \"no/such.csv\"".to_owned(),
             "no/such.csv",
             "there is no file of samples no/such.csv",
         ),
-        (parameter(FRICTION, "1e9"), "uncertainty", "1000 tries of draw 0 gave nothing"),
-        (parameter(FRICTION, "1e9"), "uncertainty", "`friction_angle_deg` 5 to 60"),
+        (parameter(FRICTION, "1e9"), FRICTION, "less than 1 % of the draws"),
+        (parameter(FRICTION, "1e9"), FRICTION, "5 to 60"),
+        (
+            uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),
+            "uncertainty",
+            "1000 tries of draw 0 gave nothing",
+        ),
+        (
+            uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),
+            "uncertainty",
+            "`pressure_sinkage.n` 0.3 to 3, `pressure_sinkage.n_per_slip`",
+        ),
     ] {
         check_wrong(&toyoura_with(&section), spot, message);
+    }
+}
+
+/// A soil has the distributions of campaigns, a mean beside its value, and rows beside distributions.
+#[test]
+fn soils_and_campaigns_speak_one_language() {
+    let text = toyoura_with(
+        &("[uncertainty]\nsamples = { csv = \"cohesion_kpa\\n0.25\\n0.5\" }\n".to_owned()
+            + &parameter(FRICTION, "0")
+            + "mean = 35\n"
+            + &uniform("exit.ratio", "0.5", "0.75")),
+    );
+    let loaded = read(&text).expect("it is right");
+    let again = read(&loaded.to_toml()).expect("it is resolved");
+    assert!(loaded.companions.is_empty() && again.document == loaded.document);
+    // Soils have the word after the numbers, as it always was: fingerprints depend on it.
+    let written = "key = \"friction_angle_deg\"\nmean = 35.0\nstandard_deviation = 0.0\ndistribution = \"normal\"";
+    assert!(loaded.to_toml().contains(written), "{}", loaded.to_toml());
+    let soils = loaded.uncertain.as_ref().expect("it says so");
+    assert_eq!(soils.keys().collect::<Vec<_>>(), [FRICTION, "exit.ratio", "cohesion_kpa"]);
+    assert_eq!(soils.sampled_keys().collect::<Vec<_>>(), ["cohesion_kpa"]);
+    for index in 0..50 {
+        let soil = draw(&loaded, index);
+        assert_eq!(soil.friction_angle, deg(35.0));
+        assert!((0.5..=0.75).contains(&soil.exit.ratio(0.0)));
+        assert!([250.0, 500.0].contains(&soil.cohesion));
+        assert_eq!(soil, draw(&again, index));
     }
 }
 

@@ -1,13 +1,12 @@
 //! Uncertain soils: draws, bands, probabilities, and the attitude on soils that are drawn.
 
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::soil::{Exit, Soil};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::attitude_band::AttitudeBand;
-use grouser::studies::uncertainty::{
+use grouser::studies::ensemble::{
     Band, Contradiction, Correlation, Distribution, Marginal, Probability,
 };
 use grouser::units::deg;
@@ -279,7 +278,7 @@ fn soils(count: u64) -> Vec<Soil> {
 
 fn band(soils: &[Soil], slopes: &[f64]) -> AttitudeBand {
     let study = AttitudeStudy::of(&scenario().value);
-    let band = AttitudeBand::of(&study, soils, slopes, &|| ControlFlow::Continue(()));
+    let band = AttitudeBand::of(&study, soils, slopes, &|| true);
     band.expect("they are soils").expect("nobody broke it off")
 }
 
@@ -347,7 +346,7 @@ fn every_draw_is_told_when_it_is_done() {
     let done = AtomicUsize::new(0);
     let count = || {
         done.fetch_add(1, Ordering::Relaxed);
-        ControlFlow::Continue(())
+        true
     };
     let study = AttitudeStudy::of(&scenario().value);
     AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &count).expect("they are soils");
@@ -357,7 +356,7 @@ fn every_draw_is_told_when_it_is_done() {
 #[test]
 fn a_study_that_is_broken_off_has_no_result() {
     let study = AttitudeStudy::of(&scenario().value);
-    let broken_off = AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &|| ControlFlow::Break(()));
+    let broken_off = AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &|| false);
     assert_eq!(broken_off.expect("they are soils"), None);
 }
 
@@ -391,7 +390,7 @@ fn the_first_soil_that_is_none_is_the_error() {
     let bad = |density| Soil { density, ..good };
     let study = AttitudeStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];
-    let error = AttitudeBand::of(&study, &soils, &[deg(5.0)], &|| ControlFlow::Continue(()));
+    let error = AttitudeBand::of(&study, &soils, &[deg(5.0)], &|| true);
     let error = error.expect_err("density");
     assert_eq!(error.value, -1.0);
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use grouser::document::campaign::{UNITS, unit};
+use grouser::document::{UNITS, unit_of};
 
 fn file_of_the_repository(path: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
@@ -15,7 +15,7 @@ fn file_of_the_repository(path: &str) -> String {
 #[test]
 fn every_end_of_a_word_finds_its_own_unit() {
     for (end, expected) in UNITS {
-        assert_eq!(unit(&format!("quantity{end}")), Some(expected), "{end}");
+        assert_eq!(unit_of(&format!("quantity{end}")), Some(expected), "{end}");
     }
 }
 
@@ -36,8 +36,8 @@ fn the_conventions_have_the_units_of_the_names() {
             continue;
         }
         for word in words.split('`').skip(1).step_by(2) {
-            let Some(unit) = unit(word) else { continue };
-            assert_eq!(written, inside(unit), "{word}: {line}");
+            let Some(unit) = unit_of(word) else { continue };
+            assert_eq!(written, inside(unit.symbol), "{word}: {line}");
             compared += 1;
         }
     }

@@ -1,6 +1,8 @@
 //! What a calibration says: text, page, figures.
 
 use grouser::document::calibration::{ParameterRecord, Solved, WheelFound, samples_csv};
+use grouser::document::columns::fit::column_of;
+use grouser::document::columns::{LOAD, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::validation::GroupRecord;
 use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
@@ -85,7 +87,7 @@ fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
 }
 
 fn next_runs(found: &WheelFound) -> String {
-    let header = ["load_n", "slip_ratio", "slip_angle_deg", "std_before", "std_after"];
+    let header = [LOAD.name, SLIP_RATIO.name, SLIP_ANGLE.name, "std_before", "std_after"];
     let rows = found.proposals.iter().map(|it| {
         [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
             .map(four_digits)
@@ -138,21 +140,14 @@ fn discrepancies(solved: &Solved) -> String {
 
 /// Root mean square errors of groups of cells.
 fn errors(what: &str, groups: &[GroupRecord]) -> String {
-    let header = [
-        "slip_angle_deg",
-        "motion",
-        "cells",
-        "drawbar_pull_n",
-        "side_force_n",
-        "sinkage_mm",
-        "torque_nm",
-    ];
+    let [pull, side, sinkage, torque] = Quantity::ALL.map(|it| column_of(it).name);
+    let header = [SLIP_ANGLE.name, "motion", "cells", pull, side, sinkage, torque];
     let row = |group: &GroupRecord| {
         let rmse = |quantity| {
             group.errors(quantity).map_or("-".to_owned(), |errors| four_digits(errors.rmse))
         };
-        let angle = group.slip_angle_deg.map_or("all".to_owned(), four_digits);
-        let mut row = vec![angle, group.motion.to_owned(), group.cells.to_string()];
+        let angle = group.slip_angle().map_or("all".to_owned(), four_digits);
+        let mut row = vec![angle, group.motion().to_owned(), group.0.cells.to_string()];
         row.extend(Quantity::ALL.map(rmse));
         row
     };

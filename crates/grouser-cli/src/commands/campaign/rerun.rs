@@ -1,6 +1,6 @@
 //! `grouser campaign rerun`: one run again, as proof that it can be had alone.
 
-use grouser::document::campaign::Cell;
+use grouser::document::table::Cell;
 use serde_json::{Map, Value, json};
 
 use super::{inputs, stored};

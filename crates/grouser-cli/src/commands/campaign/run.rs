@@ -9,7 +9,8 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use grouser::document::Campaign;
-use grouser::document::campaign::{FAILED, Values};
+use grouser::document::campaign::FAILED;
+use grouser::document::table::Values;
 use grouser_store::{Folder, Results, ShardSet, StoreError, Study, shard_bytes};
 use serde::Serialize;
 

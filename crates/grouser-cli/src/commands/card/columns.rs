@@ -1,10 +1,11 @@
 //! The table of the card: numbers, and charts whose axis of slopes is the table's rows.
 
-use grouser::document::card::CardRecord;
+use grouser::document::columns::card::{DRIFT, MeasuredYaw};
+use grouser::document::columns::{POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, YAW};
 use grouser_page::{Anchor, Face, Place, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
-use super::measured::Measured;
+use super::row::CardRow;
 use super::words::Words;
 
 /// Rows on the page.
@@ -13,7 +14,7 @@ pub(super) struct Table<'a> {
     pub(super) top: f64,
     /// Height of each [mm].
     pub(super) height: f64,
-    pub(super) rows: &'a [&'a CardRecord],
+    pub(super) rows: &'a [CardRow<'a>],
 }
 
 impl Table<'_> {
@@ -23,13 +24,10 @@ impl Table<'_> {
 
     /// Middle of a row, or of where a slope between rows would be [mm].
     fn middle(&self, slope_deg: f64) -> f64 {
-        let first = self.rows.first().map_or(1.0, |row| row.slope_deg);
+        let first = self.rows.first().map_or(1.0, |row| row.slope());
         self.top + self.height * (slope_deg - first + 0.5)
     }
 }
-
-/// What a column shows of a row: low, median and high, or only the middle one.
-type Values = fn(&CardRecord) -> [Option<f64>; 3];
 
 /// A number with its chart.
 struct Chart {
@@ -39,7 +37,9 @@ struct Chart {
     numbers: Option<f64>,
     from: f64,
     to: f64,
-    values: Values,
+    quantity: Quantity,
+    /// Of what is shown to the quantity.
+    factor: f64,
     /// Digits of the numbers, counted from the first of the axis' end.
     digits: i32,
 }
@@ -57,9 +57,8 @@ const CHARTS: [Chart; 4] = [
         numbers: None,
         from: 91.5,
         to: 112.0,
-        values: |row| {
-            middle_of([row.yaw_deg_p2_5, row.yaw_deg_p50, row.yaw_deg_p97_5], row.yaw_deg)
-        },
+        quantity: YAW,
+        factor: 1.0,
         digits: 2,
     },
     Chart {
@@ -67,10 +66,8 @@ const CHARTS: [Chart; 4] = [
         numbers: Some(121.5),
         from: 122.5,
         to: 137.0,
-        values: |row| {
-            let quantiles = [row.slip_ratio_p2_5, row.slip_ratio_p50, row.slip_ratio_p97_5];
-            times(100.0, middle_of(quantiles, row.slip_ratio))
-        },
+        quantity: SLIP_RATIO,
+        factor: 100.0,
         digits: 2,
     },
     Chart {
@@ -78,11 +75,8 @@ const CHARTS: [Chart; 4] = [
         numbers: Some(146.5),
         from: 147.5,
         to: 161.5,
-        values: |row| {
-            let quantiles =
-                [row.downhill_m_per_m_p2_5, row.downhill_m_per_m_p50, row.downhill_m_per_m_p97_5];
-            times(100.0, middle_of(quantiles, row.downhill_m_per_m))
-        },
+        quantity: DRIFT,
+        factor: 100.0,
         digits: 2,
     },
     Chart {
@@ -90,24 +84,21 @@ const CHARTS: [Chart; 4] = [
         numbers: Some(171.0),
         from: 172.0,
         to: 186.0,
-        values: |row| {
-            middle_of([row.power_w_p2_5, row.power_w_p50, row.power_w_p97_5], row.power_w)
-        },
+        quantity: POWER,
+        factor: 1.0,
         digits: 3,
     },
 ];
 
-/// The median with its band; without draws the soil as written, alone.
-fn middle_of([low, median, high]: [Option<f64>; 3], nominal: Option<f64>) -> [Option<f64>; 3] {
-    [low, median.or(nominal), high]
-}
-
-fn times(factor: f64, values: [Option<f64>; 3]) -> [Option<f64>; 3] {
-    values.map(|value| value.map(|value| value * factor))
+impl Chart {
+    /// What it shows of a row: low, median and high, or only the middle one.
+    fn values(&self, row: CardRow<'_>) -> [Option<f64>; 3] {
+        row.band(self.quantity, self.factor)
+    }
 }
 
 /// Draws the table with its head.
-pub(super) fn draw(sheet: &mut Sheet, words: &Words, table: &Table<'_>, measured: &[Measured]) {
+pub(super) fn draw(sheet: &mut Sheet, words: &Words, table: &Table<'_>, measured: &[MeasuredYaw]) {
     verdicts(sheet, table);
     heads(sheet, words, table, !measured.is_empty());
     for chart in &CHARTS {
@@ -116,7 +107,7 @@ pub(super) fn draw(sheet: &mut Sheet, words: &Words, table: &Table<'_>, measured
     }
     measured_points(sheet, table, measured);
     for row in table.rows {
-        line(sheet, words, table, row);
+        line(sheet, words, table, *row);
     }
     frame(sheet, table);
 }
@@ -124,8 +115,8 @@ pub(super) fn draw(sheet: &mut Sheet, words: &Words, table: &Table<'_>, measured
 /// The strip on the left: white to go, hatched for caution.
 fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
     for (verdict, word) in [("go", "GO"), ("caution", "CAUTION")] {
-        let count = table.rows.iter().filter(|row| row.verdict == verdict).count();
-        let Some(first) = table.rows.iter().position(|row| row.verdict == verdict) else {
+        let count = table.rows.iter().filter(|row| row.verdict() == verdict).count();
+        let Some(first) = table.rows.iter().position(|row| row.verdict() == verdict) else {
             continue;
         };
         let (top, height) = (table.top + table.height * first as f64, table.height * count as f64);
@@ -176,15 +167,15 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
 }
 
 /// One row of numbers.
-fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
+fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: CardRow<'_>) {
     let large = (table.height * 0.98).min(7.6);
     // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
     // one line of text for those who copy it, too.
-    let line = table.middle(row.slope_deg) + 0.365 * large;
+    let line = table.middle(row.slope()) + 0.365 * large;
     let at = |x: f64| [x, line];
     let bold = |text: String, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::End);
-    sheet.text(bold(format!("{}°", row.slope_deg), large), at(SLOPE - 3.0));
-    let [low, heading, high] = (CHARTS[0].values)(row);
+    sheet.text(bold(format!("{}°", row.slope()), large), at(SLOPE - 3.0));
+    let [low, heading, high] = CHARTS[0].values(row);
     if let Some(heading) = heading {
         sheet.text(bold(format!("{heading:.1}°"), large), at(HEADING - 3.5));
     }
@@ -195,12 +186,12 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
         sheet.text(shown(text, size).anchor(Anchor::Middle), at(f64::midpoint(HEADING, RANGE)));
     }
     for chart in &CHARTS {
-        if let (Some(end), [_, Some(value), _]) = (chart.numbers, (chart.values)(row)) {
+        if let (Some(end), [_, Some(value), _]) = (chart.numbers, chart.values(row)) {
             let text = format!("{value:.*}", decimals(end_of(table, chart), chart.digits));
             sheet.text(shown(text, small).anchor(Anchor::End), at(end));
         }
     }
-    if let Some(level) = row.probability_level.filter(|_| words.has_bands) {
+    if let Some(level) = row.number(PROBABILITY_LEVEL).filter(|_| words.has_bands) {
         // Rounded down: 100 % is all of them.
         let text = format!("{} %", (level * 100.0 + 1e-9).floor());
         sheet.text(shown(text, small).anchor(Anchor::End), at(RIGHT - 1.5));
@@ -209,7 +200,7 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: &CardRecord) {
 
 /// The largest value of a chart, and a round number at or above it to end the axis.
 fn end_of(table: &Table<'_>, chart: &Chart) -> f64 {
-    let values = table.rows.iter().flat_map(|row| (chart.values)(row)).flatten();
+    let values = table.rows.iter().flat_map(|row| chart.values(*row)).flatten();
     let most = values.fold(0.0, f64::max).max(1e-6);
     let decade = 10.0_f64.powf(most.log10().floor());
     // Their halves are short numbers, too.
@@ -259,8 +250,8 @@ fn band(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
     let across = |value: f64| chart.from + (value / end).clamp(0.0, 1.0) * (chart.to - chart.from);
     let side = |which: usize| {
         let rows = table.rows.iter();
-        let point = |row: &&CardRecord| {
-            Some([across((chart.values)(row)[which]?), table.middle(row.slope_deg)])
+        let point = |row: &CardRow<'_>| {
+            Some([across(chart.values(*row)[which]?), table.middle(row.slope())])
         };
         rows.filter_map(point).collect::<Vec<Place>>()
     };
@@ -274,16 +265,16 @@ fn band(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
 }
 
 /// Measured yaws as crosses on the chart of headings.
-fn measured_points(sheet: &mut Sheet, table: &Table<'_>, measured: &[Measured]) {
+fn measured_points(sheet: &mut Sheet, table: &Table<'_>, measured: &[MeasuredYaw]) {
     let chart = &CHARTS[0];
     let end = end_of(table, chart);
     let (first, last) = match table.rows {
-        [first, .., last] => (first.slope_deg, last.slope_deg),
+        [first, .., last] => (first.slope(), last.slope()),
         _ => return,
     };
-    for point in measured.iter().filter(|point| (first..=last).contains(&point.slope_deg)) {
-        let share = (point.yaw_deg / end).clamp(0.0, 1.0);
-        let (x, y) = (chart.from + share * (chart.to - chart.from), table.middle(point.slope_deg));
+    for point in measured.iter().filter(|point| (first..=last).contains(&point.slope)) {
+        let share = (point.yaw / end).clamp(0.0, 1.0);
+        let (x, y) = (chart.from + share * (chart.to - chart.from), table.middle(point.slope));
         for rise in [-1.1, 1.1] {
             let ends = [[x - 1.1, y - rise], [x + 1.1, y + rise]];
             sheet.draw(Shape::line(ends, Stroke::black(0.45)));
@@ -296,7 +287,7 @@ fn frame(sheet: &mut Sheet, table: &Table<'_>) {
     for (index, row) in table.rows.iter().enumerate() {
         let y = table.top + table.height * (index + 1) as f64;
         let stroke =
-            if row.slope_deg % 5.0 == 0.0 { Stroke::black(0.45) } else { Stroke::grey(0.15, 0.5) };
+            if row.slope() % 5.0 == 0.0 { Stroke::black(0.45) } else { Stroke::grey(0.15, 0.5) };
         sheet.draw(Shape::line([[STRIP, y], [RIGHT, y]], stroke));
     }
     sheet.draw(Shape::line([[LEFT, table.top], [RIGHT, table.top]], Stroke::black(0.45)));

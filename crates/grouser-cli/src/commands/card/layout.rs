@@ -6,12 +6,12 @@
 //!
 //! The page is A4; what is on it fits into the margins of a letter page as well.
 
-use grouser::document::card::CardRecord;
-use grouser::document::escape;
+use grouser::document::columns::card::MeasuredYaw;
+use grouser::document::{escape, table};
 use grouser_page::{Anchor, BLACK, Face, Place, Shape, Sheet, Stroke, Text, WHITE, width, wrap};
 
 use super::columns::{self, Table};
-use super::measured::Measured;
+use super::row::CardRow;
 use super::words::Words;
 
 /// Size of the page, and the box that everything stands in [mm].
@@ -32,23 +32,23 @@ const BAR: f64 = 10.0;
 const HIGHEST_ROW: f64 = 7.4;
 
 /// Draws the card.
-pub(super) fn draw(words: &Words, records: &[CardRecord], measured: &[Measured]) -> Sheet {
+pub(super) fn draw(words: &Words, card: &table::Table, measured: &[MeasuredYaw]) -> Sheet {
     let title = format!("Operator's card: {}", words.title);
     let mut sheet = Sheet::new(&escape::line(&title), PAGE[0], PAGE[1]);
     head(&mut sheet, words);
     pictogram(&mut sheet, [167.0, 45.0]);
     // Level ground needs no card, and slopes between whole degrees were asked for elsewhere.
-    let whole = |row: &&CardRecord| row.slope_deg >= 1.0 && row.slope_deg.fract() == 0.0;
-    let driven: Vec<&CardRecord> =
-        records.iter().filter(whole).filter(|row| row.verdict != "no-go").collect();
+    let whole = |row: &CardRow<'_>| row.slope() >= 1.0 && row.slope().fract() == 0.0;
+    let driven: Vec<CardRow<'_>> =
+        CardRow::all(card).filter(whole).filter(|row| !row.is_no_go()).collect();
     let room = TABLE_BOTTOM - TABLE_TOP - HEADER - AXES - BAR;
     let height = (room / driven.len().max(1) as f64).min(HIGHEST_ROW);
     let table = Table { top: TABLE_TOP + HEADER, height, rows: &driven };
     columns::draw(&mut sheet, words, &table, measured);
     let end = table.top + height * driven.len() as f64 + AXES;
-    let first = records.iter().find(|row| row.verdict == "no-go" && row.slope_deg.fract() == 0.0);
+    let first = CardRow::all(card).find(|row| row.is_no_go() && row.slope().fract() == 0.0);
     if let Some(first) = first {
-        bar(&mut sheet, end, first.slope_deg);
+        bar(&mut sheet, end, first.slope());
     }
     foot(&mut sheet, words, end + BAR + 4.5);
     sheet

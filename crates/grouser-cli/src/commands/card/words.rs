@@ -1,5 +1,6 @@
 //! What the card says in sentences.
 
+use grouser::document::columns::SLOPE;
 use grouser::studies::card::{Card, Rule};
 
 use crate::args::{CardArgs, SideWord};
@@ -80,7 +81,7 @@ fn rule(rule: &Rule, draws: Option<usize>) -> Vec<(&'static str, String)> {
     let last = "A steeper slope never gets a better verdict.";
     let caution = ("CAUTION", between.to_owned());
     let Some(draws) = draws else {
-        let margin = four_digits(rule.margin.to_degrees());
+        let margin = four_digits(SLOPE.unit.from_si(rule.margin));
         let go = format!(
             "a slope {margin}° steeper can still be crossed level, with slip up to {go_slip} %."
         );
@@ -148,7 +149,7 @@ fn setting(inputs: &CardInputs) -> String {
 }
 
 fn limit(card: &Card) -> String {
-    let shown = |slope: f64| rounded_down(slope.to_degrees());
+    let shown = |slope: f64| rounded_down(SLOPE.unit.from_si(slope));
     let nominal = match &card.limit {
         Ok((slope, _)) => format!("{}°", shown(*slope)),
         Err(_) => "none".to_owned(),

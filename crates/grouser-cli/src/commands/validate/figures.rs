@@ -1,6 +1,8 @@
 //! Charts of a validation: predictions through measured points, and what is left over.
 
-use grouser::document::validation::CellRecord;
+use grouser::document::columns::fit::{self, TOTAL_SLIP, column_of};
+use grouser::document::columns::{self, SLIP_ANGLE};
+use grouser::document::table::Table;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::Validation;
 
@@ -13,61 +15,67 @@ pub(crate) struct Figure {
     pub(crate) caption: &'static str,
 }
 
-/// Measured, deviation, predicted.
-type Columns = fn(&CellRecord) -> (Option<f64>, Option<f64>, Option<f64>);
+/// Cells by slip angle, then by slip.
+struct Cells(Table);
 
-/// What people call a quantity, and its unit.
-pub(super) fn name_and_unit(quantity: Quantity) -> (&'static str, &'static str) {
-    match quantity {
-        Quantity::DrawbarPull => ("drawbar pull", "N"),
-        Quantity::SideForce => ("side force", "N"),
-        Quantity::Sinkage => ("sinkage", "mm"),
-        Quantity::Torque => ("torque", "N·m"),
-    }
+/// A cell at its place.
+#[derive(Clone, Copy)]
+struct Cell {
+    angle: f64,
+    slip: f64,
+    measured: Option<f64>,
+    deviation: Option<f64>,
+    predicted: Option<f64>,
 }
 
-/// Where a quantity's values are.
-fn columns(quantity: Quantity) -> Columns {
-    match quantity {
-        Quantity::DrawbarPull => {
-            |cell| (cell.measured_drawbar_pull_n, cell.drawbar_pull_std_n, cell.drawbar_pull_n)
-        }
-        Quantity::SideForce => {
-            |cell| (cell.measured_side_force_n, cell.side_force_std_n, cell.side_force_n)
-        }
-        Quantity::Sinkage => {
-            |cell| (cell.measured_sinkage_mm, cell.sinkage_std_mm, cell.sinkage_mm)
-        }
-        Quantity::Torque => |cell| (cell.measured_torque_nm, cell.torque_std_nm, cell.torque_nm),
+impl Cells {
+    fn of(validation: &Validation) -> Self {
+        let mut sorted = validation.cells.clone();
+        sorted.sort_by(|one, other| {
+            let by_angle = one.slip_angle.total_cmp(&other.slip_angle);
+            by_angle.then(one.total_slip.total_cmp(&other.total_slip))
+        });
+        Self(fit::cells(&sorted))
+    }
+
+    /// What they have of a quantity.
+    fn of_quantity(&self, quantity: columns::Quantity) -> Vec<Cell> {
+        let (measurement, deviation) = (quantity.measurement(), quantity.deviation());
+        let names = [SLIP_ANGLE.name, TOTAL_SLIP.name, &measurement, &deviation, quantity.name];
+        let [angle, slip, measured, deviation, predicted] = names.map(|name| self.0.numbers(name));
+        let cell = |place: usize| Cell {
+            angle: angle[place].unwrap_or_default(),
+            slip: slip[place].unwrap_or_default(),
+            measured: measured[place],
+            deviation: deviation[place],
+            predicted: predicted[place],
+        };
+        (0..self.0.rows()).map(cell).collect()
     }
 }
 
 /// For each quantity that was measured: curves through points, and residuals.
 pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
-    let mut cells: Vec<CellRecord> = validation.cells.iter().map(CellRecord::from).collect();
-    cells.sort_by(|one, other| {
-        let key = |cell: &CellRecord| (cell.slip_angle_deg, cell.slip_ratio_total_speed);
-        let ((angle, slip), (other_angle, other_slip)) = (key(one), key(other));
-        angle.total_cmp(&other_angle).then(slip.total_cmp(&other_slip))
-    });
+    let all = Cells::of(validation);
     let mut figures = Vec::new();
     for quantity in Quantity::ALL {
-        let (name, unit) = name_and_unit(quantity);
-        let columns = columns(quantity);
-        if cells.iter().all(|cell| columns(cell).0.is_none()) {
+        let column = column_of(quantity);
+        let (name, unit) = (&column.words(), column.unit.symbol);
+        let cells = all.of_quantity(column);
+        if cells.iter().all(|cell| cell.measured.is_none()) {
             continue;
         }
         let file = name.replace(' ', "-");
         figures.push(Figure {
             file: file.clone(),
-            chart: over_slip(&cells, name, unit, columns),
+            chart: over_slip(&cells, name, unit),
             caption: "Dots are means over the trials of a cell, bars the standard deviation between \
                       them. Predictions are of the same trials, at their own loads, so lines \
                       bend where the load does.",
         });
         figures.push(Figure {
             file: format!("{file}-residuals"),
-            chart: residuals(&cells, name, unit, columns),
+            chart: residuals(&cells, name, unit),
             caption: "What the theory says too much (above zero) or too little, cell by cell. Where a \
                       bar reaches zero, the trials differ from each other as much as from the \
                       theory.",
@@ -78,19 +86,16 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
 
 const SLIP_LABEL: &str = "slip by the total speed: -1 locked, 0 rolling, 1 spinning";
 
-fn over_slip(cells: &[CellRecord], name: &str, unit: &str, columns: Columns) -> Chart {
+fn over_slip(cells: &[Cell], name: &str, unit: &str) -> Chart {
     let mut series = Vec::new();
-    for (place, of_angle) in by_angle(cells).into_iter().enumerate() {
-        let angle = of_angle[0].slip_angle_deg;
-        let point = |value: Option<f64>, cell: &CellRecord| {
-            value.map(|value| (cell.slip_ratio_total_speed, value))
-        };
-        let predicted = of_angle.iter().filter_map(|cell| point(columns(cell).2, cell));
-        let style = style_of_predictions(&of_angle);
+    for (place, of_angle) in by_angle(cells).enumerate() {
+        let angle = of_angle[0].angle;
+        let predicted = of_angle.iter().filter_map(|cell| Some((cell.slip, cell.predicted?)));
+        let style = style_of_predictions(of_angle);
         series.push(Series::new(format!("predicted, {angle}°"), style, place, predicted));
-        let measured = of_angle.iter().filter_map(|cell| point(columns(cell).0, cell));
-        let with_value = of_angle.iter().filter(|cell| columns(cell).0.is_some());
-        let bars = with_value.map(|cell| columns(cell).1.unwrap_or(0.0));
+        let measured = of_angle.iter().filter_map(|cell| Some((cell.slip, cell.measured?)));
+        let with_value = of_angle.iter().filter(|cell| cell.measured.is_some());
+        let bars = with_value.map(|cell| cell.deviation.unwrap_or(0.0));
         let points = Series::new(format!("measured, {angle}°"), Style::Dots, place, measured);
         series.push(points.with_error_bars(bars));
     }
@@ -103,23 +108,21 @@ fn over_slip(cells: &[CellRecord], name: &str, unit: &str, columns: Columns) -> 
 }
 
 /// A line, unless several cells have the same slip, as at several loads: it would run up and down.
-fn style_of_predictions(cells: &[&CellRecord]) -> Style {
+fn style_of_predictions(cells: &[Cell]) -> Style {
     /// Cells closer than this on the slip axis stand above each other [-]. Source: ours.
     const SAME_SLIP: f64 = 0.01;
-    let slip = |cell: &CellRecord| cell.slip_ratio_total_speed;
-    let above = cells.windows(2).any(|pair| slip(pair[1]) - slip(pair[0]) < SAME_SLIP);
+    let above = cells.windows(2).any(|pair| pair[1].slip - pair[0].slip < SAME_SLIP);
     if above { Style::Squares } else { Style::Line }
 }
 
-fn residuals(cells: &[CellRecord], name: &str, unit: &str, columns: Columns) -> Chart {
-    let of_angle = |(place, cells): (usize, Vec<&CellRecord>)| {
-        let angle = cells[0].slip_angle_deg;
+fn residuals(cells: &[Cell], name: &str, unit: &str) -> Chart {
+    let of_angle = |(place, cells): (usize, &[Cell])| {
+        let angle = cells[0].angle;
         let (points, bars): (Vec<(f64, f64)>, Vec<f64>) = cells
             .iter()
             .filter_map(|cell| {
-                let (measured, deviation, predicted) = columns(cell);
-                let point = (cell.slip_ratio_total_speed, predicted? - measured?);
-                Some((point, deviation.unwrap_or(0.0)))
+                let point = (cell.slip, cell.predicted? - cell.measured?);
+                Some((point, cell.deviation.unwrap_or(0.0)))
             })
             .unzip();
         Series::new(format!("{angle}°"), Style::Dots, place, points).with_error_bars(bars)
@@ -128,7 +131,7 @@ fn residuals(cells: &[CellRecord], name: &str, unit: &str, columns: Columns) -> 
         title: format!("{}: predicted minus measured", capitalised(name)),
         x_label: SLIP_LABEL.into(),
         y_label: format!("error of {name} [{unit}]"),
-        series: by_angle(cells).into_iter().enumerate().map(of_angle).collect(),
+        series: by_angle(cells).enumerate().map(of_angle).collect(),
     }
 }
 
@@ -137,9 +140,6 @@ fn capitalised(name: &str) -> String {
 }
 
 /// Sorted cells, apart by slip angle.
-fn by_angle(cells: &[CellRecord]) -> Vec<Vec<&CellRecord>> {
-    cells
-        .chunk_by(|one, other| one.slip_angle_deg == other.slip_angle_deg)
-        .map(|chunk| chunk.iter().collect())
-        .collect()
+fn by_angle(cells: &[Cell]) -> impl Iterator<Item = &[Cell]> {
+    cells.chunk_by(|one, other| one.angle == other.angle)
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use grouser::document::columns::fit::column_of;
 use grouser::document::validation::GroupRecord;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::Validation;
@@ -41,7 +42,7 @@ pub(super) fn html(
     for quantity in Quantity::ALL {
         let rows = error_rows(&groups, quantity);
         if !rows.is_empty() {
-            let (name, unit) = figures::name_and_unit(quantity);
+            let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
             let caption = format!("Errors of the {name} [{unit}]");
             page.grid(&caption, &ERRORS.map(str::to_owned), &rows);
         }
@@ -60,7 +61,7 @@ fn answer(stand: &StandInputs, validation: &Validation) -> String {
     let overall = GroupRecord::from(&validation.overall);
     let words = Quantity::ALL.into_iter().filter_map(|quantity| {
         let errors = overall.errors(quantity)?;
-        let (name, unit) = figures::name_and_unit(quantity);
+        let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
         let itself = errors.repeatability.map_or(String::new(), |deviation| {
             format!(" (the experiment repeats itself to {} {unit})", four_digits(deviation))
         });
@@ -71,7 +72,7 @@ fn answer(stand: &StandInputs, validation: &Validation) -> String {
     if words.is_empty() {
         return format!("The theory {theory} predicts no trial.");
     }
-    let (cells, words) = (overall.cells, words.join(", "));
+    let (cells, words) = (overall.0.cells, words.join(", "));
     format!("The theory {theory} misses, root mean square over {cells} cells, {words}.")
 }
 

@@ -104,7 +104,7 @@ fn row(entry: &RankedTheory) -> Vec<String> {
 }
 
 /// Three numbers as one cell; torque is named where it was measured.
-fn errors(group: &GroupRecord, of: fn(&ErrorsRecord) -> Option<f64>) -> Option<String> {
+fn errors(group: &GroupRecord, of: fn(ErrorsRecord) -> Option<f64>) -> Option<String> {
     let number = |quantity| {
         let value = group.errors(quantity).and_then(of);
         value.map_or("-".to_owned(), |value| format!("{value:.2}"))

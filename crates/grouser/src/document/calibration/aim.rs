@@ -2,8 +2,9 @@
 
 use std::ops::RangeInclusive;
 
+use super::super::columns::fit::column_of;
+use super::super::columns::{LOAD, SLIP_ANGLE, SLIP_RATIO as SLIP};
 use super::super::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO};
-use super::super::validation::column_of;
 use crate::studies::calibration::design::{Aim, Setting, Target};
 use crate::studies::measurement::{Quantity, Trial};
 
@@ -70,9 +71,9 @@ impl AimWords {
     fn target(&self, median_load: f64) -> Result<Target, AimError> {
         let wrong = |what: String| AimError::Target { what };
         let (name, settings) = self.target.split_once(':').unwrap_or((&self.target, ""));
-        let quantity = Quantity::ALL.into_iter().find(|one| column_of(*one) == name);
+        let quantity = Quantity::ALL.into_iter().find(|one| column_of(*one).name == name);
         let quantity = quantity.ok_or_else(|| {
-            let names = Quantity::ALL.map(column_of).join(", ");
+            let names = Quantity::ALL.map(|it| column_of(it).name).join(", ");
             wrong(format!("'{name}' is none of {names}"))
         })?;
         let mut setting = Setting { load: median_load, slip_ratio: 0.2, slip_angle: 0.0 };
@@ -85,10 +86,12 @@ impl AimWords {
                 .filter(|value: &f64| value.is_finite())
                 .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
             match key.trim() {
-                "load_n" if value > 0.0 => setting.load = value,
-                "slip_ratio" if SLIP_RATIO.contains(&value) => setting.slip_ratio = value,
-                "slip_angle_deg" if SLIP_ANGLE_DEG.contains(&value) => {
-                    setting.slip_angle = value.to_radians();
+                key if key == LOAD.name && value > 0.0 => setting.load = value,
+                key if key == SLIP.name && SLIP_RATIO.contains(&value) => {
+                    setting.slip_ratio = value;
+                }
+                key if key == SLIP_ANGLE.name && SLIP_ANGLE_DEG.contains(&value) => {
+                    setting.slip_angle = SLIP_ANGLE.unit.to_si(value);
                 }
                 _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
             }
@@ -101,9 +104,9 @@ impl AimWords {
             Some(loads) => loads.clone(),
             None => vec![0.5 * median_load, median_load, 2.0 * median_load],
         };
-        check("load_n", &loads, &LOAD_N)?;
-        check("slip_ratio", &self.slip_ratio, &SLIP_RATIO)?;
-        check("slip_angle_deg", &self.slip_angle_deg, &SLIP_ANGLE_DEG)?;
+        check(LOAD.name, &loads, &LOAD_N)?;
+        check(SLIP.name, &self.slip_ratio, &SLIP_RATIO)?;
+        check(SLIP_ANGLE.name, &self.slip_angle_deg, &SLIP_ANGLE_DEG)?;
         let count = loads.len() * self.slip_ratio.len() * self.slip_angle_deg.len();
         if count > MOST_CANDIDATES {
             return Err(AimError::TooManyCandidates { count });
@@ -112,7 +115,11 @@ impl AimWords {
         for &load in &loads {
             for &slip_ratio in &self.slip_ratio {
                 for &angle in &self.slip_angle_deg {
-                    candidates.push(Setting { load, slip_ratio, slip_angle: angle.to_radians() });
+                    candidates.push(Setting {
+                        load,
+                        slip_ratio,
+                        slip_angle: SLIP_ANGLE.unit.to_si(angle),
+                    });
                 }
             }
         }

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::super::{SoilFamily, key_of};
+use super::super::SoilFamily;
 use super::{ParameterRecord, channel_name, channel_unit, open_questions};
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
@@ -182,7 +182,7 @@ pub fn sampling(seed: u64, steps: u64, kept: Option<PosteriorState>) -> Sampling
 /// Samples of the fitted keys as CSV, in the keys' own units: the file of a soil's uncertainty.
 #[must_use]
 pub fn samples_csv(family: &SoilFamily, posterior: &Posterior) -> String {
-    let keys: Vec<&str> = family.parameters().iter().map(key_of).collect();
+    let keys: Vec<&str> = family.keys().collect();
     let mut text = keys.join(",") + "\n";
     for row in posterior.samples.thinned(KEPT_SAMPLES) {
         let cells = keys.iter().zip(row).map(|(_, value)| serde_json::json!(value).to_string());

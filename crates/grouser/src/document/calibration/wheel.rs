@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::measurements::Measurements;
 use super::super::validation::GroupRecord;
-use super::super::{Document, SAMPLES_FILE, SoilFamily, key_of};
+use super::super::{Document, SAMPLES_FILE, SoilFamily};
 use super::{DiscrepancyRecord, ParameterRecord, ProposalRecord, SamplerRecord, Solved};
 use crate::contact::Theory;
 use crate::error::ParameterError;
@@ -111,7 +111,7 @@ impl WheelProblem<'_> {
 
     /// The soil of the fit, with where its values come from.
     fn soil(&self, solved: &Solved) -> Document {
-        let keys: Vec<&str> = self.family.parameters().iter().map(key_of).collect();
+        let keys: Vec<&str> = self.family.keys().collect();
         let source = format!(
             "{} fitted by Grouser {} to {} ({} trials in {} cells)",
             keys.join(", "),

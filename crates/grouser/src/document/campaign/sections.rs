@@ -1,14 +1,11 @@
 //! What a campaign's document says, and what its numbers go into.
 
-use serde::{Deserialize, Serialize};
-
+use super::super::describe::uncertainty::Stated;
 use super::super::describe::{soil, wheel};
-use super::super::uncertainty::CorrelationSection;
-use super::super::{Document, Kind};
 use crate::contact::Theory;
 use crate::simulation::Scenario;
 use crate::soil::Soil;
-use crate::studies::campaign::design::Sampling;
+use crate::studies::ensemble::design::Sampling;
 use crate::wheel::Wheel;
 
 /// What a campaign is to do.
@@ -23,6 +20,8 @@ pub(in crate::document) struct Settings {
     pub sensitivity: bool,
     /// Whether the soil's own uncertainty is drawn from, too.
     pub soil_uncertainty: bool,
+    /// What is drawn from, beside that.
+    pub uncertain: Stated,
     /// What is varied: a scenario, or a stand.
     pub scenario: Option<Box<Scenario>>,
     pub stand: Option<Stand>,
@@ -38,6 +37,7 @@ impl Settings {
         sampling: Sampling::MonteCarlo,
         sensitivity: false,
         soil_uncertainty: false,
+        uncertain: Stated { samples: None, parameters: Vec::new(), correlations: Vec::new() },
         scenario: None,
         stand: None,
     };
@@ -93,52 +93,4 @@ impl Stand {
         slip_ratio: 0.0,
         slip_angle: 0.0,
     };
-}
-
-/// What a campaign says of numbers that are not known exactly.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Uncertain {
-    pub samples: Option<SamplesSection>,
-    pub parameter: Vec<ParameterSection>,
-    pub correlation: Vec<CorrelationSection>,
-}
-
-/// A number that is not known exactly. Its distribution is cut off at the ends of the key's range.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "distribution", rename_all = "kebab-case")]
-pub(super) enum ParameterSection {
-    Normal { key: String, mean: Option<f64>, standard_deviation: f64 },
-    Lognormal { key: String, mean: Option<f64>, standard_deviation: f64 },
-    Uniform { key: String, low: f64, high: f64 },
-    Triangular { key: String, low: f64, mode: f64, high: f64 },
-}
-
-impl ParameterSection {
-    /// The key that it is about.
-    pub(super) fn key(&self) -> &str {
-        match self {
-            Self::Normal { key, .. }
-            | Self::Lognormal { key, .. }
-            | Self::Uniform { key, .. }
-            | Self::Triangular { key, .. } => key,
-        }
-    }
-}
-
-/// Where samples are.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(untagged)]
-pub(super) enum SamplesSection {
-    /// A CSV file, from the folder of the document: columns are keys, rows are samples.
-    File(String),
-    /// The table itself.
-    Inline { csv: String },
-}
-
-/// The soil of what is varied.
-///
-/// * `place`: the key of the base
-pub(super) fn soil_of(document: &Document, place: &str) -> Option<Document> {
-    document.part(Kind::Soil, &format!("{place}.soil"))
 }

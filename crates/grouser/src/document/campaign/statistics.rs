@@ -7,13 +7,12 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::super::study::OK;
+use super::super::columns::OK;
 use super::Campaign;
 use crate::simulation::Outcome;
-use crate::studies::campaign::Plan;
-use crate::studies::campaign::sensitivity::Sensitivity;
-use crate::studies::campaign::summary::{Convergence, Summary};
-use crate::studies::uncertainty::Probability;
+use crate::studies::ensemble::sensitivity::Sensitivity;
+use crate::studies::ensemble::statistics::{Convergence, Summary};
+use crate::studies::ensemble::{Ensemble, Probability};
 
 /// What runs say of one quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +38,7 @@ impl QuantityStatistics {
         values: &[Option<f64>],
         shares: &[f64],
     ) -> Self {
-        let plan = campaign.plan();
+        let plan = campaign.ensemble();
         let numbered = || runs.iter().cloned().flatten().zip(values.iter().copied());
         if !plan.is_for_sensitivity() {
             return Self::of_samples(values, shares, None);
@@ -67,7 +66,10 @@ impl QuantityStatistics {
 
 /// The values of those points all runs of which are there, one point after another: where a part of a campaign
 /// ends, a point may be cut in two.
-fn whole_points(plan: &Plan, runs: impl Iterator<Item = (u64, Option<f64>)>) -> Vec<Option<f64>> {
+fn whole_points(
+    plan: &Ensemble,
+    runs: impl Iterator<Item = (u64, Option<f64>)>,
+) -> Vec<Option<f64>> {
     let length = plan.runs_per_point();
     let (mut all, mut point, mut next) = (Vec::new(), Vec::new(), 0);
     for (run, value) in runs {
@@ -115,7 +117,7 @@ impl Frequencies {
         outcomes: &[Option<String>],
     ) {
         for (place, run) in runs.enumerate() {
-            if campaign.plan().is_sample(run) {
+            if campaign.ensemble().is_sample(run) {
                 let word = |words: &[Option<String>]| words.get(place).cloned().flatten();
                 self.count(word(statuses).unwrap_or_default(), word(outcomes));
             }
@@ -180,7 +182,7 @@ mod tests {
         let campaign = campaign();
         let runs = [0..3, 6..9, 9..12, 12..15, 15..18];
         let numbers = || runs.iter().cloned().flatten();
-        let whole = whole_points(campaign.plan(), numbers().map(|run| (run, Some(run as f64))));
+        let whole = whole_points(campaign.ensemble(), numbers().map(|run| (run, Some(run as f64))));
         let expected: Vec<Option<f64>> = (8..16).map(|run| Some(f64::from(run))).collect();
         assert_eq!(whole, expected);
     }

@@ -3,18 +3,20 @@
 use super::super::Kind;
 use super::super::campaign::{Settings, Stand, Study};
 use super::super::field::{
-    At, DEG, Field, Fill, Law, Laws, N, Number, OF_KEY, ONE, Shape, Table, field, flag, list, note,
-    nothing, nowhere, number, part, table, whole, word, words,
+    At, DEG, Fill, N, ONE, Shape, Table, field, flag, list, note, number, part, table, whole, word,
+    words,
 };
 use super::scenario::{self, SCENARIO};
-use super::soil::{
-    CORRELATION_DOC, CORRELATIONS, LOGNORMAL, NORMAL, SOIL, correlation, standard_deviation,
+use super::soil::SOIL;
+use super::uncertainty::{
+    CORRELATIONS, CORRELATIONS_DOC, FILE_DOC, INLINE, PARAMETERS, PARAMETERS_DOC, SAMPLES_DOC,
+    Stated, put_file,
 };
 use super::wheel::WHEEL;
 use super::{assumed, gravity, model, notes, purpose, schema};
 use crate::simulation::Scenario;
 use crate::soil::Soil;
-use crate::studies::campaign::design::Sampling;
+use crate::studies::ensemble::design::Sampling;
 use crate::wheel::Wheel;
 
 /// The most runs, or points. Source: ours; a thousand times what a machine computes in a day.
@@ -118,21 +120,17 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
         .optional(),
         field(
             "samples",
-            "Rows of numbers that belong together, such as a posterior's: each run takes one of them.",
+            SAMPLES_DOC,
             Shape::TextOr(
-                "A CSV file, from the folder of this document: columns are keys, rows are samples.",
-                &SAMPLES,
+                FILE_DOC,
+                |all, name| put_file(&mut all.uncertain, name),
+                &At { inner: &INLINE, at: uncertain },
             ),
         )
         .optional(),
-        list(
-            "parameter",
-            "The numbers that are not known exactly, each with its distribution.",
-            &PARAMETER,
-            0,
-        )
-        .optional(),
-        list("correlation", CORRELATIONS, &CORRELATION, 0).optional(),
+        list("parameter", PARAMETERS_DOC, &At { inner: &PARAMETERS, at: uncertain }, 0).optional(),
+        list("correlation", CORRELATIONS_DOC, &At { inner: &CORRELATIONS, at: uncertain }, 0)
+            .optional(),
     ],
 };
 
@@ -166,73 +164,6 @@ pub(in crate::document) static STAND: Table<Stand> = Table {
     ],
 };
 
-static SAMPLES: Table<Settings> = Table {
-    doc: "The table itself.",
-    fields: &[note(
-        "csv",
-        "What a CSV file would say: keys in the first line, a sample in every other.",
-    )],
-};
-
-static PARAMETER: Laws<Settings> = Laws {
-    doc: "A number that is not known exactly. Its distribution is cut off at the ends of the key's range.",
-    key: "distribution",
-    may_be_left_out: false,
-    all: &[
-        Law {
-            name: "normal",
-            word: None,
-            choose: nothing,
-            table: Table {
-                doc: NORMAL,
-                fields: &[KEY, anywhere("mean", MEAN).optional(), standard_deviation()],
-            },
-        },
-        Law {
-            name: "lognormal",
-            word: None,
-            choose: nothing,
-            table: Table { doc: LOGNORMAL, fields: &[KEY, POSITIVE_MEAN, standard_deviation()] },
-        },
-        Law {
-            name: "uniform",
-            word: None,
-            choose: nothing,
-            table: Table {
-                doc: "Every value between two alike.",
-                fields: &[KEY, anywhere("low", LOW), anywhere("high", HIGH)],
-            },
-        },
-        Law {
-            name: "triangular",
-            word: None,
-            choose: nothing,
-            table: Table {
-                doc: "Most likely at a value, less and less towards two ends.",
-                fields: &[
-                    KEY,
-                    anywhere("low", LOW),
-                    anywhere("mode", "The most likely value, in the unit of the key"),
-                    anywhere("high", HIGH),
-                ],
-            },
-        },
-    ],
-};
-
-const KEY: Field<Settings> =
-    note("key", "A number of the base, with the tables it stands in: `soil.cohesion_kpa`.");
-const MEAN: &str = "Its mean, in the unit of the key; without it, the base's value";
-const LOW: &str = "The lower end, in the unit of the key";
-const HIGH: &str = "The upper end, in the unit of the key";
-const POSITIVE_MEAN: Field<Settings> = {
-    let above_zero = Number { unit: OF_KEY, least: 0.0, most: 1e12, is_open: true };
-    field("mean", MEAN, Shape::Number(above_zero, nowhere)).optional()
-};
-
-/// A number of any size, in the unit of the key that it is about.
-const fn anywhere(key: &'static str, doc: &'static str) -> Field<Settings> {
-    number(key, OF_KEY, -1e12..=1e12, doc, nowhere)
+fn uncertain(all: &mut Settings) -> &mut Stated {
+    &mut all.uncertain
 }
-
-static CORRELATION: Table<Settings> = Table { doc: CORRELATION_DOC, fields: &correlation() };

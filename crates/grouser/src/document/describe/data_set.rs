@@ -1,7 +1,7 @@
 //! `data-set/1`: what a file of measurements was measured with.
 
 use super::super::data_set::DataSet;
-use super::super::field::{Field, Shape, Table, field, list, note, text, texts};
+use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};
 use super::{NOT_STATED, gravity, name, notes, schema};
 
 pub(in crate::document) static DATA_SET: Table<DataSet> = Table {
@@ -42,5 +42,5 @@ const SOILS: Field<DataSet> = field(
     "soils",
     "Soils to judge: presets, or paths. A soil that names its `model` is judged with it, another\n\
      with every theory.",
-    Shape::Texts(1, None),
+    Shape::Texts(Texts { least: 1, most: None, put: |_, _, _| {} }),
 );

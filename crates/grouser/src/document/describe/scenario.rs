@@ -155,6 +155,7 @@ static DRIVE: Laws<DriveLaw> = Laws {
     doc: "What turns the wheels.",
     key: "law",
     may_be_left_out: true,
+    is_written_last: false,
     all: &[
         Law {
             name: "constant",

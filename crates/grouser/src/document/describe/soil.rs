@@ -1,9 +1,10 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
 use super::super::field::{
-    At, DEG, Field, Fill, KG_M3, KPA, Law, Laws, M, M_PER_RAD, M_PER_RAD2, OF_KEY, ONE, Shape,
-    Table, Unit, field, list, note, nowhere, number, table, word, words,
+    At, Beside, DEG, Field, Fill, KG_M3, KPA, Law, Laws, M, M_PER_RAD, M_PER_RAD2, ONE, Table,
+    Unit, number, table, word, words,
 };
+use super::uncertainty::UNCERTAINTY;
 use super::{assumed, date, model, name, notes, schema, source};
 use crate::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
 use crate::soil::{
@@ -107,7 +108,7 @@ pub(in crate::document) static SOIL: Table<Soil> = Table {
         table(
             "uncertainty",
             "How well the numbers above are known; exactly, as far as anyone says, without it.",
-            &UNCERTAINTY,
+            &Beside(&UNCERTAINTY),
         )
         .optional(),
     ],
@@ -119,6 +120,7 @@ static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
     doc: "Pressure over sinkage, σ = K_σ zⁿ.",
     key: "law",
     may_be_left_out: false,
+    is_written_last: false,
     all: &[
         Law {
             name: "reece",
@@ -224,6 +226,7 @@ static SHEAR: Laws<Shear> = Laws {
     doc: "Shear stress over shear displacement (Janosi and Hanamoto 1961).",
     key: "law",
     may_be_left_out: false,
+    is_written_last: false,
     all: &[
         Law {
             name: "anisotropic",
@@ -354,6 +357,7 @@ static EXIT: Laws<Exit> = Laws {
     doc: "Exit-angle ratio λ: the share of the sinkage that the soil recovers behind the wheel.",
     key: "law",
     may_be_left_out: true,
+    is_written_last: false,
     all: &[
         Law {
             name: "ratio",
@@ -623,69 +627,3 @@ static RFT: Table<Rft> = Table {
         .optional(),
     ],
 };
-
-// ---- How well the numbers are known ----
-
-static UNCERTAINTY: Table<Soil> = Table {
-    doc: "How well the numbers of a soil are known: keys with standard deviations, or a file of samples.",
-    fields: &[
-        note(
-            "samples",
-            "A CSV file of samples, from the folder of this document: columns are keys, rows are samples.",
-        )
-        .optional(),
-        list(
-            "parameter",
-            "The keys that are uncertain, each around the value that the document gives it.",
-            &UNCERTAIN_KEY,
-            0,
-        )
-        .optional(),
-        list("correlation", CORRELATIONS, &CORRELATION, 0).optional(),
-    ],
-};
-
-static UNCERTAIN_KEY: Table<Soil> = Table {
-    doc: "A key that is uncertain.",
-    fields: &[
-        note(
-            "key",
-            "A number of this document, with the tables it stands in: `pressure_sinkage.k_phi`.",
-        ),
-        standard_deviation(),
-        words(
-            "distribution",
-            "Its distribution; the value in the document is its mean.",
-            &[
-                word("normal", NORMAL, super::super::field::nothing),
-                word("lognormal", LOGNORMAL, super::super::field::nothing),
-            ],
-        )
-        .otherwise(Fill::Word("normal")),
-    ],
-};
-
-/// What the distributions of soils and campaigns are.
-pub(super) const NORMAL: &str = "Symmetric about its mean.";
-pub(super) const LOGNORMAL: &str = "Of a number above zero whose logarithm is normal.";
-pub(super) const CORRELATIONS: &str =
-    "Correlations between them; pairs that are not named have none.";
-
-/// How far a number that is not known exactly may be off.
-pub(super) const fn standard_deviation<T>() -> Field<T> {
-    let doc = "Its standard deviation, in the unit of the key";
-    number("standard_deviation", OF_KEY, 0.0..=1e12, doc, nowhere)
-}
-
-/// How two keys go together.
-pub(super) const fn correlation<T>() -> [Field<T>; 2] {
-    let of = "Their correlation (of the logarithm, where a key is lognormal)";
-    [
-        field("between", "Two of the uncertain keys.", Shape::Texts(2, Some(2))),
-        number("value", ONE, -1.0..=1.0, of, nowhere),
-    ]
-}
-
-pub(super) const CORRELATION_DOC: &str = "How two keys go together.";
-
-static CORRELATION: Table<Soil> = Table { doc: CORRELATION_DOC, fields: &correlation() };

@@ -1,7 +1,14 @@
 //! The columns of measurement files: their names, units and meanings.
 
 use std::ops::RangeInclusive;
+use std::sync::LazyLock;
 
+use super::super::columns::fit::{RIM_SPEED_SETTING, TOTAL_SLIP};
+use super::super::columns::wheel::{NORMAL_FORCE, WHEEL};
+use super::super::columns::{
+    DRAWBAR_PULL, LOAD, Quantity as Named, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
+};
+use super::super::unit::{M, M_S, MM, MM_S, N, NM, ONE, Unit};
 use crate::studies::measurement::Quantity;
 
 /// What a column tells.
@@ -48,14 +55,14 @@ pub struct Column {
     pub name: &'static str,
     /// What it tells.
     pub meaning: Meaning,
-    /// Factor from its unit to SI.
-    pub to_si: f64,
+    /// Its unit.
+    pub unit: Unit,
     /// What its values may be, in its own unit.
     pub range: RangeInclusive<f64>,
 }
 
 const FORCE: RangeInclusive<f64> = -1e5..=1e5;
-const LOAD: RangeInclusive<f64> = 0.0..=1e5;
+const NOT_NEGATIVE: RangeInclusive<f64> = 0.0..=1e5;
 const SLIP: RangeInclusive<f64> = -2.0..=2.0;
 const RIGHT_ANGLE: RangeInclusive<f64> = -90.0..=90.0;
 const SPEED_MM_S: RangeInclusive<f64> = -1e4..=1e4;
@@ -70,68 +77,68 @@ const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
 const fn column(
     name: &'static str,
     meaning: Meaning,
-    to_si: f64,
+    unit: Unit,
     range: RangeInclusive<f64>,
 ) -> Column {
-    Column { name, meaning, to_si, range }
+    Column { name, meaning, unit, range }
 }
 
-const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// A column with the name and the unit of a result.
+const fn of(quantity: Named, meaning: Meaning, range: RangeInclusive<f64>) -> Column {
+    column(quantity.name, meaning, quantity.unit, range)
+}
 
-/// Every column that is known. Names of the same meaning differ in unit, or in whose files they
+/// What stands write. Names of the same meaning differ in unit, or in whose files they
 /// are: `longitudinal_force_n`, `normal_force_n` and `peripheral_speed_…` are those of the open
 /// single-wheel data of Carnegie Mellon University.
-pub static COLUMNS: [Column; 41] = {
+const READ: [Column; 31] = {
     use Meaning::{
         Cell, Load, LoadSetting, Reading, RimSpeed, RimSpeedSetting, Scatter, SlipAngle, SlipRatio,
         Status, TotalSlip, TravelSpeed, Trial, Unused, Wheel,
     };
     use Quantity::{DrawbarPull, SideForce, Sinkage, Torque};
     [
-        column("wheel", Wheel, 1.0, ANY),
-        column("cell", Cell, 1.0, ANY),
-        column("trial", Trial, 1.0, ANY),
-        column("slip_ratio", SlipRatio, 1.0, SLIP),
-        column("slip_ratio_total_speed", TotalSlip, 1.0, SLIP),
-        column("slip_angle_deg", SlipAngle, DEGREE, RIGHT_ANGLE),
-        column("travel_speed_m_s", TravelSpeed, 1.0, TRAVEL_M_S),
-        column("travel_speed_mm_s", TravelSpeed, 1e-3, TRAVEL_MM_S),
-        column("rim_speed_m_s", RimSpeed, 1.0, SPEED_M_S),
-        column("rim_speed_mm_s", RimSpeed, 1e-3, SPEED_MM_S),
-        column("peripheral_speed_mm_s", RimSpeed, 1e-3, SPEED_MM_S),
-        column("rim_speed_setting_m_s", RimSpeedSetting, 1.0, SPEED_M_S),
-        column("rim_speed_setting_mm_s", RimSpeedSetting, 1e-3, SPEED_MM_S),
-        column("peripheral_speed_setpoint_mm_s", RimSpeedSetting, 1e-3, SPEED_MM_S),
-        column("load_n", Load, 1.0, LOAD),
-        column("normal_force_n", Load, 1.0, LOAD),
-        column("load_setting_n", LoadSetting, 1.0, LOAD),
-        column("drawbar_pull_n", Reading(DrawbarPull), 1.0, FORCE),
-        column("longitudinal_force_n", Reading(DrawbarPull), 1.0, FORCE),
-        column("side_force_n", Reading(SideForce), 1.0, FORCE),
-        column("side_force_opposing_n", Meaning::OpposingSideForce, 1.0, FORCE),
-        column("torque_nm", Reading(Torque), 1.0, FORCE),
-        column("sinkage_mm", Reading(Sinkage), 1e-3, SINKAGE_MM),
-        column("sinkage_m", Reading(Sinkage), 1.0, SINKAGE_M),
-        column("drawbar_pull_std_n", Scatter(DrawbarPull), 1.0, LOAD),
-        column("longitudinal_force_std_n", Scatter(DrawbarPull), 1.0, LOAD),
-        column("side_force_std_n", Scatter(SideForce), 1.0, LOAD),
-        column("torque_std_nm", Scatter(Torque), 1.0, LOAD),
-        column("sinkage_std_mm", Scatter(Sinkage), 1e-3, LOAD),
-        column("status", Status, 1.0, ANY),
-        column("normal_force_std_n", Unused, 1.0, ANY),
-        // What `grouser wheel-test` tells beyond what a stand reads.
-        column("entry_angle_deg", Unused, DEGREE, ANY),
-        column("exit_angle_deg", Unused, DEGREE, ANY),
-        column("max_stress_angle_deg", Unused, DEGREE, ANY),
-        column("side_force_from_shear_n", Unused, 1.0, ANY),
-        column("bulldozing_load_n", Unused, 1.0, ANY),
-        column("overturning_moment_nm", Unused, 1.0, ANY),
-        column("aligning_moment_nm", Unused, 1.0, ANY),
-        column("thrust_n", Unused, 1.0, ANY),
-        column("motion_resistance_n", Unused, 1.0, ANY),
-        column("max_normal_stress_kpa", Unused, 1e3, ANY),
+        column("wheel", Wheel, ONE, ANY),
+        column("cell", Cell, ONE, ANY),
+        column("trial", Trial, ONE, ANY),
+        of(SLIP_RATIO, SlipRatio, SLIP),
+        of(TOTAL_SLIP, TotalSlip, SLIP),
+        of(SLIP_ANGLE, SlipAngle, RIGHT_ANGLE),
+        column("travel_speed_m_s", TravelSpeed, M_S, TRAVEL_M_S),
+        column("travel_speed_mm_s", TravelSpeed, MM_S, TRAVEL_MM_S),
+        column("rim_speed_m_s", RimSpeed, M_S, SPEED_M_S),
+        column("rim_speed_mm_s", RimSpeed, MM_S, SPEED_MM_S),
+        column("peripheral_speed_mm_s", RimSpeed, MM_S, SPEED_MM_S),
+        of(RIM_SPEED_SETTING, RimSpeedSetting, SPEED_M_S),
+        column("rim_speed_setting_mm_s", RimSpeedSetting, MM_S, SPEED_MM_S),
+        column("peripheral_speed_setpoint_mm_s", RimSpeedSetting, MM_S, SPEED_MM_S),
+        of(LOAD, Load, NOT_NEGATIVE),
+        of(NORMAL_FORCE, Load, NOT_NEGATIVE),
+        column("load_setting_n", LoadSetting, N, NOT_NEGATIVE),
+        of(DRAWBAR_PULL, Reading(DrawbarPull), FORCE),
+        column("longitudinal_force_n", Reading(DrawbarPull), N, FORCE),
+        of(SIDE_FORCE, Reading(SideForce), FORCE),
+        column("side_force_opposing_n", Meaning::OpposingSideForce, N, FORCE),
+        of(TORQUE, Reading(Torque), FORCE),
+        of(SINKAGE, Reading(Sinkage), SINKAGE_MM),
+        column("sinkage_m", Reading(Sinkage), M, SINKAGE_M),
+        column("drawbar_pull_std_n", Scatter(DrawbarPull), N, NOT_NEGATIVE),
+        column("longitudinal_force_std_n", Scatter(DrawbarPull), N, NOT_NEGATIVE),
+        column("side_force_std_n", Scatter(SideForce), N, NOT_NEGATIVE),
+        column("torque_std_nm", Scatter(Torque), NM, NOT_NEGATIVE),
+        column("sinkage_std_mm", Scatter(Sinkage), MM, NOT_NEGATIVE),
+        column("status", Status, ONE, ANY),
+        column("normal_force_std_n", Unused, N, ANY),
     ]
 };
+
+/// Every column that is known: what stands write, and what results of wheels have beyond that.
+pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
+    let is_read = |name: &str| READ.iter().any(|column| column.name == name);
+    let others = WHEEL.iter().filter(|result| !is_read(result.name));
+    let others = others.map(|result| column(result.name, Meaning::Unused, result.unit, ANY));
+    READ.into_iter().chain(others).collect()
+});
 
 /// The column whose presence tells a file of Carnegie Mellon's: there `side_force_n` is positive
 /// where it opposes the hub's sideways motion.

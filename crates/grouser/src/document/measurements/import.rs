@@ -166,7 +166,9 @@ impl Mapping {
             None => (1.0, theirs.trim()),
         };
         let (theirs, size) = match theirs.rsplit_once(':') {
-            Some((name, unit)) => (name.trim(), size_of(unit.trim(), column)? / column.to_si),
+            Some((name, unit)) => {
+                (name.trim(), size_of(unit.trim(), column)? / column.unit.to_si(1.0))
+            }
             None => (theirs, 1.0),
         };
         if theirs.is_empty() {

@@ -3,8 +3,8 @@
 use csv::StringRecord;
 
 use super::super::check::nearest;
+use super::super::columns::{OK, SIDE_FORCE};
 use super::super::escape;
-use super::super::study::OK;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
@@ -175,7 +175,7 @@ impl<'a> Header<'a> {
                 None => format!("column `{name}` is not used"),
             })
             .collect();
-        if self.side_force_opposes && self.names.iter().any(|name| name == "side_force_n") {
+        if self.side_force_opposes && self.names.iter().any(|name| name == SIDE_FORCE.name) {
             notes.push(format!(
                 "`side_force_n` beside `{OF_OPPOSING_SIDE_FORCES}` counts as positive where it \
                  opposes the sideways motion; Grouser's sign is the other one"
@@ -386,7 +386,7 @@ impl Cells<'_> {
             let problem = Problem::OutOfRange { column: name, value, least, most };
             return Err(failed(problem).with_hint(hint_of_unit(column)));
         }
-        Ok(Some(value * column.to_si))
+        Ok(Some(column.unit.to_si(value)))
     }
 
     /// A cell that is not empty.

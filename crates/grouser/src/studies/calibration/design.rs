@@ -11,13 +11,13 @@
 //! whatever it turns out to be. Runs are chosen one after the other, each as the best one then.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-use rayon::prelude::*;
 
 use super::Experiment as _;
 use super::diagnostics::covariance_of;
 use super::solution::Solution;
 use super::wheel_test::WheelTestExperiment;
 use crate::contact::Slip;
+use crate::studies::ensemble::outputs;
 use crate::studies::measurement::{PerQuantity, Quantity};
 
 /// A setting of the test stand.
@@ -133,8 +133,7 @@ impl Outlook {
             };
             Some((prediction, candidates.iter().map(outcome).collect::<Vec<_>>()))
         };
-        let samples: Vec<_> = rows.par_iter().map(one_sample).collect();
-        let samples: Vec<_> = samples.into_iter().flatten().collect();
+        let samples: Vec<_> = outputs(rows, one_sample).into_iter().flatten().collect();
         let outcomes = (0..candidates.len()).map(|candidate| {
             let column = |k: usize| samples.iter().map(|(_, one)| one[candidate][k]).collect();
             (0..measured.len()).map(column).collect()

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::Calibration;
 use super::posterior::{Chain, PosteriorState};
-use crate::studies::uncertainty::quantile;
+use crate::studies::ensemble::statistics::quantile;
 
 /// Samples of several chains that sampled one density, each by itself.
 ///

@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use grouser::document::Campaign;
-use grouser::document::campaign::{
-    Column, ColumnKind, Frequencies, QuantityStatistics, Role, Values,
-};
-use grouser::studies::campaign::sensitivity::Sensitivity;
-use grouser::studies::campaign::summary::{Convergence, Estimate, Quantile, Summary};
+use grouser::document::campaign::{Column, Frequencies, QuantityStatistics, Role};
+use grouser::document::table::{ColumnKind, Values};
+use grouser::studies::ensemble::sensitivity::Sensitivity;
+use grouser::studies::ensemble::statistics::{Convergence, Estimate, Quantile, Summary};
 use grouser_store::{Finished, Results};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -135,7 +134,7 @@ impl Statistics {
         self.convergence.extend(found.convergence.iter().map(|point| converged(column, point)));
         self.sensitivities.extend(sensitivities(campaign, column, found.sensitivity.as_ref()));
         let numbered = runs.iter().cloned().flatten().zip(values);
-        let samples = numbered.filter(|(run, _)| campaign.plan().is_sample(*run));
+        let samples = numbered.filter(|(run, _)| campaign.ensemble().is_sample(*run));
         self.curves.extend(curve(column, samples.filter_map(|(_, value)| *value).collect()));
     }
 
@@ -277,7 +276,7 @@ fn sensitivities(
     let inputs = campaign.factors();
     let Some(found) = found else { return Vec::new() };
     let record =
-        |(input, share): (&String, &grouser::studies::campaign::sensitivity::SobolIndex)| {
+        |(input, share): (&String, &grouser::studies::ensemble::sensitivity::SobolIndex)| {
             SensitivityRecord {
                 quantity: column.name.clone(),
                 input: input.clone(),

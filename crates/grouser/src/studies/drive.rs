@@ -1,4 +1,4 @@
-//! What a campaign keeps of a traverse.
+//! A traverse in a few numbers: its length, drift, slip, sinkage and energy.
 
 use crate::simulation::{Sample, Trajectory, WheelSample};
 

@@ -1,19 +1,14 @@
-//! What is not known exactly: distributions that are drawn from, and what many draws say.
-//!
-//! A [`Distribution`] is over a few values, whatever they stand for. Draw *i* depends on the seed
-//! and on *i* alone, so that it can be repeated on its own and does not care what other draws
-//! there are or which thread they run on. What comes of the draws is told by a [`Band`] of a
-//! quantity, and by the [`Probability`] of an event.
+//! Distributions of values that are not known exactly, whatever the values stand for.
 
 use std::ops::RangeInclusive;
 
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
 
-use super::normal::{normal_score, normal_share};
-use super::random::{self, place_below};
 use crate::elementary::exp;
 use crate::elementary::wide::{ln, ln_1p};
+use crate::studies::normal::{normal_score, normal_share};
+use crate::studies::random::{self, place_below};
 
 /// The distribution of one value, in the value's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,12 +184,18 @@ pub struct Correlation {
 #[error("no values can have these correlations together: their matrix is not positive definite")]
 pub struct Contradiction;
 
-/// A distribution over several values.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Distribution(Law);
+/// A distribution over several values: parts that are independent of each other, whose values follow each other.
+///
+/// It keeps within the ranges of its values in one of two ways. A single sample is [drawn](Self::draw) again
+/// while it is refused, which truncates all values together. For points of the unit cube, which a design spread
+/// as it wants them, each value's distribution is cut by formula ([`within`](Self::within)).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Distribution {
+    parts: Vec<Part>,
+}
 
 #[derive(Clone, Debug, PartialEq)]
-enum Law {
+enum Part {
     /// Values with normal scores L z, where L Lᵀ is their matrix of correlations.
     Scores { marginals: Vec<Cut>, factor: DMatrix<f64> },
     /// One of several rows of values, each as likely as the others.
@@ -239,7 +240,7 @@ impl Distribution {
             return Err(Contradiction);
         }
         let marginals = marginals.into_iter().map(Cut::nowhere).collect();
-        Ok(Self(Law::Scores { marginals, factor }))
+        Ok(Self { parts: vec![Part::Scores { marginals, factor }] })
     }
 
     /// The same, each value's distribution cut off at the ends of its range. (Correlations are of
@@ -247,15 +248,24 @@ impl Distribution {
     ///
     /// * `ranges`: one for each value; each with some share of its value's draws inside
     #[must_use]
-    pub fn within(self, ranges: &[RangeInclusive<f64>]) -> Self {
-        match self.0 {
-            Law::Scores { marginals, factor } => {
-                let cut = |(cut, range): (&Cut, _)| Cut::at_ends(cut.marginal, range);
-                let marginals = marginals.iter().zip(ranges).map(cut).collect();
-                Self(Law::Scores { marginals, factor })
+    pub fn within(mut self, mut ranges: &[RangeInclusive<f64>]) -> Self {
+        for part in &mut self.parts {
+            let (own, others) = ranges.split_at(part.width());
+            if let Part::Scores { marginals, .. } = part {
+                for (cut, range) in marginals.iter_mut().zip(own) {
+                    *cut = Cut::at_ends(cut.marginal, range);
+                }
             }
-            samples @ Law::Samples(_) => Self(samples),
+            ranges = others;
         }
+        self
+    }
+
+    /// The values of this distribution, and after them those of another that is independent of it.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.parts.extend(other.parts);
+        self
     }
 
     /// Rows of samples, such as those of a posterior; each draw is one of them, whichever were
@@ -266,7 +276,7 @@ impl Distribution {
     #[must_use]
     pub fn of_samples(rows: Vec<Vec<f64>>) -> Self {
         assert!(!rows.is_empty(), "a distribution needs samples");
-        Self(Law::Samples(rows))
+        Self { parts: vec![Part::Samples(rows)] }
     }
 
     /// Draw number `index`: what `accept` makes of the first values that it takes. What it refuses
@@ -285,41 +295,24 @@ impl Distribution {
         drawn.ok_or(NothingAccepted { index, tries: MOST_TRIES })
     }
 
-    /// How many uniform numbers a draw is made of: one for each marginal, or one for samples.
+    /// How many uniform numbers a draw is made of: one for each marginal, and one for rows of samples.
     #[must_use]
     pub fn dimensions(&self) -> usize {
-        match &self.0 {
-            Law::Scores { marginals, .. } => marginals.len(),
-            Law::Samples(_) => 1,
-        }
-    }
-
-    /// How many values a draw has.
-    #[must_use]
-    pub fn width(&self) -> usize {
-        match &self.0 {
-            Law::Scores { marginals, .. } => marginals.len(),
-            Law::Samples(rows) => rows[0].len(),
-        }
+        self.parts.iter().map(Part::dimensions).sum()
     }
 
     /// The values at a point of the unit cube: uniform points make draws of the distribution.
     ///
     /// * `point`: a number above 0 and below 1 for each of the [`dimensions`](Self::dimensions)
     #[must_use]
-    pub fn at(&self, point: &[f64]) -> Vec<f64> {
-        match &self.0 {
-            Law::Samples(rows) => {
-                rows[place_below(point[0] * rows.len() as f64, rows.len())].clone()
-            }
-            Law::Scores { marginals, factor } => {
-                let independent: Vec<f64> = point.iter().map(|u| normal_score(*u)).collect();
-                let scores = (0..marginals.len()).map(|row| {
-                    (0..=row).map(|column| factor[(row, column)] * independent[column]).sum()
-                });
-                marginals.iter().zip(scores).map(|(marginal, score)| marginal.at(score)).collect()
-            }
+    pub fn at(&self, mut point: &[f64]) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.parts.iter().map(Part::width).sum());
+        for part in &self.parts {
+            let (own, others) = point.split_at(part.dimensions());
+            part.add(own, &mut values);
+            point = others;
         }
+        values
     }
 
     fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
@@ -328,75 +321,35 @@ impl Distribution {
     }
 }
 
-/// The middle 95 % of a quantity, and its median.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
-    /// The 2.5 % quantile.
-    pub low: f64,
-    /// The 50 % quantile.
-    pub median: f64,
-    /// The 97.5 % quantile.
-    pub high: f64,
-}
-
-impl Band {
-    /// The band of some draws; `None` if there are none.
-    #[must_use]
-    pub fn of(draws: impl IntoIterator<Item = f64>) -> Option<Self> {
-        let mut sorted: Vec<f64> = draws.into_iter().collect();
-        sorted.sort_by(f64::total_cmp);
-        Some(Self {
-            low: quantile(&sorted, 0.025)?,
-            median: quantile(&sorted, 0.5)?,
-            high: quantile(&sorted, 0.975)?,
-        })
-    }
-}
-
-/// The value below which a share of sorted draws lies, interpolated between the two nearest:
-/// the k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7).
-pub(super) fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let last = sorted.len().checked_sub(1)?;
-    let place = share * last as f64;
-    let below = sorted[place_below(place, sorted.len())];
-    let above = sorted[place_below(place.ceil(), sorted.len())];
-    Some(below + (above - below) * place.fract())
-}
-
-/// How often something happened in independent trials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Probability {
-    /// Trials in which it did.
-    pub successes: usize,
-    /// All trials; at least one.
-    pub trials: usize,
-}
-
-impl Probability {
-    /// The share of successes [-].
-    #[must_use]
-    pub fn estimate(&self) -> f64 {
-        self.successes as f64 / self.trials as f64
+impl Part {
+    fn dimensions(&self) -> usize {
+        match self {
+            Self::Scores { marginals, .. } => marginals.len(),
+            Self::Samples(_) => 1,
+        }
     }
 
-    /// The 95 % confidence interval of the probability (Wilson 1927), both ends [-].
-    ///
-    /// ```text
-    /// [p + z²/2n ± z √(p(1 − p)/n + z²/4n²)] / (1 + z²/n)
-    /// ```
-    ///
-    /// It stays within 0 and 1, and says something after no success or nothing but successes.
-    #[must_use]
-    pub fn interval(&self) -> (f64, f64) {
-        /// Standard normal score of 97.5 % [-].
-        const Z: f64 = 1.959_963_984_540_054;
-        let (p, n) = (self.estimate(), self.trials as f64);
-        let centre = p + Z * Z / (2.0 * n);
-        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        let end = |sum: f64| (sum / (1.0 + Z * Z / n)).clamp(0.0, 1.0);
-        // Where p is 0 or 1 the interval ends there; round-off would leave it just beside.
-        let low = if self.successes == 0 { 0.0 } else { end(centre - half) };
-        let high = if self.successes == self.trials { 1.0 } else { end(centre + half) };
-        (low, high)
+    /// How many values it has.
+    fn width(&self) -> usize {
+        match self {
+            Self::Scores { marginals, .. } => marginals.len(),
+            Self::Samples(rows) => rows[0].len(),
+        }
+    }
+
+    /// Adds its values at a point.
+    fn add(&self, point: &[f64], values: &mut Vec<f64>) {
+        match self {
+            Self::Samples(rows) => {
+                values.extend(&rows[place_below(point[0] * rows.len() as f64, rows.len())]);
+            }
+            Self::Scores { marginals, factor } => {
+                let independent: Vec<f64> = point.iter().map(|u| normal_score(*u)).collect();
+                let scores = (0..marginals.len()).map(|row| {
+                    (0..=row).map(|column| factor[(row, column)] * independent[column]).sum()
+                });
+                values.extend(marginals.iter().zip(scores).map(|(cut, score)| cut.at(score)));
+            }
+        }
     }
 }

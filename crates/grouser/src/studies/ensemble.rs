@@ -1,35 +1,71 @@
-//! Campaigns: many runs over what is not known exactly, and what they say together.
+//! Ensembles: many cases whose inputs are not known exactly, and what they say together.
 //!
-//! A [`Plan`] tells the inputs of each run: a [`design::Design`] spreads points over the unit cube, and
-//! [`Distribution`]s make values of them. Run *i* depends on the plan and on *i* alone, so that it can
-//! be repeated on its own, on any machine. [`summary`] has quantiles and probabilities with their
-//! confidence intervals, [`sensitivity`] says which input an output's variance comes from, and
-//! [`drive`] what is kept of a traverse.
+//! An [`Ensemble`] has the inputs of each case: a [`design::Design`] spreads points over the unit cube, and a
+//! [`Distribution`] makes values of them. Case *i* depends on the seed and on *i* alone, so that it can be repeated
+//! on its own, on any machine, and does not care what other cases there are. [`outputs`] computes many cases.
+//! [`statistics`] has bands, quantiles and probabilities with their confidence intervals, and [`sensitivity`]
+//! says which input an output's variance comes from.
 //!
-//! What the inputs stand for, and what is run with them, is not known here.
+//! What the values stand for, and what is computed from them, is not known here.
 
 pub mod design;
-pub mod drive;
+mod distribution;
 mod permutation;
 pub mod sensitivity;
-pub mod summary;
+pub mod statistics;
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
 
 use self::design::{Design, Sampling};
-use super::uncertainty::Distribution;
+pub use self::distribution::{Contradiction, Correlation, Distribution, Marginal, NothingAccepted};
+pub use self::statistics::{Band, Probability};
 
-/// The inputs of a campaign's runs.
+/// What comes of many cases, in the cases' order. They are shared among threads, which changes no result.
+///
+/// * `one`: what comes of a case
+pub fn outputs<C: Send, T: Send>(
+    cases: impl IntoParallelIterator<Item = C>,
+    one: impl Fn(C) -> T + Sync + Send,
+) -> Vec<T> {
+    cases.into_par_iter().map(one).collect()
+}
+
+/// The same; nothing if `go_on` was false before the end.
+///
+/// * `go_on`: asked before each case, from any thread
+pub fn outputs_while<C: Send, T: Send>(
+    cases: impl IntoParallelIterator<Item = C>,
+    go_on: &(dyn Fn() -> bool + Sync),
+    one: impl Fn(C) -> T + Sync + Send,
+) -> Option<Vec<T>> {
+    let stopped = AtomicBool::new(false);
+    let unless_stopped = |case| {
+        if stopped.load(Ordering::Relaxed) {
+            return None;
+        }
+        if go_on() {
+            return Some(one(case));
+        }
+        stopped.store(true, Ordering::Relaxed);
+        None
+    };
+    outputs(cases, unless_stopped).into_iter().collect()
+}
+
+/// Cases with the inputs of each.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct Ensemble {
     design: Design,
-    /// Independent of each other; their values follow each other in a run's inputs.
-    distributions: Vec<Distribution>,
+    distribution: Distribution,
     sensitivity: bool,
 }
 
 /// The inputs of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inputs {
-    /// The values of all distributions, one after another.
+    /// The values of its distribution.
     pub values: Vec<f64>,
     /// Its place in a design for sensitivities, if it is one.
     pub place: Option<Place>,
@@ -56,23 +92,21 @@ pub enum Matrix {
     Exchanged(usize),
 }
 
-impl Plan {
-    /// A plan of `points` runs or, for sensitivities, of that many points with the runs of all
+impl Ensemble {
+    /// An ensemble of `points` cases or, for sensitivities, of that many points with the cases of all
     /// [matrices](Matrix) each.
-    ///
-    /// * `distributions`: independent of each other
     #[must_use]
     pub fn new(
         sampling: Sampling,
         points: u64,
         seed: u64,
-        distributions: Vec<Distribution>,
+        distribution: Distribution,
         sensitivity: bool,
     ) -> Self {
-        let inputs: usize = distributions.iter().map(Distribution::dimensions).sum();
+        let inputs = distribution.dimensions();
         let dimensions = if sensitivity { 2 * inputs } else { inputs };
         let design = Design { sampling, points, dimensions, seed };
-        Self { design, distributions, sensitivity }
+        Self { design, distribution, sensitivity }
     }
 
     /// The points of the unit cube that it is made of.
@@ -84,7 +118,7 @@ impl Plan {
     /// How many dimensions the inputs have: a value is one, rows of samples together are one.
     #[must_use]
     pub fn dimensions(&self) -> usize {
-        self.distributions.iter().map(Distribution::dimensions).sum()
+        self.distribution.dimensions()
     }
 
     /// Runs at each point: one, or A, B and one for each dimension.
@@ -116,19 +150,19 @@ impl Plan {
     #[must_use]
     pub fn inputs(&self, index: u64) -> Inputs {
         if !self.sensitivity {
-            let values = self.values(&self.design.point(index));
+            let values = self.distribution.at(&self.design.point(index));
             return Inputs { values, place: None };
         }
         let place = self.place(index);
         let both = self.design.point(place.point);
         let (a, b) = both.split_at(self.dimensions());
         let values = match place.matrix {
-            Matrix::A => self.values(a),
-            Matrix::B => self.values(b),
+            Matrix::A => self.distribution.at(a),
+            Matrix::B => self.distribution.at(b),
             Matrix::Exchanged(dimension) => {
                 let mut point = a.to_vec();
                 point[dimension] = b[dimension];
-                self.values(&point)
+                self.distribution.at(&point)
             }
         };
         Inputs { values, place: Some(place) }
@@ -143,17 +177,5 @@ impl Plan {
             other => Matrix::Exchanged(usize::try_from(other - 2).unwrap_or(usize::MAX)),
         };
         Place { point, matrix }
-    }
-
-    fn values(&self, point: &[f64]) -> Vec<f64> {
-        let mut values =
-            Vec::with_capacity(self.distributions.iter().map(Distribution::width).sum());
-        let mut rest = point;
-        for distribution in &self.distributions {
-            let (own, others) = rest.split_at(distribution.dimensions());
-            values.extend(distribution.at(own));
-            rest = others;
-        }
-        values
     }
 }

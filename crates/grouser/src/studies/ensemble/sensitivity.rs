@@ -21,9 +21,8 @@
 use rayon::prelude::*;
 
 use super::design::resampling;
-use super::summary::Estimate;
+use super::statistics::{Estimate, quantile};
 use crate::studies::random;
-use crate::studies::uncertainty::quantile;
 
 /// The indices of one input.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,179 @@
+//! The operator's card: of each slope its verdict, the soil as written, and the bands over samples of it.
+
+use super::super::table::{Table, Values};
+use super::super::unit::{DEG, M_PER_M};
+use super::heading::{DRAWS, DRAWS_LEVEL};
+use super::{
+    Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW,
+    quantity, text, whole,
+};
+use crate::studies::card::{Card, CardRow, Verdict};
+
+/// Drift at yaw 0.
+pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
+/// What to do on a slope.
+pub const VERDICT: &str = "verdict";
+
+/// The word of a verdict.
+#[must_use]
+pub const fn word_of(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Go => "go",
+        Verdict::Caution => "caution",
+        Verdict::NoGo => "no-go",
+    }
+}
+
+struct OnCard<'a> {
+    row: &'a CardRow,
+    card: &'a Card,
+}
+
+const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
+    [
+        SLOPE.given("Slope", |it| Some(it.row.slope)),
+        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(word_of(it.row.verdict).into())),
+        YAW.maybe("Yaw that keeps the traverse level, positive uphill", |it| {
+            it.row.level.map(|level| level.yaw)
+        }),
+        YAW.band("The same over the draws", |it| it.row.bands.as_ref()?.yaw),
+        SLIP_RATIO.maybe("Slip ratio of every wheel at that yaw", |it| {
+            it.row.level.map(|level| level.slip_ratio)
+        }),
+        SLIP_RATIO.band("The same over the draws", |it| it.row.bands.as_ref()?.slip_ratio),
+        POWER.maybe("Power of the motors at that yaw", |it| it.row.level.map(|level| level.power)),
+        POWER.band("The same over the draws", |it| it.row.bands.as_ref()?.power),
+        DRIFT.maybe("Drift per metre travelled at yaw 0, positive downhill", |it| it.row.drift),
+        DRIFT.band("The same over the draws", |it| it.row.bands.as_ref()?.drift),
+        PROBABILITY_LEVEL.probability("Share of the draws with a level traverse", |it| {
+            it.row.bands.as_ref().map(|bands| bands.level)
+        }),
+        whole(
+            DRAWS_LEVEL,
+            "Draws with a level traverse: those that yaw, slip and power are over",
+            |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
+        ),
+        whole("draws_held", "Draws that do not slide at yaw 0: those that drift is over", |it| {
+            it.row.bands.as_ref().map(|bands| bands.held.successes)
+        }),
+        whole(DRAWS, "All draws", |it| it.card.draws),
+        text(STATUS, "`ok`, or why the soil as written has no level traverse", |it| {
+            Some(status(it))
+        }),
+    ]
+}
+
+/// Why the soil as written has no level traverse.
+fn status(it: &OnCard<'_>) -> String {
+    match (&it.row.level, &it.card.limit) {
+        (Some(_), _) => OK.to_owned(),
+        (None, Ok((limit, reason))) => {
+            let limit = (limit.to_degrees() * 100.0).floor() / 100.0;
+            format!("no level attitude: the steepest slope is {limit:.2}°, {reason}")
+        }
+        (None, Err(reason)) => reason.clone(),
+    }
+}
+
+/// A row for each slope. What has no band is of the soil as its document has it; bands are over the draws, and
+/// missing where no uncertainty is stated.
+#[must_use]
+pub fn table(card: &Card) -> Table {
+    let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
+    Table::of(&columns(), &rows)
+}
+
+/// The columns of [`table`] for reading.
+#[must_use]
+pub fn brief() -> Vec<String> {
+    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name]
+        .map(String::from)
+        .into()
+}
+
+/// The same, with the bands over samples.
+#[must_use]
+pub fn bands_brief() -> Vec<String> {
+    let [yaw_low, yaw_median, yaw_high] = YAW.quantiles();
+    let [slip, drift, power] = [SLIP_RATIO, DRIFT, POWER].map(|it| {
+        let [.., high] = it.quantiles();
+        high
+    });
+    let [slope, verdict, level] = [SLOPE.name, VERDICT, PROBABILITY_LEVEL.name].map(String::from);
+    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level]
+}
+
+/// How many draws the card has, and the steepest slope: one row.
+#[must_use]
+pub fn steepest(card: &Card) -> Table {
+    const LIMIT: [Column<Card>; 3] = [
+        whole(DRAWS, "All draws", |it| it.draws),
+        LIMIT_SLOPE.maybe("The steepest slope with a level traverse", |it| {
+            it.limit.as_ref().ok().map(|(limit, _)| *limit)
+        }),
+        LIMIT_SLOPE.band("The same over the draws", |it| it.limit_band),
+    ];
+    Table::of(&LIMIT, std::slice::from_ref(card))
+}
+
+/// A measured yaw, in degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredYaw {
+    /// On which slope [°].
+    pub slope: f64,
+    /// What was measured: the name of its column.
+    pub name: String,
+    /// The yaw [°], positive uphill.
+    pub yaw: f64,
+}
+
+const MEASURED_YAW: Quantity = quantity("measured_yaw_deg", DEG);
+const MEASURED: &str = "measured";
+const PLACE: &str = "place";
+
+/// Measured yaws, each beside what the card says on its slope, and whether it lies `below`, `inside` or `above`
+/// the band over samples.
+#[must_use]
+pub fn beside(card: &Table, measured: &[MeasuredYaw]) -> Table {
+    let slopes = card.numbers(SLOPE.name);
+    let pairs = measured.iter().filter_map(|point| {
+        // Both were this many degrees once, and came through radians.
+        let is_there =
+            |slope: &Option<f64>| slope.is_some_and(|it| (it - point.slope).abs() < 1e-9);
+        Some((point, slopes.iter().position(is_there)?))
+    });
+    let (points, rows): (Vec<&MeasuredYaw>, Vec<usize>) = pairs.unzip();
+    let [low, _, high] = YAW.quantiles();
+    let ends = (card.numbers(&low), card.numbers(&high));
+    let place = |(point, row): (&&MeasuredYaw, &usize)| {
+        let (low, high) = ends.0[*row].zip(ends.1[*row])?;
+        let is_below = point.yaw < low;
+        let is_above = point.yaw > high;
+        let word = if is_below {
+            "below"
+        } else if is_above {
+            "above"
+        } else {
+            "inside"
+        };
+        Some(word.to_owned())
+    };
+    let names = points.iter().map(|point| Some(point.name.clone())).collect();
+    let yaws = points.iter().map(|point| Some(point.yaw)).collect();
+    let places = points.iter().zip(&rows).map(place).collect();
+    let beside = |names: &[&str]| card.select(names, &rows);
+    let mut table = beside(&[SLOPE.name]);
+    table.columns.push((MEASURED.into(), Values::Text(names)));
+    table.columns.push((MEASURED_YAW.name.into(), Values::Float(yaws)));
+    table.columns.extend(beside(&[YAW.name, &low, &high, PROBABILITY_LEVEL.name]).columns);
+    table.columns.push((PLACE.into(), Values::Text(places)));
+    table
+}
+
+/// The columns of [`beside`] for reading.
+#[must_use]
+pub fn beside_brief() -> Vec<String> {
+    let [low, _, high] = YAW.quantiles();
+    let [slope, measured, yaw] = [SLOPE.name, MEASURED, MEASURED_YAW.name].map(String::from);
+    vec![slope, measured, yaw, low, high, PROBABILITY_LEVEL.name.into(), PLACE.into()]
+}

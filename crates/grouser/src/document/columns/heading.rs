@@ -1,0 +1,249 @@
+//! The heading offset that holds the contour: on a slope, over slope and course, and over samples of an
+//! uncertain soil.
+
+use super::super::table::Table;
+use super::super::unit::NM;
+use super::{
+    COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, SINKAGE,
+    SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
+};
+use crate::studies::attitude::{Attitude, AttitudeCurve, NoAttitude};
+use crate::studies::attitude_band::{AttitudeBand, SlopeBand};
+use crate::studies::attitude_map::{AttitudeMap, AttitudeRow};
+use crate::vehicle::Rover;
+
+/// A rover that holds its course.
+#[derive(Clone, Copy, Debug)]
+pub struct Held<'a> {
+    /// How.
+    pub attitude: &'a Attitude,
+    /// The rover.
+    pub rover: &'a Rover,
+    /// Of all wheels, ω r_s [m/s]; none where none is asked for.
+    pub rim_speed: Option<f64>,
+}
+
+/// The results of a rover that holds its course.
+#[must_use]
+pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
+    [
+        YAW.number("Yaw that keeps the course, positive uphill", |it| it.attitude.yaw),
+        SLIP_RATIO.number("Slip ratio of every wheel", |it| it.attitude.slip_ratio),
+        SINKAGE.number("Mean sinkage of the wheels", |it| it.attitude.mean_sinkage()),
+        TORQUE.number("Torque of all wheels together", |it| it.attitude.torque()),
+        POWER.maybe("Power of the motors at the rim speed of the map", |it| {
+            it.rim_speed.map(|speed| it.attitude.power(it.rover, speed))
+        }),
+        ENERGY_PER_METRE.number("Work of the wheels per metre along the course", |it| {
+            it.attitude.energy_per_metre(it.rover)
+        }),
+        number(
+            "yaw_moment_nm",
+            NM,
+            "Yaw moment left over; negative turns the nose downhill",
+            |it| it.attitude.yaw_moment,
+        ),
+    ]
+}
+
+/// What was found on a slope of some soil and course.
+#[derive(Clone, Copy, Debug)]
+struct OnSlope<'a> {
+    slope: f64,
+    found: &'a Result<Attitude, NoAttitude>,
+    /// Of a map: the soil's name, and its row.
+    soil: &'a str,
+    row: Option<&'a AttitudeRow>,
+}
+
+const fn slope<'a>() -> [Column<OnSlope<'a>>; 1] {
+    [SLOPE.given("Slopes", |it| Some(it.slope))]
+}
+
+const fn status<'a>() -> [Column<OnSlope<'a>>; 1] {
+    [text(STATUS, "`ok`, or why no heading offset holds the course", |it| {
+        Some(it.found.as_ref().map_or_else(ToString::to_string, |_| OK.into()))
+    })]
+}
+
+const SOIL: &str = "soil";
+
+/// Of a map, before what was found.
+const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        text(SOIL, "The soils' names", |it| Some(it.soil.to_owned())),
+        COURSE.given("Directions of travel from the contour, positive uphill", |it| {
+            it.row.map(|row| row.course)
+        }),
+    ]
+}
+
+/// Of a map, after what was found.
+const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
+    [LIMIT_SLOPE
+        .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
+            it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
+        })]
+}
+
+/// A row for each slope [rad]. Results are missing where `status` is not `ok`.
+#[must_use]
+pub fn table(curve: &AttitudeCurve, rover: &Rover, slopes: &[f64]) -> Table {
+    let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
+    let rows = slopes.iter().zip(&found);
+    let rows = rows.map(|(slope, found)| OnSlope { slope: *slope, found, soil: "", row: None });
+    found_table(Table::default(), &rows.collect::<Vec<_>>(), rover, None)
+}
+
+/// Slope, results and status.
+fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Option<f64>) -> Table {
+    let all = rows.iter().map(|row| {
+        let attitude = row.found.as_ref().ok()?;
+        Some(Held { attitude, rover, rim_speed })
+    });
+    let all: Vec<Option<Held<'_>>> = all.collect();
+    let all: Vec<Option<&Held<'_>>> = all.iter().map(Option::as_ref).collect();
+    let rows: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
+    let (power, results): (Vec<_>, Vec<_>) =
+        held().into_iter().partition(|column| column.name == POWER.name);
+    let table = table.and(&slope(), &rows).and(&results, &all).and(&status(), &rows);
+    if rim_speed.is_some() { table.and(&power, &all) } else { table }
+}
+
+/// The columns of [`table`] for reading.
+#[must_use]
+pub fn brief() -> Vec<String> {
+    let [.., yaw_moment] = held();
+    let names = [SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE].map(|it| it.name);
+    names.into_iter().chain([yaw_moment.name, STATUS]).map(String::from).collect()
+}
+
+/// The curve of an attitude over the slope, as points of a chart.
+#[must_use]
+pub fn curve(curve: &AttitudeCurve) -> Table {
+    const POINT: [Column<Attitude>; 2] = [
+        SLOPE.number("Slopes", |it| it.slope),
+        YAW.number("Yaw that keeps the course, positive uphill", |it| it.yaw),
+    ];
+    Table::of(&POINT, &curve.attitudes())
+}
+
+/// The steepest slope, and what ends the curve there: one row.
+#[must_use]
+pub fn steepest(curve: &AttitudeCurve) -> Table {
+    type Limit = Result<(f64, String), String>;
+    const LIMIT: [Column<Limit>; 2] = [
+        LIMIT_SLOPE.maybe("The steepest slope that can be crossed level", |it| {
+            it.as_ref().ok().map(|(slope, _)| *slope)
+        }),
+        text(LIMIT_REASON, "What ends the curve there", |it| {
+            Some(it.as_ref().map_or_else(Clone::clone, |(_, reason)| reason.clone()))
+        }),
+    ];
+    let limit = match curve.limit() {
+        Ok((slope, reason)) => Ok((slope, reason.to_owned())),
+        Err(NoAttitude::CannotMove(reason) | NoAttitude::TooSteep { reason, .. }) => Err(reason),
+    };
+    Table::of(&LIMIT, &[limit])
+}
+
+/// What ends a curve.
+pub const LIMIT_REASON: &str = "limit_reason";
+
+/// A row for each soil, course and slope of a map.
+///
+/// * `soils`: the name of each study's soil
+/// * `rim_speed`: for the power [m/s]
+#[must_use]
+pub fn map_table(map: &AttitudeMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Table {
+    let cells = |row| {
+        let on_slope = move |(slope, found): (&f64, _)| {
+            let row: &AttitudeRow = row;
+            OnSlope { slope: *slope, found, soil: &soils[row.study], row: Some(row) }
+        };
+        map.slopes.iter().zip(&row.cells).map(on_slope).collect::<Vec<_>>()
+    };
+    let rows: Vec<OnSlope<'_>> = map.rows.iter().flat_map(cells).collect();
+    let all: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
+    let table = Table::default().and(&place(), &all);
+    found_table(table, &rows, rover, Some(rim_speed)).and(&limit(), &all)
+}
+
+/// The columns of [`map_table`] for reading.
+#[must_use]
+pub fn map_brief() -> Vec<String> {
+    let numbers = [COURSE, SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE, POWER];
+    let names = numbers.map(|it| it.name);
+    [SOIL].into_iter().chain(names).chain([STATUS]).map(String::from).collect()
+}
+
+/// What samples of an uncertain soil say on one slope. Quantiles are over the samples with an attitude there, and
+/// missing where none has one.
+pub const BAND: [Column<SlopeBand>; 7] = [
+    YAW.band("Yaw, positive uphill", |it| it.yaw),
+    SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
+    SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
+    ENERGY_PER_METRE
+        .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
+    PROBABILITY_LEVEL.probability(
+        "Probability that a level attitude exists: the share of the draws that have one",
+        |it| Some(it.level),
+    ),
+    whole(DRAWS_LEVEL, "Draws with a level attitude", |it| Some(it.level.successes)),
+    whole(DRAWS, "All draws", |it| Some(it.level.trials)),
+];
+
+/// How many samples have an attitude.
+pub(super) const DRAWS_LEVEL: &str = "draws_level";
+/// How many samples there are.
+pub const DRAWS: &str = "draws";
+/// How many samples let the rover move on level ground.
+pub const DRAWS_MOBILE: &str = "draws_mobile";
+
+/// What samples say of the steepest slope.
+pub const BAND_LIMIT: [Column<AttitudeBand>; 3] = [
+    LIMIT_SLOPE
+        .band("The steepest slope, over the draws on which the rover can move", |it| it.limit),
+    whole(DRAWS_MOBILE, "Draws on which the rover can move on level ground", |it| {
+        Some(it.mobile.successes)
+    }),
+    whole(DRAWS, "All draws", |it| Some(it.mobile.trials)),
+];
+
+/// A table with a row for each slope, and what samples say there.
+#[must_use]
+pub fn with_bands(table: Table, bands: &[SlopeBand]) -> Table {
+    table.and(&BAND, &bands.iter().map(Some).collect::<Vec<_>>())
+}
+
+/// What samples say, over the slope.
+#[must_use]
+pub fn bands(bands: &[SlopeBand]) -> Table {
+    const PLACE: [Column<SlopeBand>; 1] = [SLOPE.number("Slopes", |it| it.slope)];
+    with_bands(Table::of(&PLACE, bands), bands)
+}
+
+/// What samples say of the steepest slope: one row.
+#[must_use]
+pub fn band_limit(band: &AttitudeBand) -> Table {
+    Table::of(&BAND_LIMIT, std::slice::from_ref(band))
+}
+
+/// The columns of [`with_bands`] for reading.
+#[must_use]
+pub fn bands_brief() -> Vec<String> {
+    let [yaw_low, _, yaw_high] = YAW.quantiles();
+    let [_, _, slip_high] = SLIP_RATIO.quantiles();
+    let name = |it: &str| it.to_owned();
+    vec![
+        name(SLOPE.name),
+        name(YAW.name),
+        yaw_low,
+        yaw_high,
+        name(SLIP_RATIO.name),
+        slip_high,
+        name(PROBABILITY_LEVEL.name),
+        name(DRAWS_LEVEL),
+        name(STATUS),
+    ]
+}

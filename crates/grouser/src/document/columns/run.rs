@@ -1,0 +1,176 @@
+//! A run: its samples in time, each wheel's, and what became of the rover.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::super::table::Table;
+use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, RAD_S};
+use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
+use super::{
+    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TIME,
+    X, Y, YAW, maybe, number, quantity, text,
+};
+use crate::contact::Settled;
+use crate::simulation::{Sample, Trajectory, WheelSample};
+use crate::studies::drive::Drive;
+use crate::vehicle::Rover;
+
+/// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
+/// frame.
+pub const SAMPLE: [Column<Sample>; 12] = [
+    TIME.number("Time", |it| it.time),
+    X.number("Along the contour, of the body's centre of mass", |it| it.state.position.x),
+    Y.number("Uphill", |it| it.state.position.y),
+    YAW.number("Yaw, positive where the nose points uphill", |it| it.state.yaw),
+    number("forward_speed_m_s", M_S, "Speed along the body", |it| it.state.velocity.x),
+    number("lateral_speed_m_s", M_S, "Speed across the body, positive to the left", |it| {
+        it.state.velocity.y
+    }),
+    number("yaw_rate_deg_s", DEG_S, "Yaw rate", |it| it.state.yaw_rate),
+    POWER.number("Power of all motors", |it| it.wheels.iter().map(WheelSample::power).sum()),
+    ENERGY.number("Work of the motors so far", |it| it.energy.motors),
+    number("soil_energy_j", J, "Work done on the soil so far", |it| it.energy.soil),
+    number("kinetic_energy_j", J, "Kinetic energy", |it| it.energy.kinetic),
+    number("potential_energy_j", J, "Potential energy, zero at the start's height", |it| {
+        it.energy.potential
+    }),
+];
+
+/// A wheel at one time, beside its results ([`WHEEL`]).
+pub const WHEEL_SAMPLE: [Column<WheelSample>; 5] = [
+    number("wheel_speed_rad_s", RAD_S, "Angular speed", |it| it.wheel_speed),
+    SLIP_RATIO.number("Slip ratio", |it| it.reaction.slip.ratio),
+    SLIP_ANGLE.number("Slip angle", |it| it.reaction.slip.angle),
+    LOAD.number("Load", |it| it.reaction.load),
+    POWER.number("Power of its motor", WheelSample::power),
+];
+
+/// What the energy balance cannot account for.
+pub const ENERGY_ERROR: Quantity = quantity("energy_error_j", J);
+
+/// What became of the rover.
+const RUN: [Column<Trajectory>; 6] = [
+    text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
+        Some(it.outcome.name().into())
+    }),
+    text("reason", "What that means here; none for a completed run", |it| it.outcome.reason()),
+    text("simulation", "`dynamic`, `quasi-steady`, or `fell-back` to the first", |it| {
+        Some(it.method.name().into())
+    }),
+    text("simulation_reason", "Since when and why it fell back", |it| it.method.reason()),
+    ENERGY.number("Work of the motors over the run", |it| it.last().energy.motors),
+    ENERGY_ERROR.number("What the energy balance cannot account for", Trajectory::energy_error),
+];
+
+/// A run in a few numbers, means over wheels and samples: what a campaign keeps beside the end.
+pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
+    number("distance_m", M, "Length of the way", |it| it.distance),
+    maybe("drift_m_per_m", M_PER_M, "Drift per metre travelled, positive downhill", |it| it.drift),
+    SLIP_RATIO.maybe("Mean slip ratio", |it| it.slip_ratio),
+    SINKAGE.maybe("Mean sinkage", |it| it.sinkage),
+    POWER.maybe("Mean power of all motors", |it| it.power),
+    ENERGY.number("Work of the motors", |it| it.energy),
+    ENERGY_PER_METRE.maybe("Work of the motors per metre travelled", |it| it.energy_per_metre),
+];
+
+/// Where a run ended: of the columns of a sample, what a campaign keeps.
+pub(in super::super) const END: &[Column<Sample>] = SAMPLE.split_at(4).0;
+
+/// A row for each sample. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
+/// empty where the rover has just tipped over or sunk, and left out where no sample has any.
+#[must_use]
+pub fn table(run: &Trajectory, rover: &Rover) -> Table {
+    let mut table = Table::of(&SAMPLE, &run.samples);
+    let wheels = run.samples.iter().map(|sample| sample.wheels.len()).max().unwrap_or(0);
+    for (place, mount) in rover.mounts().iter().take(wheels).enumerate() {
+        let wheels: Vec<_> = run.samples.iter().map(|sample| sample.wheels.get(place)).collect();
+        let settled: Vec<Option<&Settled>> =
+            wheels.iter().map(|wheel| Some(&(*wheel)?.reaction.settled)).collect();
+        let prefix = format!("{}.", mount.name);
+        // The largest stress stands first: readers of such files may know columns by their places.
+        let (first, results): (Vec<_>, Vec<_>) =
+            WHEEL.iter().partition(|column| column.name == MAX_NORMAL_STRESS.name);
+        table = table.and_named(&prefix, first, &settled);
+        table = table.and_named(&prefix, &WHEEL_SAMPLE, &wheels);
+        table = table.and_named(&prefix, results, &settled);
+    }
+    table
+}
+
+/// The means of a sample's wheels; none where the rover has just tipped over or sunk.
+const MEANS: [Column<Sample>; 3] = [
+    SLIP_RATIO.maybe("Mean slip ratio", |it| mean(it, |wheel| wheel.reaction.slip.ratio)),
+    SLIP_ANGLE.maybe("Mean slip angle", |it| mean(it, |wheel| wheel.reaction.slip.angle)),
+    SINKAGE.maybe("Mean sinkage", |it| mean(it, |wheel| wheel.reaction.settled.sinkage)),
+];
+
+fn mean(sample: &Sample, of: fn(&WheelSample) -> f64) -> Option<f64> {
+    let count = sample.wheels.len();
+    (count > 0).then(|| sample.wheels.iter().map(of).sum::<f64>() / count as f64)
+}
+
+/// The start and some more samples up to the end, with the means of their wheels: for reading.
+///
+/// * `lines`: how many besides the start, at most
+#[must_use]
+pub fn brief(run: &Trajectory, lines: usize) -> Table {
+    let last = run.samples.len() - 1;
+    let lines = lines.min(last);
+    let rows: Vec<_> =
+        (0..=lines).map(|line| Some(&run.samples[line * last / lines.max(1)])).collect();
+    let power = SAMPLE.iter().position(|it| it.name == POWER.name).unwrap_or(0);
+    Table::default().and(END, &rows).and(&MEANS, &rows).and(&SAMPLE[power..=power], &rows)
+}
+
+/// A run with its samples as one object of JSON: what became of the rover, `final`, and `samples`.
+#[derive(Clone, Copy, Debug)]
+pub struct RunObject<'a> {
+    /// The run.
+    pub run: &'a Trajectory,
+    /// Its rover.
+    pub rover: &'a Rover,
+}
+
+impl Serialize for RunObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let sample = |sample| SampleObject { sample, rover: self.rover };
+        let mut map = serializer.serialize_map(None)?;
+        RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
+        map.serialize_entry("final", &sample(self.run.last()))?;
+        let samples: Vec<SampleObject<'_>> = self.run.samples.iter().map(sample).collect();
+        map.serialize_entry("samples", &samples)?;
+        map.end()
+    }
+}
+
+struct SampleObject<'a> {
+    sample: &'a Sample,
+    rover: &'a Rover,
+}
+
+impl Serialize for SampleObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        SAMPLE.iter().try_for_each(|column| column.write(&mut map, self.sample))?;
+        let wheels = self.sample.wheels.iter().zip(self.rover.mounts());
+        let wheels: Vec<_> =
+            wheels.map(|(wheel, mount)| WheelObject { name: &mount.name, wheel }).collect();
+        map.serialize_entry("wheels", &wheels)?;
+        map.end()
+    }
+}
+
+struct WheelObject<'a> {
+    name: &'a str,
+    wheel: &'a WheelSample,
+}
+
+impl Serialize for WheelObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("wheel", self.name)?;
+        WHEEL_SAMPLE.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
+        let settled = &self.wheel.reaction.settled;
+        WHEEL.iter().try_for_each(|column| column.write(&mut map, settled))?;
+        map.end()
+    }
+}
