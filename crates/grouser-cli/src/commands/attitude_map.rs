@@ -42,7 +42,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
             let number =
                 if scenarios.len() > 1 { format!("-{}", place + 1) } else { String::new() };
             for (file, figure) in figures(args, &map, place, name) {
-                folder.add(&format!("{file}{number}.svg"), figure.to_svg());
+                folder.add(format!("{file}{number}.svg"), figure.to_svg());
             }
             folder.add_document(&format!("scenario{number}.toml"), scenario);
         }

@@ -238,7 +238,7 @@ impl<'a> Target<'a> {
             Self::Folder(folder) => folder,
         };
         for (ending, form) in FORMS {
-            folder.add(&format!("card.{ending}"), form.bytes(sheet));
+            folder.add(format!("card.{ending}"), form.bytes(sheet));
         }
         let Answers { args, inputs, card, rows, beside } = answers;
         folder.add(

@@ -122,8 +122,8 @@ fn write_report(
         let Some(figure) = drawn.next() else { return Ok(()) };
         let svg = figure.chart.to_svg();
         page.figure(&figure, &svg);
-        folder.add(&format!("figures/{}.svg", figure.file), svg);
-        folder.add(&format!("data/{}.csv", figure.file), figure.rows().to_csv()?);
+        folder.add(format!("figures/{}.svg", figure.file), svg);
+        folder.add(format!("data/{}.csv", figure.file), figure.rows().to_csv()?);
         Ok(())
     };
 
@@ -146,13 +146,13 @@ fn write_report(
     closing(&mut page, scenario);
 
     for table in &all_tables {
-        folder.add(&format!("data/{}.csv", table.file), table.to_rows().to_csv()?);
+        folder.add(format!("data/{}.csv", table.file), table.to_rows().to_csv()?);
     }
     for runs in &study.slopes {
         let slope = runs.measured.slope.to_degrees().round();
         let mut add = |name: &str, run: &grouser::simulation::Trajectory| {
             let rows = Rows::of_table(&run_table(run, rover)).to_csv()?;
-            folder.add(&format!("data/traverse-{slope}deg-{name}.csv"), rows);
+            folder.add(format!("data/traverse-{slope}deg-{name}.csv"), rows);
             Ok::<(), Failure>(())
         };
         add("nose-level", &runs.uncompensated)?;

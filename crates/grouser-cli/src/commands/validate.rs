@@ -75,7 +75,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
         folder.add("trials.csv", Rows::of_table(&fit::trials(&measured, &validation)).to_csv()?);
         folder.add("validation.html", page::html(args, data, &stand, &validation));
         for figure in figures::all(&validation) {
-            folder.add(&format!("figures/{}.svg", figure.file), figure.chart.to_svg());
+            folder.add(format!("figures/{}.svg", figure.file), figure.chart.to_svg());
         }
         folder.add_document("soil.toml", &stand.soil);
         folder.add_document("wheel.toml", &stand.wheel);

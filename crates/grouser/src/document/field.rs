@@ -430,10 +430,12 @@ impl<T> Field<T> {
                 }
             }
             (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {
-                inner.rename(node, to)
+                inner.rename(node, to);
             }
             (Shape::List(inner, _), Value::List(nodes)) => {
-                nodes.iter_mut().for_each(|node| inner.rename(node, to));
+                for node in nodes {
+                    inner.rename(node, to);
+                }
             }
             _ => {}
         }

@@ -171,7 +171,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     for figure in validate::figures::all(&found.validation) {
         let svg = figure.chart.to_svg();
         page.drawing(&svg, figure.caption);
-        folder.add(&format!("figures/{}.svg", figure.file), svg);
+        folder.add(format!("figures/{}.svg", figure.file), svg);
     }
     add_posterior(folder, &mut page, &found.solved);
     page.heading("Correlations");

@@ -48,7 +48,7 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
         }
         let figures = figures::all(&statistics);
         for figure in &figures {
-            folder.add(&format!("figures/{}.svg", figure.file), figure.chart.to_svg());
+            folder.add(format!("figures/{}.svg", figure.file), figure.chart.to_svg());
         }
         folder.add("report.html", page::html(&campaign, &results, &statistics, &digest, &figures));
         folder.add("study.toml", results.study().to_owned());

@@ -32,7 +32,7 @@ pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
         for best in entries.iter().filter(|entry| entry.rank == 1) {
             let part = slug(&format!("{} {}", best.data_set, best.case));
             for figure in figures::all(&best.validation) {
-                folder.add(&format!("figures/{part}-{}.svg", figure.file), figure.chart.to_svg());
+                folder.add(format!("figures/{part}-{}.svg", figure.file), figure.chart.to_svg());
             }
         }
         folder.finish()?;
