@@ -27,7 +27,7 @@ fn the_work_is_as_much_as_it_was() {
     text.push_str("\nwork for a traverse of 20 s on 10°\n");
     let read = |file: &str| -> Scenario {
         let path =
-            concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/scenarios/").to_owned() + file;
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-io/data/scenarios/").to_owned() + file;
         let loaded = document::read_scenario(&Source::file(path), &Overrides::none());
         loaded.expect("a ready scenario").value
     };

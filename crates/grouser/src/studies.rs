@@ -17,10 +17,10 @@ pub mod card;
 pub mod comparison;
 pub mod drive;
 pub mod ensemble;
-pub mod measurement;
-mod normal;
-mod random;
 pub mod reproduction;
 pub mod simulated_test;
 pub mod validation;
 pub mod wheel_test;
+
+pub use grouser_io::measurements::wheel_tests as measurement;
+use grouser_io::statistics::{normal, random};

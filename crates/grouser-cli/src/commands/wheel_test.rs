@@ -45,8 +45,8 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     });
     match args.stand.trials {
         None => {
-            let table = columns::wheel::table(&test.run());
-            let brief = columns::wheel::brief();
+            let table = columns::wheel_test::table(&test.run());
+            let brief = columns::wheel_test::brief();
             tell(args, folder, &inputs, settings, &table, &brief, &chart(&table, Style::Line))
         }
         Some(trials) => {

@@ -9,7 +9,6 @@
 //! What the values stand for, and what is computed from them, is not known here.
 
 pub mod design;
-mod distribution;
 mod permutation;
 pub mod sensitivity;
 pub mod statistics;
@@ -18,9 +17,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use self::design::{Design, Sampling};
-pub use self::distribution::{Contradiction, Correlation, Distribution, Marginal, NothingAccepted};
-pub use self::statistics::{Band, Probability};
+use self::design::Design;
+use grouser_io::campaign::Sampling;
+pub use grouser_io::statistics::{
+    Band, Contradiction, Correlation, Distribution, Marginal, NothingAccepted, Probability,
+};
 
 /// What comes of many cases, in the cases' order. They are shared among threads, which changes no result.
 ///

@@ -79,7 +79,7 @@ fn every_preset_says_its_name_and_its_source() {
 
 #[test]
 fn every_file_of_the_data_is_a_preset() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/data");
     for (folder, kind) in [
         ("soils", Kind::Soil),
         ("wheels", Kind::Wheel),
