@@ -17,7 +17,7 @@ pub mod reaction;
 pub mod rover;
 pub mod state;
 
-pub use drive::{Drive, DriveLaw};
+pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, WheelReaction};
 pub use rover::{Body, Inertia, Mount, Rover, RoverParts, WheelUnit};

@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use grouser::document::trajectory::{SampleRecord, WheelSampleRecord};
 use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range};
-use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator};
+use grouser::simulation::{LEAST_STEP, Run, RunError, Scenario};
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -27,7 +27,7 @@ const LONGEST_STEP: f64 = grouser::simulation::scenario::LONGEST_DURATION;
 struct Led {
     nominal: Scenario,
     soils: Option<UncertainSoil>,
-    rover: Simulator,
+    rover: Run,
     failure: Option<String>,
 }
 
@@ -40,14 +40,14 @@ struct Fresh {
 }
 
 impl Led {
-    fn new(loaded: &LoadedScenario) -> Result<Self, SimulationError> {
+    fn new(loaded: &LoadedScenario) -> Result<Self, RunError> {
         let nominal = loaded.value.clone();
         let soils = loaded.uncertain.clone();
-        let rover = Simulator::new(nominal.clone())?;
+        let rover = Run::new(&nominal)?;
         Ok(Self { nominal, soils, rover, failure: None })
     }
 
-    fn reset(&mut self, fresh: Fresh) -> Result<(), SimulationError> {
+    fn reset(&mut self, fresh: Fresh) -> Result<(), RunError> {
         let mut scenario = self.nominal.clone();
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // That draws can be had was found out when the document was read.
@@ -61,13 +61,13 @@ impl Led {
         if let Some(yaw) = fresh.yaw_deg {
             scenario.start.yaw = yaw.to_radians();
         }
-        self.rover = Simulator::new(scenario)?;
+        self.rover = Run::new(&scenario)?;
         self.failure = None;
         Ok(())
     }
 
     /// Goes on for a while, unless its run has ended or failed.
-    fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), SimulationError> {
+    fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), RunError> {
         if self.failure.is_some() {
             return Ok(());
         }
@@ -241,7 +241,7 @@ impl Simulators {
     /// Outcome and message of each rover, `None` while it is under way; and how it was computed.
     #[allow(clippy::type_complexity, reason = "three words of each rover")]
     fn words(&self, py: Python<'_>) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
-        let words = |led: &Led| (led.outcome(), led.message(), led.rover.method().name());
+        let words = |led: &Led| (led.outcome(), led.message(), led.rover.state().method().name());
         py.detach(|| self.lock().iter().map(words).collect())
     }
 }
@@ -258,7 +258,7 @@ impl Simulators {
     fn each(
         &self,
         py: Python<'_>,
-        act: impl Fn(&mut Led, usize) -> Result<(), SimulationError> + Sync,
+        act: impl Fn(&mut Led, usize) -> Result<(), RunError> + Sync,
     ) -> PyResult<()> {
         let mut told = Ok(());
         let mut start = 0;
@@ -272,7 +272,7 @@ impl Simulators {
                 let act = |(place, led): (usize, &mut Led)| act(led, place);
                 pool.install(|| batch.into_par_iter().map(act).collect())
             });
-            told = told.and(done.into_iter().collect::<Result<(), SimulationError>>());
+            told = told.and(done.into_iter().collect::<Result<(), RunError>>());
             py.check_signals()?;
             start += BATCH;
         }

@@ -10,7 +10,7 @@ use grouser::document::study::{
 use grouser::document::trajectory::{SampleRecord, TrajectoryRecord, WheelSampleRecord};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
-use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory};
+use grouser::simulation::{Run, RunError, Scenario, Trajectory};
 use grouser::soil::Soil;
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::attitude_band::AttitudeBand;
@@ -56,8 +56,8 @@ pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bo
     to_python(py, &record.map_err(|error| errors::of_simulation(&error))?, &names)
 }
 
-pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
-    Simulation::new(scenario)?.run()
+pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
+    Run::new(scenario)?.to_end()
 }
 
 pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {

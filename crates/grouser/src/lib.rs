@@ -28,20 +28,20 @@
 //!
 //! ```
 //! use grouser::document::{self, Overrides, Source};
-//! use grouser::simulation::{Outcome, Scenario, Simulation, Start};
+//! use grouser::simulation::{Outcome, Run, Scenario, Start};
 //! use grouser::studies::attitude::AttitudeStudy;
 //! use grouser::units::deg;
 //!
 //! // The default scenario: the paper's rover on Toyoura sand, on 10°, nose along the contour.
 //! let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-//! let drift = Simulation::new(&scenario)?.run()?.last().state.position.y;
+//! let drift = Run::new(&scenario)?.to_end()?.last().state.position.y;
 //! assert!(drift < -0.09); // 9 cm downhill in 20 s
 //!
 //! let attitude = AttitudeStudy::of(&scenario).curve()?.at(scenario.site.slope)?;
 //! assert!((attitude.yaw - deg(5.04)).abs() < deg(0.01));
 //!
 //! let start = Start { yaw: attitude.yaw, ..scenario.start };
-//! let run = Simulation::new(&Scenario { start, ..scenario })?.run()?;
+//! let run = Run::new(&Scenario { start, ..scenario })?.to_end()?;
 //! assert_eq!(run.outcome, Outcome::Completed);
 //! assert!(run.last().state.position.y.abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -2,7 +2,7 @@
 
 use grouser::document::escape;
 use grouser::document::trajectory::{SampleRecord, TrajectoryRecord};
-use grouser::simulation::Simulation;
+use grouser::simulation::Run;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
@@ -26,7 +26,7 @@ const LINES: usize = 10;
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::traverse(args)?;
-    let run = Simulation::new(&scenario.value)?.run()?;
+    let run = Run::new(&scenario.value)?.to_end()?;
     let record = TrajectoryRecord::new(&run, &scenario.value.rover);
     let answer = Answer::new("traverse", json!({ "scenario": scenario.document }), &record);
     if let Some(mut folder) = folder {

@@ -3,7 +3,8 @@
 use std::cell::{Cell, RefCell};
 
 use super::power;
-use super::trajectory::Work;
+use super::scenario::Scenario;
+use super::work::Work;
 use crate::contact::Slip;
 use crate::site::Site;
 use crate::units::Vec2;
@@ -48,6 +49,19 @@ pub struct Rates {
 }
 
 impl<'a> Equations<'a> {
+    /// The equations of a scenario, for wheels that turn at these rim speeds, ω r_s [m/s].
+    #[must_use]
+    pub fn of(scenario: &'a Scenario, rim_speeds: &'a [f64]) -> Self {
+        let ground = Ground {
+            rover: &scenario.rover,
+            site: &scenario.site,
+            model: scenario.theory.model(),
+            sharing: scenario.sharing,
+            own_moments: scenario.own_moments,
+        };
+        Self::new(ground, rim_speeds)
+    }
+
     /// The equations for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
     pub fn new(ground: Ground<'a>, rim_speeds: &'a [f64]) -> Self {

@@ -50,6 +50,8 @@ pub(super) struct Stretch {
     nodes: Vec<Balance>,
     /// From the first to the last [rad], with its sign.
     width: f64,
+    /// How far from its only balance a stretch of one holds [rad].
+    reach: f64,
 }
 
 /// What one run hands on from one advance to the next.
@@ -184,8 +186,11 @@ impl Stretch {
         let settling_time = balancer.settling_time(&here)?;
         let rate = here.velocities.z;
         // On level ground no yaw differs from another.
-        if balancer.is_level() || rate.abs() * horizon <= HELD {
-            return Ok(Self { nodes: vec![here], width: 0.0 });
+        if balancer.is_level() {
+            return Ok(Self { nodes: vec![here], width: 0.0, reach: f64::INFINITY });
+        }
+        if rate.abs() * horizon <= HELD {
+            return Ok(Self { nodes: vec![here], width: 0.0, reach: AMPLE * HELD });
         }
         let width = (AMPLE * rate * horizon).clamp(-LONGEST_STRETCH, LONGEST_STRETCH);
         let stretch = Self::through(balancer, here, width)?;
@@ -205,7 +210,7 @@ impl Stretch {
                 && roughness(balancer, &known) <= RESOLVED
             {
                 let nodes = known.into_iter().map(|(_, balance)| balance).collect();
-                return Ok(Self { nodes, width });
+                return Ok(Self { nodes, width, reach: 0.0 });
             }
             known.retain(|(share, _)| *share <= 0.5);
             for (share, _) in &mut known {
@@ -215,7 +220,8 @@ impl Stretch {
         }
         known.retain(|(share, _)| *share == 0.0 || *share == 1.0);
         fill(balancer, &mut known, width, &[0.0, 1.0])?;
-        Ok(Self { nodes: known.into_iter().map(|(_, balance)| balance).collect(), width })
+        let nodes = known.into_iter().map(|(_, balance)| balance).collect();
+        Ok(Self { nodes, width, reach: 0.0 })
     }
 
     /// That velocities can follow the balance as it moves along the stretch.
@@ -242,6 +248,9 @@ impl Stretch {
     /// Whether a yaw is on the stretch. A little before its start counts: a rover that swings back
     /// by rounding is still where it was.
     fn covers(&self, yaw: f64) -> bool {
+        if self.width == 0.0 {
+            return (yaw - self.nodes[0].yaw).abs() <= self.reach;
+        }
         (-0.05..=1.0).contains(&self.share(yaw))
     }
 

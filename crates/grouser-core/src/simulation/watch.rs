@@ -1,7 +1,7 @@
 //! A watch over what becomes of a rover under way.
 
+use super::outcome::{Outcome, StuckBecause};
 use super::scenario::Scenario;
-use super::trajectory::{Outcome, StuckBecause};
 use crate::contact::Slip;
 use crate::vehicle::RoverState;
 use crate::vehicle::kinematics::hub_velocity;

@@ -5,9 +5,7 @@ use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy, NoAttitude};
 use super::comparison::MeasuredTraverse;
 use super::wheel_test::{WheelTest, WheelTestRow};
 use crate::error::ParameterError;
-use crate::simulation::{
-    Motion, Numerics, Scenario, Simulation, SimulationError, Start, Trajectory,
-};
+use crate::simulation::{Motion, Numerics, Run, RunError, Scenario, Start, Trajectory};
 use crate::site::Site;
 use crate::soil::{Shear, ShearModulus, Soil};
 use crate::vehicle::LoadSharing;
@@ -85,7 +83,7 @@ pub enum ReproductionError {
     Parameter(#[from] ParameterError),
     /// A traverse could not be computed.
     #[error(transparent)]
-    Simulation(#[from] SimulationError),
+    Simulation(#[from] RunError),
 }
 
 impl Plan {
@@ -151,7 +149,7 @@ impl Plan {
         let mut run = |yaw: f64, sharing: LoadSharing| {
             progress("traverse");
             let scenario = Scenario { sharing, ..self.traverse(measured.slope, yaw) };
-            Simulation::new(&scenario)?.run()
+            Run::new(&scenario)?.to_end()
         };
         let sharing = self.scenario.sharing;
         let attitude = attitudes.at(measured.slope);
@@ -172,7 +170,7 @@ impl Plan {
         })
     }
 
-    fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, SimulationError> {
+    fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
         let row = slopes.get(START_UP_ROW).or(slopes.first());
         let (slope, yaw) = row.map_or((self.scenario.site.slope, 0.0), |row| {
             (row.measured.slope, row.attitude.as_ref().map_or(0.0, |attitude| attitude.yaw))
@@ -184,7 +182,7 @@ impl Plan {
             numerics: Numerics { sample_interval, ..self.scenario.numerics },
             ..self.traverse(slope, yaw)
         };
-        Simulation::new(&scenario)?.run()
+        Run::new(&scenario)?.to_end()
     }
 
     fn traverse(&self, slope: f64, yaw: f64) -> Scenario {

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
-use grouser::simulation::{Motion, Numerics, Scenario, Simulation, Start, Trajectory};
+use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
     Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
@@ -122,8 +122,8 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
 
 /// The run of a scenario that can be computed.
 pub(crate) fn run(scenario: &Scenario) -> Trajectory {
-    let simulation = Simulation::new(scenario).expect("the scenario is a run");
-    simulation.run().expect("it can be computed")
+    let run = Run::new(scenario).expect("the scenario is a run");
+    run.to_end().expect("it can be computed")
 }
 
 /// A wheel on a test stand, on Earth.

@@ -8,8 +8,8 @@ use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy, NoAttitude};
 use grouser::studies::comparison::{Levelness, yaw_error};
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
-use grouser::vehicle::drive::{DriveInput, SlipTarget};
-use grouser::vehicle::{Drive, DriveLaw, LoadSharing, OwnMoments};
+use grouser::vehicle::drive::SlipTarget;
+use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
 use grouser::wheel::Wheel;
 
 use super::given;
@@ -137,11 +137,9 @@ fn equation_17_is_positive_to_the_left() {
 }
 
 /// Rim speed [m/s] that a drive sets at a slip and a yaw.
-fn rim_speed(mut drive: DriveLaw, slip_ratio: f64, yaw: f64) -> f64 {
-    let rover = given::hakuto();
+fn rim_speed(drive: DriveLaw, slip_ratio: f64, yaw: f64) -> f64 {
     let mut speeds = [0.0; 4];
-    let input = DriveInput { rover: &rover, yaw, slip_ratios: &[slip_ratio; 4] };
-    drive.rim_speeds(&input, &mut speeds);
+    drive.rim_speeds(yaw, &[slip_ratio; 4], &mut speeds);
     speeds[0]
 }
 

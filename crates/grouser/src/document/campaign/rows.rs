@@ -8,7 +8,7 @@ use super::super::values::{Described, Misfit};
 use super::sections::{Stand, Study};
 use super::table::{Cell, Column, ColumnKind, Role};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
-use crate::simulation::{Scenario, Simulation};
+use crate::simulation::{Run, Scenario};
 use crate::studies::attitude::{AttitudeStudy, NoAttitude};
 use crate::studies::campaign::drive::Drive;
 use crate::vehicle::DriveLaw;
@@ -239,8 +239,8 @@ fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
 }
 
 fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
-    let run = Simulation::new(scenario)
-        .and_then(Simulation::run)
+    let run = Run::new(scenario)
+        .and_then(Run::to_end)
         .map_err(|error| Failure { status: NOT_COMPUTED, reason: error.to_string() })?;
     let (end, drive) = (run.last(), Drive::of(&run));
     let words = [
