@@ -5,6 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use grouser::document::trajectory::{SampleRecord, WheelSampleRecord};
 use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range};
 use grouser::simulation::{LEAST_STEP, Run, RunError, Scenario};
+use grouser::vehicle::Mount;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -98,8 +99,8 @@ impl Led {
 pub(crate) struct Simulators {
     rovers: Mutex<Vec<Led>>,
     wheels: Vec<String>,
-    /// ω = v/r_s of each rover's wheels: r_s [m].
-    radii: Vec<f64>,
+    /// ω = v/r_s of each wheel of each rover: r_s [m].
+    radii: Vec<Vec<f64>>,
 }
 
 #[pymethods]
@@ -114,8 +115,8 @@ impl Simulators {
             let message = "the rovers differ in their number of wheels".to_owned();
             return Err(errors::parameter(message, "scenarios", None, "rovers of as many wheels"));
         }
-        let radius = |one: &&LoadedScenario| one.value.rover.wheel().shearing_radius();
-        let radii = loaded.iter().map(radius).collect();
+        let radii = loaded.iter().map(|one| one.value.rover.mounts().iter());
+        let radii = radii.map(|each| each.map(Mount::shearing_radius).collect()).collect();
         let rovers = loaded.into_iter().map(Led::new).collect::<Result<_, _>>();
         let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
         Ok(Self { rovers, wheels, radii })
@@ -192,12 +193,15 @@ impl Simulators {
         }
         check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
         let mut rims = Vec::with_capacity(count);
-        for (row, radius) in commands.rows().into_iter().zip(&self.radii) {
-            let given = row.to_vec();
-            let factor = if are_rim_speeds { 1.0 } else { *radius };
-            let limit = RIM_SPEED_M_S.end() / factor;
-            check("commands", &given, &(-limit..=limit))?;
-            rims.push(given.into_iter().map(|command| command * factor).collect::<Vec<f64>>());
+        for (row, radii) in commands.rows().into_iter().zip(&self.radii) {
+            let mut rim_speeds = Vec::with_capacity(wheels);
+            for (command, radius) in row.iter().zip(radii) {
+                let factor = if are_rim_speeds { 1.0 } else { *radius };
+                let limit = RIM_SPEED_M_S.end() / factor;
+                check("commands", &[*command], &(-limit..=limit))?;
+                rim_speeds.push(command * factor);
+            }
+            rims.push(rim_speeds);
         }
         let active: Vec<bool> = active.to_vec();
         self.each(py, |rover, place| {

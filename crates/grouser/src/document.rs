@@ -141,9 +141,10 @@ impl Kind {
     const fn parts(self) -> &'static [Part] {
         match self {
             Self::Soil | Self::Wheel | Self::DataSet => &[],
-            Self::Rover => {
-                &[Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None }]
-            }
+            Self::Rover => &[
+                Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
+                Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
+            ],
             Self::Scenario => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
@@ -171,8 +172,26 @@ pub const DEFAULT_SOIL: &str = "toyoura";
 /// A document inside another.
 struct Part {
     kind: Kind,
+    /// The keys that lead to it, with [`EACH`] for every entry of a list.
     path: &'static [&'static str],
     default: Option<&'static str>,
+}
+
+/// In the path of a [`Part`]: each entry of a list.
+const EACH: &str = "*";
+
+impl Part {
+    /// Whether there may be several, one in each entry of a list. What is set for the documents of its
+    /// kind does not reach into those: only what is set at their own place does.
+    fn is_listed(&self) -> bool {
+        self.path.contains(&EACH)
+    }
+
+    /// Whether a key lies within it.
+    fn holds(&self, path: &[String]) -> bool {
+        let meets = |(step, key): (&String, &&str)| step == key || *key == EACH;
+        path.len() > self.path.len() && path.iter().zip(self.path).all(meets)
+    }
 }
 
 /// A document as TOML.
@@ -336,27 +355,42 @@ fn complete(
 ) -> Result<(), DocumentError> {
     overrides.apply(kind, tree)?;
     for part in kind.parts() {
-        let path = part.path.join(".");
-        let prefix = if prefix.is_empty() { path } else { format!("{prefix}.{path}") };
-        fetch(part, tree, overrides, &prefix)?;
+        let none = Overrides::none();
+        let overrides = if part.is_listed() { &none } else { overrides };
+        fetch(part, part.path, tree, overrides, prefix)?;
     }
+    overrides.apply_within_lists(kind, tree)?;
     check::check(kind, tree, prefix)
 }
 
-/// Puts a named part into its place.
+/// Puts a named part into its place, or each of those in a list.
+///
+/// * `path`: from the table to the part
+/// * `prefix`: where the table stands in a larger document
 fn fetch(
     part: &Part,
-    tree: &mut Node,
+    path: &[&str],
+    table: &mut Node,
     overrides: &Overrides,
     prefix: &str,
 ) -> Result<(), DocumentError> {
-    let Some((key, tables)) = part.path.split_last() else { return Ok(()) };
-    let mut table = tree;
-    for step in tables {
-        // A table that is missing, or is none, is for the check to report.
-        let Some(entry) = table.entry_mut(step) else { return Ok(()) };
-        table = &mut entry.node;
+    let Some((key, further)) = path.split_first() else { return Ok(()) };
+    let within = |step: &str| {
+        if prefix.is_empty() { step.to_owned() } else { format!("{prefix}.{step}") }
+    };
+    if *key == EACH {
+        let Value::List(nodes) = &mut table.value else { return Ok(()) };
+        let mut each = nodes.iter_mut().enumerate();
+        return each.try_for_each(|(place, node)| {
+            fetch(part, further, node, overrides, &within(&place.to_string()))
+        });
     }
+    if !further.is_empty() {
+        // A table that is missing, or is none, is for the check to report.
+        let Some(entry) = table.entry_mut(key) else { return Ok(()) };
+        return fetch(part, further, &mut entry.node, overrides, &within(key));
+    }
+    let prefix = &within(key);
     let origin = table.origin.clone();
     let Some(entry) = table.entry_mut(key) else {
         let (Some(default), Value::Table(entries)) = (part.default, &mut table.value) else {

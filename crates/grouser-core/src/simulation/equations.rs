@@ -8,7 +8,7 @@ use super::work::Work;
 use crate::contact::Slip;
 use crate::site::Site;
 use crate::units::Vec2;
-use crate::vehicle::kinematics::{hub_velocity, wheel_slips};
+use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
     Acceleration, OwnMoments, ReactionError, Rover, RoverState, WheelReaction, dynamics,
@@ -65,11 +65,11 @@ impl<'a> Equations<'a> {
     /// The equations for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
     pub fn new(ground: Ground<'a>, rim_speeds: &'a [f64]) -> Self {
-        let radius = ground.rover.wheel().shearing_radius();
+        let wheel_speeds = ground.rover.wheel_speeds(rim_speeds).collect();
         Self {
             ground,
             rim_speeds,
-            wheel_speeds: rim_speeds.iter().map(|speed| speed / radius).collect(),
+            wheel_speeds,
             work: Cell::default(),
             failure: RefCell::new(None),
         }
@@ -107,7 +107,7 @@ impl<'a> Equations<'a> {
         let wheels = self.reactions(state)?;
         let acceleration =
             dynamics::acceleration(rover, site, state, &forces_of(&wheels), own_moments);
-        let hubs = rover.mounts().iter().map(|mount| hub_velocity(state, mount.position.xy()));
+        let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount));
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =

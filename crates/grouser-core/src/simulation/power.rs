@@ -25,7 +25,7 @@ pub struct EnergyBalance {
 /// Power of the motors and into the soil [W].
 ///
 /// * `wheel_speeds`: ω of each wheel [rad/s]
-/// * `hub_velocities`: of each hub, in the body frame [m/s]
+/// * `hub_velocities`: of each hub, in the wheel's frame [m/s]
 /// * `aligning_work_rate`: yaw rate where aligning moments act on the rover, else 0 [rad/s]
 #[must_use]
 pub fn powers(
@@ -59,8 +59,8 @@ pub fn kinetic_energy(rover: &Rover, state: &RoverState) -> f64 {
 /// * `wheel_speeds`: ω of each wheel [rad/s]
 #[must_use]
 pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
-    let inertia = rover.wheel_unit().inertia.yy;
-    wheel_speeds.iter().map(|speed| 0.5 * inertia * speed * speed).sum()
+    let each = rover.mounts().iter().map(|mount| mount.unit.inertia.yy).zip(wheel_speeds);
+    each.map(|(inertia, speed)| 0.5 * inertia * speed * speed).sum()
 }
 
 /// Potential energy on the slope [J]; what the rover sinks does not count.

@@ -97,9 +97,8 @@ impl State {
     /// * `rim_speeds`: of each wheel [m/s]
     pub(super) fn turn(&mut self, scenario: &Scenario, rim_speeds: &[f64]) {
         let rover = &scenario.rover;
-        let radius = rover.wheel().shearing_radius();
         let spin_energy = |rims: &[f64]| {
-            let wheel_speeds: Vec<f64> = rims.iter().map(|speed| speed / radius).collect();
+            let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
             power::spin_energy(rover, &wheel_speeds)
         };
         // The motors change the spin at once; the books must not lose that work.

@@ -72,21 +72,23 @@ impl DriveLaw {
         }
     }
 
-    /// Sets the rim speed ω r_s of each wheel [m/s].
+    /// Sets the rim speed ω r_s of each wheel [m/s]. Eq. 18 takes the direction of each wheel, γ + δ,
+    /// for the yaw.
     ///
     /// * `yaw`: *γ* [rad]
     /// * `slip_ratios`: of each wheel when it was last looked at [-]; zeros at the start
-    pub fn rim_speeds(&self, yaw: f64, slip_ratios: &[f64], rim_speeds: &mut [f64]) {
+    pub fn rim_speeds(&self, rover: &Rover, yaw: f64, slip_ratios: &[f64], rim_speeds: &mut [f64]) {
+        let each = rover.mounts().iter().map(|mount| yaw + mount.steering).zip(slip_ratios);
         match self {
             Self::Constant(speed) => rim_speeds.fill(*speed),
             Self::ConstantEach(speeds) => rim_speeds.copy_from_slice(speeds),
             Self::Eq18AsPrinted(target) => {
-                for (rim_speed, s) in rim_speeds.iter_mut().zip(slip_ratios) {
+                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
                     *rim_speed = eq_18_as_printed(target, *s, yaw);
                 }
             }
             Self::Eq18(target) => {
-                for (rim_speed, s) in rim_speeds.iter_mut().zip(slip_ratios) {
+                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
                     *rim_speed = eq_18(target, *s, yaw);
                 }
             }

@@ -33,7 +33,7 @@ pub fn soil_resultant(
     let mut force = Vec2::zeros();
     let mut moment = 0.0;
     for (mount, wheel) in rover.mounts().iter().zip(wheels) {
-        let wheel_force = Vec2::new(wheel.drawbar_pull, wheel.side_force);
+        let wheel_force = mount.body_from_wheel(Vec2::new(wheel.drawbar_pull, wheel.side_force));
         force += wheel_force;
         moment += mount.position.xy().perp(&wheel_force);
         if own_moments == OwnMoments::Included {

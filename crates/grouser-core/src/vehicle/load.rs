@@ -65,7 +65,13 @@ pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
 /// ```
 ///
 /// The first line puts the wheels' forces into the contact plane; the others take them to the
-/// hubs, with the moments that then go with them.
+/// hubs, with the moments that then go with them. Where wheels differ in radius, or are steered by
+/// δ, what such a moment has beyond that of a force in the contact plane is turned with its wheel:
+///
+/// ```text
+/// with torque       P = −H ΣF_x − Σ cos δ (T − r_s F_x,w)        R = H G_y − Σ sin δ (T − r_s F_x,w)
+/// own moments       P + Σ sin δ (M_x − r_s F_y,w)                R − Σ cos δ (M_x − r_s F_y,w)
+/// ```
 ///
 /// * `wheels`: the soil's reactions, or none for the first line
 #[must_use]
@@ -81,17 +87,50 @@ pub fn moments(
         return Vec2::zeros();
     }
     let height = rover.centre_height();
-    let radius = rover.wheel().shearing_radius();
     let mut balance = height * slope_pull(rover, site, yaw);
     if wheels.is_empty() {
         return balance;
     }
+    let Some(radius) = rover.common_radius() else {
+        return balance_of_each(rover, balance, sharing, own_moments, wheels);
+    };
     let sum = |part: fn(&WheelForces) -> f64| wheels.iter().map(part).sum::<f64>();
     if sharing == LoadSharing::QuasiStaticTorque {
         balance.x = -(height - radius) * sum(|w| w.drawbar_pull) - sum(|w| w.torque);
     }
     if own_moments == OwnMoments::Included {
         balance.y += radius * sum(|w| w.side_force) - sum(|w| w.overturning_moment);
+    }
+    balance
+}
+
+/// The same for wheels that differ, or are steered.
+///
+/// * `balance`: that of forces in the contact plane [N·m]
+fn balance_of_each(
+    rover: &Rover,
+    mut balance: Vec2,
+    sharing: LoadSharing,
+    own_moments: OwnMoments,
+    wheels: &[WheelForces],
+) -> Vec2 {
+    let of_torque = sharing == LoadSharing::QuasiStaticTorque;
+    if of_torque {
+        balance.x = 0.0;
+    }
+    for (mount, wheel) in rover.mounts().iter().zip(wheels) {
+        let (force, radius) =
+            (Vec2::new(wheel.drawbar_pull, wheel.side_force), mount.shearing_radius());
+        let mut excess = Vec2::zeros();
+        if of_torque {
+            balance.x -= rover.centre_height() * mount.body_from_wheel(force).x;
+            excess.y = radius * force.x - wheel.torque;
+        }
+        if own_moments == OwnMoments::Included {
+            excess.x = wheel.overturning_moment - radius * force.y;
+        }
+        let excess = mount.body_from_wheel(excess);
+        balance += Vec2::new(excess.y, -excess.x);
     }
     balance
 }

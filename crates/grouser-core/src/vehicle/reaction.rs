@@ -113,7 +113,7 @@ impl Ground<'_> {
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
         let settled = wheels.map(|(((&slip, load), mount), guess)| {
-            let (wheel, soil, gravity) = (*rover.wheel(), site.soil, site.gravity);
+            let (wheel, soil, gravity) = (mount.unit.wheel, site.soil, site.gravity);
             let contact = Contact { wheel, soil, slip, gravity };
             guess
                 .map_or_else(

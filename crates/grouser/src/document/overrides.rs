@@ -216,7 +216,25 @@ impl Overrides {
 
     /// Puts the values for one kind of document into its tree.
     pub(super) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
-        for one in self.all.iter().filter(|one| one.kind == kind) {
+        self.put(tree, |one| one.kind == kind && !one.is_within_a_list())
+    }
+
+    /// The same for values inside documents that the entries of a list have: these must be in their
+    /// places by now.
+    pub(super) fn apply_within_lists(
+        &self,
+        kind: Kind,
+        tree: &mut Node,
+    ) -> Result<(), DocumentError> {
+        self.put(tree, |one| one.kind == kind && one.is_within_a_list())
+    }
+
+    fn put(
+        &self,
+        tree: &mut Node,
+        is_meant: impl Fn(&Override) -> bool,
+    ) -> Result<(), DocumentError> {
+        for one in self.all.iter().filter(|one| is_meant(one)) {
             one.put(tree)?;
             one.drop_keys_of_the_former_law(tree);
         }
@@ -238,6 +256,11 @@ impl Overrides {
 }
 
 impl Override {
+    /// Whether it leads into a document that an entry of a list has.
+    fn is_within_a_list(&self) -> bool {
+        self.kind.parts().iter().any(|part| part.is_listed() && part.holds(&self.path))
+    }
+
     /// The value at the end of its path; tables on the way are made.
     fn put(&self, tree: &mut Node) -> Result<(), DocumentError> {
         let not_a_table = || {
@@ -302,9 +325,7 @@ impl Override {
 /// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or
 /// holds it.
 fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
-    while let Some(part) = kind.parts().iter().find(|part| {
-        path.len() > part.path.len() && path.iter().zip(part.path).all(|(a, b)| a == b)
-    }) {
+    while let Some(part) = kind.parts().iter().find(|part| !part.is_listed() && part.holds(&path)) {
         path.drain(..part.path.len());
         kind = part.kind;
     }

@@ -15,7 +15,7 @@ use crate::error::ParameterError;
 use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use crate::vehicle::Rover;
+use crate::vehicle::{Mount, Rover};
 use crate::wheel::Wheel;
 
 /// Values that are fine one by one, but not together.
@@ -191,7 +191,7 @@ impl Described for Rover {
 
 /// That every wheel can be told from the others: columns and messages name them.
 fn check_names(rover: &Rover) -> Result<(), Misfit> {
-    let mounts = rover.mounts();
+    let mounts = &rover.parts().mounts;
     for (index, mount) in mounts.iter().enumerate() {
         if mounts[..index].iter().any(|other| other.name == mount.name) {
             let key = format!("mount.{index}.name");
@@ -202,11 +202,14 @@ fn check_names(rover: &Rover) -> Result<(), Misfit> {
     Ok(())
 }
 
-/// The first wheel that hangs higher or lower than the first one, or else all of them.
+/// The first wheel that reaches less or further down than the first one, or else all of them.
 fn uneven_mount(rover: &Rover) -> String {
-    let mounts = rover.mounts();
-    let height = mounts.first().map_or(0.0, |mount| mount.position.z);
-    match mounts.iter().position(|mount| mount.position.z != height) {
+    let mounts = rover.parts().complete_mounts();
+    let differs = |mount: &Mount| {
+        let larger = mount.shearing_radius() - mounts[0].shearing_radius();
+        mount.position.z - mounts[0].position.z != larger
+    };
+    match mounts.iter().position(differs) {
         Some(index) => format!("mount.{index}.position_m"),
         None => "mount.0".to_owned(),
     }

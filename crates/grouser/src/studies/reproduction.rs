@@ -124,13 +124,13 @@ impl Plan {
         WheelCurve { longitudinal_modulus: modulus, rows: WheelTest { soil, ..test }.run() }
     }
 
-    /// The rover's wheel on the scenario's soil, over slip ratios from 0 to 1.
+    /// The rover's first wheel on the scenario's soil, over slip ratios from 0 to 1.
     fn wheel_test(&self, loads: &[f64], slip_angles: &[f64]) -> WheelTest {
         /// Steps from slip ratio 0 to 1.
         const STEPS: u32 = 50;
         let Scenario { rover, site, theory, .. } = &self.scenario;
         WheelTest {
-            wheel: *rover.wheel(),
+            wheel: rover.mounts()[0].unit.wheel,
             soil: site.soil,
             gravity: site.gravity,
             theory: *theory,

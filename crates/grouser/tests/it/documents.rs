@@ -286,7 +286,7 @@ fn overrides_reach_every_part_of_a_scenario() {
     let run = run.expect("all are allowed");
     assert_eq!(run.value.site.slope, deg(5.0));
     assert_eq!(run.value.site.soil.cohesion, 500.0);
-    assert_eq!(run.value.rover.wheel().radius, 0.2);
+    assert_eq!(run.value.rover.mounts()[0].unit.wheel.radius, 0.2);
     assert_eq!(run.value.rover.mass(), 24.0);
     assert_eq!(run.value.drive, DriveLaw::ConstantEach(vec![0.1, 0.1, -0.1, -0.1]));
     let set = "soil Toyoura sand: cohesion_kpa: set to 0.5";
@@ -693,7 +693,7 @@ fn paths_start_from_the_folder_of_the_document_that_names_them() {
     let path = folder.file("run.toml", run);
     let run = document::read_scenario(&Source::file(&path), &Overrides::none());
     let run = run.expect("all parts are found");
-    assert_eq!(run.value.rover.wheel(), &wheel("jfr-2007"));
+    assert_eq!(run.value.rover.mounts()[0].unit.wheel, wheel("jfr-2007"));
     assert_eq!(document::check(&Source::file(&path)), Ok(Kind::Scenario));
 
     folder.file("parts/wheel.toml", text(Kind::Wheel, "jfr-2007").replace("0.092", "9.2"));

@@ -83,14 +83,16 @@ pub(crate) fn simulant_2007() -> Soil {
 
 /// A body of [FourWheel], Table 1, on wheels of Table 1 with their hubs at (x, y), 6 cm lower.
 pub(crate) fn rover_on(wheel: Wheel, hubs: &[(f64, f64)]) -> Rover {
+    let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
+    let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
+    let unit = WheelUnit { mass: 0.422, inertia, wheel };
     let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
         name: format!("wheel {}", number + 1),
         position: Vec3::new(x, y, -0.06),
+        unit,
+        steering: 0.0,
     });
-    let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
-    let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
-    let wheel_unit = WheelUnit { mass: 0.422, inertia, wheel };
-    Rover::new(body, wheel_unit, mounts.collect()).expect("a rover that stands")
+    Rover::new(body, mounts.collect()).expect("a rover that stands")
 }
 
 /// [FourWheel], Table 2, in its order: front left, rear left, rear right, front right.

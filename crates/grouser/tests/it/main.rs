@@ -18,6 +18,7 @@ mod measured;
 mod measurements;
 mod messages;
 mod million;
+mod mounts;
 mod paper;
 mod reference;
 mod rft;

@@ -19,11 +19,14 @@ use super::given::{self, cases};
 fn lopsided() -> Rover {
     let inertia = Inertia { xx: 0.1, yy: 0.1, zz: 0.1 };
     let hubs = [(1.0, 0.3), (1.5, 2.0), (0.4, 1.6), (2.0, 1.0)];
-    let mounts = hubs
-        .iter()
-        .map(|&(x, y)| Mount { name: format!("at {x}, {y}"), position: Vec3::new(x, y, -0.1) });
-    let wheel_unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel() };
-    Rover::new(Body { mass: 1.0, inertia }, wheel_unit, mounts.collect()).expect("it stands")
+    let unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel() };
+    let mounts = hubs.iter().map(|&(x, y)| Mount {
+        name: format!("at {x}, {y}"),
+        position: Vec3::new(x, y, -0.1),
+        unit,
+        steering: 0.0,
+    });
+    Rover::new(Body { mass: 1.0, inertia }, mounts.collect()).expect("it stands")
 }
 
 fn site(slope: f64) -> Site {
@@ -40,7 +43,7 @@ fn wheel_force(x: f64, y: f64, aligning_moment: f64) -> WheelForces {
 /// frame, summed over the parts as if each flew by itself.
 fn motion_of_the_parts(rover: &Rover, state: &RoverState) -> (Vec2, f64, f64) {
     let body = (rover.body().mass, rover.body().inertia.zz, Vec2::zeros());
-    let unit = rover.wheel_unit();
+    let unit = rover.mounts()[0].unit;
     let wheels = rover.mounts().iter().map(|m| (unit.mass, unit.inertia.zz, m.position.xy()));
     let slope_from_body = Rotation2::new(state.yaw);
     let (mut momentum, mut angular, mut energy) = (Vec2::zeros(), 0.0, 0.0);
@@ -195,13 +198,15 @@ fn any_rover() -> impl Strategy<Value = Rover> {
         "the wheels stand in a line",
         |(hubs, body_mass, wheel_mass, inertia)| {
             let inertia = Inertia { xx: inertia, yy: inertia, zz: inertia };
+            let unit = WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel() };
             let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
                 name: number.to_string(),
                 position: Vec3::new(x, y, -0.1),
+                unit,
+                steering: 0.0,
             });
             let body = Body { mass: body_mass, inertia };
-            let wheel_unit = WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel() };
-            Rover::new(body, wheel_unit, mounts.collect()).ok()
+            Rover::new(body, mounts.collect()).ok()
         },
     )
 }
@@ -224,7 +229,7 @@ fn by_the_common_centre(
 ) -> Acceleration {
     let turned = |vector: Vec2| Rotation2::new(state.yaw) * vector;
     let quarter = |vector: Vec2| Vec2::new(-vector.y, vector.x);
-    let unit = rover.wheel_unit();
+    let unit = rover.mounts()[0].unit;
     let hubs: Vec<Vec2> = rover.mounts().iter().map(|m| m.position.xy()).collect();
     let mass = rover.body().mass + unit.mass * hubs.len() as f64;
     let centre: Vec2 = hubs.iter().map(|hub| unit.mass / mass * hub).sum();
@@ -453,7 +458,7 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
         overturning_moment: -0.2,
         ..WheelForces::default()
     };
-    let below = rover.centre_height() - rover.wheel().shearing_radius();
+    let below = rover.centre_height() - rover.mounts()[0].shearing_radius();
     let (sharing, own) = (LoadSharing::QuasiStaticTorque, OwnMoments::Included);
     let moments = load::moments(&rover, &site, yaw, sharing, own, &[wheel; 4]);
     // About y: −Σ d_x N + (−below) ΣF_x − ΣT = 0, for the soil turns a driven wheel backward.
@@ -469,10 +474,14 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
 fn no_rover_stands_on_two_wheels_or_on_a_line() {
     let parts = given::hakuto();
     let stand = |hubs: &[(f64, f64, f64)]| {
-        let mounts = hubs
-            .iter()
-            .map(|&(x, y, z)| Mount { name: "wheel".into(), position: Vec3::new(x, y, z) });
-        Rover::new(*parts.body(), *parts.wheel_unit(), mounts.collect())
+        let unit = parts.mounts()[0].unit;
+        let mounts = hubs.iter().map(|&(x, y, z)| Mount {
+            name: "wheel".into(),
+            position: Vec3::new(x, y, z),
+            unit,
+            steering: 0.0,
+        });
+        Rover::new(*parts.body(), mounts.collect())
     };
     assert!(stand(&[(0.1, 0.2, 0.0), (-0.1, 0.2, 0.0)]).is_err());
     assert!(stand(&[(0.1, 0.2, 0.0), (0.0, 0.2, 0.0), (-0.1, 0.2, 0.0)]).is_err());

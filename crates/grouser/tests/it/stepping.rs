@@ -185,7 +185,7 @@ fn a_controller_leads_as_the_scenarios_drive_does() {
     let scenario = Scenario { duration: 3.0, drive: law.clone(), ..traverse(deg(10.0), deg(3.0)) };
     let whole = run(&scenario);
     let mut own = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
-        law.rim_speeds(seen.rover().yaw, seen.slip_ratios(), rim_speeds);
+        law.rim_speeds(&seen.scenario().rover, seen.rover().yaw, seen.slip_ratios(), rim_speeds);
     };
     // Another drive in the scenario says nothing to a run that a controller starts.
     let other = Scenario { drive: DriveLaw::Constant(0.01), ..scenario.clone() };
