@@ -76,7 +76,7 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
 /// The scenario on another soil, at another yaw, with velocities in balance as a campaign has them.
 fn varied(scenario: &Scenario, draws: &mut Draws) -> Scenario {
     let mut scenario = scenario.clone();
-    let soil = &mut scenario.site.soil;
+    let soil = &mut scenario.site.terrain.soil;
     soil.friction_angle *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     soil.cohesion *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     scenario.numerics.approach = Approach::QuasiSteady;

@@ -70,7 +70,7 @@ impl Runs {
         let (base, names_its_theory) = &self.bases[of(&self.base_of)];
         let mut scenario = base.clone();
         if let Some((soil, theory)) = self.soils.get(of(&self.soil_of)) {
-            scenario.site.soil = *soil;
+            scenario.site.terrain.soil = *soil;
             if !names_its_theory {
                 scenario.theory = theory.unwrap_or_default();
             }

@@ -53,11 +53,11 @@ impl Led {
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // That draws can be had was found out when the document was read.
             if let Ok(soil) = soils.draw(seed, 0) {
-                scenario.site.soil = soil;
+                scenario.site.terrain.soil = soil;
             }
         }
         if let Some(slope) = fresh.slope_deg {
-            scenario.site.slope = slope.to_radians();
+            scenario.site.terrain.slope = slope.to_radians();
         }
         if let Some(yaw) = fresh.yaw_deg {
             scenario.start.yaw = yaw.to_radians();

@@ -16,6 +16,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::equations::{Equations, Evaluation};
 use crate::newton;
 use crate::units::Vec2;
+use crate::vehicle::load;
 use crate::vehicle::{RoverState, WheelReaction};
 
 /// Why a rover's velocities are not those of a balance, or not known to be.
@@ -115,7 +116,8 @@ impl<'a> Balancer<'a> {
 
     /// Whether the ground is level.
     pub(super) fn is_level(&self) -> bool {
-        self.equations.site().slope == 0.0
+        load::slope_pull(self.equations.rover(), self.equations.site(), &RoverState::default())
+            == Vec2::zeros()
     }
 
     /// Size of velocities over the fastest rim's [-].

@@ -7,6 +7,7 @@ use super::scenario::Scenario;
 use super::work::Work;
 use crate::contact::Slip;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
@@ -82,7 +83,7 @@ impl<'a> Equations<'a> {
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
         let slips: Vec<Slip> = self.slips(state).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
-        self.ground.reactions(state.yaw, &slips)
+        self.ground.reactions(state, &slips)
     }
 
     /// The slip of every wheel, from the motion alone.
@@ -130,7 +131,7 @@ impl<'a> Equations<'a> {
 
     /// Where it moves.
     #[must_use]
-    pub fn site(&self) -> &Site {
+    pub fn site(&self) -> &Site<dyn Terrain> {
         self.ground.site
     }
 

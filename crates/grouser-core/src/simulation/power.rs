@@ -1,8 +1,9 @@
 //! The books of a run's energy: what the motors put in, and where it went.
 
-use crate::elementary::wide;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
+use crate::vehicle::load;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
 /// Energy since the start of a run [J].
@@ -65,7 +66,8 @@ pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
 
 /// Potential energy on the slope [J]; what the rover sinks does not count.
 #[must_use]
-pub fn potential_energy(rover: &Rover, site: &Site, state: &RoverState) -> f64 {
-    let centre = state.position + state.slope_from_body() * rover.centre_of_mass();
-    rover.mass() * site.gravity * wide::sin(site.slope) * centre.y
+pub fn potential_energy(rover: &Rover, site: &Site<dyn Terrain>, state: &RoverState) -> f64 {
+    let slope_from_body = state.slope_from_body();
+    let centre = state.position + slope_from_body * rover.centre_of_mass();
+    load::weight(rover, site, state, &slope_from_body).uphill.dot(&centre)
 }

@@ -18,6 +18,7 @@ use super::rover::Rover;
 use super::state::{Acceleration, RoverState};
 use crate::contact::WheelForces;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
 
 /// Forces of the soil on the rover: their sum [N] in the body frame, and their moment about the
@@ -47,13 +48,13 @@ pub fn soil_resultant(
 #[must_use]
 pub fn acceleration(
     rover: &Rover,
-    site: &Site,
+    site: &Site<dyn Terrain>,
     state: &RoverState,
     wheels: &[WheelForces],
     own_moments: OwnMoments,
 ) -> Acceleration {
     let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
-    let weight = slope_pull(rover, site, state.yaw);
+    let weight = slope_pull(rover, site, state);
     let force = soil_force + weight;
     let moment = soil_moment + rover.centre_of_mass().perp(&weight);
 

@@ -6,6 +6,8 @@ use nalgebra::Rotation2;
 
 use super::state::rotation;
 use crate::error::{ParameterError, finite, positive};
+use crate::terrain::Footprint;
+use crate::terrain::footprint::REACH;
 use crate::units::{Vec2, Vec3};
 use crate::wheel::Wheel;
 
@@ -73,6 +75,19 @@ impl Mount {
     #[must_use]
     pub fn body_from_wheel(&self, vector: Vec2) -> Vec2 {
         self.turn().map_or(vector, |turn| turn * vector)
+    }
+
+    /// Where ground counts for the wheel.
+    ///
+    /// * `slope_from_body`: the rover's rotation
+    #[must_use]
+    pub fn footprint(&self, slope_from_body: &Rotation2<f64>) -> Footprint {
+        let Wheel { width, .. } = self.unit.wheel;
+        Footprint {
+            forward: slope_from_body * self.body_from_wheel(Vec2::x()),
+            half_length: REACH * self.shearing_radius(),
+            half_width: 0.5 * width,
+        }
     }
 
     /// The rotation from the body's frame to the wheel's; none for a wheel that points straight ahead.
@@ -300,6 +315,17 @@ impl Rover {
     #[must_use]
     pub fn wheel_count(&self) -> usize {
         self.mounts.len()
+    }
+
+    /// Where ground counts for the rover: as far as its hubs.
+    ///
+    /// * `slope_from_body`: its rotation
+    #[must_use]
+    pub fn footprint(&self, slope_from_body: &Rotation2<f64>) -> Footprint {
+        let hubs = self.mounts.iter().map(|mount| mount.position);
+        let [half_length, half_width] =
+            hubs.fold([0.0, 0.0], |[x, y]: [f64; 2], hub| [x.max(hub.x.abs()), y.max(hub.y.abs())]);
+        Footprint { forward: slope_from_body * Vec2::x(), half_length, half_width }
     }
 
     /// The shearing radius that all wheels have, if they do and point straight ahead [m]: then one

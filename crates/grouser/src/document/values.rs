@@ -13,7 +13,6 @@ use super::field::Inner;
 use super::text::Node;
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
-use crate::site::Site;
 use crate::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use crate::vehicle::{Mount, Rover};
 use crate::wheel::Wheel;
@@ -231,8 +230,8 @@ impl Described for Scenario {
 
     fn settled(self) -> Result<Self, Misfit> {
         let rover = self.rover.settled().map_err(|misfit| misfit.within("rover"))?;
-        let soil = self.site.soil.settled().map_err(|misfit| misfit.within("soil"))?;
-        let run = Self { rover, site: Site { soil, ..self.site }, ..self };
+        let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        let run = Self { rover, site: self.site.with_soil(soil), ..self };
         check_sample_count(run.duration, run.numerics.sample_interval)
             .map_err(Misfit::at("sample_interval_s"))?;
         run.drive.check(&run.rover).map_err(|error| {

@@ -175,7 +175,7 @@ impl AttitudeStudy {
     pub fn of(scenario: &Scenario) -> Self {
         Self {
             rover: scenario.rover.clone(),
-            soil: scenario.site.soil,
+            soil: scenario.site.terrain.soil,
             gravity: scenario.site.gravity,
             theory: scenario.theory,
             sharing: scenario.sharing,
@@ -226,7 +226,7 @@ impl AttitudeStudy {
     /// The curve of what is held, as far as its first point that is not below a slope, or to its
     /// end.
     fn follow(&self, held: Held, slope: f64) -> Result<AttitudeCurve, ParameterError> {
-        Site { soil: self.soil, slope: 0.0, gravity: self.gravity }.check()?;
+        Site::plane(self.soil, 0.0, self.gravity).check()?;
         for mount in self.rover.mounts() {
             if mount.steering != 0.0 {
                 let name = format!("steering of wheel {} [rad]", mount.name);

@@ -6,7 +6,6 @@ use super::comparison::MeasuredTraverse;
 use super::wheel_test::{WheelTest, WheelTestRow};
 use crate::error::ParameterError;
 use crate::simulation::{Motion, Numerics, Run, RunError, Scenario, Start, Trajectory};
-use crate::site::Site;
 use crate::soil::{Shear, ShearModulus, Soil};
 use crate::vehicle::LoadSharing;
 
@@ -131,7 +130,7 @@ impl Plan {
         let Scenario { rover, site, theory, .. } = &self.scenario;
         WheelTest {
             wheel: rover.mounts()[0].unit.wheel,
-            soil: site.soil,
+            soil: site.terrain.soil,
             gravity: site.gravity,
             theory: *theory,
             loads: loads.to_vec(),
@@ -172,7 +171,7 @@ impl Plan {
 
     fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
         let row = slopes.get(START_UP_ROW).or(slopes.first());
-        let (slope, yaw) = row.map_or((self.scenario.site.slope, 0.0), |row| {
+        let (slope, yaw) = row.map_or((self.scenario.site.terrain.slope, 0.0), |row| {
             (row.measured.slope, row.attitude.as_ref().map_or(0.0, |attitude| attitude.yaw))
         });
         let (duration, sample_interval) = START_UP;
@@ -187,7 +186,7 @@ impl Plan {
 
     fn traverse(&self, slope: f64, yaw: f64) -> Scenario {
         let base = self.scenario.clone();
-        Scenario { site: Site { slope, ..base.site }, start: Start { yaw, ..base.start }, ..base }
+        Scenario { site: base.site.with_slope(slope), start: Start { yaw, ..base.start }, ..base }
     }
 }
 

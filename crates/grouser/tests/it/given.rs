@@ -111,7 +111,7 @@ pub(crate) const RIM_SPEED: f64 = 0.06;
 pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
     Scenario {
         rover: hakuto(),
-        site: Site { soil: toyoura(), slope, gravity: EARTH_GRAVITY },
+        site: Site::plane(toyoura(), slope, EARTH_GRAVITY),
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,

@@ -3,7 +3,6 @@
 use grouser::contact::{Theory, WheelForces};
 use grouser::document::{Overrides, Source, read_rover, read_scenario};
 use grouser::simulation::{Approach, Motion, Numerics, Scenario, Start};
-use grouser::site::Site;
 use grouser::soil::{PressureSinkage, Soil};
 use grouser::studies::attitude::AttitudeStudy;
 use grouser::units::{Vec2, Vec3, deg};
@@ -33,7 +32,7 @@ fn firm() -> Soil {
 
 fn on_level_firm_ground(rover: Rover) -> Scenario {
     let base = traverse(0.0, 0.0);
-    Scenario { rover, site: Site { soil: firm(), ..base.site }, duration: 5.0, ..base }
+    Scenario { rover, site: base.site.with_soil(firm()), duration: 5.0, ..base }
 }
 
 /// On the left in the order of the mounts: front left, rear left, rear right, front right.
@@ -134,7 +133,7 @@ fn wide_wheels_on_one_side_turn_the_rover_to_the_side_that_pulls_less() {
                 }
             });
             let base = traverse(deg(16.0), deg(90.0));
-            let site = Site { soil, ..base.site };
+            let site = base.site.with_soil(soil);
             let scenario = Scenario { rover, site, duration: 5.0, ..base };
             run(&scenario).last().state.yaw - deg(90.0)
         };

@@ -251,15 +251,16 @@ const TABLE_HEIGHT: f64 = 0.145;
 fn yaw_moment_with_transfers(slope_deg: f64, pitch: f64, roll: f64) -> f64 {
     let attitude = hakuto_attitude(LoadSharing::QuasiStatic, slope_deg);
     let rover = given::hakuto();
-    let site = Site { soil: given::toyoura(), slope: deg(slope_deg), gravity: EARTH_GRAVITY };
-    let weight = rover.mass() * site.gravity * site.slope.cos();
-    let pull = TABLE_HEIGHT * slope_pull(&rover, &site, attitude.yaw);
+    let site = Site::plane(given::toyoura(), deg(slope_deg), EARTH_GRAVITY);
+    let weight = rover.mass() * site.gravity * deg(slope_deg).cos();
+    let pull = TABLE_HEIGHT
+        * slope_pull(&rover, &site, &RoverState { yaw: attitude.yaw, ..RoverState::default() });
     let moments = Vec2::new(pitch * pull.x, roll * pull.y);
     let loads = wheel_loads(&rover, LoadSharing::QuasiStatic, weight, moments).expect("it stands");
     let slip = Slip::on_test_stand(attitude.slip_ratio, -attitude.yaw);
     let contact = Contact {
         wheel: rover.mounts()[0].unit.wheel,
-        soil: site.soil,
+        soil: site.terrain.soil,
         slip,
         gravity: site.gravity,
     };

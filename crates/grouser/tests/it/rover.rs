@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use grouser::contact::WheelForces;
 use grouser::site::Site;
+use grouser::terrain::{Patch, Terrain};
 use grouser::units::{EARTH_GRAVITY, Vec2, Vec3, deg};
 use grouser::vehicle::load::{stability_margin, wheel_loads};
 use grouser::vehicle::{
@@ -30,7 +31,11 @@ fn lopsided() -> Rover {
 }
 
 fn site(slope: f64) -> Site {
-    Site { soil: given::toyoura(), slope, gravity: EARTH_GRAVITY }
+    Site::plane(given::toyoura(), slope, EARTH_GRAVITY)
+}
+
+fn at_yaw(yaw: f64) -> RoverState {
+    RoverState { yaw, ..RoverState::default() }
 }
 
 fn wheel_force(x: f64, y: f64, aligning_moment: f64) -> WheelForces {
@@ -239,7 +244,7 @@ fn by_the_common_centre(
             .iter()
             .map(|hub| unit.inertia.zz + unit.mass * (hub - centre).norm_squared())
             .sum::<f64>();
-    let weight = Vec2::new(0.0, -mass * site.gravity * site.slope.sin());
+    let weight = Vec2::new(0.0, -mass * site.gravity * site.terrain.slope.sin());
     let mut force = weight;
     let mut moment = 0.0;
     for (hub, wheel) in hubs.iter().zip(wheels) {
@@ -287,7 +292,7 @@ proptest! {
     fn the_weight_pulls_downhill_whatever_the_yaw(yaw in -PI..PI, slope in 0.0..1.5) {
         let (rover, site) = (given::hakuto(), site(slope));
         let weight = rover.mass() * site.gravity;
-        let pull = load::slope_pull(&rover, &site, yaw);
+        let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
         prop_assert!((pull.x + weight * slope.sin() * yaw.sin()).abs() < 1e-12 * weight);
         prop_assert!((pull.y + weight * slope.sin() * yaw.cos()).abs() < 1e-12 * weight);
         let in_slope = Rotation2::new(yaw) * pull;
@@ -388,8 +393,14 @@ proptest! {
 /// Loads of a rover that stands on a slope.
 fn quasi_static_loads(rover: &Rover, site: &Site, yaw: f64) -> Result<Vec<f64>, load::Tipping> {
     let sharing = LoadSharing::QuasiStatic;
-    let moments = load::moments(rover, site, yaw, sharing, OwnMoments::Neglected, &[]);
-    wheel_loads(rover, sharing, rover.mass() * site.gravity * site.slope.cos(), moments)
+    let moments = load::moments(
+        rover,
+        load::slope_pull(rover, site, &at_yaw(yaw)),
+        sharing,
+        OwnMoments::Neglected,
+        &[],
+    );
+    wheel_loads(rover, sharing, rover.mass() * site.gravity * site.terrain.slope.cos(), moments)
 }
 
 /// On 50° with its nose turned 30° uphill the paper's rover still stands, on three wheels.
@@ -400,8 +411,8 @@ fn a_wheel_lifts_before_the_rover_tips() {
     // Front left is the uphill corner.
     assert_eq!(loads[0], 0.0);
     assert!(loads[1..].iter().all(|load| *load > 0.0), "{loads:?}");
-    let weight = rover.mass() * site.gravity * site.slope.cos();
-    let moments = rover.centre_height() * load::slope_pull(&rover, &site, yaw);
+    let weight = rover.mass() * site.gravity * site.terrain.slope.cos();
+    let moments = rover.centre_height() * load::slope_pull(&rover, &site, &at_yaw(yaw));
     check_balance(&rover, &loads, weight, moments).expect("they balance");
 }
 
@@ -450,7 +461,7 @@ fn the_papers_rover_tips_at_57_degrees() {
 #[test]
 fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
     let (rover, site, yaw) = (given::hakuto(), site(deg(15.0)), deg(20.0));
-    let pull = load::slope_pull(&rover, &site, yaw);
+    let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
     let wheel = WheelForces {
         drawbar_pull: -pull.x / 4.0,
         side_force: -pull.y / 4.0,
@@ -460,12 +471,46 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
     };
     let below = rover.centre_height() - rover.mounts()[0].shearing_radius();
     let (sharing, own) = (LoadSharing::QuasiStaticTorque, OwnMoments::Included);
-    let moments = load::moments(&rover, &site, yaw, sharing, own, &[wheel; 4]);
+    let moments = load::moments(&rover, pull, sharing, own, &[wheel; 4]);
     // About y: −Σ d_x N + (−below) ΣF_x − ΣT = 0, for the soil turns a driven wheel backward.
     let pitch = -below * 4.0 * wheel.drawbar_pull - 4.0 * wheel.torque;
     // About x: Σ d_y N + below ΣF_y + ΣM_x = 0.
     let roll = -below * 4.0 * wheel.side_force - 4.0 * wheel.overturning_moment;
     assert!((moments - Vec2::new(pitch, roll)).norm() < 1e-12, "{moments}, not {pitch}, {roll}");
+}
+
+// ---- the ground ----
+
+/// Axes of the ground are square to each other and to its normal, the first of them level across y: the
+/// climb along each is the sine of its inclination, and what a weight loses into the ground it has
+/// along it.
+#[test]
+fn a_weight_is_divided_between_the_ground_and_its_axes() {
+    let normal = Vec3::new(0.2, -0.3, 0.8).normalize();
+    let patch = Patch { height: 0.0, normal, soil: given::toyoura() };
+    let x_axis = Vec3::new(normal.z, 0.0, -normal.x).normalize();
+    let y_axis = normal.cross(&x_axis);
+    let climb = patch.climb();
+    assert!((climb - Vec2::new(x_axis.z, y_axis.z)).norm() < 1e-15, "{climb}");
+    let weight = site(0.0).weight(7.0, &patch);
+    let whole = 7.0 * EARTH_GRAVITY;
+    let parts = weight.into.hypot(weight.uphill.norm());
+    assert!((parts - whole).abs() < 1e-12 && weight.into < whole, "{weight:?}");
+}
+
+/// A plane climbs along y: by its height over the way along it, and square to its normal.
+#[test]
+fn a_plane_has_one_soil_one_normal_and_a_height_that_grows_along_y() {
+    let plane = site(deg(20.0)).terrain;
+    let patch = |x: f64, y: f64| {
+        let footprint = given::hakuto().footprint(&Rotation2::identity());
+        plane.patch(Vec2::new(x, y), footprint)
+    };
+    let (here, there) = (patch(0.0, 0.0), patch(3.0, 2.0));
+    assert_eq!((here.normal, here.soil), (there.normal, plane.soil));
+    let way = Vec3::new(3.0, 2.0 * deg(20.0).cos(), there.height - here.height);
+    assert!(here.normal.dot(&way).abs() < 1e-15 && (way.norm() - 13_f64.sqrt()).abs() < 1e-14);
+    assert!((here.climb() - Vec2::new(0.0, deg(20.0).sin())).norm() < 1e-15);
 }
 
 // ---- the stance ----

@@ -31,8 +31,8 @@ fn on_level_ground() -> Scenario {
 }
 
 fn with_shear(shear: Shear, scenario: Scenario) -> Scenario {
-    let soil = Soil { shear, ..scenario.site.soil };
-    Scenario { site: Site { soil, ..scenario.site }, ..scenario }
+    let soil = Soil { shear, ..scenario.site.terrain.soil };
+    Scenario { site: scenario.site.with_soil(soil), ..scenario }
 }
 
 fn with_integrator(integrator: Integrator, scenario: &Scenario) -> Scenario {
@@ -72,14 +72,14 @@ pub(crate) fn all_kinds() -> Vec<(&'static str, Scenario)> {
             Scenario {
                 drive: DriveLaw::ConstantEach(vec![0.04, 0.04, 0.08, 0.08]),
                 own_moments: OwnMoments::Included,
-                site: Site { slope: deg(15.0), ..base.site },
+                site: base.site.with_slope(deg(15.0)),
                 ..base.clone()
             },
         ),
         ("equal loads", Scenario { sharing: LoadSharing::Uniform, ..base.clone() }),
         ("isotropic", with_shear(isotropic, base.clone())),
         ("Bekker's theory", Scenario { theory: Theory::Bekker, ..base.clone() }),
-        ("sliding", Scenario { site: Site { slope: deg(35.0), ..base.site }, ..base }),
+        ("sliding", Scenario { site: base.site.with_slope(deg(35.0)), ..base }),
     ]
 }
 
@@ -225,7 +225,7 @@ fn quasi_steady_and_dynamic_runs_agree() {
     {
         for yaw in [-40.0, -10.0, 0.0, 4.0, 12.0, 30.0, 70.0, 180.0] {
             let base = traverse(deg(slope), deg(yaw));
-            let site = Site { soil: *soil, ..base.site };
+            let site = base.site.with_soil(*soil);
             let scenario = Scenario { site, duration: 5.0, ..base };
             let name = format!("{soil_name}, {slope}°, yaw {yaw}°");
             let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
@@ -465,8 +465,8 @@ fn on_level_ground_straight_ahead_stays_straight() {
 #[test]
 fn the_sign_law_does_not_chatter() {
     let with_sign = |scenario: Scenario| {
-        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.site.soil };
-        run(&Scenario { site: Site { soil, ..scenario.site }, ..scenario })
+        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.site.terrain.soil };
+        run(&Scenario { site: scenario.site.with_soil(soil), ..scenario })
     };
     for scenario in [
         on_level_ground(),
@@ -669,7 +669,7 @@ fn in_mud_a_wheel_sinks_to_its_axle() {
     let pressure_sinkage = PressureSinkage::Reece { k_c: 0.0, k_phi: 1.0, exponent };
     let soil = Soil { pressure_sinkage, ..given::toyoura() };
     let level = on_level_ground();
-    let mud = Scenario { site: Site { soil, ..level.site }, ..level };
+    let mud = Scenario { site: level.site.with_soil(soil), ..level };
     check_stuck(
         &mud,
         |because| matches!(because, StuckBecause::SunkToAxle { load, capacity, .. } if capacity < load),
@@ -695,7 +695,7 @@ fn runs_with_locked_wheels_are_computed_on_every_soil() {
     for (soil, slope) in soils.iter().flat_map(|soil| [(soil, 0.0), (soil, deg(15.0))]) {
         for speeds in speeds {
             let base = traverse(slope, 0.0);
-            let site = Site { soil: *soil, ..base.site };
+            let site = base.site.with_soil(*soil);
             let drive = DriveLaw::ConstantEach(speeds.to_vec());
             run(&Scenario { site, drive, duration: 5.0, ..base });
         }

@@ -5,7 +5,6 @@ use grouser::simulation::{
     Approach, Controller, Integrator, Method, Motion, Numerics, Observation, Outcome, Run,
     RunError, Sample, Scenario, Start, WheelSample,
 };
-use grouser::site::Site;
 use grouser::units::deg;
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::{DriveLaw, RoverState};
@@ -277,7 +276,7 @@ fn what_nothing_can_do_changes_nothing() {
         assert!(matches!(told, Err(RunError::Parameter(ParameterError { .. }))));
         assert_eq!(rover.now(), &before);
     }
-    let nowhere = Site { slope: f64::NAN, ..traverse(0.0, 0.0).site };
+    let nowhere = traverse(0.0, 0.0).site.with_slope(f64::NAN);
     assert!(Run::new(&Scenario { site: nowhere, ..traverse(0.0, 0.0) }).is_err());
 }
 

@@ -213,7 +213,7 @@ impl Base {
 
 fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     let attitude = AttitudeStudy::of(scenario)
-        .on_slope(scenario.site.slope)
+        .on_slope(scenario.site.terrain.slope)
         .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
         .map_err(|error| {
             let status = match error {
