@@ -6,11 +6,12 @@
 #![expect(clippy::inline_always, reason = "part of the kernel")]
 
 use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::kernel::integral::{self, StressSums};
 use super::kernel::rule::{self, ArcRule};
-use super::model::{Contact, Side};
+use super::mirror::Side;
 use super::patch::ContactPatch;
 use super::stress::{Response, StressLaw};
 
@@ -22,7 +23,7 @@ pub struct Bearing {
     area: f64,
 }
 
-/// Which ends of the wheel enter the soil, with their shares ([`super::model::from_both_sides`]).
+/// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
 #[derive(Clone, Copy, Debug)]
 enum Views {
     One(Arc),

@@ -4,7 +4,8 @@ use std::f64::consts::LN_10;
 
 use super::bearing::Bearing;
 use super::forces::WheelForces;
-use super::model::{Contact, WheelSoilModel};
+use super::inputs::Contact;
+use super::model::WheelSoilModel;
 use crate::{elementary, root};
 
 /// A wheel that has sunk until the soil carries it.

@@ -22,9 +22,11 @@
 use super::bearing::{Arc, Bearing, Numerics};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
+use super::inputs::Contact;
 use super::ishigami;
 use super::kernel::InstructionSet;
-use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::mirror::from_both_sides;
+use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
 

@@ -15,8 +15,10 @@
 use super::bearing::{Arc, Bearing, Numerics, Reaction};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
+use super::inputs::Contact;
 use super::kernel::InstructionSet;
-use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::mirror::from_both_sides;
+use super::model::WheelSoilModel;
 use super::stress::Response;
 
 /// The theory of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.

@@ -25,7 +25,8 @@
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::forces::WheelForces;
-use super::model::{Contact, WheelSoilModel};
+use super::inputs::Contact;
+use super::model::WheelSoilModel;
 use super::slip::{CREEP_SPEED, Slip};
 use crate::elementary::wide;
 use crate::soil::Soil;

@@ -7,7 +7,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::super::gauss::{GAUSS_8, GAUSS_16, GAUSS_64, Rule as Gauss};
-use super::super::model::Contact;
+use super::super::inputs::Contact;
 use super::{LANES, Lanes};
 use crate::soil::{Shear, ShearModulus};
 
