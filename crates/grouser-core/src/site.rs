@@ -59,7 +59,7 @@ pub struct Weight {
 impl<T: Terrain + ?Sized> Site<T> {
     /// The weight of a mass [kg] on a patch of the ground.
     #[must_use]
-    pub fn weight(&self, mass: f64, patch: &Patch) -> Weight {
+    pub fn weight(&self, mass: f64, patch: &Patch<'_>) -> Weight {
         let weight = mass * self.gravity;
         Weight { into: weight * patch.normal.z, uphill: weight * patch.climb() }
     }

@@ -1,5 +1,6 @@
 //! The ground by place: how high it is, how it is inclined, and what soil it is of.
 
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::elementary::wide;
@@ -22,27 +23,27 @@ pub trait Terrain {
     ///
     /// * `at`: the place below its centre [m]
     /// * `footprint`: how far from there the ground counts
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch;
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_>;
 
     /// The soil of that patch.
-    fn soil(&self, at: Vec2, footprint: Footprint) -> Soil {
+    fn soil(&self, at: Vec2, footprint: Footprint) -> Cow<'_, Soil> {
         self.patch(at, footprint).soil
     }
 }
 
 /// A piece of ground, flat and of one soil.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch<'a> {
     /// Height above the origin of the coordinates [m], against gravity.
     pub height: f64,
     /// Unit vector out of the ground: its parts along the coordinates' x and y, both taken level, and
     /// against gravity.
     pub normal: Vec3,
-    /// The soil.
-    pub soil: Soil,
+    /// The soil: the ground's own, or one made for the place.
+    pub soil: Cow<'a, Soil>,
 }
 
-impl Patch {
+impl Patch<'_> {
     /// How fast the ground climbs along its x axis, which is square to y, and its y axis [-]: the sines
     /// of their inclinations. Gravity's pull along the ground points against it.
     #[must_use]
@@ -78,12 +79,13 @@ impl Plane {
 }
 
 impl Terrain for Plane {
-    fn patch(&self, at: Vec2, _: Footprint) -> Patch {
+    fn patch(&self, at: Vec2, _: Footprint) -> Patch<'_> {
         let (sin, cos) = wide::sin_cos(self.slope);
-        Patch { height: at.y * sin, normal: Vec3::new(0.0, -sin, cos), soil: self.soil }
+        let soil = Cow::Borrowed(&self.soil);
+        Patch { height: at.y * sin, normal: Vec3::new(0.0, -sin, cos), soil }
     }
 
-    fn soil(&self, _: Vec2, _: Footprint) -> Soil {
-        self.soil
+    fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
+        Cow::Borrowed(&self.soil)
     }
 }

@@ -135,7 +135,7 @@ impl Ground<'_> {
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
         let settled = wheels.map(|(((&slip, load), mount), guess)| {
             let at = place + slope_from_body * mount.position.xy();
-            let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
+            let soil = *site.terrain.soil(at, mount.footprint(&slope_from_body));
             let (wheel, gravity) = (mount.unit.wheel, site.gravity);
             let contact = Contact { wheel, soil, slip, gravity };
             guess

@@ -487,7 +487,7 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
 #[test]
 fn a_weight_is_divided_between_the_ground_and_its_axes() {
     let normal = Vec3::new(0.2, -0.3, 0.8).normalize();
-    let patch = Patch { height: 0.0, normal, soil: given::toyoura() };
+    let patch = Patch { height: 0.0, normal, soil: Cow::Owned(given::toyoura()) };
     let x_axis = Vec3::new(normal.z, 0.0, -normal.x).normalize();
     let y_axis = normal.cross(&x_axis);
     let climb = patch.climb();
@@ -507,7 +507,7 @@ fn a_plane_has_one_soil_one_normal_and_a_height_that_grows_along_y() {
         plane.patch(Vec2::new(x, y), footprint)
     };
     let (here, there) = (patch(0.0, 0.0), patch(3.0, 2.0));
-    assert_eq!((here.normal, here.soil), (there.normal, plane.soil));
+    assert_eq!((here.normal, *here.soil), (there.normal, plane.soil));
     let way = Vec3::new(3.0, 2.0 * deg(20.0).cos(), there.height - here.height);
     assert!(here.normal.dot(&way).abs() < 1e-15 && (way.norm() - 13_f64.sqrt()).abs() < 1e-14);
     assert!((here.climb() - Vec2::new(0.0, deg(20.0).sin())).norm() < 1e-15);
