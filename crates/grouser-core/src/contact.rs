@@ -11,7 +11,6 @@
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
 
-pub mod bearing;
 pub mod bekker;
 pub mod bulldozing;
 pub mod equilibrium;
@@ -21,6 +20,7 @@ mod gauss;
 mod inputs;
 pub mod ishigami;
 mod kernel;
+pub mod load_sinkage;
 mod mirror;
 pub mod model;
 pub mod patch;
@@ -30,7 +30,6 @@ pub mod stress;
 mod theory;
 pub mod time_step;
 
-pub use bearing::Bearing;
 pub use bekker::Bekker;
 pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
 pub use extended::Extended;
@@ -38,6 +37,7 @@ pub use forces::WheelForces;
 pub use inputs::Contact;
 pub use ishigami::Ishigami;
 pub use kernel::InstructionSet;
+pub use load_sinkage::LoadSinkage;
 pub use model::WheelSoilModel;
 pub use patch::ContactPatch;
 pub use rft::Rft;

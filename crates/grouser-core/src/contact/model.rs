@@ -1,8 +1,8 @@
 //! What a theory of the wheel-soil reaction is.
 
-use super::bearing::Bearing;
 use super::forces::WheelForces;
 use super::inputs::Contact;
+use super::load_sinkage::LoadSinkage;
 
 /// A theory of the wheel-soil reaction: a contact in, the wheel's forces out.
 ///
@@ -16,14 +16,14 @@ pub trait WheelSoilModel: Sync {
     ///
     /// Its normal force has the bits of [`forces`](Self::forces). A theory without it is asked for
     /// all its forces at every sinkage.
-    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
+    fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
         let _ = contact;
         None
     }
 
     /// [`forces`](Self::forces) of a contact that was made ready before, with the same bits.
-    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
-        let _ = bearing;
+    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
+        let _ = relation;
         self.forces(contact, sinkage)
     }
 }

@@ -1,5 +1,6 @@
 //! The rover as a rigid body: momentum, the balance of its wheels, and when it tips.
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use grouser::contact::WheelForces;

@@ -79,8 +79,9 @@ class _HeightField:
 
     def under(self, data: Any, hubs: Floats, axles: Floats) -> tuple[Floats, Floats]:
         frame = data.geom_xpos[self._geom], data.geom_xmat[self._geom]
-        field = self._data, self._half, self._height
-        return self._footprints.planes_on_field(*frame, hubs, axles, *field)
+        return self._footprints.planes_on_field(
+            *frame, hubs, axles, self._data, self._half, self._height
+        )
 
 
 def ground_of(model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats) -> Ground:
