@@ -5,11 +5,10 @@
 //! looked at becomes a [`Sample`].
 //!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
-//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities in [`balance`].
+//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
 //! A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
 //! [`power`] does the books of the energy.
 
-pub mod balance;
 pub mod controller;
 pub mod equations;
 mod error;
@@ -23,12 +22,12 @@ mod record;
 pub mod run;
 pub mod scenario;
 mod state;
+pub mod steady_state;
 mod times;
 pub mod trajectory;
 pub mod watch;
 mod work;
 
-pub use balance::Unsteady;
 pub use controller::{CONTROL_PERIOD, Controller, Observation};
 pub use error::RunError;
 pub use method::Method;
@@ -38,5 +37,6 @@ pub use record::{Sample, WheelSample};
 pub use run::{LEAST_STEP, Run};
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;
+pub use steady_state::NotSteady;
 pub use trajectory::Trajectory;
 pub use work::Work;

@@ -5,7 +5,6 @@
 
 use std::ops::ControlFlow;
 
-use super::balance::Unsteady;
 use super::equations::Equations;
 use super::error::RunError;
 use super::integrate::{self, Point, Stalled};
@@ -15,6 +14,7 @@ use super::quasi_steady::{Carried, QuasiSteady};
 use super::record::Sample;
 use super::scenario::{Integrator, Scenario};
 use super::state::State;
+use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::WATCH_PERIOD;
 use crate::contact::SettleError;
@@ -65,9 +65,9 @@ impl Leg<'_> {
             match self.go_steadily(&equations, carried, times) {
                 Ok(carried) => self.state.carried = carried,
                 Err(Ended::Failed(error)) => done = Err(error),
-                Err(Ended::Unsteady(because)) => {
+                Err(Ended::NotSteady(because)) => {
                     let time = self.state.time;
-                    self.state.method = Method::FellBack { time, because };
+                    self.state.method = Method::FallbackToDynamic { time, because };
                     times = &times[times.partition_point(|other| *other <= time)..];
                 }
             }
@@ -80,7 +80,7 @@ impl Leg<'_> {
         done
     }
 
-    /// Velocities in balance, the pose integrated.
+    /// Steady velocities, the pose integrated.
     fn go_steadily(
         &mut self,
         equations: &Equations<'_>,
@@ -91,9 +91,9 @@ impl Leg<'_> {
         let horizon = self.kept_until - self.state.time;
         let started =
             QuasiSteady::from(equations, carried, &mut point, horizon, self.is_new_command);
-        let mut motion = started.map_err(Ended::Unsteady)?;
+        let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
-            // A run starts in balance: what its start would cost the motors is not in the books.
+            // A run starts steady: what its start would cost the motors is not in the books.
             point.motors = 0.0;
             let wheels = || Ok(motion.wheels(&point));
             let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
@@ -101,7 +101,7 @@ impl Leg<'_> {
         for &time in times {
             let span = time - self.state.time;
             let advanced = motion.advance(&mut point, span, self.kept_until - self.state.time);
-            advanced.map_err(Ended::Unsteady)?;
+            advanced.map_err(Ended::NotSteady)?;
             let wheels = || Ok(motion.wheels(&point));
             let looked = self.look(equations, time, &point, &wheels);
             if looked.map_err(Ended::Failed)?.is_break() {
@@ -198,7 +198,7 @@ impl Leg<'_> {
 /// Why a quasi-steady motion went no further.
 enum Ended {
     /// It is not valid from here on.
-    Unsteady(Unsteady),
+    NotSteady(NotSteady),
     /// It cannot be computed.
     Failed(RunError),
 }

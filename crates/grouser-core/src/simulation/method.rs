@@ -1,20 +1,20 @@
 //! Which of the two ways through time a run took.
 
-use super::balance::Unsteady;
+use super::steady_state::NotSteady;
 
 /// How a run was computed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
     /// The velocities were integrated like the pose.
     Dynamic,
-    /// The velocities were in balance at every instant, the pose was integrated.
+    /// The velocities were steady at every instant, the pose was integrated.
     QuasiSteady,
     /// Quasi-steady up to a time, dynamic from there on.
-    FellBack {
+    FallbackToDynamic {
         /// When [s].
         time: f64,
         /// Why the quasi-steady motion is not valid there.
-        because: Unsteady,
+        because: NotSteady,
     },
 }
 
@@ -25,7 +25,7 @@ impl Method {
         match self {
             Self::Dynamic => "dynamic",
             Self::QuasiSteady => "quasi-steady",
-            Self::FellBack { .. } => "fell-back",
+            Self::FallbackToDynamic { .. } => "fell-back",
         }
     }
 
@@ -33,7 +33,7 @@ impl Method {
     #[must_use]
     pub fn reason(&self) -> Option<String> {
         match self {
-            Self::FellBack { time, because } => {
+            Self::FallbackToDynamic { time, because } => {
                 Some(format!("dynamic from {time:.1} s on: {because}"))
             }
             Self::Dynamic | Self::QuasiSteady => None,

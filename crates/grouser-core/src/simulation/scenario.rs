@@ -32,7 +32,7 @@ pub struct Scenario {
 /// How a run is computed and recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numerics {
-    /// Whether velocities are integrated or in balance.
+    /// Whether velocities are integrated or steady.
     pub approach: Approach,
     /// What carries the motion through time.
     pub integrator: Integrator,

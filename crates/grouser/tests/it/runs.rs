@@ -299,7 +299,11 @@ fn without_a_valid_balance_the_run_is_dynamic() {
         Scenario { drive: locked, duration: 2.0, start: AT_REST, ..traverse(deg(10.0), 0.0) };
     for scenario in [parked, Scenario { duration: 2.0, ..traverse(deg(58.0), 0.0) }] {
         let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
-        assert!(matches!(steady.method, Method::FellBack { time: 0.0, .. }), "{:?}", steady.method);
+        assert!(
+            matches!(steady.method, Method::FallbackToDynamic { time: 0.0, .. }),
+            "{:?}",
+            steady.method
+        );
         assert_eq!((dynamic.samples, dynamic.outcome), (steady.samples, steady.outcome));
     }
 }
