@@ -2,7 +2,7 @@
 //!
 //! [`Run`] leads a rover from the start of a scenario to its end, or step by step: a [`Controller`],
 //! such as the scenario's drive, turns the wheels, a [`State`] is all that changes, and what is
-//! looked at becomes a [`Sample`].
+//! looked at becomes a [`Record`].
 //!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
 //! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
@@ -33,7 +33,7 @@ pub use error::RunError;
 pub use method::Method;
 pub use outcome::{Outcome, StuckBecause};
 pub use power::EnergyBalance;
-pub use record::{Sample, WheelSample};
+pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;

@@ -139,7 +139,7 @@ impl End {
                 outcome: run.outcome.name(),
                 reason: run.outcome.reason(),
                 last: row(run.last()),
-                samples: if keep { run.samples.iter().map(row).collect() } else { Vec::new() },
+                samples: if keep { run.records.iter().map(row).collect() } else { Vec::new() },
             },
             Err(error) => Self {
                 outcome: "failed",

@@ -11,7 +11,7 @@ use super::integrate::{self, Point, Stalled};
 use super::method::Method;
 use super::outcome::{Outcome, StuckBecause};
 use super::quasi_steady::{Carried, QuasiSteady};
-use super::record::Sample;
+use super::record::Record;
 use super::scenario::{Integrator, Scenario};
 use super::state::State;
 use super::steady_state::NotSteady;
@@ -24,7 +24,7 @@ use crate::vehicle::{ReactionError, WheelReaction};
 pub(super) struct Leg<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) state: &'a mut State,
-    pub(super) records: &'a mut Vec<Sample>,
+    pub(super) records: &'a mut Vec<Record>,
     /// Whether the wheels had other speeds before.
     pub(super) is_new_command: bool,
     /// Until when they are expected to keep them [s].
@@ -181,9 +181,9 @@ impl Leg<'_> {
         };
         if state.outcome.is_some() || is_due {
             match wheels() {
-                Ok(wheels) => self.records.push(Sample::new(equations, now, reached, &wheels)),
+                Ok(wheels) => self.records.push(Record::new(equations, now, reached, &wheels)),
                 Err(error) => {
-                    self.records.push(Sample::new(equations, now, reached, &[]));
+                    self.records.push(Record::new(equations, now, reached, &[]));
                     state.outcome = Some(outcome_of(now, error)?);
                 }
             }

@@ -7,18 +7,18 @@ use crate::vehicle::{RoverState, WheelReaction};
 
 /// The rover at one time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct Record {
     /// Time since the start [s].
     pub time: f64,
     /// Pose and velocity.
     pub state: RoverState,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
-    pub wheels: Vec<WheelSample>,
+    pub wheels: Vec<WheelRecord>,
     /// Energy since the start.
     pub energy: EnergyBalance,
 }
 
-impl Sample {
+impl Record {
     /// The rover at a point of its run; without wheels where those do not settle.
     pub(super) fn new(
         equations: &Equations<'_>,
@@ -37,7 +37,7 @@ impl Sample {
         let wheels = wheels
             .iter()
             .zip(wheel_speeds)
-            .map(|(&reaction, &wheel_speed)| WheelSample { wheel_speed, reaction })
+            .map(|(&reaction, &wheel_speed)| WheelRecord { wheel_speed, reaction })
             .collect();
         Self { time, state, wheels, energy }
     }
@@ -45,14 +45,14 @@ impl Sample {
 
 /// A wheel at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelSample {
+pub struct WheelRecord {
     /// Angular speed, *ω* [rad/s].
     pub wheel_speed: f64,
     /// Slip, load, sinkage and forces.
     pub reaction: WheelReaction,
 }
 
-impl WheelSample {
+impl WheelRecord {
     /// Power of the motor, T ω [W].
     #[must_use]
     pub fn power(&self) -> f64 {

@@ -7,7 +7,7 @@ use super::equations::Equations;
 use super::error::RunError;
 use super::leg::Leg;
 use super::outcome::Outcome;
-use super::record::Sample;
+use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Scenario};
 use super::state::State;
 use super::times::{is_same_time, snapped};
@@ -46,7 +46,7 @@ pub struct Run {
     scenario: Scenario,
     state: State,
     /// Those that stay, and after them the one of the state, if it is another.
-    records: Vec<Sample>,
+    records: Vec<Record>,
     /// How many stay.
     kept: usize,
 }
@@ -161,7 +161,7 @@ impl Run {
     pub fn finish(self) -> Trajectory {
         let State { outcome, method, work, .. } = self.state;
         let outcome = outcome.unwrap_or(Outcome::Completed);
-        Trajectory { samples: self.records, outcome, method, work }
+        Trajectory { records: self.records, outcome, method, work }
     }
 
     /// What is simulated.
@@ -181,14 +181,14 @@ impl Run {
     /// # Panics
     /// Never: there always is a record.
     #[must_use]
-    pub fn now(&self) -> &Sample {
+    pub fn now(&self) -> &Record {
         self.records.last().expect("a run has a record of its start")
     }
 
     /// The records so far: at the start, at every sample interval that a controller led the rover
     /// through, and now.
     #[must_use]
-    pub fn records(&self) -> &[Sample] {
+    pub fn records(&self) -> &[Record] {
         &self.records
     }
 
@@ -249,7 +249,7 @@ impl Run {
         }
         let equations = Equations::of(&self.scenario, rim_speeds);
         let wheels = equations.reactions(&point.state).unwrap_or_default();
-        self.records.push(Sample::new(&equations, *time, point, &wheels));
+        self.records.push(Record::new(&equations, *time, point, &wheels));
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::study::WheelRecord;
-use crate::simulation::{Sample, Trajectory, WheelSample};
+use crate::simulation::{self, Record, Trajectory};
 use crate::vehicle::Rover;
 
 /// A run: outcome, end and samples.
@@ -91,7 +91,7 @@ impl TrajectoryRecord {
             energy_j: run.last().energy.motors,
             energy_error_j: run.energy_error(),
             end: SampleRecord::new(run.last(), rover),
-            samples: run.samples.iter().map(|sample| SampleRecord::new(sample, rover)).collect(),
+            samples: run.records.iter().map(|sample| SampleRecord::new(sample, rover)).collect(),
         }
     }
 }
@@ -99,7 +99,7 @@ impl TrajectoryRecord {
 impl SampleRecord {
     /// The record of a rover at one time.
     #[must_use]
-    pub fn new(sample: &Sample, rover: &Rover) -> Self {
+    pub fn new(sample: &Record, rover: &Rover) -> Self {
         let wheels = sample.wheels.iter().zip(rover.mounts());
         let wheels = wheels.map(|(wheel, mount)| WheelSampleRecord::new(wheel, &mount.name));
         Self { wheels: wheels.collect(), ..Self::of_body(sample) }
@@ -107,7 +107,7 @@ impl SampleRecord {
 
     /// The same, without what each wheel does.
     #[must_use]
-    pub fn of_body(sample: &Sample) -> Self {
+    pub fn of_body(sample: &Record) -> Self {
         let (state, energy) = (&sample.state, &sample.energy);
         Self {
             time_s: sample.time,
@@ -117,7 +117,7 @@ impl SampleRecord {
             forward_speed_m_s: state.velocity.x,
             lateral_speed_m_s: state.velocity.y,
             yaw_rate_deg_s: state.yaw_rate.to_degrees(),
-            power_w: sample.wheels.iter().map(WheelSample::power).sum(),
+            power_w: sample.wheels.iter().map(simulation::WheelRecord::power).sum(),
             energy_j: energy.motors,
             soil_energy_j: energy.soil,
             kinetic_energy_j: energy.kinetic,
@@ -128,7 +128,7 @@ impl SampleRecord {
 }
 
 impl WheelSampleRecord {
-    fn new(wheel: &WheelSample, name: &str) -> Self {
+    fn new(wheel: &simulation::WheelRecord, name: &str) -> Self {
         let reaction = &wheel.reaction;
         Self {
             wheel: name.into(),

@@ -233,7 +233,7 @@ fn wheels_steered_about_one_centre_drive_about_it() {
 fn all_wheels_steered_alike_let_the_rover_crab() {
     let rover = changed(|_, mount| mount.steering = deg(30.0));
     let run = run(&on_level_firm_ground(rover));
-    let (first, last) = (&run.samples[0].state, &run.last().state);
+    let (first, last) = (&run.records[0].state, &run.last().state);
     let way = last.position - first.position;
     assert!((way.y.atan2(way.x) - deg(30.0)).abs() < deg(0.2), "{way}");
     assert!(last.yaw.abs() < deg(0.2) && way.norm() > 0.25, "{} and {way}", last.yaw);

@@ -6,8 +6,8 @@ use grouser::contact::Theory;
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::balance::LONGEST_SETTLING;
 use grouser::simulation::{
-    Approach, Integrator, Method, Motion, Numerics, Outcome, Sample, Scenario, Start, StuckBecause,
-    Trajectory, WheelSample,
+    Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
+    Trajectory, WheelRecord,
 };
 use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
@@ -159,8 +159,8 @@ impl Apart {
     /// in a tenth of a second.
     fn over(one: &Trajectory, other: &Trajectory) -> Self {
         let mut apart = Self { position: 0.0, yaw: 0.0, slip_ratio: 0.0, sinkage: 0.0, power: 0.0 };
-        let power = |sample: &Sample| sample.wheels.iter().map(WheelSample::power).sum::<f64>();
-        for (one, other) in one.samples.iter().zip(&other.samples).skip(10) {
+        let power = |sample: &Record| sample.wheels.iter().map(WheelRecord::power).sum::<f64>();
+        for (one, other) in one.records.iter().zip(&other.records).skip(10) {
             assert_eq!(one.time, other.time);
             let max = |most: &mut f64, value: f64| *most = most.max(value.abs());
             max(&mut apart.position, (one.state.position - other.state.position).norm());
@@ -202,7 +202,7 @@ impl Apart {
 fn tolerance(dynamic: &Trajectory, steady: &Trajectory) -> Apart {
     /// Longest time of settling [s].
     const SETTLING: f64 = LONGEST_SETTLING;
-    let (start, balance) = (&dynamic.samples[0].state, &steady.samples[0].state);
+    let (start, balance) = (&dynamic.records[0].state, &steady.records[0].state);
     let to_settle = (start.velocity - balance.velocity).norm();
     // Hubs are 0.3 m from the middle: what jolts the rover along may turn it as well.
     let turn_to_settle = (start.yaw_rate - balance.yaw_rate).abs() + to_settle / 0.3;
@@ -230,7 +230,7 @@ fn quasi_steady_and_dynamic_runs_agree() {
             let name = format!("{soil_name}, {slope}°, yaw {yaw}°");
             let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
             assert_eq!(dynamic.outcome, steady.outcome, "{name}");
-            assert_eq!(dynamic.samples.len(), steady.samples.len(), "{name}");
+            assert_eq!(dynamic.records.len(), steady.records.len(), "{name}");
             let within = tolerance(&dynamic, &steady);
             beyond.extend(Apart::over(&dynamic, &steady).beyond(&name, &within));
             // Where the wheels all but spin, velocities need tenths of a second.
@@ -304,7 +304,7 @@ fn without_a_valid_balance_the_run_is_dynamic() {
             "{:?}",
             steady.method
         );
-        assert_eq!((dynamic.samples, dynamic.outcome), (steady.samples, steady.outcome));
+        assert_eq!((dynamic.records, dynamic.outcome), (steady.records, steady.outcome));
     }
 }
 
@@ -329,7 +329,7 @@ fn the_books_of_energy_close() {
 fn the_soil_never_gives_energy_back() {
     for (name, scenario) in all_kinds() {
         let run = run(&scenario);
-        for pair in run.samples.windows(2) {
+        for pair in run.records.windows(2) {
             let (before, after) = (pair[0].energy.soil, pair[1].energy.soil);
             assert!(after > before, "{name}: {before} J, then {after} J at {} s", pair[1].time);
         }
@@ -664,7 +664,7 @@ fn on_35_degrees_the_rover_slides_from_across_and_from_uphill() {
 fn on_58_degrees_the_rover_tips_over_before_it_starts() {
     let run = run(&traverse(deg(58.0), 0.0));
     assert_eq!(run.outcome, Outcome::TippedOver { time: 0.0 });
-    assert_eq!(run.samples.len(), 1);
+    assert_eq!(run.records.len(), 1);
 }
 
 #[test]
@@ -736,6 +736,6 @@ fn a_drive_that_varies_keeps_to_the_sample_interval() {
         Scenario { drive: DriveLaw::Eq18(TARGET), duration: 3.0, ..traverse(deg(10.0), 0.0) };
     let numerics = Numerics { sample_interval: 1.0, ..base.numerics };
     let times: Vec<f64> =
-        run(&Scenario { numerics, ..base }).samples.iter().map(|sample| sample.time).collect();
+        run(&Scenario { numerics, ..base }).records.iter().map(|sample| sample.time).collect();
     assert_eq!(times, [0.0, 1.0, 2.0, 3.0]);
 }

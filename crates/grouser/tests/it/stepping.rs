@@ -2,8 +2,8 @@
 
 use grouser::error::ParameterError;
 use grouser::simulation::{
-    Approach, Controller, Integrator, Method, Motion, Numerics, Observation, Outcome, Run,
-    RunError, Sample, Scenario, Start, WheelSample,
+    Approach, Controller, Integrator, Method, Motion, Numerics, Observation, Outcome, Record, Run,
+    RunError, Scenario, Start, WheelRecord,
 };
 use grouser::units::deg;
 use grouser::vehicle::drive::SlipTarget;
@@ -56,7 +56,7 @@ fn steps_with_constant_commands_lead_where_the_run_leads() {
         assert!(apart(&now.state, &end.state) < TOLERANCE, "steps of {span} s");
         let (energy, there) = (now.energy.motors, end.energy.motors);
         assert!((energy - there).abs() < TOLERANCE * there.abs().max(1.0));
-        let slips = |sample: &Sample| sample.wheels.iter().map(WheelSample::power).sum::<f64>();
+        let slips = |sample: &Record| sample.wheels.iter().map(WheelRecord::power).sum::<f64>();
         assert!((slips(now) - slips(end)).abs() < TOLERANCE);
     }
 }
@@ -196,7 +196,7 @@ fn a_controller_leads_as_the_scenarios_drive_does() {
     }
     assert_eq!((at_start, led.records().len()), (1, 30), "the first period was a step");
     assert_eq!(led.now(), whole.last());
-    assert_eq!(led.finish().samples[1..], whole.samples[2..]);
+    assert_eq!(led.finish().records[1..], whole.records[2..]);
 }
 
 /// A state is all that changes: another run goes on from there, bit for bit, by either approach.
