@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use grouser::contact::Theory;
 use grouser::document::{self, Kind, Overrides, Source};
-use grouser::simulation::balance::LONGEST_SETTLING;
+use grouser::simulation::steady_state::LONGEST_SETTLING;
 use grouser::simulation::{
     Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
     Trajectory, WheelRecord,
