@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use grouser::contact::{Theory, settle};
 use grouser::document::{self, Overrides, Source};
-use grouser::simulation::{Approach, Scenario, Simulation};
+use grouser::simulation::{Approach, Run, Scenario};
 use grouser_bench::{Fixtures, Unit};
 
 /// A slow-down by more evaluations, steps or settled wheels shows here as a difference.
@@ -36,7 +36,7 @@ fn the_work_is_as_much_as_it_was() {
         for approach in [Approach::Dynamic, Approach::QuasiSteady] {
             let mut scenario = scenario.clone();
             scenario.numerics.approach = approach;
-            let run = Simulation::new(&scenario).and_then(Simulation::run).expect("it runs");
+            let run = Run::new(&scenario).and_then(Run::to_end).expect("it runs");
             let _ = writeln!(text, "{name}, {}: {:?}", run.method.name(), run.work);
         }
     }

@@ -55,9 +55,10 @@ impl Kind {
     pub(super) const fn parts(self) -> &'static [Part] {
         match self {
             Self::Soil | Self::Wheel | Self::DataSet => &[],
-            Self::Rover => {
-                &[Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None }]
-            }
+            Self::Rover => &[
+                Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
+                Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
+            ],
             Self::Scenario => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
@@ -85,6 +86,24 @@ pub const DEFAULT_SOIL: &str = "toyoura";
 /// A document inside another.
 pub(super) struct Part {
     pub kind: Kind,
+    /// The keys that lead to it, with [`EACH`] for every entry of a list.
     pub path: &'static [&'static str],
     pub default: Option<&'static str>,
+}
+
+/// In the path of a [`Part`]: each entry of a list.
+pub(super) const EACH: &str = "*";
+
+impl Part {
+    /// Whether there may be several, one in each entry of a list. What is set for the documents of its
+    /// kind does not reach into those: only what is set at their own place does.
+    pub(super) fn is_listed(&self) -> bool {
+        self.path.contains(&EACH)
+    }
+
+    /// Whether a key lies within it.
+    pub(super) fn holds(&self, path: &[String]) -> bool {
+        let meets = |(step, key): (&String, &&str)| step == key || *key == EACH;
+        path.len() > self.path.len() && path.iter().zip(self.path).all(meets)
+    }
 }

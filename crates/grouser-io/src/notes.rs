@@ -3,20 +3,55 @@
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
+use super::kind::EACH;
 use super::text::{Entry, Node, Value};
 use super::{Kind, Overrides};
 
-/// The documents inside one of a kind: their kinds, and the keys that lead there.
-fn parts(kind: Kind) -> impl Iterator<Item = (Kind, &'static [&'static str])> {
-    kind.parts().iter().map(|part| (part.kind, part.path))
+/// Calls a function with each document inside one.
+fn for_each_inside(
+    tree: &Node,
+    path: &[&str],
+    act: &mut impl FnMut(&Node) -> Result<(), DocumentError>,
+) -> Result<(), DocumentError> {
+    match (path, &tree.value) {
+        ([], _) => act(tree),
+        ([EACH, rest @ ..], Value::List(nodes)) => {
+            nodes.iter().try_for_each(|node| for_each_inside(node, rest, act))
+        }
+        ([key, rest @ ..], _) => {
+            tree.entry(key).map_or(Ok(()), |entry| for_each_inside(&entry.node, rest, act))
+        }
+    }
 }
 
-fn node<'n>(tree: &'n Node, path: &[&str]) -> Option<&'n Node> {
-    path.iter().try_fold(tree, |node, step| Some(&node.entry(step)?.node))
+/// The same, to change it.
+fn change_each_inside(tree: &mut Node, path: &[&str], change: &mut impl FnMut(&mut Node)) {
+    match path {
+        [] => change(tree),
+        [EACH, rest @ ..] => {
+            if let Value::List(nodes) = &mut tree.value {
+                for node in nodes {
+                    change_each_inside(node, rest, change);
+                }
+            }
+        }
+        [key, rest @ ..] => {
+            if let Some(entry) = tree.entry_mut(key) {
+                change_each_inside(&mut entry.node, rest, change);
+            }
+        }
+    }
 }
 
-fn node_mut<'n>(tree: &'n mut Node, path: &[&str]) -> Option<&'n mut Node> {
-    path.iter().try_fold(tree, |node, step| Some(&mut node.entry_mut(step)?.node))
+/// What stands at a path, or at all of them.
+fn all_at<'j>(said: &'j Json, path: &[&str]) -> Vec<&'j Json> {
+    match path {
+        [] => vec![said],
+        [EACH, rest @ ..] => {
+            said.as_array().into_iter().flatten().flat_map(|said| all_at(said, rest)).collect()
+        }
+        [key, rest @ ..] => said.get(key).map_or(Vec::new(), |said| all_at(said, rest)),
+    }
 }
 
 /// That days are days, in the document and in all inside it.
@@ -29,8 +64,9 @@ pub(crate) fn check_days(kind: Kind, tree: &Node) -> Result<(), DocumentError> {
         let problem = Problem::Conflict("`date` is no day: it is written as \"2026-11-20\"");
         return Err(DocumentError::at(origin, problem));
     }
-    let inside = parts(kind).filter_map(|(kind, path)| Some((kind, node(tree, path)?)));
-    inside.into_iter().try_for_each(|(kind, tree)| check_days(kind, tree))
+    kind.parts().iter().try_for_each(|part| {
+        for_each_inside(tree, part.path, &mut |inside| check_days(part.kind, inside))
+    })
 }
 
 /// Whether a text is a day of the calendar, year-month-day (ISO 8601).
@@ -56,10 +92,10 @@ fn is_day(text: &str) -> bool {
 
 /// Adds what was assumed without the author of a document saying so, to it and to all inside it.
 pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
-    for (kind, path) in parts(kind) {
-        if let Some(inside) = node_mut(tree, path) {
-            add(kind, inside, overrides);
-        }
+    for part in kind.parts() {
+        let none = Overrides::none();
+        let overrides = if part.is_listed() { &none } else { overrides };
+        change_each_inside(tree, part.path, &mut |inside| add(part.kind, inside, overrides));
     }
     // A scenario or a campaign is what its author wants, and needs no source.
     if matches!(kind, Kind::Scenario | Kind::Campaign) {
@@ -114,9 +150,9 @@ pub(crate) fn assumptions(kind: Kind, said: &Json) -> Vec<String> {
     let own = said.get("assumed").and_then(Json::as_array).into_iter().flatten();
     let own = own.filter_map(Json::as_str).map(|one| format!("{kind} {name}: {one}"));
     let mut all: Vec<String> = says_so.into_iter().chain(own).collect();
-    for (kind, path) in parts(kind) {
-        let inside = path.iter().try_fold(said, |said, step| said.get(step));
-        all.extend(inside.map(|inside| assumptions(kind, inside)).unwrap_or_default());
+    for part in kind.parts() {
+        let inside = all_at(said, part.path);
+        all.extend(inside.into_iter().flat_map(|inside| assumptions(part.kind, inside)));
     }
     all
 }

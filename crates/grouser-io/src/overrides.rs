@@ -218,9 +218,28 @@ impl Overrides {
 
     /// Puts the values for one kind of document into its tree.
     pub fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
+        self.put(kind, tree, |one| !one.is_within_a_list())
+    }
+
+    /// The same for values inside documents that the entries of a list have: these must be in their
+    /// places by now.
+    pub(crate) fn apply_within_lists(
+        &self,
+        kind: Kind,
+        tree: &mut Node,
+    ) -> Result<(), DocumentError> {
+        self.put(kind, tree, Override::is_within_a_list)
+    }
+
+    fn put(
+        &self,
+        kind: Kind,
+        tree: &mut Node,
+        is_meant: impl Fn(&Override) -> bool,
+    ) -> Result<(), DocumentError> {
         // A law first: it decides which other keys there are.
-        let of_kind = self.all.iter().filter(|one| one.kind == kind);
-        let (laws, others): (Vec<_>, Vec<_>) = of_kind.partition(|one| one.is_a_law());
+        let meant = self.all.iter().filter(|one| one.kind == kind && is_meant(one));
+        let (laws, others): (Vec<_>, Vec<_>) = meant.partition(|one| one.is_a_law());
         for one in laws {
             // What another law calls otherwise it keeps, by the name that both had.
             describe::rows(kind).rename(tree, Names::Former);
@@ -251,6 +270,11 @@ impl Overrides {
 }
 
 impl Override {
+    /// Whether it leads into a document that an entry of a list has.
+    fn is_within_a_list(&self) -> bool {
+        self.kind.parts().iter().any(|part| part.is_listed() && part.holds(&self.path))
+    }
+
     /// The value at the end of its path; tables on the way are made.
     fn put(&self, path: &[String], tree: &mut Node) -> Result<(), DocumentError> {
         let not_a_table = || {
@@ -316,9 +340,7 @@ impl Override {
 /// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or
 /// holds it.
 fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
-    while let Some(part) = kind.parts().iter().find(|part| {
-        path.len() > part.path.len() && path.iter().zip(part.path).all(|(a, b)| a == b)
-    }) {
+    while let Some(part) = kind.parts().iter().find(|part| !part.is_listed() && part.holds(&path)) {
         path.drain(..part.path.len());
         kind = part.kind;
     }

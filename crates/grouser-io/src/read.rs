@@ -8,7 +8,7 @@ use grouser_core::wheel::Wheel;
 use super::describe;
 use super::error::{DocumentError, Place, Problem};
 use super::field::Names;
-use super::kind::{Kind, Part};
+use super::kind::{EACH, Kind, Part};
 use super::loaded::{Document, Loaded};
 use super::overrides::Overrides;
 use super::source::Source;
@@ -154,27 +154,42 @@ fn complete(
     // What was set may be a keyword, or a table, of an earlier version.
     describe::rows(kind).rename(tree, Names::Today);
     for part in kind.parts() {
-        let path = part.path.join(".");
-        let prefix = if prefix.is_empty() { path } else { format!("{prefix}.{path}") };
-        fetch(part, tree, overrides, &prefix)?;
+        let none = Overrides::none();
+        let overrides = if part.is_listed() { &none } else { overrides };
+        fetch(part, part.path, tree, overrides, prefix)?;
     }
+    overrides.apply_within_lists(kind, tree)?;
     check::check(kind, tree, prefix)
 }
 
-/// Puts a named part into its place.
+/// Puts a named part into its place, or each of those in a list.
+///
+/// * `path`: from the table to the part
+/// * `prefix`: where the table stands in a larger document
 fn fetch(
     part: &Part,
-    tree: &mut Node,
+    path: &[&str],
+    table: &mut Node,
     overrides: &Overrides,
     prefix: &str,
 ) -> Result<(), DocumentError> {
-    let Some((key, tables)) = part.path.split_last() else { return Ok(()) };
-    let mut table = tree;
-    for step in tables {
-        // A table that is missing, or is none, is for the check to report.
-        let Some(entry) = table.entry_mut(step) else { return Ok(()) };
-        table = &mut entry.node;
+    let Some((key, further)) = path.split_first() else { return Ok(()) };
+    let within = |step: &str| {
+        if prefix.is_empty() { step.to_owned() } else { format!("{prefix}.{step}") }
+    };
+    if *key == EACH {
+        let Value::List(nodes) = &mut table.value else { return Ok(()) };
+        let mut each = nodes.iter_mut().enumerate();
+        return each.try_for_each(|(place, node)| {
+            fetch(part, further, node, overrides, &within(&place.to_string()))
+        });
     }
+    if !further.is_empty() {
+        // A table that is missing, or is none, is for the check to report.
+        let Some(entry) = table.entry_mut(key) else { return Ok(()) };
+        return fetch(part, further, &mut entry.node, overrides, &within(key));
+    }
+    let prefix = &within(key);
     let origin = table.origin.clone();
     let Some(entry) = table.entry_mut(key) else {
         let (Some(default), Value::Table(entries)) = (part.default, &mut table.value) else {

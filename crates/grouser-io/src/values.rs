@@ -15,9 +15,8 @@ use super::field::Inner;
 use super::text::Node;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
-use grouser_core::site::Site;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use grouser_core::vehicle::Rover;
+use grouser_core::vehicle::{Mount, Rover};
 use grouser_core::wheel::Wheel;
 
 /// Values that are fine one by one, but not together.
@@ -193,7 +192,7 @@ impl Described for Rover {
 
 /// That every wheel can be told from the others: columns and messages name them.
 fn check_names(rover: &Rover) -> Result<(), Misfit> {
-    let mounts = rover.mounts();
+    let mounts = &rover.parts().mounts;
     for (index, mount) in mounts.iter().enumerate() {
         if mounts[..index].iter().any(|other| other.name == mount.name) {
             let key = format!("mount.{index}.name");
@@ -204,11 +203,14 @@ fn check_names(rover: &Rover) -> Result<(), Misfit> {
     Ok(())
 }
 
-/// The first wheel that hangs higher or lower than the first one, or else all of them.
+/// The first wheel that reaches less or further down than the first one, or else all of them.
 fn uneven_mount(rover: &Rover) -> String {
-    let mounts = rover.mounts();
-    let height = mounts.first().map_or(0.0, |mount| mount.position.z);
-    match mounts.iter().position(|mount| mount.position.z != height) {
+    let mounts = rover.parts().complete_mounts();
+    let differs = |mount: &Mount| {
+        let larger = mount.shearing_radius() - mounts[0].shearing_radius();
+        mount.position.z - mounts[0].position.z != larger
+    };
+    match mounts.iter().position(differs) {
         Some(index) => format!("mount.{index}.position_m"),
         None => "mount.0".to_owned(),
     }
@@ -230,8 +232,8 @@ impl Described for Scenario {
 
     fn settled(self) -> Result<Self, Misfit> {
         let rover = self.rover.settled().map_err(|misfit| misfit.within("rover"))?;
-        let soil = self.site.soil.settled().map_err(|misfit| misfit.within("soil"))?;
-        let run = Self { rover, site: Site { soil, ..self.site }, ..self };
+        let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        let run = Self { rover, site: self.site.with_soil(soil), ..self };
         check_sample_count(run.duration, run.numerics.sample_interval)
             .map_err(Misfit::at("sample_interval_s"))?;
         run.drive.check(&run.rover).map_err(|error| {

@@ -2,12 +2,13 @@
 
 use super::super::Kind;
 use super::super::field::{
-    At, Each, Form, KG, KG_M2, M, Table, list, number, numbers, part, table, text,
+    At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers, part,
+    table, text,
 };
 use super::wheel::{self, WHEEL};
 use super::{assumed, name, notes, schema, source};
 use grouser_core::units::Vec3;
-use grouser_core::vehicle::{Body, Inertia, Mount, RoverParts, WheelUnit};
+use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, WheelUnit};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
@@ -19,7 +20,7 @@ pub const BLANK: RoverParts = RoverParts {
 };
 
 pub static ROVER: Table<RoverParts> = Table {
-    doc: "A body and three or more equal wheels, rigidly joined.",
+    doc: "A body and three or more wheels, rigidly joined.",
     fields: &[
         schema("rover/1"),
         name(),
@@ -33,16 +34,23 @@ pub static ROVER: Table<RoverParts> = Table {
         ),
         table(
             "wheel_unit",
-            "A wheel with its motor; all are the same.",
+            "A wheel with its motor: that of every mount that has no other.",
             &At { inner: &WHEEL_UNIT, at: |rover: &mut RoverParts| &mut rover.wheel_unit },
         ),
         list(
             "mount",
-            "Where the wheels sit: three or more, hubs of one height, not in one line.",
+            "Where the wheels sit: three or more, standing on one plane, not in one line.",
             &Each {
                 inner: &MOUNT,
                 list: |rover: &mut RoverParts| &mut rover.mounts,
-                blank: || Mount { name: String::new(), position: Vec3::zeros() },
+                blank: || MountParts {
+                    name: String::new(),
+                    position: Vec3::zeros(),
+                    steering: 0.0,
+                    wheel: None,
+                    mass: None,
+                    inertia: None,
+                },
             },
             3,
         ),
@@ -61,12 +69,21 @@ static BODY: Table<Body> = Table {
     ],
 };
 
+/// Mass of a wheel with its motor.
+const fn unit_mass<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
+    number("mass_kg", KG, 0.01..=1e5, doc, reach)
+}
+
+/// Inertia of a wheel with its motor.
+const fn unit_inertia<T>(doc: &'static str, inner: &'static dyn Inner<T>) -> Field<T> {
+    table("inertia_kg_m2", doc, inner)
+}
+
 static WHEEL_UNIT: Table<WheelUnit> = Table {
     doc: "A wheel with its motor.",
     fields: &[
-        number("mass_kg", KG, 0.01..=1e5, "Mass", |unit| Some(&mut unit.mass)),
-        table(
-            "inertia_kg_m2",
+        unit_mass("Mass", |unit: &mut WheelUnit| Some(&mut unit.mass)),
+        unit_inertia(
             "Moments of inertia about its hub [kg·m²].",
             &At { inner: &INERTIA, at: |unit: &mut WheelUnit| &mut unit.inertia },
         ),
@@ -88,8 +105,8 @@ static INERTIA: Table<Inertia> = Table {
     ],
 };
 
-static MOUNT: Table<Mount> = Table {
-    doc: "Where a wheel sits.",
+static MOUNT: Table<MountParts> = Table {
+    doc: "Where a wheel sits, and what it has instead of the common wheel unit.",
     fields: &[
         text("name", 1, "The wheel's name, such as `front-left`; no two alike.", |mount, name| {
             name.clone_into(&mut mount.name);
@@ -103,5 +120,36 @@ static MOUNT: Table<Mount> = Table {
             |_, _| {},
             |mount, axis| mount.position.get_mut(axis),
         ),
+        number(
+            "steering_deg",
+            DEG,
+            -90.0..=90.0,
+            "Steering angle, δ: the wheel is turned to the left by this much, for good; left out, it points straight ahead",
+            |mount: &mut MountParts| Some(&mut mount.steering),
+        )
+        .optional(),
+        unit_mass(
+            "Mass of this wheel with its motor, instead of the wheel unit's",
+            |mount: &mut MountParts| Some(mount.mass.get_or_insert(0.0)),
+        )
+        .optional(),
+        unit_inertia(
+            "Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel unit's.",
+            &At {
+                inner: &INERTIA,
+                at: |mount: &mut MountParts| mount.inertia.get_or_insert(NO_INERTIA),
+            },
+        )
+        .optional(),
+        part(
+            "wheel",
+            Kind::Wheel,
+            "The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this document's folder, or a wheel's keys.",
+            &At {
+                inner: &WHEEL,
+                at: |mount: &mut MountParts| mount.wheel.get_or_insert(wheel::BLANK),
+            },
+        )
+        .optional(),
     ],
 };

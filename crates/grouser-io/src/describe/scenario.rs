@@ -37,7 +37,7 @@ pub static ROVER_OF_PARTS: At<Rover, RoverParts> = At { inner: &ROVER, at: Rover
 pub fn blank() -> Scenario {
     Scenario {
         rover: Rover::draft(rover::BLANK),
-        site: Site { soil: soil::BLANK, slope: 0.0, gravity: 0.0 },
+        site: Site::plane(soil::BLANK, 0.0, 0.0),
         theory: Theory::default(),
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
@@ -70,13 +70,13 @@ pub static SCENARIO: Table<Scenario> = Table {
             "soil",
             Kind::Soil,
             "The soil: a preset's name, a path from this document's folder, or a soil's keys.",
-            &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.soil },
+            &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.terrain.soil },
         )
         .otherwise(Fill::Word(DEFAULT_SOIL)),
         model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
         number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
-            Some(&mut run.site.slope)
+            Some(&mut run.site.terrain.slope)
         })
         .or(PAPERS_SLOPE),
         positive("duration_s", S, LONGEST_DURATION, "How long the run lasts", |run: &mut Scenario| {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, held};
-use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::unit_of;
@@ -204,8 +204,8 @@ fn a_column_has_the_unit_of_its_name() {
         }
     }
     check(&WHEEL);
-    check(&SAMPLE);
-    check(&WHEEL_SAMPLE);
+    check(&RECORD);
+    check(&WHEEL_RECORD);
     check(&held());
     check(&BAND);
     check(&TRIALS);

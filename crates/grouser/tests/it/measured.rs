@@ -193,8 +193,8 @@ fn a_name_finds_a_data_set_and_a_path_a_file() {
 /// Points of published figures: how many each test has, what was read, and the range of its slip.
 #[test]
 fn the_published_wheel_tests_are_read() {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/data/measurements/published_wheel_tests.csv");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../grouser-io/data/measurements/published_wheel_tests.csv");
     let pull = Quantity::DrawbarPull;
     for (wheel, points, load, slips, quantities) in [
         ("ding-2011-smooth", 6, 80.0, [0.0, 0.6], vec![pull, Quantity::Sinkage, Quantity::Torque]),

@@ -13,7 +13,7 @@ use super::super::varied::{Key, Numbers, Varied};
 use super::table::{Column, Role};
 use super::{Stand, Study};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
-use crate::simulation::{Scenario, Simulation};
+use crate::simulation::{Run, Scenario};
 use crate::studies::attitude::{AttitudeStudy, NoAttitude};
 use crate::studies::drive::Drive;
 use crate::vehicle::DriveLaw;
@@ -144,7 +144,7 @@ impl Base {
 
 fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     let attitude = AttitudeStudy::of(scenario)
-        .on_slope(scenario.site.slope)
+        .on_slope(scenario.site.terrain.slope)
         .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
         .map_err(|error| {
             let status = match error {
@@ -171,8 +171,8 @@ fn cells<'r, R, const WORDS: usize>(
 }
 
 fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
-    let run = Simulation::new(scenario)
-        .and_then(Simulation::run)
+    let run = Run::new(scenario)
+        .and_then(Run::to_end)
         .map_err(|error| Failure { status: NOT_COMPUTED, reason: error.to_string() })?;
     let (end, drive) = (run.last(), Drive::of(&run));
     let words = [

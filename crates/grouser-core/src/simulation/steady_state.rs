@@ -1,4 +1,4 @@
-//! Motion in balance: the velocities at which nothing accelerates.
+//! Steady states: the velocities at which nothing accelerates.
 //!
 //! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ̇) with
 //!
@@ -7,24 +7,25 @@
 //! ```
 //!
 //! They are sought by Newton's method with Broyden's updates of the inverse Jacobian, from the
-//! balance last found; from far away by implicit Euler steps that lengthen as the accelerations
+//! steady state last found; from far away by implicit Euler steps that lengthen as the accelerations
 //! fade, which go the way that the rover would go. The Jacobian says how fast, and whether, a
-//! rover settles on its balance.
+//! rover settles on its steady state.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
 use crate::newton;
 use crate::units::Vec2;
+use crate::vehicle::load;
 use crate::vehicle::{RoverState, WheelReaction};
 
-/// Why a rover's velocities are not those of a balance, or not known to be.
+/// Why a rover's velocities are not those of a steady state, or not known to be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Unsteady {
+pub enum NotSteady {
     /// None was found.
     #[error("no velocities were found at which nothing accelerates")]
-    NoBalance,
-    /// A disturbance of the balance grows.
+    NoSteadyState,
+    /// A disturbance of the steady state grows.
     #[error("the balance is unstable: a disturbance grows at {rate:.3} /s")]
     Unstable {
         /// Its rate of growth [1/s].
@@ -43,7 +44,7 @@ pub enum Unsteady {
         /// Time in which a disturbance fades by e [s].
         settling_time: f64,
     },
-    /// The balance moves faster than the velocities can follow.
+    /// The steady state moves faster than the velocities can follow.
     #[error(
         "the balance moves too fast: velocities settle within {settling_time:.2e} s and lag behind \
          by {lag:.1e} of the rims' speed"
@@ -56,9 +57,9 @@ pub enum Unsteady {
     },
 }
 
-/// A motion in balance.
+/// A steady state.
 #[derive(Clone, Debug)]
-pub(super) struct Balance {
+pub(super) struct SteadyState {
     /// Yaw, *γ* [rad].
     pub(super) yaw: f64,
     /// *(u, v, γ̇)* [m/s, m/s, rad/s], in the body frame.
@@ -69,8 +70,8 @@ pub(super) struct Balance {
     pub(super) wheels: Vec<WheelReaction>,
 }
 
-/// Finds balances, each from the one before.
-pub(super) struct Balancer<'a> {
+/// Finds steady states, each from the one before.
+pub(super) struct SteadySolver<'a> {
     equations: &'a Equations<'a>,
     /// Speed to measure velocities by: the fastest rim's [m/s].
     scale: f64,
@@ -79,7 +80,7 @@ pub(super) struct Balancer<'a> {
     memory: Memory,
 }
 
-/// What the last balance teaches about the next one.
+/// What the last steady state teaches about the next one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Memory {
     /// Inverse Jacobian, (∂a/∂V)⁻¹ [s].
@@ -88,7 +89,7 @@ pub(super) struct Memory {
     checked: Option<(f64, Vector3<f64>, f64)>,
 }
 
-/// Velocities this near to those of the balance are taken for it, over the fastest rim's speed [-]:
+/// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed [-]:
 /// a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
 
@@ -100,7 +101,7 @@ pub const MOST_SLIP: f64 = 0.9;
 /// in the Moon's gravity half of this.)
 pub const LONGEST_SETTLING: f64 = 0.1;
 
-impl<'a> Balancer<'a> {
+impl<'a> SteadySolver<'a> {
     pub(super) fn new(equations: &'a Equations<'a>, memory: Memory) -> Self {
         let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
         let arms = equations.rover().load_arms();
@@ -115,7 +116,8 @@ impl<'a> Balancer<'a> {
 
     /// Whether the ground is level.
     pub(super) fn is_level(&self) -> bool {
-        self.equations.site().slope == 0.0
+        load::slope_pull(self.equations.rover(), self.equations.site(), &RoverState::default())
+            == Vec2::zeros()
     }
 
     /// Size of velocities over the fastest rim's [-].
@@ -124,33 +126,37 @@ impl<'a> Balancer<'a> {
         u.abs().max(v.abs()).max((rate * self.reach).abs()) / self.scale
     }
 
-    /// The balance at a yaw, sought from nearby velocities.
-    pub(super) fn find(&mut self, yaw: f64, guess: &Vector3<f64>) -> Result<Balance, Unsteady> {
+    /// The steady state at a yaw, sought from nearby velocities.
+    pub(super) fn find(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+    ) -> Result<SteadyState, NotSteady> {
         // Wheels that stand still hold a rover by creep alone: that is no motion to speak of.
         if self.scale == 0.0 {
-            return Err(Unsteady::NoBalance);
+            return Err(NotSteady::NoSteadyState);
         }
         if let Some(inverse) = self.memory.inverse
-            && let Some(balance) = self.correct(yaw, guess, inverse)
+            && let Some(steady) = self.correct(yaw, guess, inverse)
         {
-            return Ok(balance);
+            return Ok(steady);
         }
         let fresh = self.evaluate(yaw, guess).and_then(|here| self.jacobian(yaw, guess, &here));
         if let Some(inverse) = fresh.and_then(Matrix3::try_inverse)
-            && let Some(balance) = self.correct(yaw, guess, inverse)
+            && let Some(steady) = self.correct(yaw, guess, inverse)
         {
-            return Ok(balance);
+            return Ok(steady);
         }
-        self.settle(yaw, guess).ok_or(Unsteady::NoBalance)
+        self.settle(yaw, guess).ok_or(NotSteady::NoSteadyState)
     }
 
-    /// The balance nearest to the guess.
+    /// The steady state nearest to the guess.
     fn correct(
         &mut self,
         yaw: f64,
         guess: &Vector3<f64>,
         inverse: Matrix3<f64>,
-    ) -> Option<Balance> {
+    ) -> Option<SteadyState> {
         /// Steps longer than this leave the neighbourhood in which a tangent tells anything [-].
         const LONGEST: f64 = 0.5;
         let zero = newton::zero_near(
@@ -162,11 +168,11 @@ impl<'a> Balancer<'a> {
             |_, step| self.size(step) <= CLOSE,
         )?;
         self.memory.inverse = Some(zero.inverse);
-        Some(balance_at(yaw, zero.at, zero.value))
+        Some(steady_state_at(yaw, zero.at, zero.value))
     }
 
     /// Implicit Euler steps from the guess, linear in each, as long as the accelerations allow.
-    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<Balance> {
+    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
         /// The first step [s]: within the milliseconds in which slip settles.
         const FIRST_STEP: f64 = 1e-3;
         const MOST_STEPS: usize = 40;
@@ -180,7 +186,7 @@ impl<'a> Balancer<'a> {
                 && self.size(&(inverse * acceleration)) <= CLOSE
             {
                 self.memory.inverse = Some(inverse);
-                return Some(balance_at(yaw, velocities, here));
+                return Some(steady_state_at(yaw, velocities, here));
             }
             let implicit = Matrix3::identity() / span - jacobian;
             let step = implicit.try_inverse()? * acceleration;
@@ -199,27 +205,27 @@ impl<'a> Balancer<'a> {
         None
     }
 
-    /// That a rover settles on the balance; the time in which it does [s]. The last answer holds
+    /// That a rover settles on the steady state; the time in which it does [s]. The last answer holds
     /// in its neighbourhood.
-    pub(super) fn settling_time(&mut self, balance: &Balance) -> Result<f64, Unsteady> {
+    pub(super) fn settling_time(&mut self, steady: &SteadyState) -> Result<f64, NotSteady> {
         /// How far that is [rad], and over the fastest rim's speed [-].
         const NEAR_YAW: f64 = 0.2;
         const NEAR_VELOCITIES: f64 = 0.05;
         if let Some((yaw, velocities, time)) = self.memory.checked
-            && (yaw - balance.yaw).abs() < NEAR_YAW
-            && self.size(&(velocities - balance.velocities)) < NEAR_VELOCITIES
+            && (yaw - steady.yaw).abs() < NEAR_YAW
+            && self.size(&(velocities - steady.velocities)) < NEAR_VELOCITIES
         {
             return Ok(time);
         }
-        let slips = balance.wheels.iter().map(|wheel| wheel.slip.ratio.abs());
-        let slip_ratio = slips.sum::<f64>() / balance.wheels.len() as f64;
+        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio.abs());
+        let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
         if slip_ratio > MOST_SLIP {
-            return Err(Unsteady::Spinning { slip_ratio });
+            return Err(NotSteady::Spinning { slip_ratio });
         }
         let jacobian = self
-            .evaluate(balance.yaw, &balance.velocities)
-            .and_then(|here| self.jacobian(balance.yaw, &balance.velocities, &here))
-            .ok_or(Unsteady::NoBalance)?;
+            .evaluate(steady.yaw, &steady.velocities)
+            .and_then(|here| self.jacobian(steady.yaw, &steady.velocities, &here))
+            .ok_or(NotSteady::NoSteadyState)?;
         self.memory.inverse = jacobian.try_inverse();
         let slowest = jacobian
             .complex_eigenvalues()
@@ -227,13 +233,13 @@ impl<'a> Balancer<'a> {
             .map(|value| value.re)
             .fold(f64::NEG_INFINITY, f64::max);
         if slowest >= 0.0 || slowest.is_infinite() {
-            return Err(Unsteady::Unstable { rate: slowest });
+            return Err(NotSteady::Unstable { rate: slowest });
         }
         let time = -1.0 / slowest;
         if time > LONGEST_SETTLING {
-            return Err(Unsteady::Slow { settling_time: time });
+            return Err(NotSteady::Slow { settling_time: time });
         }
-        self.memory.checked = Some((balance.yaw, balance.velocities, time));
+        self.memory.checked = Some((steady.yaw, steady.velocities, time));
         Ok(time)
     }
 
@@ -276,7 +282,7 @@ fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {
     Vector3::new(rate.x, rate.y, acceleration.yaw_acceleration)
 }
 
-fn balance_at(yaw: f64, velocities: Vector3<f64>, evaluation: Evaluation) -> Balance {
+fn steady_state_at(yaw: f64, velocities: Vector3<f64>, evaluation: Evaluation) -> SteadyState {
     let Evaluation { rates, wheels } = evaluation;
-    Balance { yaw, velocities, powers: (rates.motor_power, rates.soil_power), wheels }
+    SteadyState { yaw, velocities, powers: (rates.motor_power, rates.soil_power), wheels }
 }

@@ -1,4 +1,5 @@
-//! How the soil bears one wheel at any sinkage: a contact made ready for a search.
+//! The load–sinkage relation of one wheel: the load that the soil carries at any sinkage, made ready for a
+//! search.
 //!
 //! A wheel that settles asks for F_z at several sinkages. What does not depend on the sinkage, and
 //! what F_z does not depend on, is left out of that loop.
@@ -6,30 +7,31 @@
 #![expect(clippy::inline_always, reason = "part of the kernel")]
 
 use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::kernel::integral::{self, StressSums};
 use super::kernel::rule::{self, ArcRule};
-use super::model::{Contact, Side};
+use super::mirror::Side;
 use super::patch::ContactPatch;
 use super::stress::{Response, StressLaw};
 
 /// The vertical force of the soil on one wheel as a function of its sinkage.
 #[derive(Clone, Copy, Debug)]
-pub struct Bearing {
+pub struct LoadSinkage {
     views: Views,
     /// r_s b [m²].
     area: f64,
 }
 
-/// Which ends of the wheel enter the soil, with their shares ([`super::model::from_both_sides`]).
+/// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
 #[derive(Clone, Copy, Debug)]
 enum Views {
     One(Arc),
     Both { front: (Arc, f64), back: (Arc, f64) },
 }
 
-impl Bearing {
+impl LoadSinkage {
     pub(super) fn new(contact: &Contact, arc: impl Fn(&Contact) -> Arc) -> Self {
         let area = contact.wheel.shearing_radius() * contact.wheel.width;
         let front = || arc(contact);
