@@ -72,11 +72,11 @@ def test_exchanged_and_strange_shards_are_refused(tmp_path: Path) -> None:
     second.write_bytes(data[1])
     first.unlink()
     first.symlink_to("/dev/zero")
-    with pytest.raises(gr.CampaignError, match="no regular file"):
+    with pytest.raises(gr.CampaignError, match="not a regular file"):
         gr.campaign.results(tmp_path).count()
     first.unlink()
     os.mkfifo(first)
-    with pytest.raises(gr.CampaignError, match="no regular file"):
+    with pytest.raises(gr.CampaignError, match="not a regular file"):
         gr.campaign.results(tmp_path).to_arrow()
     # Going on puts the shard in its place.
     assert gr.campaign.run(campaigns.wheel_study(), out=tmp_path).count()[0] == {"ok": 100}

@@ -192,9 +192,9 @@ def test_what_a_scenario_leaves_open_is_as_usual() -> None:
             {"scenario": {"slope_deg": 8.0}, "slope_deg": (5.0, 6.0)},
             r"slope_deg is given twice: \(5.0, 6.0\) as an argument, 8.0 by",
         ),
-        ({"scenario": {"drive": {"law": "eq18"}}}, "has drive, which does not count"),
-        ({"scenario": {"duration_s": 5.0}}, "has duration_s, which does not count"),
-        ({"scenario": {"start": {"yaw_deg": 5.0}}}, "has start.yaw_deg, which does not count"),
+        ({"scenario": {"drive": {"law": "eq18"}}}, "has drive, which is not used"),
+        ({"scenario": {"duration_s": 5.0}}, "has duration_s, which is not used"),
+        ({"scenario": {"start": {"yaw_deg": 5.0}}}, "has start.yaw_deg, which is not used"),
     ],
 )
 def test_what_a_scenario_contradicts_is_refused(settings: dict[str, Any], said: str) -> None:

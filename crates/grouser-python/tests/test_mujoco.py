@@ -89,7 +89,7 @@ def test_without_mujoco_the_error_says_what_to_install() -> None:
         ({"ground": "floor"}, "no geom 'floor'"),
         ({"ground": 1.0}, "ground is a float"),
         ({"soil": ["toyoura"]}, "1 soils for 4 wheels"),
-        ({"moments": "some"}, "moments is 'some'"),
+        ({"wheel_moments": "some"}, "wheel_moments is 'some'"),
         ({"model": "none"}, "model"),
         ({"sinkage_damping_s_m": -1.0}, "sinkage_damping_s_m is -1, it must be zero or more"),
         ({"rest_speed_m_s": 0.0}, "rest_speed_m_s is 0, it must be above zero"),
@@ -240,7 +240,7 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
         soil="toyoura",
         wheels={"wheel": "hakuto"},
         ground="ground",
-        moments="neglected",
+        wheel_moments="neglected",
         rest_speed_m_s=1e-6,
     )
     forward = 0.05
@@ -400,8 +400,8 @@ def test_it_agrees_with_our_own_rover_on_a_plane(slope_deg: float, yaw_deg: floa
         slope_deg=slope_deg,
         duration_s=duration,
         start={"yaw_deg": yaw_deg},
-        loads="quasi-static-torque",
-        moments="included",
+        load_transfer="quasi-static-torque",
+        wheel_moments="included",
         sample_interval_s=0.1,
     )
     slip = float(own.wheel["slip_ratio"][1:].mean())

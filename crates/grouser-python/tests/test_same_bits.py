@@ -58,18 +58,18 @@ def test_traverse_of_a_file(program: Program, tmp_path: Any) -> None:
     assert same(gr.simulate(run).y_m, told["samples"], "y_m")
 
 
-def test_attitude(program: Program) -> None:
-    told = program("attitude", "--slope-deg", "0:24:3")
-    level = gr.attitude(slope_deg=np.arange(0, 25, 3))
+def test_heading(program: Program) -> None:
+    told = program("heading", "--slope-deg", "0:24:3")
+    level = gr.heading(slope_deg=np.arange(0, 25, 3))
     assert level.limit_slope_deg == told["limit_slope_deg"]
     assert level.status.tolist() == [row["status"] for row in told["rows"]]
     for name in told["rows"][0].keys() - {"status"}:
         assert same(getattr(level, name), told["rows"], name), name
 
 
-def test_attitude_map(program: Program) -> None:
-    rows = program("attitude-map", "--slope-deg", "0,10,30", "--course-deg", "-30,0,30")["rows"]
-    table = gr.attitude_map(slope_deg=[0, 10, 30], course_deg=[-30, 0, 30]).to_pandas()
+def test_heading_map(program: Program) -> None:
+    rows = program("heading-map", "--slope-deg", "0,10,30", "--course-deg", "-30,0,30")["rows"]
+    table = gr.heading_map(slope_deg=[0, 10, 30], course_deg=[-30, 0, 30]).to_pandas()
     assert table.status.tolist() == [row["status"] for row in rows]
     assert table.soil.tolist() == [row["soil"] for row in rows]
     for name in rows[0].keys() - {"status", "soil"}:
@@ -86,12 +86,12 @@ def test_validate(program: Program) -> None:
         assert same(found.cells[name], told["cells"], name), name
 
 
-def test_attitude_on_an_uncertain_soil(program: Program) -> None:
+def test_heading_on_an_uncertain_soil(program: Program) -> None:
     told = program(
-        "attitude", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
+        "heading", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
         "--samples", "30", "--seed", "9",
     )  # fmt: skip
-    level = gr.attitude(
+    level = gr.heading(
         soil="toyoura-uncertain", slope_deg=[5, 15, 40], uncertainty=True, samples=30, seed=9
     )
     table = level.to_pandas()

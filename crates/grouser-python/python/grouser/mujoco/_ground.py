@@ -1,4 +1,4 @@
-"""The surface under wheels: a plane, a height field, or a function of place."""
+"""The surface under wheels: a plane, a height field, or a function of position."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ class _Uneven:
     least-squares one through nine points.
 
     They are those of a rectangle about the point below the hub, as long as the wheel's contact and
-    as wide as the wheel. The theories know no ground but a plane; what is smaller than a wheel's
-    footprint is evened out.
+    as wide as the wheel. The wheel–soil models assume a plane; features smaller than a wheel's
+    footprint are averaged out.
     """
 
     #: The nine points, in halves of the rectangle's length and width.
@@ -70,7 +70,7 @@ class _Uneven:
         else:
             axes, place, across = np.eye(3), hubs, axles
         length = np.sqrt((across[:, :2] ** 2).sum(axis=1, keepdims=True))
-        # A wheel that lies flat has no side: any will do.
+        # A wheel that lies flat has no side: any direction serves.
         left = np.where(length > 1e-9, across[:, :2] / np.maximum(length, 1e-9), [0.0, 1.0])
         forward = left[:, ::-1] * [1.0, -1.0]
         along, aside = self._along * self._A, self._aside * self._B
@@ -87,14 +87,14 @@ class _Uneven:
 
 
 class _HeightField:
-    """A height field's heights, bilinear between its points; beyond its edges it goes on as high
-    as there."""
+    """A height field's heights, bilinear between its points; beyond its edges it keeps the height
+    of the edge."""
 
     def __init__(self, model: Any, geom: int) -> None:
         field = int(model.geom_dataid[geom])
         rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
         start = int(model.hfield_adr[field])
-        # A view: who changes the model's field changes the ground.
+        # A view: a change of the model's field changes the ground.
         self._data = model.hfield_data[start : start + rows * columns].reshape(rows, columns)
         self._half_x, self._half_y, self._height = (float(s) for s in model.hfield_size[field][:3])
 
@@ -109,15 +109,15 @@ class _HeightField:
 
 
 def _cell(place: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
-    """How far into which cell a place is."""
+    """The position within a cell, and the cell."""
     inside = np.minimum(np.maximum(place, 0.0), count - 1.0)
     cell = np.minimum(inside.astype(np.int64), count - 2)
     return inside - cell, cell
 
 
 def ground_of(model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats) -> Ground:
-    """The ground that a geom's name or a function stands for, under wheels of these shearing radii
-    and widths [m]."""
+    """The ground of a geom's name or a function, under wheels of these shearing radii and widths
+    [m]."""
     if isinstance(ground, str):
         geom = ground_geom(model, ground)
         if int(model.geom_type[geom]) == _PLANE:
