@@ -62,7 +62,7 @@ def test_units_stand_in_the_fields_metadata() -> None:
 
 
 def test_a_stream_can_be_left_unread() -> None:
-    """A capsule that nobody opens frees what it holds; one that was read is empty."""
+    """A capsule that is never read frees its content; one that was read is empty."""
     result = gr.settle("toyoura", "hakuto", load_n=np.full(1000, 10.0), slip_ratio=0.1)
     for _ in range(50):
         result.__arrow_c_stream__()

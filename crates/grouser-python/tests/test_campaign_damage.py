@@ -27,14 +27,14 @@ def answers(folder: Path) -> tuple[Any, ...]:
 def test_flipped_bits_are_refused_or_change_nothing(tmp_path: Path) -> None:
     """A thousand single bits, spread by a seed over manifest, study and shards."""
     gr.campaign.run(campaigns.wheel_study(runs=12, shard_runs=4), out=tmp_path)
-    before, draw = answers(tmp_path), random.Random(4711)
+    before, generator = answers(tmp_path), random.Random(4711)
     files = [tmp_path / "manifest.json", tmp_path / "study.toml"]
     files += sorted((tmp_path / "runs").iterdir())
     refused = 0
     for flip in range(1000):
         file = files[flip % len(files)]
         good = file.read_bytes()
-        bad, bit = bytearray(good), draw.randrange(8 * len(good))
+        bad, bit = bytearray(good), generator.randrange(8 * len(good))
         bad[bit // 8] ^= 1 << (bit % 8)
         file.write_bytes(bad)
         try:

@@ -105,7 +105,7 @@ def test_an_uncertain_soil_has_a_band() -> None:
 
 
 def test_a_simulated_stand_scatters_about_the_theory() -> None:
-    """The mean of 400 readings is within five standard errors of the theory."""
+    """The mean of 400 readings is within five standard errors of the model."""
     settings = {"load_n": [10, 20], "slip_ratio": [0.2, 0.4], "slip_angle_deg": [0, 15]}
     exact = gr.wheel_test(**settings)  # type: ignore[call-overload]
     test = gr.wheel_test(**settings, trials=400)  # type: ignore[call-overload]
