@@ -1,4 +1,4 @@
-"""Step-by-step simulation has the results of `simulate`; a batch has those of each rover alone."""
+"""Step-by-step simulation follows `simulate`; a batch has the results of each rover alone."""
 
 from __future__ import annotations
 

@@ -147,7 +147,7 @@ def heading(
 @dataclass(frozen=True, eq=False)
 class HeadingMap(_tables.Tabular):
     """Heading offsets over soil, course and slope: arrays of shape (soils, courses, slopes), NaN
-    where no yaw keeps the course."""
+    where no yaw holds the course."""
 
     soil: tuple[str, ...]
     """The soils' names."""
@@ -156,7 +156,7 @@ class HeadingMap(_tables.Tabular):
     slope_deg: Floats
     """Slopes [°]; shape (slopes,)."""
     status: NDArray[np.object_]
-    """``ok``, or why no yaw keeps the course; shape (soils, courses, slopes)."""
+    """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
     yaw_deg: Floats
     """Yaw that keeps the course [°], positive uphill."""
     slip_ratio: Floats
@@ -220,7 +220,7 @@ def heading_map(
     rim_speed_m_s: float = 0.06,
     **changes: Any,
 ) -> HeadingMap:
-    """The heading offset that keeps a course, over soil, course and slope.
+    """The heading offset that holds a course, over soil, course and slope.
 
     Parameters
     ----------

@@ -137,7 +137,7 @@ class RunBatch:
         return self.state
 
     def step(self, commands: ArrayLike, dt_s: float, *, mask: ArrayLike | None = None) -> Floats:
-        """Simulates some time with the given speeds of the wheels. Every wheel takes its speed at
+        """Simulates a step with the given speeds of the wheels. Every wheel takes its speed at
         once and keeps it.
 
         Parameters
@@ -271,7 +271,7 @@ class Run:
     """Step-by-step simulation of a rover: each step takes commands and returns the state after it.
 
     The motion is that of `simulate`, with the same equations and the same integrator; with the
-    commands of the scenario's drive it has the same results. ``copy.copy`` makes another run that
+    commands of the scenario's drive it follows the same path. ``copy.copy`` makes another run that
     continues as this one would, bit for bit. The scenario's duration and record interval are not
     used; its drive turns the wheels until the first step.
 
@@ -360,7 +360,7 @@ class Run:
         return state
 
     def step(self, commands: ArrayLike, dt_s: float) -> Floats:
-        """Simulates some time with the given speeds of the wheels. Every wheel takes its speed at
+        """Simulates a step with the given speeds of the wheels. Every wheel takes its speed at
         once and keeps it. A rover whose run has ended stays as it is.
 
         Parameters

@@ -45,7 +45,7 @@ class Trajectory(_tables.Tabular):
     simulation_message: str | None
     """Time and reason of the fallback."""
     energy_error_j: float
-    """Residual of the energy balance [J]."""
+    """Error of the energy balance [J]."""
     wheel_names: tuple[str, ...]
     """The wheels, in the order of their mounts."""
     wheel: Mapping[str, Floats]
