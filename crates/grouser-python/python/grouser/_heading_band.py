@@ -1,4 +1,4 @@
-"""What an uncertain soil makes of the level attitude."""
+"""The uncertainty of the heading offset on an uncertain soil."""
 
 from __future__ import annotations
 
@@ -13,11 +13,13 @@ from ._descriptions import Scenario
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeBand(_tables.Tabular):
-    """What draws of an uncertain soil say of the level attitude: arrays of shape (slopes,).
+class HeadingBand(_tables.Tabular):
+    """Heading offset over samples of an uncertain soil: arrays of shape (slopes,).
 
-    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the draws that have a level attitude on
-    that slope: 95 % of them lie between the first and the last. NaN where none has.
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the sampled soils on which the contour
+    can be held on that slope: 95 % of the values lie between the first and the last. NaN where it
+    can be held on none. (*Draws* are samples, and a *level attitude* is a heading offset that holds
+    the contour: columns keep the names of version 0.1.)
     """
 
     yaw_deg_p2_5: Floats
@@ -57,15 +59,16 @@ class AttitudeBand(_tables.Tabular):
     draws_mobile: int
     """Draws on which the rover can move on level ground."""
     limit_slope_deg_p2_5: float | None
-    """The steepest slope [°], over the draws on which the rover can move; None where it never can."""
+    """The steepest slope [°], over the draws on which the rover can move; None where it never
+    can."""
     limit_slope_deg_p50: float | None
     """Its median [°]."""
     limit_slope_deg_p97_5: float | None
     """Its upper end [°]."""
 
     @classmethod
-    def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> AttitudeBand:
-        found, limit = _core.attitude_band(run._document, slopes, seed, samples)
+    def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> HeadingBand:
+        found, limit = _core.heading_band(run._document, slopes, seed, samples)
         del found["draws"]
         return cls(**found, **limit)
 
@@ -75,4 +78,4 @@ class AttitudeBand(_tables.Tabular):
 
     def __repr__(self) -> str:
         ends = f"{self.limit_slope_deg_p2_5}° to {self.limit_slope_deg_p97_5}°"
-        return f"<AttitudeBand over {self.draws} draws, the steepest slope is {ends}>"
+        return f"<HeadingBand over {self.draws} sampled soils, the steepest slope is {ends}>"
