@@ -3,7 +3,7 @@
 use grouser::contact::{settle, settle_many};
 use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Scenario, Simulation};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
 use grouser::vehicle::reaction::Ground;
 use rayon::prelude::*;
@@ -28,7 +28,7 @@ pub enum Unit {
     /// The same with velocities in balance.
     TraverseQuasiSteady,
     /// The attitude on 25 slopes up to the steepest.
-    AttitudeCurve,
+    HeadingCurve,
     /// Quasi-steady traverses of 20 s on varied soil, on all cores.
     Campaign,
 }
@@ -52,7 +52,7 @@ impl Unit {
         Self::RoverRates,
         Self::TraverseDynamic,
         Self::TraverseQuasiSteady,
-        Self::AttitudeCurve,
+        Self::HeadingCurve,
         Self::Campaign,
     ];
 
@@ -67,7 +67,7 @@ impl Unit {
             Self::RoverRates => "rover_rhs_us",
             Self::TraverseDynamic => "traverse_dynamic_ms",
             Self::TraverseQuasiSteady => "traverse_quasi_steady_ms",
-            Self::AttitudeCurve => "attitude_curve_ms",
+            Self::HeadingCurve => "attitude_curve_ms",
             Self::Campaign => "campaign_traverses_per_s",
         }
     }
@@ -88,7 +88,7 @@ impl Fixtures {
             Unit::RoverRates => self.rover_rates(),
             Unit::TraverseDynamic => traverse(&self.scenario),
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
-            Unit::AttitudeCurve => self.attitude_curve(),
+            Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
     }
@@ -143,8 +143,8 @@ impl Fixtures {
         Done { count: TIMES, checksum: sum }
     }
 
-    fn attitude_curve(&self) -> Done {
-        let curve = AttitudeStudy::of(&self.scenario).curve().expect("it has one");
+    fn heading_curve(&self) -> Done {
+        let curve = HeadingStudy::of(&self.scenario).curve().expect("it has one");
         let (steepest, _) = curve.limit().expect("it can move");
         let slopes = (1..=25).map(|step| steepest * f64::from(step) / 25.0);
         Done {

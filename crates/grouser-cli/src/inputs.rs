@@ -90,7 +90,7 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
 }
 
 /// The scenario whose rover, soil and balance an attitude study takes; its slope is not used.
-pub(crate) fn attitude(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
+pub(crate) fn heading(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
     let scenario = args.scenario.as_deref();
     let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
@@ -98,7 +98,7 @@ pub(crate) fn attitude(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
 }
 
 /// The scenarios of an attitude map, one for each soil.
-pub(crate) fn attitude_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
+pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;
     check_numbers("--course-deg", &args.course_deg, &study::COURSE_DEG)?;

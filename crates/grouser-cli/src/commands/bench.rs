@@ -102,8 +102,8 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
             let error = of_way("traverse_quasi_steady_error_mm", accuracy.traverse_quasi_steady);
             ("traverse of 20 s, quasi-steady", 1e3, "ms", error)
         }
-        Unit::AttitudeCurve => {
-            let error = accuracy.attitude_curve;
+        Unit::HeadingCurve => {
+            let error = accuracy.heading_curve;
             let said = format!("{error:.1e} of the weight");
             ("attitude on 25 slopes", 1e3, "ms", Some(("attitude_curve_error", error, said)))
         }

@@ -14,13 +14,13 @@ use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
 use grouser::soil::Soil;
-use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy};
+use grouser::studies::heading::HeadingStudy;
 use grouser_page::{Sheet, markup};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, attitude_band};
+use super::{Answer, heading_band};
 use crate::args::{CardArgs, SideWord};
 use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
 
 /// The drawn soils; none where no uncertainty is stated.
 fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
-    let draw = |uncertain| attitude_band::soils(uncertain, args.seed, args.samples);
+    let draw = |uncertain| heading_band::soils(uncertain, args.seed, args.samples);
     inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
 }
 
@@ -76,11 +76,11 @@ fn compute(
     soils: &[Soil],
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
-    let mut attitude = AttitudeStudy::of(&inputs.scenario.value);
+    let mut heading = HeadingStudy::of(&inputs.scenario.value);
     if args.uphill == SideWord::Right {
-        attitude.rover = attitude.rover.mirrored();
+        heading.rover = heading.rover.mirrored();
     }
-    let study = CardStudy { attitude, rim_speed: inputs.rim_speed, rule: inputs.rule };
+    let study = CardStudy { heading, rim_speed: inputs.rim_speed, rule: inputs.rule };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();

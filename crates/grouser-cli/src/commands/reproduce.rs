@@ -56,7 +56,7 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     folder.finish()?;
     output::print(&format!(
         "{}\n{}\n\nreport: {}\n",
-        tables::attitudes(&study).to_text(),
+        tables::headings(&study).to_text(),
         tables::limit_sentence(&study),
         escape::path(&target.join(REPORT))
     ))
@@ -109,14 +109,14 @@ fn write_report(
 ) -> Result<(), Failure> {
     let rover = &scenario.value.rover;
     let all_tables = [
-        tables::attitudes(study),
+        tables::headings(study),
         tables::table_4(study),
         tables::yaw_loss(study),
         tables::drift(study),
     ];
     let mut page = Page::new("Across a slope on loose soil");
     opening(&mut page, study);
-    let [attitudes, table_4, yaw_loss, drift] = &all_tables;
+    let [headings, table_4, yaw_loss, drift] = &all_tables;
     let mut drawn = figures::all(study, rover).into_iter();
     let mut draw = |page: &mut Page, folder: &mut OutputFolder| -> Result<(), Failure> {
         let Some(figure) = drawn.next() else { return Ok(()) };
@@ -128,7 +128,7 @@ fn write_report(
     };
 
     page.heading("Which way to point the rover");
-    page.table(attitudes);
+    page.table(headings);
     page.paragraph(&tables::limit_sentence(study));
     draw(&mut page, folder)?;
     page.heading("What the compensation saves");
@@ -173,9 +173,9 @@ fn opening(page: &mut Page, study: &Reproduction) {
          on Toyoura sand, and holds it against the experiment of the paper that the theory is from.",
     );
     let answers = study.slopes.iter().filter_map(|runs| {
-        let attitude = runs.attitude.as_ref().ok()?;
+        let heading = runs.heading.as_ref().ok()?;
         let slope = runs.measured.slope.to_degrees().round();
-        Some(format!("{:.1}° on {slope}°", attitude.yaw.to_degrees()))
+        Some(format!("{:.1}° on {slope}°", heading.yaw.to_degrees()))
     });
     let answers: Vec<String> = answers.collect();
     page.answer(&format!(

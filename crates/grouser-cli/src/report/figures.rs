@@ -46,7 +46,7 @@ impl Figure {
 /// All figures, in the order of the report.
 pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
     vec![
-        attitude(study),
+        heading(study),
         traverses(study),
         wheel_curves(study),
         by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
@@ -65,8 +65,8 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
 }
 
 /// Fig. 10: attitude over slope.
-pub(crate) fn attitude(study: &Reproduction) -> Figure {
-    let curve = study.attitudes.attitudes();
+pub(crate) fn heading(study: &Reproduction) -> Figure {
+    let curve = study.headings.headings();
     let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
         let measured = study.slopes.iter().map(|runs| &runs.measured);

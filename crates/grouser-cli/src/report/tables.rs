@@ -66,14 +66,14 @@ fn row_of(value: Value) -> Map<String, Value> {
 }
 
 /// The yaw that keeps a traverse level: ours, the paper's model's, and the measured starts.
-pub(crate) fn attitudes(study: &Reproduction) -> Table {
+pub(crate) fn headings(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
-        let attitude = runs.attitude.as_ref().ok();
+        let heading = runs.heading.as_ref().ok();
         row_of(json!({
             (SLOPE.name): printed(runs.measured.slope),
-            (YAW.name): attitude.map(|a| YAW.unit.from_si(a.yaw)),
-            (SLIP_RATIO.name): attitude.map(|a| a.slip_ratio),
-            (SINKAGE.name): attitude.map(|a| SINKAGE.unit.from_si(a.mean_sinkage())),
+            (YAW.name): heading.map(|a| YAW.unit.from_si(a.yaw)),
+            (SLIP_RATIO.name): heading.map(|a| a.slip_ratio),
+            (SINKAGE.name): heading.map(|a| SINKAGE.unit.from_si(a.mean_sinkage())),
             "paper_model_yaw_deg": printed(runs.measured.model_yaw),
             "measured_initial_yaw_deg": printed(runs.measured.initial_yaw),
             "measured_final_yaw_deg": printed(runs.measured.final_yaw),
@@ -99,7 +99,7 @@ pub(crate) fn attitudes(study: &Reproduction) -> Table {
 pub(crate) fn table_4(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let MeasuredTraverse { slope, model_yaw, initial_yaw, final_yaw, .. } = runs.measured;
-        let ours = runs.attitude.as_ref().ok().map(|attitude| attitude.yaw);
+        let ours = runs.heading.as_ref().ok().map(|heading| heading.yaw);
         let percent = |measured: f64, predicted: f64| 100.0 * yaw_error(measured, predicted);
         let run = Levelness::of(&runs.from_measured_yaw);
         row_of(json!({
@@ -191,7 +191,7 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
 
 /// The limit slope in a sentence.
 pub(crate) fn limit_sentence(study: &Reproduction) -> String {
-    match study.attitudes.limit() {
+    match study.headings.limit() {
         Ok((slope, reason)) => format!(
             "The steepest slope with a level attitude is {}°, {reason}.",
             rounded_down(SLOPE.unit.from_si(slope))

@@ -7,8 +7,8 @@
 //! as if it were steeper by a margin. The [`Rule`] is the caller's; a verdict never gets better on
 //! a steeper slope.
 
-use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy};
 use super::ensemble::{Band, Probability, outputs};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
@@ -93,7 +93,7 @@ impl Rule {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardStudy {
     /// Rover, soil as its document has it, gravity, theory and balance.
-    pub attitude: AttitudeStudy,
+    pub heading: HeadingStudy,
     /// Rim speed ω r_s [m/s], for the power.
     pub rim_speed: f64,
     /// When to go.
@@ -188,7 +188,7 @@ impl CardStudy {
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
-        let nominal = self.draw(&self.attitude.soil, slopes)?;
+        let nominal = self.draw(&self.heading.soil, slopes)?;
         let drawn = |soil: &Soil| {
             let draw = self.draw(soil, slopes);
             done();
@@ -199,7 +199,7 @@ impl CardStudy {
             outputs(soils, drawn).into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
         let judged: Vec<Vec<Option<f64>>> = if draws.is_empty() {
             let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
-            let levels = self.draw(&self.attitude.soil, &steeper)?.levels;
+            let levels = self.draw(&self.heading.soil, &steeper)?.levels;
             levels.iter().map(|level| vec![level.map(|level| level.slip_ratio)]).collect()
         } else {
             (0..slopes.len()).map(|place| slips_at(&draws, place)).collect()
@@ -235,14 +235,14 @@ impl CardStudy {
     }
 
     fn draw(&self, soil: &Soil, slopes: &[f64]) -> Result<Draw, ParameterError> {
-        let study = AttitudeStudy { soil: *soil, ..self.attitude.clone() };
+        let study = HeadingStudy { soil: *soil, ..self.heading.clone() };
         let (level, drift) = (study.curve()?, study.drift_curve()?);
-        let keep = |attitude: &Attitude| Level {
-            yaw: attitude.yaw,
-            slip_ratio: attitude.slip_ratio,
-            power: attitude.power(&study.rover, self.rim_speed),
+        let keep = |heading: &HeadingOffset| Level {
+            yaw: heading.yaw,
+            slip_ratio: heading.slip_ratio,
+            power: heading.power(&study.rover, self.rim_speed),
         };
-        let on = |curve: &AttitudeCurve, slope: f64| curve.at(slope).ok();
+        let on = |curve: &HeadingCurve, slope: f64| curve.at(slope).ok();
         Ok(Draw {
             limit: level
                 .limit()

@@ -8,7 +8,7 @@ pub struct Drive {
     /// Length of the way [m], from sample to sample.
     pub distance: f64,
     /// Drift per metre travelled, −*y*/distance [m/m], −1 to 1: positive downhill, as
-    /// [`Attitude::drift`](crate::studies::attitude::Attitude::drift). None for a rover that did not
+    /// [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift). Missing for a rover that did not
     /// move.
     pub drift: Option<f64>,
     /// Slip ratio [-], over wheels and samples. None where no sample has its wheels.

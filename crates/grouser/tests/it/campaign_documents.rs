@@ -6,9 +6,9 @@ use grouser::document::campaign::{Role, STATUSES};
 use grouser::document::table::{Cell, ColumnKind, Table, Values};
 use grouser::document::unit_of;
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
-use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::Summary;
+use grouser::studies::heading::HeadingStudy;
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -172,7 +172,7 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
         let overrides = Overrides::parse([set.as_str(), "scenario.slope_deg=8"]).expect("they are");
         let scenario = document::read_scenario(&Source::default_scenario(), &overrides);
         let scenario = scenario.expect("it is one").value;
-        let curve = AttitudeStudy::of(&scenario).curve().expect("a soil");
+        let curve = HeadingStudy::of(&scenario).curve().expect("a soil");
         let attitude = curve.at(scenario.site.slope).expect("it exists");
         assert_eq!(yaw, Some(attitude.yaw.to_degrees()));
     }
@@ -182,7 +182,7 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
 #[test]
 fn an_attitude_on_one_slope_is_that_of_the_whole_curve() {
     let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none());
-    let study = AttitudeStudy::of(&scenario.expect("it is one").value);
+    let study = HeadingStudy::of(&scenario.expect("it is one").value);
     let curve = study.curve().expect("a soil");
     let (limit, _) = curve.limit().expect("it moves");
     for share in 0..=20 {

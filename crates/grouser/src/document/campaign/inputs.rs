@@ -84,7 +84,7 @@ pub(super) fn prepare(
 /// The key under which what is varied stands.
 fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError> {
     let (needed, other) = match settings.study {
-        Study::Traverse | Study::Attitude => ("scenario", "wheel_test"),
+        Study::Traverse | Study::Heading => ("scenario", "wheel_test"),
         Study::WheelTest => ("wheel_test", "scenario"),
     };
     if let Some(entry) = tree.entry(other) {
@@ -144,7 +144,7 @@ impl Numbers for StudyNumbers<'_> {
 /// What keys that a study does not look at start with.
 fn unused_keys(study: Study) -> &'static [&'static str] {
     match study {
-        Study::Attitude => {
+        Study::Heading => {
             &["start.", "duration_s", "sample_interval_s", "drive.reference_slip_ratio"]
         }
         Study::Traverse => &["sample_interval_s"],

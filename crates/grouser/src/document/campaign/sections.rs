@@ -49,7 +49,7 @@ pub enum Study {
     /// A run of the scenario, and where it ends.
     Traverse,
     /// The heading offset that holds the contour of the scenario's slope.
-    Attitude,
+    Heading,
     /// A wheel on a test stand.
     WheelTest,
 }
@@ -60,7 +60,7 @@ impl Study {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Traverse => "traverse",
-            Self::Attitude => "heading",
+            Self::Heading => "heading",
             Self::WheelTest => "wheel-test",
         }
     }

@@ -42,9 +42,9 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
                     all.study = Study::Traverse;
                 }),
                 word(
-                    Study::Attitude.name(),
+                    Study::Heading.name(),
                     "The heading offset that holds the contour of the scenario's slope.",
-                    |all: &mut Settings| all.study = Study::Attitude,
+                    |all: &mut Settings| all.study = Study::Heading,
                 )
                 .formerly("attitude"),
                 word(Study::WheelTest.name(), "A wheel on a test stand.", |all| {

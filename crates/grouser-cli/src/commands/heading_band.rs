@@ -5,8 +5,8 @@ use grouser::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, UncertainSoil};
 use grouser::soil::Soil;
-use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
-use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
+use grouser::studies::heading_band::{HeadingBand, SlopeBand};
 
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
@@ -40,7 +40,7 @@ const LEAST_CHANCE: f64 = 0.001;
 pub(crate) fn draw(
     args: &HeadingArgs,
     scenario: &LoadedScenario,
-    nominal: &AttitudeCurve,
+    nominal: &HeadingCurve,
     charted: bool,
 ) -> Result<Bands, Failure> {
     let uncertain = inputs::uncertain_soil(args, scenario)?;
@@ -50,8 +50,8 @@ pub(crate) fn draw(
     let slopes: Vec<f64> = asked.iter().chain(&charted).copied().collect();
     let bar = output::progress_bar(soils.len() as u64);
     bar.set_message("soils");
-    let study = AttitudeStudy::of(&scenario.value);
-    let band = AttitudeBand::of(&study, &soils, &slopes, &|| {
+    let study = HeadingStudy::of(&scenario.value);
+    let band = HeadingBand::of(&study, &soils, &slopes, &|| {
         bar.inc(1);
         true
     });
@@ -81,9 +81,9 @@ pub(crate) fn soils(
 }
 
 /// Every degree, and the points of the nominal curve, which crowd where it bends.
-fn chart_slopes(nominal: &AttitudeCurve) -> Vec<f64> {
+fn chart_slopes(nominal: &HeadingCurve) -> Vec<f64> {
     let degrees = (0..=STEEPEST_DEG).map(|degree| SLOPE.unit.to_si(f64::from(degree)));
-    let points = nominal.attitudes().into_iter().map(|attitude| attitude.slope);
+    let points = nominal.headings().into_iter().map(|heading| heading.slope);
     let mut slopes: Vec<f64> = degrees.chain(points).collect();
     slopes.sort_by(f64::total_cmp);
     slopes

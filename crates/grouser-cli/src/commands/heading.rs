@@ -4,12 +4,12 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
 use grouser::document::columns::{LIMIT_SLOPE, SLOPE, YAW};
 use grouser::document::table::{Row, Table};
-use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Answer;
-use super::attitude_band::{self, Bands};
+use super::heading_band::{self, Bands};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -21,10 +21,10 @@ use crate::output::{self, Format};
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenario = inputs::attitude(args)?;
-    let curve = AttitudeStudy::of(&scenario.value).curve()?;
+    let scenario = inputs::heading(args)?;
+    let curve = HeadingStudy::of(&scenario.value).curve()?;
     let bands = if args.uncertainty.uncertainty {
-        Some(attitude_band::draw(args, &scenario, &curve, folder.is_some())?)
+        Some(heading_band::draw(args, &scenario, &curve, folder.is_some())?)
     } else {
         None
     };
@@ -106,7 +106,7 @@ fn limit_line(limit: &Table) -> String {
 }
 
 /// Yaw over slope.
-fn chart(curve: &AttitudeCurve) -> Chart {
+fn chart(curve: &HeadingCurve) -> Chart {
     Chart {
         title: "Yaw that keeps a traverse level".into(),
         x_label: "slope [°]".into(),
@@ -115,7 +115,7 @@ fn chart(curve: &AttitudeCurve) -> Chart {
     }
 }
 
-fn line(name: &str, curve: &AttitudeCurve) -> Series {
+fn line(name: &str, curve: &HeadingCurve) -> Series {
     let points = heading::curve(curve);
     Series::new(name, Style::Line, 1, points.points(SLOPE.name, YAW.name))
 }
