@@ -1,4 +1,4 @@
-//! `grouser attitude`
+//! `grouser heading`: the heading offset that holds the contour on a slope.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
@@ -24,7 +24,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let scenario = inputs::heading(args)?;
     let curve = HeadingStudy::of(&scenario.value).curve()?;
     let bands = if args.uncertainty.uncertainty {
-        Some(heading_band::draw(args, &scenario, &curve, folder.is_some())?)
+        Some(heading_band::bands(args, &scenario, &curve, folder.is_some())?)
     } else {
         None
     };
@@ -65,7 +65,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     }
 }
 
-/// What the answer was made from.
+/// The inputs of the answer.
 fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
     let mut settings = json!({
@@ -99,19 +99,19 @@ fn limit_line(limit: &Table) -> String {
     match slope {
         Some(slope) => {
             let slope = rounded_down(slope);
-            format!("steepest slope with a level attitude: {slope}°, {reason}\n")
+            format!("steepest slope on which a heading holds the contour: {slope}°, {reason}\n")
         }
-        None => format!("no level attitude on any slope: {reason}\n"),
+        None => format!("no heading holds the contour on any slope: {reason}\n"),
     }
 }
 
 /// Yaw over slope.
 fn chart(curve: &HeadingCurve) -> Chart {
     Chart {
-        title: "Yaw that keeps a traverse level".into(),
+        title: "Heading offset that holds the contour".into(),
         x_label: "slope [°]".into(),
         y_label: "yaw, positive uphill [°]".into(),
-        series: vec![line("attitude", curve)],
+        series: vec![line("heading offset", curve)],
     }
 }
 

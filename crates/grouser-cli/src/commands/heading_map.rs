@@ -1,4 +1,4 @@
-//! `grouser attitude-map`
+//! `grouser heading-map`: the heading offset over slope, course and soil.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::{COURSE, Quantity, SLOPE, YAW, heading};
@@ -64,7 +64,7 @@ fn soil_name(scenario: &LoadedScenario) -> String {
     scenario.document.text("soil.name").unwrap_or("unnamed").to_owned()
 }
 
-/// What the answer was made from.
+/// The inputs of the answer.
 fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
     let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
@@ -82,7 +82,7 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     })
 }
 
-/// How far the nose points uphill of the course, and the slip, over slope and course.
+/// Heat maps of the yaw beyond the course and of the slip over slope and course.
 fn figures(
     args: &HeadingMapArgs,
     map: &HeadingMap,
@@ -95,7 +95,7 @@ fn figures(
             row.cells.iter().map(|cell| cell.as_ref().ok().map(value)).collect::<Vec<_>>()
         });
         HeatMap {
-            title: format!("{title}, on {name}; grey: no attitude"),
+            title: format!("{title}, on {name}; grey: no heading holds it"),
             x_label: "slope [°]".into(),
             columns: args.slope_deg.0.clone(),
             y_label: "course, positive uphill [°]".into(),

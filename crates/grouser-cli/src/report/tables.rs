@@ -1,4 +1,4 @@
-//! The tables of the report: our attitudes and runs beside the paper's model and measurements.
+//! The tables of the report: our heading offsets and runs beside the paper's model and measurements.
 
 use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
@@ -9,7 +9,7 @@ use crate::output::rows::{Rows, aligned, rounded_down};
 
 /// A table: words for people, keys for files.
 pub(crate) struct Table {
-    /// What it shows, in a line.
+    /// A line above the table.
     pub(crate) caption: &'static str,
     /// Name of its CSV file, without ending.
     pub(crate) file: &'static str,
@@ -65,7 +65,7 @@ fn row_of(value: Value) -> Map<String, Value> {
     }
 }
 
-/// The yaw that keeps a traverse level: ours, the paper's model's, and the measured starts.
+/// The heading offset that holds the contour: ours, that of the paper's model, and the measured starts.
 pub(crate) fn headings(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let heading = runs.heading.as_ref().ok();
@@ -80,7 +80,7 @@ pub(crate) fn headings(study: &Reproduction) -> Table {
         }))
     };
     Table {
-        caption: "Yaw that keeps a traverse level, in degrees",
+        caption: "Heading offset that holds the contour (the paper's attitude), in degrees",
         file: "attitudes",
         columns: vec![
             column(SLOPE.name, "slope", 0),
@@ -117,7 +117,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
         }))
     };
     Table {
-        caption: "Table 4 of the paper, beside the same errors against Grouser's attitude",
+        caption: "Table 4 of the paper, beside the same errors against Grouser's heading offset",
         file: "table4",
         columns: vec![
             column(SLOPE.name, "slope [°]", 0),
@@ -134,7 +134,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
     }
 }
 
-/// Yaw lost during the runs: measured, and with two ways of sharing the weight.
+/// Yaw lost during the runs: measured, and with two laws of load transfer.
 pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let loss = |run| YAW.unit.from_si(Levelness::of(run).yaw_loss);
@@ -151,8 +151,8 @@ pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
         columns: vec![
             column(SLOPE.name, "slope", 0),
             column("measured_yaw_loss_deg", "measured", 2),
-            column("quasi_static_yaw_loss_deg", "loads quasi-static", 2),
-            column("quasi_static_torque_yaw_loss_deg", "loads quasi-static-torque", 2),
+            column("quasi_static_yaw_loss_deg", "load transfer quasi-static", 2),
+            column("quasi_static_torque_yaw_loss_deg", "load transfer quasi-static-torque", 2),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }
@@ -180,10 +180,10 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
             column(SLOPE.name, "slope [°]", 0),
             column("uncompensated_x_m", "x nose level [m]", 3),
             column("uncompensated_y_m", "y nose level [m]", 4),
-            column("compensated_x_m", "x at the attitude [m]", 3),
-            column("compensated_y_m", "y at the attitude [m]", 4),
+            column("compensated_x_m", "x with heading offset [m]", 3),
+            column("compensated_y_m", "y with heading offset [m]", 4),
             column("uncompensated_energy_j", "energy nose level [J]", 2),
-            column("compensated_energy_j", "energy at the attitude [J]", 2),
+            column("compensated_energy_j", "energy with heading offset [J]", 2),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }
@@ -193,7 +193,7 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
 pub(crate) fn limit_sentence(study: &Reproduction) -> String {
     match study.headings.limit() {
         Ok((slope, reason)) => format!(
-            "The steepest slope with a level attitude is {}°, {reason}.",
+            "The steepest slope on which a heading holds the contour is {}°, {reason}.",
             rounded_down(SLOPE.unit.from_si(slope))
         ),
         Err(error) => format!("{error}."),

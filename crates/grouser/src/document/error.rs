@@ -191,7 +191,7 @@ pub enum Problem {
     #[error("{0}")]
     Unfit(#[from] ParameterError),
     /// Something that cannot be uncertain.
-    #[error("`{key}` is no number of {whole}, only numbers can be uncertain")]
+    #[error("`{key}` is not a number of {whole}, only numbers can be uncertain")]
     NotANumber {
         /// The key.
         key: String,
@@ -214,7 +214,7 @@ pub enum Problem {
     #[error("the uncertainty reaches too far: {0}")]
     NoDraws(#[from] NothingAccepted),
     /// A distribution far from its key's range.
-    #[error("less than 1 % of the draws of `{key}` would be in its range, {range}")]
+    #[error("less than 1 % of the samples of `{key}` would be in its range, {range}")]
     OutsideRange {
         /// The key.
         key: String,

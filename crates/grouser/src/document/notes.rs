@@ -26,7 +26,7 @@ pub(super) fn check_days(kind: Kind, tree: &Node) -> Result<(), DocumentError> {
         && kind == Kind::Soil
         && !is_day(date)
     {
-        let problem = Problem::Conflict("`date` is no day: it is written as \"2026-11-20\"");
+        let problem = Problem::Conflict("`date` is not a day: it is written as \"2026-11-20\"");
         return Err(DocumentError::at(origin, problem));
     }
     let inside = parts(kind).filter_map(|(kind, path)| Some((kind, node(tree, path)?)));

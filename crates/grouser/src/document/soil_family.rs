@@ -53,7 +53,7 @@ impl FitKey {
             None => (text, None),
         };
         let path = key.trim().strip_prefix("soil.").ok_or_else(|| {
-            format!("'{key}' is no key of a soil: write soil.friction_angle_deg, for instance")
+            format!("'{key}' is not a key of a soil: write soil.friction_angle_deg, for instance")
         })?;
         let bounds = bounds.map(|bounds| {
             let ends = bounds.split_once(':').and_then(|(from, to)| {
@@ -188,7 +188,7 @@ fn no_start(soil: &Document, path: &str) -> String {
              soil.{path}=VALUE"
         );
     }
-    format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
+    format!("soil.{path} is not a number of this soil: {}", meant_number(soil, path))
 }
 
 fn parameter(

@@ -152,7 +152,7 @@ fn check_exit(exit: Exit) -> Result<(), ParameterError> {
         let slip_ratio = f64::from(percent) / 100.0;
         let ratio = exit.ratio(slip_ratio);
         if ratio > LARGEST_EXIT_RATIO {
-            let name = format!("the exit-angle ratio at a slip ratio of {slip_ratio}");
+            let name = format!("the wheel sinkage ratio at a slip ratio of {slip_ratio}");
             return Err(ParameterError::new(name, ratio, "0 to 1.5"));
         }
     }

@@ -118,8 +118,8 @@ pub enum NoHeading {
     /// The slope is above the steepest that can be crossed.
     /// (The slope is rounded down: on one that is rounded up no heading holds the course.)
     #[error(
-        "no {}: the steepest slope is {:.2}°, {reason}",
-        if *.course == 0.0 { "level attitude" } else { "attitude on this course" },
+        "no heading holds {}: the steepest slope is {:.2}°, {reason}",
+        if *.course == 0.0 { "the contour" } else { "this course" },
         (.limit.to_degrees() * 100.0).floor() / 100.0
     )]
     TooSteep {

@@ -107,7 +107,7 @@ impl Plan {
         progress("wheel test");
         let by_slip_angle = self.wheel_test(&[self.wheel_load], &self.slip_angles).run();
         let by_load = self.wheel_test(&self.loads, &[0.0]).run();
-        progress("attitudes");
+        progress("heading offsets");
         let headings = HeadingStudy::of(&self.scenario).curve()?;
         let slopes = self
             .measured

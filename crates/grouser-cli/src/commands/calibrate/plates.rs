@@ -44,13 +44,13 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let solved = &found.solved;
     report::tell_notes(solved);
     let answer = Answer::new("calibrate", settings, found.results());
-    let blocks = [vec![report::parameters(&solved.records)], report::said(solved)].concat();
+    let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
     let text = blocks.join("\n");
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
         report::add_soil(&mut folder, problem.family(), solved, &found.soil)?;
         let mut page = Page::new("Calibration on plate tests");
-        page.heading("What was found");
+        page.heading("Results");
         report::add_parameters(&mut page, solved);
         let chart = chart(problem.curves(), solved).to_svg();
         page.drawing(&chart, "Pressure over sinkage, measured and with the fit.");

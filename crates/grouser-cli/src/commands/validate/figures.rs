@@ -1,4 +1,4 @@
-//! Charts of a validation: predictions through measured points, and what is left over.
+//! Charts of a validation: predictions through measured points, and residuals.
 
 use grouser::document::columns::fit::{self, TOTAL_SLIP, column_of};
 use grouser::document::columns::{self, SLIP_ANGLE};
@@ -8,7 +8,7 @@ use grouser::studies::validation::Validation;
 
 use crate::chart::{Chart, Series, Style};
 
-/// A chart with its file's name, without ending, and what to see in it.
+/// A chart with its file's name, without ending, and its caption.
 pub(crate) struct Figure {
     pub(crate) file: String,
     pub(crate) chart: Chart,
@@ -38,7 +38,7 @@ impl Cells {
         Self(fit::cells(&sorted))
     }
 
-    /// What they have of a quantity.
+    /// The cells' values of a quantity.
     fn of_quantity(&self, quantity: columns::Quantity) -> Vec<Cell> {
         let (measurement, deviation) = (quantity.measurement(), quantity.deviation());
         let names = [SLIP_ANGLE.name, TOTAL_SLIP.name, &measurement, &deviation, quantity.name];
@@ -76,9 +76,9 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
         figures.push(Figure {
             file: format!("{file}-residuals"),
             chart: residuals(&cells, name, unit),
-            caption: "What the theory says too much (above zero) or too little, cell by cell. Where a \
-                      bar reaches zero, the trials differ from each other as much as from the \
-                      theory.",
+            caption: "Prediction minus measurement, cell by cell: above zero the model predicts too much. \
+                      Where a bar reaches zero, the trials differ from each other as much as from \
+                      the model.",
         });
     }
     figures

@@ -59,7 +59,7 @@ impl From<RankingError> for Failure {
                 Self::at("cannot look into", &folder)(error)
             }
             RankingError::NoDataSet { .. } => Self::Usage(format!(
-                "{error}\nhint: docs/guide/data.md tells how a document describes a data set; without \
+                "{error}\nhint: docs/guide/data.md explains how a document describes a data set; without \
                  --data-dir those that come with the program are ranked"
             )),
             RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {

@@ -84,7 +84,7 @@ impl AimWords {
                 .parse()
                 .ok()
                 .filter(|value: &f64| value.is_finite())
-                .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
+                .ok_or_else(|| wrong(format!("'{value}' is not a number")))?;
             match key.trim() {
                 key if key == LOAD.name && value > 0.0 => setting.load = value,
                 key if key == SLIP.name && SLIP_RATIO.contains(&value) => {
@@ -93,7 +93,7 @@ impl AimWords {
                 key if key == SLIP_ANGLE.name && SLIP_ANGLE_DEG.contains(&value) => {
                     setting.slip_angle = SLIP_ANGLE.unit.to_si(value);
                 }
-                _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
+                _ => return Err(wrong(format!("'{part}' is not a setting of a test stand"))),
             }
         }
         Ok(Target { quantity, setting })

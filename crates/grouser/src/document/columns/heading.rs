@@ -27,7 +27,7 @@ pub struct Held<'a> {
 #[must_use]
 pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
     [
-        YAW.number("Yaw that keeps the course, positive uphill", |it| it.heading.yaw),
+        YAW.number("Yaw that holds the course, positive uphill", |it| it.heading.yaw),
         SLIP_RATIO.number("Slip ratio of every wheel", |it| it.heading.slip_ratio),
         SINKAGE.number("Mean sinkage of the wheels", |it| it.heading.mean_sinkage()),
         TORQUE.number("Torque of all wheels together", |it| it.heading.torque()),
@@ -123,7 +123,7 @@ pub fn brief() -> Vec<String> {
 pub fn curve(curve: &HeadingCurve) -> Table {
     const POINT: [Column<HeadingOffset>; 2] = [
         SLOPE.number("Slopes", |it| it.slope),
-        YAW.number("Yaw that keeps the course, positive uphill", |it| it.yaw),
+        YAW.number("Yaw that holds the course, positive uphill", |it| it.yaw),
     ];
     Table::of(&POINT, &curve.headings())
 }
@@ -133,7 +133,7 @@ pub fn curve(curve: &HeadingCurve) -> Table {
 pub fn steepest(curve: &HeadingCurve) -> Table {
     type Limit = Result<(f64, String), String>;
     const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope that can be crossed level", |it| {
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
         text(LIMIT_REASON, "What ends the curve there", |it| {
@@ -186,11 +186,13 @@ pub const BAND: [Column<SlopeBand>; 7] = [
     ENERGY_PER_METRE
         .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
     PROBABILITY_LEVEL.probability(
-        "Probability that a level attitude exists: the share of the draws that have one",
+        "Probability that a heading holds the contour: the share of the samples that have one",
         |it| Some(it.level),
     ),
-    whole(DRAWS_LEVEL, "Draws with a level attitude", |it| Some(it.level.successes)),
-    whole(DRAWS, "All draws", |it| Some(it.level.trials)),
+    whole(DRAWS_LEVEL, "Samples with a heading that holds the contour", |it| {
+        Some(it.level.successes)
+    }),
+    whole(DRAWS, "All samples", |it| Some(it.level.trials)),
 ];
 
 /// How many samples have a heading that holds the contour.
@@ -203,11 +205,11 @@ pub const DRAWS_MOBILE: &str = "draws_mobile";
 /// Quantiles of the steepest slope over samples.
 pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     LIMIT_SLOPE
-        .band("The steepest slope, over the draws on which the rover can move", |it| it.limit),
-    whole(DRAWS_MOBILE, "Draws on which the rover can move on level ground", |it| {
+        .band("The steepest slope, over the samples on which the rover can move", |it| it.limit),
+    whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
-    whole(DRAWS, "All draws", |it| Some(it.mobile.trials)),
+    whole(DRAWS, "All samples", |it| Some(it.mobile.trials)),
 ];
 
 /// A table with a row for each slope, and the columns of [`BAND`] added.

@@ -23,7 +23,7 @@ use crate::wheel::Wheel;
 const MOST_RUNS: u64 = 1_000_000_000_000;
 /// The largest seed that JSON keeps exactly.
 const LARGEST_SEED: u64 = (1 << 53) - 1;
-/// Seconds of work for a traverse, a fraction of one for an attitude; some hundred kilobytes.
+/// Seconds of work for a traverse, a fraction of one for a heading offset; some hundred kilobytes.
 const SHARD_RUNS: u64 = 1024;
 
 pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
@@ -59,7 +59,7 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
             "How many runs; with `sensitivity`, how many points, each with two runs more than there are inputs.",
             |all, runs| all.runs = runs,
         ),
-        whole("seed", 0..=LARGEST_SEED, "uint64", "Which draws of all that there could be.", |all: &mut Settings, seed| {
+        whole("seed", 0..=LARGEST_SEED, "uint64", "Seed of the random numbers: the same seed, the same samples.", |all: &mut Settings, seed| {
             all.seed = seed;
         })
         .otherwise(Fill::Whole(1)),
@@ -73,9 +73,9 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
         .otherwise(Fill::Whole(SHARD_RUNS)),
         words(
             "sampling",
-            "How the draws are spread.",
+            "How the samples are spread.",
             &[
-                word("monte-carlo", "Independent draws.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
+                word("monte-carlo", "Independent samples.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
                 word(
                     "latin-hypercube",
                     "One draw in each of as many equal parts of every input's distribution as there are runs.",
@@ -100,7 +100,7 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
         part(
             "scenario",
             Kind::Scenario,
-            "The run that is varied, for `traverse` and `attitude`: a preset's name, a path from this document's folder, or a scenario's keys.",
+            "The run that is varied, for `traverse` and `heading`: a preset's name, a path from this document's folder, or a scenario's keys.",
             &At {
                 inner: &SCENARIO,
                 at: |all: &mut Settings| -> &mut Scenario {
@@ -149,7 +149,7 @@ pub(in crate::document) static STAND: Table<Stand> = Table {
             "The wheel: a preset's name, a path from this document's folder, or a wheel's keys.",
             &At { inner: &WHEEL, at: |stand: &mut Stand| -> &mut Wheel { &mut stand.wheel } },
         ),
-        model("The theory; without it the soil's own, or else `ishigami`."),
+        model("The wheel–soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |stand| Some(&mut stand.gravity)),
         number("load_n", N, 0.0..=1e5, "Load on the wheel, W", |stand| Some(&mut stand.load)),
         number("slip_ratio", ONE, -2.0..=2.0, "Slip ratio, s", |stand| Some(&mut stand.slip_ratio)),

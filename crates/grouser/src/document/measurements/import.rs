@@ -157,8 +157,8 @@ impl Mapping {
             let names = COLUMNS.iter().map(|column| column.name);
             let all: Vec<&str> = names.clone().collect();
             nearest(ours, names).map_or_else(
-                || format!("`{ours}` is no column of ours; they are {}", all.join(", ")),
-                |name| format!("`{ours}` is no column of ours, did you mean `{name}`?"),
+                || format!("`{ours}` is not a column of measurements; they are {}", all.join(", ")),
+                |name| format!("`{ours}` is not a column of measurements, did you mean `{name}`?"),
             )
         })?;
         let (sign, theirs) = match theirs.trim().strip_prefix('-') {
@@ -188,7 +188,7 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
         if fitting.is_empty() {
             format!("`{}` is taken as it is and has no unit", column.name)
         } else {
-            format!("'{unit}' is no unit for `{}`; known: {}", column.name, fitting.join(", "))
+            format!("'{unit}' is not a unit for `{}`; known: {}", column.name, fitting.join(", "))
         }
     })
 }
