@@ -131,11 +131,11 @@ fn under_valgrind(program: &PathBuf, arguments: &[&str]) -> Result<(String, Stri
         .stdin(Stdio::null())
         .output()
         .context("valgrind did not start")?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     if !output.status.success() {
-        bail!("under valgrind the program failed:\n{said}");
+        bail!("under valgrind the program failed:\n{message}");
     }
-    Ok((said, String::from_utf8_lossy(&output.stdout).into_owned()))
+    Ok((message, String::from_utf8_lossy(&output.stdout).into_owned()))
 }
 
 #[cfg(test)]

@@ -87,10 +87,10 @@ pub(crate) fn write_times() -> Result<()> {
     command.arg(workspace::build_work()?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
-    let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
+    let (path, times) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
     let text = fs::read_to_string(&path).context(PERFORMANCE)?;
-    let text = markers::with_content_by(&text, TIMES, &told).context(PERFORMANCE)?;
-    print!("{told}");
+    let text = markers::with_content_by(&text, TIMES, &times).context(PERFORMANCE)?;
+    print!("{times}");
     fs::write(&path, text).context(PERFORMANCE)
 }
 

@@ -138,7 +138,9 @@ mod tests {
 
     #[test]
     fn a_missing_tool_says_what_is_skipped_and_how_to_get_it() {
-        let said = VALGRIND.missing();
-        assert!(said.contains("instructions are skipped") && said.contains("install valgrind"));
+        let message = VALGRIND.missing();
+        assert!(
+            message.contains("instructions are skipped") && message.contains("install valgrind")
+        );
     }
 }

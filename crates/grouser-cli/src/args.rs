@@ -16,12 +16,14 @@ use crate::output::Format;
 
 pub(crate) use campaign::{
     CampaignArgs, CampaignCommand, CampaignCostArgs, CampaignDigestArgs, CampaignMergeArgs,
-    CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorWord,
+    CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
-pub(crate) use card::{CardArgs, SideWord};
+pub(crate) use card::{CardArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
-pub(crate) use measurements::{CalibrateArgs, ImportArgs, PlateLawWord, SlipWord, ValidateArgs};
+pub(crate) use measurements::{
+    CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
+};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 

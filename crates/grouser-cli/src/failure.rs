@@ -14,7 +14,7 @@ pub(crate) enum Failure {
     Usage(String),
     /// The same, and the parser of the command line has said so already.
     #[error("the command line is wrong")]
-    UsageToldAlready,
+    UsageReported,
     /// A computation failed: exit code 1.
     #[error("{0}")]
     Run(String),
@@ -34,7 +34,7 @@ pub(crate) enum Failure {
     Interrupted(String),
     /// Another program did the work, said what there is to say, and ended with this exit code.
     #[error("the program that did the work failed")]
-    ToldByOther(u8),
+    ReportedByChild(u8),
     /// The reader of our output has gone: no message, exit code 0.
     #[error("the reader of the output has gone")]
     ReaderGone,
@@ -46,10 +46,10 @@ impl Failure {
         match self {
             Self::ReaderGone => 0,
             Self::Run(_) | Self::Environment { .. } => 1,
-            Self::Usage(_) | Self::UsageToldAlready => 2,
+            Self::Usage(_) | Self::UsageReported => 2,
             Self::Partly(_) => 3,
             Self::Interrupted(_) => interrupt::INTERRUPTED,
-            Self::ToldByOther(code) => *code,
+            Self::ReportedByChild(code) => *code,
         }
     }
 
@@ -63,8 +63,8 @@ impl Failure {
     }
 
     /// Whether a message is still due.
-    pub(crate) fn is_to_be_told(&self) -> bool {
-        !matches!(self, Self::ReaderGone | Self::UsageToldAlready | Self::ToldByOther(_))
+    pub(crate) fn needs_message(&self) -> bool {
+        !matches!(self, Self::ReaderGone | Self::UsageReported | Self::ReportedByChild(_))
     }
 
     /// A failed operation on a file or folder, such as `cannot write`.

@@ -9,7 +9,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 static MOVING_FILES: Mutex<()> = Mutex::new(());
 
 /// Whether a command looks after Ctrl-C itself.
-static IS_LOOKED_AFTER: AtomicBool = AtomicBool::new(false);
+static IS_HANDLED: AtomicBool = AtomicBool::new(false);
 /// Whether such a command is to come to its end.
 static STOP: AtomicBool = AtomicBool::new(false);
 
@@ -19,10 +19,10 @@ pub(crate) const INTERRUPTED: u8 = 130;
 /// From now on, Ctrl-C ends the program as soon as no files are being moved.
 pub(crate) fn exit_on_ctrl_c() {
     let handler = || {
-        if IS_LOOKED_AFTER.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
+        if IS_HANDLED.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
             return;
         }
-        let _files_are_whole = not_now();
+        let _files_are_whole = defer_ctrl_c();
         // Whoever cannot hear it still gets the exit code.
         let _ = writeln!(std::io::stderr(), "interrupted");
         std::process::exit(INTERRUPTED.into());
@@ -33,8 +33,8 @@ pub(crate) fn exit_on_ctrl_c() {
 
 /// From now on, the first Ctrl-C only [asks](is_asked_to_stop) to stop; the second one ends the
 /// program as ever.
-pub(crate) fn look_after() {
-    IS_LOOKED_AFTER.store(true, Ordering::Relaxed);
+pub(crate) fn handle_ctrl_c() {
+    IS_HANDLED.store(true, Ordering::Relaxed);
 }
 
 /// Whether whoever looks after Ctrl-C is to come to an end.
@@ -43,7 +43,7 @@ pub(crate) fn is_asked_to_stop() -> bool {
 }
 
 /// As long as the result lives, Ctrl-C waits.
-pub(crate) fn not_now() -> MutexGuard<'static, ()> {
+pub(crate) fn defer_ctrl_c() -> MutexGuard<'static, ()> {
     MOVING_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

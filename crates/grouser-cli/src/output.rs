@@ -47,22 +47,18 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
         _ => answer.print(),
     };
     let printed = printed.and_then(|()| stdout().flush());
-    if answer.use_stderr() {
-        Err(Failure::UsageToldAlready)
-    } else {
-        printed.map_err(failed_to_print)
-    }
+    if answer.use_stderr() { Err(Failure::UsageReported) } else { printed.map_err(failed_to_print) }
 }
 
 /// Says something beside the results, to the standard error.
-pub(crate) fn tell(text: &str) {
+pub(crate) fn message(text: &str) {
     // Whoever cannot hear it still gets the results.
     let _ = writeln!(stderr(), "{}", escape::visible(text));
 }
 
 /// Says what went wrong, to whoever still listens.
 pub(crate) fn report(failure: &Failure) {
-    if failure.is_to_be_told() {
+    if failure.needs_message() {
         let message = hints::with_flags(&failure.to_string());
         let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&message));
     }

@@ -194,9 +194,11 @@ impl Manifest {
             problem: problem.to_owned(),
         };
         let Some(place) = hash_place(bytes) else {
-            let told: Result<serde_json::Value, _> = serde_json::from_slice(bytes);
-            return Err(match told {
-                Ok(told) if told["schema"] == OLD_SCHEMA => StoreError::OldManifest(file.into()),
+            let parsed: Result<serde_json::Value, _> = serde_json::from_slice(bytes);
+            return Err(match parsed {
+                Ok(parsed) if parsed["schema"] == OLD_SCHEMA => {
+                    StoreError::OldManifest(file.into())
+                }
                 _ => wrong("it was changed or damaged: it has no hash of itself"),
             });
         };

@@ -256,7 +256,7 @@ impl Checked {
             (COLUMNS_KEY, &json!(identity.columns).to_string(), "set of columns"),
         ];
         for (key, value, what) in expected {
-            if told(about, key) != Some(value) {
+            if metadata(about, key) != Some(value) {
                 return Err(ShardFault::Foreign(what));
             }
         }
@@ -304,7 +304,7 @@ fn check_hash(file: &[u8]) -> Result<(), ShardFault> {
     if hex(&found).as_bytes() == hash { Ok(()) } else { Err(ShardFault::Damaged) }
 }
 
-fn told<'m>(about: &'m FileMetaData, key: &str) -> Option<&'m str> {
+fn metadata<'m>(about: &'m FileMetaData, key: &str) -> Option<&'m str> {
     let pairs = about.key_value_metadata()?;
     pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
 }

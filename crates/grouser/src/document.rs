@@ -1,4 +1,4 @@
-//! Layer 5, I/O: documents with units in their names, and what they mean in SI.
+//! Layer 5, I/O: reads documents with units in their names into values in SI.
 //!
 //! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. Reading one takes these
 //! steps, and this page is their order:
@@ -94,7 +94,7 @@ use values::Described;
 /// Allowed speeds of a rim, ω r_s [m/s].
 pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 
-/// What a document describes.
+/// A kind of document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A soil, `soil/1`.
@@ -107,7 +107,7 @@ pub enum Kind {
     Scenario,
     /// A file of measurements, `data-set/1`.
     DataSet,
-    /// Many runs over what is not known exactly, `campaign/1`.
+    /// A Monte Carlo campaign, `campaign/1`.
     Campaign,
 }
 
@@ -129,7 +129,7 @@ impl Kind {
         }
     }
 
-    /// What the document's `schema` key says.
+    /// The value of the document's `schema` key.
     #[must_use]
     pub const fn tag(self) -> &'static str {
         match self {
@@ -204,7 +204,7 @@ pub type LoadedDataSet = Loaded<DataSet>;
 /// Reads a soil.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, DocumentError> {
     read(Kind::Soil, source, overrides)
 }
@@ -212,7 +212,7 @@ pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, D
 /// Reads a wheel.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel, DocumentError> {
     read(Kind::Wheel, source, overrides)
 }
@@ -220,7 +220,7 @@ pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel,
 /// Reads a rover with its wheel.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn read_rover(source: &Source, overrides: &Overrides) -> Result<LoadedRover, DocumentError> {
     read(Kind::Rover, source, overrides)
 }
@@ -228,7 +228,7 @@ pub fn read_rover(source: &Source, overrides: &Overrides) -> Result<LoadedRover,
 /// Reads a scenario with its rover and soil.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn read_scenario(
     source: &Source,
     overrides: &Overrides,
@@ -240,7 +240,7 @@ pub fn read_scenario(
 /// by [`measurements::read`].
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn read_data_set(
     source: &Source,
     overrides: &Overrides,
@@ -248,10 +248,10 @@ pub fn read_data_set(
     data_set::read(source, overrides)
 }
 
-/// Reads a document of whatever kind it says it is, only to see whether it can be used.
+/// Checks a document of any kind, named by its `schema`.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn check(source: &Source) -> Result<Kind, DocumentError> {
     let text = source.read()?;
     let kind = kind_of(&text::parse(&text)?)?;
@@ -303,7 +303,7 @@ fn read<V: Described>(
     Ok(Loaded { document, value, uncertain, assumptions, companions })
 }
 
-/// A document that was found, checked and completed, but not yet understood.
+/// A checked and completed document, not yet converted.
 struct Written {
     tree: Node,
     document: Document,
@@ -395,7 +395,7 @@ fn fetch(
     }
 }
 
-/// That a document says it is of the kind that is needed.
+/// Checks that a document is of the expected kind.
 fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
     let found = kind_of(tree).map_err(|error| match error.problem() {
         Problem::MissingKey { .. } => {
@@ -412,7 +412,7 @@ fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
     Err(DocumentError::at(tree.origin_of("schema"), problem))
 }
 
-/// The kind that a document says it is.
+/// The kind of a document, by its `schema`.
 fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
     if tree.entries().is_empty() {
         return Err(DocumentError::whole(&tree.origin.text.label, Problem::Empty)

@@ -50,7 +50,7 @@ pub(crate) struct CampaignRunArgs {
     pub(crate) shard: Option<Part>,
     /// What computes: threads of this program, or the Python package with its processes, Dask or Ray.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) executor: ExecutorWord,
+    pub(crate) executor: ExecutorChoice,
     /// Where the cluster's scheduler listens, for `dask` and `ray`.
     #[arg(long, value_name = "ADDRESS")]
     pub(crate) scheduler: Option<String>,
@@ -64,7 +64,7 @@ pub(crate) struct CampaignRunArgs {
 
 /// What computes a campaign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ExecutorWord {
+pub(crate) enum ExecutorChoice {
     /// This program.
     #[default]
     Threads,

@@ -103,7 +103,7 @@ pub(crate) struct CalibrateArgs {
     pub(crate) plates: Option<PathBuf>,
     /// The law of the plates; without it the soil's own.
     #[arg(long, value_enum, requires = "plates")]
-    pub(crate) plate_law: Option<PlateLawWord>,
+    pub(crate) plate_law: Option<PlateLawChoice>,
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
@@ -146,14 +146,14 @@ pub(crate) struct CalibrateArgs {
 
 /// A pressure-sinkage law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PlateLawWord {
+pub(crate) enum PlateLawChoice {
     /// p = (k_c/b + k_phi) z^n.
     Bekker,
     /// p = (c k_c + density g b k_phi) (z/b)^n.
     Reece,
 }
 
-impl PlateLawWord {
+impl PlateLawChoice {
     /// The word in documents.
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -179,7 +179,7 @@ pub(crate) struct ImportArgs {
     pub(crate) columns: Vec<Mapping>,
     /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) slip_definition: SlipWord,
+    pub(crate) slip_definition: SlipChoice,
     /// The character between two fields, or `tab`.
     #[arg(long, value_name = "CHAR", default_value = ",")]
     pub(crate) delimiter: String,
@@ -201,7 +201,7 @@ pub(crate) struct ImportArgs {
 
 /// A definition of the slip ratio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SlipWord {
+pub(crate) enum SlipChoice {
     /// (wr - v)/max(wr, v): Grouser's.
     #[default]
     Larger,

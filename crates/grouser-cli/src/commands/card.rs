@@ -4,7 +4,7 @@ mod columns;
 mod layout;
 mod measured;
 mod row;
-mod words;
+mod texts;
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Answer, heading_band};
-use crate::args::{CardArgs, SideWord};
+use crate::args::{CardArgs, SideChoice};
 use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let rows = shown(&card::table(&card), &measured);
     let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
-        let sheet = layout::draw(&words::of(args, &inputs, &card), &rows, &measured);
+        let sheet = layout::draw(&texts::of(args, &inputs, &card), &rows, &measured);
         target.write(
             &Answers { args, inputs: &inputs, card: &card, rows: &rows, beside: &beside },
             &sheet,
@@ -77,7 +77,7 @@ fn compute(
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
     let mut heading = HeadingStudy::of(&inputs.scenario.value);
-    if args.uphill == SideWord::Right {
+    if args.uphill == SideChoice::Right {
         heading.rover = heading.rover.mirrored();
     }
     let study = CardStudy { heading, rim_speed: inputs.rim_speed, rule: inputs.rule };
@@ -149,7 +149,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "model": inputs.scenario.value.theory.name(),
         "loads": document.get("loads"),
         "moments": document.get("moments"),
-        "uphill": if args.uphill == SideWord::Left { "left" } else { "right" },
+        "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },
         "speed_m_s": inputs.rim_speed,
         "rule": RuleRecord::from(&inputs.rule),
     });

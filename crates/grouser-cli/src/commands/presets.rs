@@ -55,7 +55,7 @@ fn print_preset(
             let others = named.iter().filter(|preset| Some(preset) != whole.as_ref());
             for other in others {
                 let kind = other.kind;
-                output::tell(&format!("note: there is also a {kind} `{name}`: --kind {kind}"));
+                output::message(&format!("note: there is also a {kind} `{name}`: --kind {kind}"));
             }
             whole.map_or(Ok(()), |preset| output::print(preset.text))
         }

@@ -48,7 +48,7 @@ fn tell_end(run: &Trajectory) {
     if run.outcome != Outcome::Completed {
         let (outcome, time) = (run.outcome.name(), four_digits(run.last().time));
         let reason = reason(run);
-        output::tell(&format!("note: {outcome} after {time} s{reason}"));
+        output::message(&format!("note: {outcome} after {time} s{reason}"));
     }
 }
 

@@ -53,7 +53,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     };
     let measured = measurements::Source::find(data)?.read(&choice)?;
     for note in &measured.notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
     let validation = judge(&measured, &stand);
     let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();

@@ -51,7 +51,8 @@ pub struct ParameterRecord {
     /// Effective sample size: independent samples with the same standard error [-].
     pub effective_samples: Option<f64>,
     /// Posterior contraction: standard deviation over that of the prior [-]; near 1 the data do not constrain it.
-    pub narrowing: Option<f64>,
+    #[serde(rename = "narrowing")]
+    pub contraction: Option<f64>,
 }
 
 impl ParameterRecord {
@@ -80,7 +81,7 @@ impl ParameterRecord {
             p97_5: of(|it| it.upper),
             r_hat: of(|it| it.r_hat),
             effective_samples: of(|it| it.effective_samples),
-            narrowing: found.narrowing.get(place).copied(),
+            contraction: found.contraction.get(place).copied(),
         }
     }
 }
@@ -114,14 +115,17 @@ pub fn channel_unit(channel: &Channel) -> f64 {
 
 /// Unidentifiable parameters and combinations, a sentence for each.
 #[must_use]
-pub fn open_questions(parameters: &[Parameter], found: &Identifiability) -> Vec<String> {
-    let loose = found.loose.iter().map(|combination| loose_sentence(parameters, combination));
+pub fn unidentifiable(parameters: &[Parameter], found: &Identifiability) -> Vec<String> {
+    let combinations = found
+        .unidentifiable
+        .iter()
+        .map(|combination| combination_sentence(parameters, combination));
     let pairs = found.pairs.iter().map(|pair| pair_sentence(parameters, pair));
-    loose.chain(pairs).collect()
+    combinations.chain(pairs).collect()
 }
 
-fn loose_sentence(parameters: &[Parameter], combination: &Combination) -> String {
-    let left = 100.0 * combination.narrowing.min(1.0);
+fn combination_sentence(parameters: &[Parameter], combination: &Combination) -> String {
+    let left = 100.0 * combination.contraction.min(1.0);
     if let [(only, _)] = combination.shares[..] {
         let name = &parameters[only].name;
         return format!("{name} is underdetermined: posterior {left:.0} % as wide as the prior");

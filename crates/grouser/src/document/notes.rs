@@ -1,4 +1,4 @@
-//! What a document says of itself besides numbers: its day, and what was assumed.
+//! The date and the assumptions of a document.
 
 use serde_json::Value as Json;
 
@@ -19,7 +19,7 @@ fn node_mut<'n>(tree: &'n mut Node, path: &[&str]) -> Option<&'n mut Node> {
     path.iter().try_fold(tree, |node, step| Some(&mut node.entry_mut(step)?.node))
 }
 
-/// That days are days, in the document and in all inside it.
+/// Checks dates, in the document and in all inside it.
 pub(super) fn check_days(kind: Kind, tree: &Node) -> Result<(), DocumentError> {
     let date = tree.entry("date").map(|entry| &entry.node);
     if let Some(Node { value: Value::String(date), origin }) = date
@@ -54,7 +54,7 @@ fn is_day(text: &str) -> bool {
     (1..=days).contains(&day)
 }
 
-/// Adds what was assumed without the author of a document saying so, to it and to all inside it.
+/// Adds assumptions that the author of a document did not state, to it and to all inside it.
 pub(super) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
     for (kind, path) in parts(kind) {
         if let Some(inside) = node_mut(tree, path) {
@@ -106,16 +106,16 @@ fn put(tree: &mut Node, assumed: &[String]) {
     }
 }
 
-/// Everything assumed, by a document and then by those inside it, each with its name before it.
-pub(super) fn assumptions(kind: Kind, said: &Json) -> Vec<String> {
-    let text = |key: &str| said.get(key).and_then(Json::as_str).unwrap_or_default();
+/// All assumptions, of a document and then by those inside it, each with its name before it.
+pub(super) fn assumptions(kind: Kind, given: &Json) -> Vec<String> {
+    let text = |key: &str| given.get(key).and_then(Json::as_str).unwrap_or_default();
     let (name, source) = (text("name"), text("source"));
     let says_so = source.starts_with("assumed").then(|| format!("{kind} {name}: {source}"));
-    let own = said.get("assumed").and_then(Json::as_array).into_iter().flatten();
+    let own = given.get("assumed").and_then(Json::as_array).into_iter().flatten();
     let own = own.filter_map(Json::as_str).map(|one| format!("{kind} {name}: {one}"));
     let mut all: Vec<String> = says_so.into_iter().chain(own).collect();
     for (kind, path) in parts(kind) {
-        let inside = path.iter().try_fold(said, |said, step| said.get(step));
+        let inside = path.iter().try_fold(given, |given, step| given.get(step));
         all.extend(inside.map(|inside| assumptions(kind, inside)).unwrap_or_default());
     }
     all

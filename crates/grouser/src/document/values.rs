@@ -1,5 +1,5 @@
 //! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
-//! the checks of what only several values together can show.
+//! the checks of values against each other.
 
 use std::ops::RangeInclusive;
 
@@ -20,7 +20,7 @@ use crate::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use crate::vehicle::Rover;
 use crate::wheel::Wheel;
 
-/// Values that are fine one by one, but not together.
+/// Values that are valid one by one, but not together.
 #[derive(Debug)]
 pub(super) struct Misfit {
     /// The key of the document, inside this one, that they stand in; nothing for this one itself.
@@ -133,7 +133,7 @@ fn share_angle_limit(shear: &mut Shear) {
     }
 }
 
-/// That n stays in its range at every slip: it is linear, so its ends tell.
+/// That n stays in its range at every slip: it is linear, so its ends suffice.
 fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
     let (PressureSinkage::Reece { exponent, .. } | PressureSinkage::Bekker { exponent, .. }) = law;
     for slip_ratio in [-1.0, 1.0] {
@@ -191,7 +191,7 @@ impl Described for Rover {
     }
 }
 
-/// That every wheel can be told from the others: columns and messages name them.
+/// Checks that the wheels' names differ: columns and messages use them.
 fn check_names(rover: &Rover) -> Result<(), Misfit> {
     let mounts = rover.mounts();
     for (index, mount) in mounts.iter().enumerate() {

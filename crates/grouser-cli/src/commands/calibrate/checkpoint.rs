@@ -61,7 +61,7 @@ impl Checkpoint {
         match from_bytes(&bytes, &self.identity) {
             Ok(state) => {
                 let blocks = state.blocks;
-                output::tell(&format!("going on after block {blocks} of an interrupted run"));
+                output::message(&format!("going on after block {blocks} of an interrupted run"));
                 Ok(Some(state))
             }
             Err(_) if force => Ok(None),

@@ -13,7 +13,7 @@ use super::super::Answer;
 use super::checkpoint::{Checkpoint, open_folder};
 use super::progress::{Progress, sampling};
 use super::report;
-use crate::args::{CalibrateArgs, PlateLawWord};
+use crate::args::{CalibrateArgs, PlateLawChoice};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -29,9 +29,9 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let measured = plates::read_from(&escape::path(file), bytes.as_slice(), limits)?;
     let PlateMeasurements { curves, notes } = measured;
     for note in &notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
-    let law = args.plate_law.map(PlateLawWord::name);
+    let law = args.plate_law.map(PlateLawChoice::name);
     let problem =
         PlateProblem::new(&soil.document, law, gravity, curves).map_err(Failure::Usage)?;
     let settings = settings(args, file, &bytes, problem.soil(), gravity);

@@ -60,7 +60,7 @@ impl Observer for Progress<'_> {
 
     fn fitted(&self, fit: &Fit) {
         for note in fit_notes(fit) {
-            output::tell(&format!("note: {note}"));
+            output::message(&format!("note: {note}"));
         }
     }
 

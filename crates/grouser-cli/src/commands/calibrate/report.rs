@@ -60,7 +60,7 @@ pub(super) fn add_soil(
 /// Prints notes on parameters at their bounds and on the sampling of the posterior.
 pub(super) fn tell_notes(solved: &Solved) {
     for note in solved.bound_notes().into_iter().chain(solved.note()) {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
 }
 
@@ -123,8 +123,8 @@ pub(super) fn parameters(records: &[ParameterRecord]) -> String {
 /// Parameters that the data do not determine, and the discrepancy between model and data.
 pub(super) fn conclusions(solved: &Solved) -> Vec<String> {
     let mut blocks = Vec::new();
-    if !solved.questions.is_empty() {
-        let lines: String = solved.questions.iter().map(|it| format!("- {it}\n")).collect();
+    if !solved.unidentifiable.is_empty() {
+        let lines: String = solved.unidentifiable.iter().map(|it| format!("- {it}\n")).collect();
         blocks.push(format!("what these data do not determine\n{lines}"));
     }
     blocks.push(discrepancies(solved));
@@ -201,9 +201,9 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
 /// The fitted keys, those that the data do not determine, and the discrepancy between model and data.
 pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
     page.code(&parameters(&solved.records));
-    if !solved.questions.is_empty() {
+    if !solved.unidentifiable.is_empty() {
         page.heading("What these data do not determine");
-        page.list(&solved.questions);
+        page.list(&solved.unidentifiable);
     }
     page.code(&discrepancies(solved));
 }
@@ -245,7 +245,7 @@ fn short(record: &ParameterRecord) -> &str {
 /// Places of the keys whose deviation is largest beside that of the prior, in the keys' order.
 fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..records.len()).collect();
-    let left = |place: usize| records[place].narrowing.unwrap_or(1.0);
+    let left = |place: usize| records[place].contraction.unwrap_or(1.0);
     places.sort_by(|&one, &other| left(other).total_cmp(&left(one)));
     places.truncate(KEYS_ON_PAGE);
     places.sort_unstable();

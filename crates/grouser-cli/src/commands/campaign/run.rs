@@ -17,7 +17,7 @@ use serde::Serialize;
 use super::digest::DigestRecord;
 use super::progress::Progress;
 use super::{campaign, inputs, python};
-use crate::args::{CampaignRunArgs, ExecutorWord, TableOrJson};
+use crate::args::{CampaignRunArgs, ExecutorChoice, TableOrJson};
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::{interrupt, output};
@@ -39,7 +39,7 @@ struct RunRecord {
 
 pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     let campaign = campaign(&args.study, &args.settings)?;
-    if args.executor != ExecutorWord::Threads {
+    if args.executor != ExecutorChoice::Threads {
         return python::hand_over(args);
     }
     if args.scheduler.is_some() {
@@ -55,7 +55,7 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     let finished_before = folder.missing().is_empty();
     let progress = Progress::new(args.format, &folder);
     if !finished_before {
-        interrupt::look_after();
+        interrupt::handle_ctrl_c();
         compute(&campaign, &mut folder, &progress)?;
     }
     let runs_per_s = progress.rate(&folder);
@@ -66,7 +66,7 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
 
 /// Opens the folder. What is there is read to its last bit, which a bar tells.
 fn open(args: &CampaignRunArgs, study: &Study) -> Result<Folder, Failure> {
-    let _not_now = interrupt::not_now();
+    let _deferred = interrupt::defer_ctrl_c();
     let bar = output::progress_bar(0);
     bar.set_message("shards checked");
     let folder = Folder::open_watched(&args.out, study, args.shard, &mut |done, all| {
@@ -82,7 +82,7 @@ fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
     const MANY: u64 = 1_000_000;
     let shards = folder.missing().len();
     if shards > MANY {
-        output::tell(&format!(
+        output::message(&format!(
             "note: {shards} files of {} runs each will be written; `shard_runs`, up to 1000000, makes them \
              fewer and larger, and --shard I/N splits them over N folders",
             campaign.shard_runs()
@@ -92,20 +92,20 @@ fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
 
 fn tell_surprises(folder: &Folder) {
     for name in folder.mended() {
-        output::tell(&format!(
+        output::message(&format!(
             "note: {name} was damaged or of an earlier form, and is written anew"
         ));
     }
     for (shard, fault) in folder.faults() {
-        output::tell(&format!("note: shard {shard} is computed anew: {fault}"));
+        output::message(&format!("note: shard {shard} is computed anew: {fault}"));
     }
     if !folder.is_locked() {
-        output::tell(
+        output::message(
             "note: this disk has no locks: make sure that no second campaign writes to the folder",
         );
     }
     if folder.runs_done() > 0 && !folder.missing().is_empty() {
-        output::tell(&format!(
+        output::message(&format!(
             "going on: {} of {} runs are there",
             folder.runs_done(),
             folder.runs()
@@ -164,14 +164,14 @@ fn compute_shards(
 }
 
 fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Result<(), Failure> {
-    let mut told = None;
-    progress.tell(folder, &mut told)?;
+    let mut reported = None;
+    progress.report(folder, &mut reported)?;
     for (shard, bytes) in shards {
         {
-            let _not_now = interrupt::not_now();
+            let _deferred = interrupt::defer_ctrl_c();
             folder.accept(shard, &bytes)?;
         }
-        progress.tell(folder, &mut told)?;
+        progress.report(folder, &mut reported)?;
     }
     Ok(())
 }

@@ -29,7 +29,7 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let (results, campaign) = stored(&args.folder)?;
     if let Some(part) = results.manifest().part {
-        output::tell(&format!(
+        output::message(&format!(
             "note: this is part {part} of a campaign; `grouser campaign merge` brings the parts together"
         ));
     }

@@ -60,7 +60,7 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
     let mut figures = Vec::new();
     for quantity in Quantity::ALL {
         let column = column_of(quantity);
-        let (name, unit) = (&column.words(), column.unit.symbol);
+        let (name, unit) = (&column.label(), column.unit.symbol);
         let cells = all.of_quantity(column);
         if cells.iter().all(|cell| cell.measured.is_none()) {
             continue;

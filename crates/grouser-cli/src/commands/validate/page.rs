@@ -42,7 +42,7 @@ pub(super) fn html(
     for quantity in Quantity::ALL {
         let rows = error_rows(&groups, quantity);
         if !rows.is_empty() {
-            let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
+            let (name, unit) = (column_of(quantity).label(), column_of(quantity).unit.symbol);
             let caption = format!("Errors of the {name} [{unit}]");
             page.grid(&caption, &ERRORS.map(str::to_owned), &rows);
         }
@@ -61,7 +61,7 @@ fn answer(stand: &StandInputs, validation: &Validation) -> String {
     let overall = GroupRecord::from(&validation.overall);
     let words = Quantity::ALL.into_iter().filter_map(|quantity| {
         let errors = overall.errors(quantity)?;
-        let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
+        let (name, unit) = (column_of(quantity).label(), column_of(quantity).unit.symbol);
         let itself = errors.repeatability.map_or(String::new(), |deviation| {
             format!(" (repeatability of the experiment {} {unit})", four_digits(deviation))
         });

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use super::super::SoilFamily;
-use super::{ParameterRecord, channel_name, channel_unit, open_questions};
+use super::{ParameterRecord, channel_name, channel_unit, unidentifiable};
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
     Fit, Parameter, Posterior, PosteriorState, SamplerSettings, Sampling, Solution,
@@ -70,7 +70,7 @@ pub struct Solved {
     /// And for each channel.
     pub discrepancies: Vec<DiscrepancyRecord>,
     /// Unidentifiable parameters and combinations, a sentence for each.
-    pub questions: Vec<String>,
+    pub unidentifiable: Vec<String>,
     /// How the posterior was sampled, if it was.
     pub sampler: Option<SamplerRecord>,
 }
@@ -98,7 +98,7 @@ impl Solved {
         Self {
             records: parameters.iter().enumerate().map(record).collect(),
             discrepancies: solution.channels.iter().enumerate().map(discrepancy).collect(),
-            questions: open_questions(parameters, &solution.identifiability),
+            unidentifiable: unidentifiable(parameters, &solution.identifiability),
             sampler: solution.posterior.as_ref().map(SamplerRecord::from),
             solution,
         }
@@ -113,7 +113,7 @@ impl Solved {
             "not_settled"
         } else if worst > GOOD_R_HAT {
             "not_mixed"
-        } else if self.questions.is_empty() {
+        } else if self.unidentifiable.is_empty() {
             "determined"
         } else {
             "open"

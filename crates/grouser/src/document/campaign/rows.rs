@@ -1,4 +1,4 @@
-//! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
+//! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
 
 use super::super::Document;
 use super::super::columns::heading::{Held, held};
@@ -18,28 +18,28 @@ use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
 use crate::vehicle::DriveLaw;
 
-/// What a campaign varies.
+/// The base that a campaign varies.
 #[derive(Clone, Debug)]
 pub(super) enum Base {
     Scenario(Box<Varied<Scenario>>),
     Stand(Box<Varied<Stand>>),
 }
 
-/// A draw's domain value.
+/// The domain value of a sample.
 enum Case {
     Scenario(Box<Scenario>),
     WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
 }
 
-/// Why a row has no answer: a word that is the same for all such rows, and the reason of this one.
+/// A run without a result: a status that is the same for all such rows, and the reason of this one.
 struct Failure {
     status: &'static str,
     reason: String,
 }
 
-/// Numbers that are fine one by one, but not together.
+/// Numbers that are valid one by one, but not together.
 const UNFIT: &str = "not possible together";
-/// There is no yaw that keeps a traverse level.
+/// No heading holds the contour. (The text of version 0.1, by which results are counted.)
 const NO_HEADING: &str = "no level attitude";
 /// Not even on level ground.
 const CANNOT_MOVE: &str = "cannot move";
@@ -56,7 +56,7 @@ pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
 
 /// The columns of a study.
 ///
-/// * `keys`: what is drawn
+/// * `keys`: of the inputs
 pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Column> {
     let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
     if sensitivity {
@@ -82,7 +82,7 @@ fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str
     results.iter().map(|column| column.name)
 }
 
-/// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
+/// Runs the base with sampled values, and adds the results to the row: at least the status.
 pub(super) fn run(study: Study, base: &Base, keys: &[Key], values: &[f64], row: &mut Vec<Cell>) {
     let answer = base.with(keys, values).and_then(|case| match (study, case) {
         (Study::Heading, Case::Scenario(scenario)) => heading(&scenario),

@@ -1,4 +1,4 @@
-//! What a campaign's document says, and what its numbers go into.
+//! The settings of a campaign's document.
 
 use super::super::describe::uncertainty::Stated;
 use super::super::describe::{soil, wheel};
@@ -8,7 +8,7 @@ use crate::soil::Soil;
 use crate::studies::ensemble::design::Sampling;
 use crate::wheel::Wheel;
 
-/// What a campaign is to do.
+/// The settings of a campaign.
 #[derive(Clone, Debug)]
 pub(in crate::document) struct Settings {
     pub study: Study,
@@ -18,11 +18,11 @@ pub(in crate::document) struct Settings {
     pub shard_runs: u64,
     pub sampling: Sampling,
     pub sensitivity: bool,
-    /// Whether the soil's own uncertainty is drawn from, too.
+    /// Whether the soil's own uncertainty is sampled, too.
     pub soil_uncertainty: bool,
-    /// What is drawn from, beside that.
+    /// The other uncertain inputs.
     pub uncertain: Stated,
-    /// What is varied: a scenario, or a stand.
+    /// The base that is varied: a scenario, or a stand.
     pub scenario: Option<Box<Scenario>>,
     pub stand: Option<Stand>,
 }
@@ -43,7 +43,7 @@ impl Settings {
     };
 }
 
-/// What every run of a campaign computes.
+/// The study that every run of a campaign computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Study {
     /// A run of the scenario, and where it ends.

@@ -16,7 +16,7 @@ pub const VERDICT: &str = "verdict";
 
 /// The keyword of a verdict.
 #[must_use]
-pub const fn word_of(verdict: Verdict) -> &'static str {
+pub const fn name_of(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Go => "go",
         Verdict::Caution => "caution",
@@ -32,7 +32,7 @@ struct OnCard<'a> {
 const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
     [
         SLOPE.given("Slope", |it| Some(it.row.slope)),
-        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(word_of(it.row.verdict).into())),
+        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
         YAW.maybe("Yaw that holds the contour, positive uphill", |it| {
             it.row.level.map(|level| level.yaw)
         }),

@@ -1,4 +1,4 @@
-//! A run: its samples in time, each wheel's, and what became of the rover.
+//! The columns of a run: its records in time, those of each wheel, and the outcome.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -44,10 +44,10 @@ pub const WHEEL_SAMPLE: [Column<WheelSample>; 5] = [
     POWER.number("Power of its motor", WheelSample::power),
 ];
 
-/// What the energy balance cannot account for.
+/// Error of the energy balance.
 pub const ENERGY_ERROR: Quantity = quantity("energy_error_j", J);
 
-/// What became of the rover.
+/// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
     text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
         Some(it.outcome.name().into())
@@ -58,10 +58,10 @@ const RUN: [Column<Trajectory>; 6] = [
     }),
     text("simulation_reason", "Since when and why it fell back", |it| it.method.reason()),
     ENERGY.number("Work of the motors over the run", |it| it.last().energy.motors),
-    ENERGY_ERROR.number("What the energy balance cannot account for", Trajectory::energy_error),
+    ENERGY_ERROR.number("Error of the energy balance", Trajectory::energy_error),
 ];
 
-/// A run in a few numbers, means over wheels and samples: what a campaign keeps beside the end.
+/// A run in a few numbers, means over wheels and records: columns of a campaign, beside those of the end.
 pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     number("distance_m", M, "Length of the way", |it| it.distance),
     maybe("drift_m_per_m", M_PER_M, "Drift per metre travelled, positive downhill", |it| it.drift),
@@ -72,10 +72,10 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     ENERGY_PER_METRE.maybe("Work of the motors per metre travelled", |it| it.energy_per_metre),
 ];
 
-/// Where a run ended: of the columns of a sample, what a campaign keeps.
+/// The end of a run: columns of a campaign.
 pub(in super::super) const END: &[Column<Sample>] = SAMPLE.split_at(4).0;
 
-/// A row for each sample. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
+/// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
 /// empty where the rover has just tipped over or sunk, and left out where no sample has any.
 #[must_use]
 pub fn table(run: &Trajectory, rover: &Rover) -> Table {
@@ -96,7 +96,7 @@ pub fn table(run: &Trajectory, rover: &Rover) -> Table {
     table
 }
 
-/// The means of a sample's wheels; none where the rover has just tipped over or sunk.
+/// The means over a record's wheels; missing where the rover has just tipped over or sunk.
 const MEANS: [Column<Sample>; 3] = [
     SLIP_RATIO.maybe("Mean slip ratio", |it| mean(it, |wheel| wheel.reaction.slip.ratio)),
     SLIP_ANGLE.maybe("Mean slip angle", |it| mean(it, |wheel| wheel.reaction.slip.angle)),
@@ -108,7 +108,7 @@ fn mean(sample: &Sample, of: fn(&WheelSample) -> f64) -> Option<f64> {
     (count > 0).then(|| sample.wheels.iter().map(of).sum::<f64>() / count as f64)
 }
 
-/// The start and some more samples up to the end, with the means of their wheels: for reading.
+/// The start and some more records up to the end, with the means of their wheels: for reading.
 ///
 /// * `lines`: how many besides the start, at most
 #[must_use]
@@ -121,7 +121,7 @@ pub fn brief(run: &Trajectory, lines: usize) -> Table {
     Table::default().and(END, &rows).and(&MEANS, &rows).and(&SAMPLE[power..=power], &rows)
 }
 
-/// A run with its samples as one object of JSON: what became of the rover, `final`, and `samples`.
+/// A run with its records as one object of JSON: the outcome, `final`, and `samples`.
 #[derive(Clone, Copy, Debug)]
 pub struct RunObject<'a> {
     /// The run.

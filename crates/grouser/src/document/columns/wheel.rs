@@ -1,4 +1,4 @@
-//! What the soil does to a settled wheel: the results of a wheel, wherever they appear.
+//! The columns of a settled wheel: sinkage, forces, moments and angles.
 
 use super::super::table::Table;
 use super::super::unit::{DEG, KPA, N, NM};
@@ -54,7 +54,7 @@ pub const WHEEL: [Column<Settled>; 15] = [
     MAX_NORMAL_STRESS.number("Largest normal stress on the rim", |it| it.forces.max_normal_stress),
 ];
 
-/// What is set on a test stand, and whether the wheel settled.
+/// The settings of a test stand, and the status of the wheel.
 const SETTING: [Column<WheelTestRow>; 4] = [
     LOAD.number("Load, as asked", |it| it.load),
     SLIP_ANGLE.given("Slip angle, as asked; positive where the hub moves to the left", |it| {

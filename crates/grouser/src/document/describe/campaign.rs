@@ -86,7 +86,7 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("monte-carlo")),
+        .otherwise(Fill::Keyword("monte-carlo")),
         flag(
             "sensitivity",
             "Whether the runs are laid out so that they tell Sobol indices.",

@@ -1,4 +1,4 @@
-//! `data-set/1`: what a file of measurements was measured with.
+//! `data-set/1`: wheel, soils and gravity of a file of measurements.
 
 use super::super::data_set::DataSet;
 use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};

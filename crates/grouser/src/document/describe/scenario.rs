@@ -16,7 +16,7 @@ use crate::site::Site;
 use crate::vehicle::drive::SlipTarget;
 use crate::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
-/// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
+/// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(in crate::document) const FASTEST: f64 = 10.0;
 
 /// Source: [FourWheel], section 5.2: "each wheel speed is set at 6 cm/s" [m/s].
@@ -66,14 +66,14 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 at: |run: &mut Scenario| &mut run.rover,
             },
         )
-        .otherwise(Fill::Word(DEFAULT_ROVER)),
+        .otherwise(Fill::Keyword(DEFAULT_ROVER)),
         part(
             "soil",
             Kind::Soil,
             "The soil: a preset's name, a path from this document's folder, or a soil's keys.",
             &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.soil },
         )
-        .otherwise(Fill::Word(DEFAULT_SOIL)),
+        .otherwise(Fill::Keyword(DEFAULT_SOIL)),
         model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
         number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
@@ -105,7 +105,7 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
             ],
         )
-        .otherwise(Fill::Word("quasi-static"))
+        .otherwise(Fill::Keyword("quasi-static"))
         .formerly("loads"),
         words(
             "wheel_moments",
@@ -119,7 +119,7 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("neglected"))
+        .otherwise(Fill::Keyword("neglected"))
         .formerly("moments"),
         words(
             "simulation",
@@ -135,7 +135,7 @@ pub(in crate::document) static SCENARIO: Table<Scenario> = Table {
                 ),
             ],
         )
-        .otherwise(Fill::Word("dynamic")),
+        .otherwise(Fill::Keyword("dynamic")),
         table(
             "drive",
             "What turns the wheels.",
@@ -258,6 +258,6 @@ static START: Table<Start> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("rolling")),
+        .otherwise(Fill::Keyword("rolling")),
     ],
 };

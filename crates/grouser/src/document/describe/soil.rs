@@ -12,7 +12,7 @@ use crate::soil::{
     StressPeak,
 };
 
-/// The largest exit-angle ratio that a soil may reach at any slip [-].
+/// The largest wheel sinkage ratio that a soil may reach at any slip [-].
 pub(in crate::document) const LARGEST_EXIT_RATIO: f64 = 1.5;
 /// The smallest and the largest sinkage exponent that a soil may reach at any slip [-].
 pub(in crate::document) const SMALLEST_EXPONENT: f64 = 0.3;
@@ -34,7 +34,7 @@ const QUADRATIC: ShearModulus = ShearModulus::Quadratic {
     angle_limit: 0.0,
 };
 
-/// A soil before its numbers are put in: without the terms of the theories that have some of their own.
+/// A soil before its numbers are put in: without the terms of single models.
 pub(in crate::document) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
@@ -91,7 +91,7 @@ pub(in crate::document) static SOIL: Table<Soil> = Table {
             "How soil pushed aside loads the side wall; without it, law = \"sine\".",
             &At { inner: &BULLDOZING, at: |soil: &mut Soil| &mut soil.bulldozing },
         )
-        .otherwise(Fill::Keys(&[("law", Fill::Word("sine"))])),
+        .otherwise(Fill::Keys(&[("law", Fill::Keyword("sine"))])),
         table(
             "small_wheel",
             "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
@@ -440,7 +440,7 @@ static BULLDOZING: Table<Bulldozing> = Table {
     )],
 };
 
-// ---- What single theories ask for ----
+// ---- Terms of single models ----
 
 const DEFAULTS: Fill = Fill::Keys(&[]);
 const OFF: Extended = Extended::OFF;

@@ -1,4 +1,4 @@
-//! From other people's CSV to our columns: names, units, signs and definitions of slip.
+//! Converts CSV files of other laboratories: names, units, signs and definitions of slip.
 
 use std::io::Read;
 

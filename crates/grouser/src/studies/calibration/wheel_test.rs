@@ -1,5 +1,4 @@
-//! Single-wheel tests as an experiment: a soil is asked for the forces and the sinkage of every
-//! cell of a test series.
+//! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test series.
 
 use super::experiment::{Channel, Experiment, Observation, Regime};
 use super::scatter::{self, Repeats};
@@ -10,10 +9,10 @@ use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, Reading, Trial, WheelTests};
 use crate::wheel::Wheel;
 
-/// Makes the soil of parameter values.
+/// Makes a soil from parameter values.
 pub type SoilOf<'a> = dyn Fn(&[f64]) -> Result<Soil, ParameterError> + Sync + 'a;
 
-/// How finely a test series is predicted.
+/// The detail in which a test series is predicted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resolution {
     /// Each trial at its own load and motion, averaged over the cell.
@@ -64,7 +63,7 @@ pub struct Setup<'a> {
     pub theory: Theory,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
-    /// Makes the soil of parameter values.
+    /// Makes a soil from parameter values.
     pub soil_of: &'a SoilOf<'a>,
     /// How finely the tests are predicted.
     pub resolution: Resolution,

@@ -1,4 +1,4 @@
-//! Where in the unit cube a campaign's runs lie.
+//! Designs: the points of the unit cube at which a campaign samples its inputs.
 //!
 //! | sampling | points | error of a mean of N |
 //! |---|---|---|
@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 use super::permutation::{Permutation, mix};
 use crate::studies::random;
 
-/// How points are spread.
+/// The method by which points are spread.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampling {
     /// Independent points.
@@ -29,13 +29,13 @@ pub enum Sampling {
 /// A set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Design {
-    /// How they are spread.
+    /// The method.
     pub sampling: Sampling,
-    /// How many there are, *N*; at least 1.
+    /// Number of points, *N*; at least 1.
     pub points: u64,
-    /// Of how many dimensions.
+    /// Number of dimensions.
     pub dimensions: usize,
-    /// Which of all such sets.
+    /// Seed of the set.
     pub seed: u64,
 }
 

@@ -3,12 +3,12 @@
 use grouser::document::columns::SLOPE;
 use grouser::studies::card::{Card, Rule};
 
-use crate::args::{CardArgs, SideWord};
+use crate::args::{CardArgs, SideChoice};
 use crate::inputs::CardInputs;
 use crate::output::rows::{four_digits, rounded_down};
 
 /// All texts of a card that depend on its inputs.
-pub(super) struct Words {
+pub(super) struct Texts {
     pub(super) title: String,
     /// On which side uphill can be.
     pub(super) side: &'static str,
@@ -26,18 +26,18 @@ pub(super) struct Words {
     pub(super) assumed: Vec<String>,
 }
 
-pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
+pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
     let document = &inputs.scenario.document;
     let rover = document.text("rover.name").unwrap_or("unnamed rover");
     let soil = document.text("soil.name").unwrap_or("unnamed soil");
     let is_symmetric = inputs.scenario.value.rover.is_symmetric();
     let side = match (is_symmetric, args.uphill) {
         (true, _) => "Uphill on the left or on the right: the same heading.",
-        (false, SideWord::Left) => "ONLY with uphill on the rover's LEFT.",
-        (false, SideWord::Right) => "ONLY with uphill on the rover's RIGHT.",
+        (false, SideChoice::Left) => "ONLY with uphill on the rover's LEFT.",
+        (false, SideChoice::Right) => "ONLY with uphill on the rover's RIGHT.",
     };
     let has_bands = card.draws.is_some();
-    Words {
+    Texts {
         title: format!("{rover} on {soil}"),
         side,
         setting: setting(inputs),
