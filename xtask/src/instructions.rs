@@ -122,7 +122,7 @@ fn instructions(program: &PathBuf, key: &str, times: u32) -> Result<(u64, u64)> 
     Ok((count, printed.trim().parse()?))
 }
 
-/// What valgrind and the program said.
+/// The output of valgrind and of the program.
 fn under_valgrind(program: &PathBuf, arguments: &[&str]) -> Result<(String, String)> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

@@ -198,7 +198,7 @@ fn wheel() -> Result<PathBuf> {
     Ok(WHEEL.get_or_init(|| wheel).clone())
 }
 
-/// Tells MuJoCo, and what reads its variable, that nothing can be drawn.
+/// The setting by which MuJoCo draws nothing.
 pub(crate) const WITHOUT_RENDERER: [(&str, &str); 1] = [("MUJOCO_GL", "disable")];
 
 /// Runs pytest in the package's folder, shows what it says, and counts.

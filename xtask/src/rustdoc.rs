@@ -41,7 +41,7 @@ fn broken_links(report: &str) -> Vec<&str> {
         .collect()
 }
 
-/// What rustdoc said, report by report, without those on units and sources.
+/// The output of rustdoc, report by report, without those on units and sources.
 fn without_mistaken_links(report: &str) -> Vec<&str> {
     report
         .split("\n\n")

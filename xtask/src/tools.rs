@@ -1,4 +1,4 @@
-//! What the checks need besides the toolchain, and where it comes from.
+//! Tools that the checks need besides the toolchain, and how to install them.
 //!
 //! The machine belongs to the person who runs the checks: packages of the system are installed only where the
 //! environment variable `CI` says that it is a machine of continuous integration. Elsewhere a check that

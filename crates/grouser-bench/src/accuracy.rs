@@ -1,4 +1,4 @@
-//! How near the units of work come to the same things computed with much more effort.
+//! Accuracy of the units of work, against the same results computed with much more effort.
 
 use grouser::contact::{Ishigami, WheelForces, WheelSoilModel as _, settle};
 use grouser::simulation::{Integrator, Scenario, Simulation};
@@ -19,12 +19,12 @@ pub struct Accuracy {
     pub traverse_dynamic: f64,
     /// Of the end of a quasi-steady traverse against the same [m].
     pub traverse_quasi_steady: f64,
-    /// Of the balance along the slope on the attitude curve, over the weight [-].
+    /// Of the equilibrium of forces on the curve of heading offsets, over the weight [-].
     pub heading_curve: f64,
 }
 
 impl Accuracy {
-    /// Measures it.
+    /// Measures the errors.
     ///
     /// # Panics
     /// If a fixture cannot be computed: it always could.

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::fixtures::Fixtures;
 
-/// A unit of work, by the key under which its time is told.
+/// A unit of work, by the key of its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// The reaction on one wheel at a sinkage, one after the other.
@@ -25,15 +25,15 @@ pub enum Unit {
     RoverRates,
     /// A traverse of 20 s, all accelerations integrated.
     TraverseDynamic,
-    /// The same with velocities in balance.
+    /// The same as a sequence of steady states.
     TraverseQuasiSteady,
-    /// The attitude on 25 slopes up to the steepest.
+    /// The heading offset on 25 slopes up to the steepest.
     HeadingCurve,
     /// Quasi-steady traverses of 20 s on varied soil, on all cores.
     Campaign,
 }
 
-/// What was done.
+/// The result of a unit of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Done {
     /// How often the unit was done.

@@ -1,4 +1,4 @@
-//! What each command does.
+//! The commands, each in a module of its own.
 
 pub(crate) mod bench;
 pub(crate) mod calibrate;

@@ -1,4 +1,4 @@
-//! From flags to documents: each flag stands for a key, and is checked as that key is.
+//! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
 use std::ops::RangeInclusive;
 
@@ -218,7 +218,7 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
     Ok(number)
 }
 
-/// Wheel, soil, gravity and theory of a wheel on a test stand.
+/// Wheel, soil, gravity and model of a test stand.
 pub(crate) struct StandInputs {
     pub(crate) soil: document::LoadedSoil,
     pub(crate) wheel: document::LoadedWheel,
@@ -276,7 +276,7 @@ pub(crate) fn stand(
     overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
-    // Gravity and theory are keys of scenarios: read them as such, to check them as such.
+    // Gravity and model are keys of scenarios: read them as such, to check them as such.
     let mut scenario = Overrides::none();
     scenario_settings(
         &mut scenario,

@@ -8,9 +8,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Held while there are files that are not in their place.
 static MOVING_FILES: Mutex<()> = Mutex::new(());
 
-/// Whether a command looks after Ctrl-C itself.
+/// Whether a command handles Ctrl-C itself.
 static IS_HANDLED: AtomicBool = AtomicBool::new(false);
-/// Whether such a command is to come to its end.
+/// Whether such a command is asked to stop.
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The exit code of an interrupted program: 128 and the number of SIGINT.
@@ -23,7 +23,7 @@ pub(crate) fn exit_on_ctrl_c() {
             return;
         }
         let _files_are_whole = defer_ctrl_c();
-        // Whoever cannot hear it still gets the exit code.
+        // Without a reader of messages there is still the exit code.
         let _ = writeln!(std::io::stderr(), "interrupted");
         std::process::exit(INTERRUPTED.into());
     };
@@ -37,12 +37,12 @@ pub(crate) fn handle_ctrl_c() {
     IS_HANDLED.store(true, Ordering::Relaxed);
 }
 
-/// Whether whoever looks after Ctrl-C is to come to an end.
+/// Whether a command that handles Ctrl-C itself is asked to stop.
 pub(crate) fn is_asked_to_stop() -> bool {
     STOP.load(Ordering::Relaxed)
 }
 
-/// As long as the result lives, Ctrl-C waits.
+/// Defers Ctrl-C as long as the result lives.
 pub(crate) fn defer_ctrl_c() -> MutexGuard<'static, ()> {
     MOVING_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }

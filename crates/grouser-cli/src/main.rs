@@ -1,7 +1,7 @@
-//! The program `grouser`: words from the command line to the library, results back into words.
+//! The program `grouser`: a command-line interface to the library.
 //!
-//! It computes no physics. [`args`] is what can be asked, [`commands`] what is done about it,
-//! [`output`] how it is said, [`report`] the page that `reproduce` writes.
+//! It computes no physics. [`args`] has the arguments, [`commands`] the commands, [`output`] prints and writes
+//! results, [`report`] makes the page of `reproduce`.
 
 mod args;
 mod chart;

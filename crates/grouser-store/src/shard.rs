@@ -1,8 +1,8 @@
 //! A shard's rows as the bytes of a Parquet file, and back.
 //!
 //! The bytes depend on the study, the shard's number and its rows alone: one group of rows, fixed
-//! settings, no times, no compression (drawn numbers have nothing to compress, and what repeats goes
-//! into a dictionary). The footer tells study, version, number, columns with their units, and the
+//! settings, no times, no compression (sampled numbers have nothing to compress, and what repeats goes
+//! into a dictionary). The footer has study, version, number, columns with their units, and the
 //! SHA-256 of the whole file, computed with zeros in that place.
 
 use std::collections::HashSet;
@@ -264,7 +264,7 @@ impl Checked {
         if found != expected {
             return Err(ShardFault::Rows { found, expected });
         }
-        // One group has all rows: whoever made something else made no shard.
+        // One group has all rows: any other file is no shard.
         let groups = reader.metadata().row_groups();
         let rows: u64 = groups.iter().map(|group| group.num_rows().cast_unsigned()).sum();
         if groups.len() > 1 || rows != expected {

@@ -1,4 +1,4 @@
-//! What can be asked of an operator's card.
+//! Arguments of `card`.
 
 use std::path::PathBuf;
 
@@ -65,7 +65,7 @@ pub(crate) struct CardArgs {
     pub(crate) force: bool,
 }
 
-/// When to go and when not to.
+/// Limits of go and no-go.
 #[derive(Debug, Args)]
 pub(crate) struct RuleArgs {
     /// Go: a contour traverse slips at most this much ...

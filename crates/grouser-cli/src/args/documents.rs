@@ -1,4 +1,4 @@
-//! What can be asked of documents.
+//! Arguments of commands on documents.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! What can be asked of measured tests: comparing, calibrating, importing.
+//! Arguments of `validate`, `calibrate` and `import`.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use grouser::document::measurements::{Condition, Limits, Mapping};
 use super::{OutputArgs, SettingArgs};
 use crate::list::{self, Numbers};
 
-/// How much of a file of measurements is read.
+/// Limit on files of measurements.
 #[derive(Debug, Args)]
 pub(crate) struct ReadArgs {
     /// The most rows that are read of a file of measurements, and 256 bytes for each.
@@ -47,7 +47,7 @@ pub(crate) struct ValidateArgs {
     /// The wheel that was tested: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
     pub(crate) wheel: Option<String>,
-    /// The soil to judge: a preset or a file.
+    /// The soil of the predictions: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
     pub(crate) soil: Option<String>,
     /// Only rows where a column has one of some values, or none of them:
@@ -124,7 +124,7 @@ pub(crate) struct CalibrateArgs {
         default_value = "drawbar_pull_n:slip_ratio=0.2"
     )]
     pub(crate) target: String,
-    /// How many runs to propose.
+    /// Number of runs to propose.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) propose: usize,
     /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
@@ -154,7 +154,7 @@ pub(crate) enum PlateLawChoice {
 }
 
 impl PlateLawChoice {
-    /// The word in documents.
+    /// The keyword in documents.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Bekker => "bekker",

@@ -22,7 +22,7 @@ struct Row {
     value: f64,
     /// Its name for readers.
     unit: &'static str,
-    /// Its accuracy: key, value, and how it is said.
+    /// Its accuracy: key, value, and text.
     error: Option<(&'static str, f64, String)>,
 }
 

@@ -64,7 +64,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     }
 }
 
-/// The drawn soils; none where no uncertainty is stated.
+/// The sampled soils; empty where no uncertainty is stated.
 fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
     let draw = |uncertain| heading_band::soils(uncertain, args.seed, args.samples);
     inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
@@ -139,7 +139,7 @@ fn answer<'a>(
     Answer::new("card", settings(args, inputs, card), results)
 }
 
-/// What the card was made from.
+/// The inputs of the card.
 fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     let document = &inputs.scenario.document;
     let mut settings = json!({

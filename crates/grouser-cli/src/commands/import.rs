@@ -1,4 +1,4 @@
-//! `grouser import`: another laboratory's CSV as ours.
+//! `grouser import`: converts another laboratory's CSV file.
 
 use grouser::document::escape;
 use grouser::document::measurements::{
@@ -85,7 +85,7 @@ fn delimiter(text: &str) -> Result<u8, Failure> {
         ("tab", _) => Ok(b'\t'),
         (_, [byte]) => Ok(*byte),
         _ => Err(Failure::Usage(format!(
-            "--delimiter {text}: it must be one character, such as ';', or the word tab"
+            "--delimiter {text}: it must be one character, such as ';', or tab"
         ))),
     }
 }

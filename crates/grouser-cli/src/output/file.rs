@@ -1,4 +1,4 @@
-//! A single output file: written beside and renamed, never over an old one unless told to.
+//! A single output file: written beside and renamed; an old one is replaced only on request.
 
 #[cfg(unix)]
 use std::fs::Permissions;

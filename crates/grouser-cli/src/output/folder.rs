@@ -1,4 +1,4 @@
-//! An output folder: written beside and renamed, never over old files unless told to.
+//! An output folder: written beside and renamed; old files are replaced only on request.
 
 use std::fs;
 use std::io::Write as _;

@@ -167,7 +167,7 @@ impl Campaign {
         row
     }
 
-    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` said no before
+    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` was false before
     /// the end.
     ///
     /// * `go_on`: asked before each run, from any thread

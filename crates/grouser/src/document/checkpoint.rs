@@ -32,7 +32,7 @@ pub enum CheckpointError {
 
 /// The state as bytes.
 ///
-/// * `identity`: whatever tells this calibration from others
+/// * `identity`: the inputs that identify this calibration
 #[must_use]
 pub fn to_bytes(state: &PosteriorState, identity: &str) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
@@ -123,7 +123,7 @@ fn check_sum(bytes: &[u8]) -> u64 {
     fnv_1a(bytes.iter().copied())
 }
 
-/// FNV-1a with 64 bits (Fowler, Noll and Vo): tells bytes apart that differ by accident, not by
+/// FNV-1a with 64 bits (Fowler, Noll and Vo): distinguishes bytes that differ by accident, not by
 /// intent, and is the same for every compiler.
 pub(super) fn fnv_1a(bytes: impl Iterator<Item = u8>) -> u64 {
     const BASIS: u64 = 0xCBF2_9CE4_8422_2325;

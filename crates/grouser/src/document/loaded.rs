@@ -50,7 +50,7 @@ impl<V> Loaded<V> {
     }
 
     /// A number by which the resolved document, with its companions, is known again: FNV-1a (Fowler,
-    /// Noll, Vo) of 64 bits. It tells documents apart that differ by chance, not by intent.
+    /// Noll, Vo) of 64 bits. It distinguishes documents that differ by chance, not by intent.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let toml = self.to_toml();

@@ -188,7 +188,7 @@ fn rank(
     for (name, soil) in &case.soils {
         for theory in Theory::ALL {
             let for_another = soil.document.theory().is_some_and(|own| own != theory);
-            // Without its terms the extended theory is the classical one.
+            // Without its terms the small-wheel model is the classical one.
             let same = theory == Theory::Extended && soil.value.extended == Extended::OFF;
             if for_another || same {
                 continue;

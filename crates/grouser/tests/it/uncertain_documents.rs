@@ -213,7 +213,7 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
         (
             uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),
             "uncertainty",
-            "1000 tries of draw 0 gave nothing",
+            "1000 tries of sample 0 gave nothing",
         ),
         (
             uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),

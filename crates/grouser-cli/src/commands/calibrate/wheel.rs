@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output;
 
-/// Everything that a calibration on wheel tests is made from.
+/// The inputs of a calibration on wheel tests.
 pub(super) struct Problem {
     pub(super) file: String,
     pub(super) stand: StandInputs,

@@ -1,4 +1,4 @@
-//! How far a campaign is: a bar for people, lines for machines.
+//! Progress of a campaign: a bar for people, lines of JSON for programs.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};

@@ -12,7 +12,7 @@ const PYTHON: &str = "GROUSER_PYTHON";
 /// The package's half of this command.
 const MODULE: &str = "grouser.campaign";
 
-/// Has the Python package do what is asked, and ends as it ends.
+/// Runs the campaign by the Python package, and returns its exit code.
 pub(super) fn hand_over(args: &CampaignRunArgs) -> Result<(), Failure> {
     let python = env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
     let word = name(args.executor);
@@ -53,7 +53,7 @@ fn name(executor: ExecutorChoice) -> &'static str {
     }
 }
 
-/// The same request, in the same flags.
+/// The arguments of this command for the Python package.
 fn arguments(args: &CampaignRunArgs) -> Vec<std::ffi::OsString> {
     let mut arguments = vec![args.study.clone().into(), "--out".into(), args.out.clone().into()];
     let mut flag = |name: &str, value: Option<String>| {

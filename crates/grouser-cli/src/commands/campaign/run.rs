@@ -1,7 +1,7 @@
-//! `grouser campaign run`: all runs that are not there yet.
+//! `grouser campaign run`: computes all missing runs of a campaign.
 //!
 //! One thread has the shards computed, by all threads, one shard after another; another one takes
-//! them to the disk, so that nobody waits for that.
+//! them to the disk, so that no thread waits for that.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -64,7 +64,7 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     finish(args, &results, RunRecord { finished_before, digest, statuses, runs_per_s })
 }
 
-/// Opens the folder. What is there is read to its last bit, which a bar tells.
+/// Opens the folder, and checks all files in it, with a progress bar.
 fn open(args: &CampaignRunArgs, study: &Study) -> Result<Folder, Failure> {
     let _deferred = interrupt::defer_ctrl_c();
     let bar = output::progress_bar(0);
@@ -176,7 +176,7 @@ fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Re
     Ok(())
 }
 
-/// The digest, and how often each status is: all files are read for the one, and tell the other.
+/// The digest and the counts of statuses: both from one reading of all files.
 fn read_once(folder: &mut Folder) -> Result<(DigestRecord, BTreeMap<String, u64>), Failure> {
     let mut counts = BTreeMap::new();
     let bar = output::progress_bar(folder.manifest().own_count());

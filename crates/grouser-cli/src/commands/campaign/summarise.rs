@@ -1,4 +1,4 @@
-//! `grouser campaign summarise`: what the runs say together.
+//! `grouser campaign summarise`: statistics of all runs.
 
 mod figures;
 mod page;
@@ -16,7 +16,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned};
 use crate::output::{self, Format};
 
-/// All that is told for programs.
+/// The results for programs.
 #[derive(Serialize)]
 struct SummaryRecord<'a> {
     #[serde(flatten)]

@@ -91,7 +91,7 @@ const CHARTS: [Chart; 4] = [
 ];
 
 impl Chart {
-    /// What it shows of a row: low, median and high, or only the middle one.
+    /// Its values of a row: low, median and high, or only the middle one.
     fn values(&self, row: CardRow<'_>) -> [Option<f64>; 3] {
         row.band(self.quantity, self.factor)
     }

@@ -1,4 +1,4 @@
-//! Where everything stands on the card.
+//! The layout of the card.
 //!
 //! One row for a degree: the eye finds the slope on the left, reads the heading in the largest
 //! digits of the page beside it, and goes on to the charts, whose axes run across the same rows. What
@@ -141,7 +141,7 @@ fn arrow_head(tip: Place, way: Place, length: f64) -> Shape {
     Shape::area(ends, BLACK)
 }
 
-/// From where on nobody drives.
+/// A black bar for the no-go slopes.
 fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
     sheet.draw(Shape::rectangle([LEFT, top], [RIGHT - LEFT, BAR], BLACK));
     let text = match from_deg {

@@ -1,4 +1,4 @@
-//! Measured yaws of level traverses, to be held against the card.
+//! Measured yaws of contour traverses, to compare with the card.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! `grouser validate --all`: every theory on every data set, best first.
+//! `grouser validate --all`: ranks every model on every data set.
 
 use grouser::document::ranking::{RankedTheory, RankingError, rank_all};
 use grouser::document::validation::{ErrorsRecord, GroupRecord};

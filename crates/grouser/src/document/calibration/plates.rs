@@ -110,7 +110,7 @@ impl PlateProblem {
     /// * `sampling`: of the posterior; least squares alone without
     ///
     /// # Errors
-    /// [`CalibrationError`] for curves that do not tell the law, and if the observer broke off.
+    /// [`CalibrationError`] for curves that do not determine the law, and if the observer stopped it.
     pub fn solve(
         &self,
         file: &str,
@@ -155,8 +155,8 @@ impl PlateProblem {
     }
 }
 
-/// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 that wait to be
-/// found.
+/// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 to be
+/// fitted.
 fn with_law(soil: &Document, law: &str) -> Document {
     soil.changed(|keys| {
         let table = &mut keys["pressure_sinkage"];

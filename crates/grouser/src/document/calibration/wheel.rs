@@ -77,7 +77,7 @@ impl WheelProblem<'_> {
     ///
     /// # Errors
     /// [`CalibrationError`] for measurements and keys that do not go together, and if the observer
-    /// broke off.
+    /// stopped it.
     pub fn solve(&self, observer: &dyn Observer) -> Result<WheelFound, CalibrationError> {
         let family = self.family;
         let soil_of = |values: &[f64]| -> Result<Soil, ParameterError> { family.soil(values) };

@@ -78,7 +78,7 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
                 word("monte-carlo", "Independent samples.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
                 word(
                     "latin-hypercube",
-                    "One draw in each of as many equal parts of every input's distribution as there are runs.",
+                    "One sample in each of as many equal parts of every input's distribution as there are runs.",
                     |all: &mut Settings| all.sampling = Sampling::LatinHypercube,
                 ),
                 word("sobol", "The Sobol sequence, scrambled.", |all: &mut Settings| {
@@ -89,12 +89,12 @@ pub(in crate::document) static CAMPAIGN: Table<Settings> = Table {
         .otherwise(Fill::Keyword("monte-carlo")),
         flag(
             "sensitivity",
-            "Whether the runs are laid out so that they tell Sobol indices.",
+            "Whether the runs are a design for Sobol indices.",
             |all, yes| all.sensitivity = yes,
         ),
         flag(
             "soil_uncertainty",
-            "Whether the soil's own `uncertainty` is drawn from, too.",
+            "Whether the soil's own `uncertainty` is sampled, too.",
             |all, yes| all.soil_uncertainty = yes,
         ),
         part(

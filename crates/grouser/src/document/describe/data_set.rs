@@ -40,7 +40,7 @@ static CASE: Table<DataSet> = Table {
 
 const SOILS: Field<DataSet> = field(
     "soils",
-    "Soils to judge: presets, or paths. A soil that names its `model` is judged with it, another\n\
-     with every theory.",
+    "Soils of the predictions: presets, or paths. A soil that names its `model` is used with it, another\n\
+     with every model.",
     Shape::Texts(Texts { least: 1, most: None, put: |_, _, _| {} }),
 );

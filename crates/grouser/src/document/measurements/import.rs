@@ -144,7 +144,7 @@ fn dimension(column: &Column) -> Dimension {
 impl Mapping {
     /// Reads `ours=theirs`, `ours=theirs:unit` or, with the other sign, `ours=-theirs:unit`.
     ///
-    /// Without a unit their column is in the unit that our column's name tells.
+    /// Without a unit their column is in the unit of our column's name.
     ///
     /// # Errors
     /// A sentence: not written so, no such column of ours, a unit of something else.

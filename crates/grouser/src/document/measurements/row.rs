@@ -418,7 +418,7 @@ fn hint_of_unit(column: &Column) -> Option<String> {
         }
         Meaning::Load => Some("a load presses down and counts as positive, in newtons".to_owned()),
         Meaning::Reading(_) | Meaning::TravelSpeed | Meaning::RimSpeed => {
-            Some("is it in the unit that the column's name tells?".to_owned())
+            Some("is it in the unit of the column's name?".to_owned())
         }
         _ => None,
     }

@@ -30,12 +30,12 @@ pub enum Discrepancies {
     /// One for each quantity.
     #[default]
     PerQuantity,
-    /// One for each quantity of driven wheels, and another of skidding ones, which theories
+    /// One for each quantity of driven wheels, and another of skidding ones, which models
     /// predict less well.
     PerRegime,
 }
 
-/// A series of wheel tests, and the theory that is to explain it.
+/// A series of wheel tests, and the model to fit.
 pub struct WheelTestExperiment<'a> {
     tests: WheelTests,
     setup: Setup<'a>,
@@ -59,7 +59,7 @@ struct Run {
 pub struct Setup<'a> {
     /// The wheel.
     pub wheel: Wheel,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
@@ -128,7 +128,7 @@ impl<'a> WheelTestExperiment<'a> {
 
     /// What the stand would read of a wheel: for every soil and every load.
     ///
-    /// A soil that cannot carry the load must not end a search, and should tell it which way to
+    /// A soil that cannot carry the load must not end a search, and should show it which way to
     /// turn: the wheel counts as one sunk to its axle, with all readings larger by
     /// 1 + ln(load/capacity), so that they come down as the soil gets stronger.
     #[must_use]

@@ -203,7 +203,7 @@ enum Part {
 
 /// No sample was accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{tries} tries of draw {index} gave nothing that can be used")]
+#[error("{tries} tries of sample {index} gave nothing that can be used")]
 pub struct NothingAccepted {
     /// The sample's number.
     pub index: u64,

@@ -130,7 +130,7 @@ impl<'a> Path<'a> {
         self.balance(place).map(|(left_over, _)| left_over)
     }
 
-    /// Slip at which the wheels balance the weight along the rover, for a crab angle and a slope.
+    /// Slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope.
     pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, String> {
         let pull = |slip_ratio: f64| self.imbalance(&Place::new(slip_ratio, crab, slope));
         let most = pull(MOST_SLIP).map_err(|error| error.to_string())?[0];
@@ -151,7 +151,7 @@ impl<'a> Path<'a> {
         Ok(Point { place, gradients, wheels })
     }
 
-    /// The curve's first point, at c = 0⁺: slip and slope that balance there.
+    /// The curve's first point, at c = 0⁺: slip and slope in equilibrium there.
     pub(super) fn start(&self) -> Result<Point, String> {
         /// Rounds in which slip and slope settle on each other.
         const ROUNDS: usize = 100;
@@ -233,7 +233,7 @@ impl<'a> Path<'a> {
         match self.imbalance(&(here + towards * FIRST_STEP)) {
             Err(ReactionError::Tipping(_)) => "where the rover tips over".into(),
             Err(error) => format!("where {error}"),
-            Ok(_) => "where the balance of forces breaks off".into(),
+            Ok(_) => "where the equilibrium of forces ends".into(),
         }
     }
 
