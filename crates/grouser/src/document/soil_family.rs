@@ -259,7 +259,7 @@ mod tests {
     fn keys_that_cannot_be_fitted_say_why() {
         for (key, part) in [
             ("soil.cohesion", "cohesion_kpa"),
-            ("soil.bulldozing.law", "no number"),
+            ("soil.bulldozing.law", "not a number"),
             ("soil.rft.scale", "by the setting soil.rft.scale=VALUE"),
             ("soil.friction_angle_deg=40:50", "must lie between"),
             ("soil.friction_angle_deg=30:90", "within 5 to 60"),
