@@ -7,7 +7,8 @@ use crate::markdown::Page;
 use crate::workspace;
 
 /// Where paths that start with `crate::` lead: the crates of the library, which re-exports all of them.
-const SOURCES: [&str; 2] = ["crates/grouser/src", "crates/grouser-core/src"];
+const SOURCES: [&str; 3] =
+    ["crates/grouser/src", "crates/grouser-io/src", "crates/grouser-core/src"];
 /// The ledger of the source paper's equations.
 const LEDGER: &str = "docs/equations.md";
 /// The numbers of its equations; the paper numbers two of them 10.

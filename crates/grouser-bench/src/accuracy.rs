@@ -1,7 +1,7 @@
 //! Accuracy of the units of work, against the same results computed with much more effort.
 
 use grouser::contact::{Ishigami, WheelForces, WheelSoilModel as _, settle};
-use grouser::simulation::{Integrator, Scenario, Simulation};
+use grouser::simulation::{Integrator, Run, Scenario};
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::vehicle::dynamics;
 use grouser::vehicle::reaction::forces_of;
@@ -75,7 +75,7 @@ fn tight(scenario: &Scenario) -> Scenario {
 }
 
 fn end(scenario: &Scenario) -> (f64, f64) {
-    let run = Simulation::new(scenario).and_then(Simulation::run).expect("the scenario runs");
+    let run = Run::new(scenario).and_then(Run::to_end).expect("the scenario runs");
     let position = run.last().state.position;
     (position.x, position.y)
 }

@@ -2,7 +2,7 @@
 
 use grouser::contact::{Contact, Slip, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
-use grouser::simulation::{Approach, Scenario, Simulation};
+use grouser::simulation::{Approach, Run, Scenario};
 use grouser::units::EARTH_GRAVITY;
 use rayon::prelude::*;
 
@@ -43,7 +43,7 @@ impl Arrays {
         let varied = |&[slope, yaw]: &[f64; 2]| {
             let mut scenario = base.clone();
             scenario.numerics.approach = approach;
-            scenario.site.slope = slope.to_radians();
+            scenario.site.terrain.slope = slope.to_radians();
             scenario.start.yaw = yaw.to_radians();
             scenario
         };
@@ -63,8 +63,8 @@ impl Arrays {
             }
             Self::Traverses(scenarios) => {
                 let end = |scenario: &Scenario| {
-                    let run = Simulation::new(scenario).and_then(Simulation::run)?;
-                    Ok::<_, grouser::simulation::SimulationError>((run.last().clone(), run.outcome))
+                    let run = Run::new(scenario).and_then(Run::to_end)?;
+                    Ok::<_, grouser::simulation::RunError>((run.last().clone(), run.outcome))
                 };
                 let ends: Vec<_> = scenarios.par_iter().map(end).collect();
                 ends.into_iter().flatten().count()

@@ -65,7 +65,7 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
         let load = draws.between(5.0, 40.0);
         let slip =
             Slip::on_test_stand(draws.between(-0.3, 0.9), draws.between(-45.0, 45.0).to_radians());
-        let wheel = *scenario.rover.wheel();
+        let wheel = scenario.rover.mounts()[0].unit.wheel;
         let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
         if let Ok(settled) = grouser::contact::settle(Theory::Ishigami.model(), &contact, load) {
             return LoadedWheel { contact, load, sinkage: settled.sinkage };
@@ -76,7 +76,7 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
 /// The scenario on another soil, at another yaw, with velocities in balance as a campaign has them.
 fn varied(scenario: &Scenario, draws: &mut Draws) -> Scenario {
     let mut scenario = scenario.clone();
-    let soil = &mut scenario.site.soil;
+    let soil = &mut scenario.site.terrain.soil;
     soil.friction_angle *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     soil.cohesion *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     scenario.numerics.approach = Approach::QuasiSteady;

@@ -2,7 +2,7 @@
 
 use grouser::contact::{settle, settle_many};
 use grouser::simulation::equations::Equations;
-use grouser::simulation::{Approach, Scenario, Simulation};
+use grouser::simulation::{Approach, Run, Scenario};
 use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
 use grouser::vehicle::reaction::Ground;
@@ -168,6 +168,6 @@ impl Fixtures {
 }
 
 fn traverse(scenario: &Scenario) -> Done {
-    let run = Simulation::new(scenario).and_then(Simulation::run).expect("the scenario runs");
+    let run = Run::new(scenario).and_then(Run::to_end).expect("the scenario runs");
     Done { count: 1, checksum: run.last().state.position.y }
 }

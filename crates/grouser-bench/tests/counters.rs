@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use grouser::contact::{Theory, settle};
 use grouser::document::{self, Overrides, Source};
-use grouser::simulation::{Approach, Scenario, Simulation};
+use grouser::simulation::{Approach, Run, Scenario};
 use grouser_bench::{Fixtures, Unit};
 
 /// A slow-down by more evaluations, steps or settled wheels shows here as a difference.
@@ -27,7 +27,7 @@ fn the_work_is_as_much_as_it_was() {
     text.push_str("\nwork for a traverse of 20 s on 10°\n");
     let read = |file: &str| -> Scenario {
         let path =
-            concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/scenarios/").to_owned() + file;
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-io/data/scenarios/").to_owned() + file;
         let loaded = document::read_scenario(&Source::file(path), &Overrides::none());
         loaded.expect("a ready scenario").value
     };
@@ -36,7 +36,7 @@ fn the_work_is_as_much_as_it_was() {
         for approach in [Approach::Dynamic, Approach::QuasiSteady] {
             let mut scenario = scenario.clone();
             scenario.numerics.approach = approach;
-            let run = Simulation::new(&scenario).and_then(Simulation::run).expect("it runs");
+            let run = Run::new(&scenario).and_then(Run::to_end).expect("it runs");
             let _ = writeln!(text, "{name}, {}: {:?}", run.method.name(), run.work);
         }
     }

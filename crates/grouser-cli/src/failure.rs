@@ -88,11 +88,11 @@ fn without_path(error: std::io::Error) -> std::io::Error {
 }
 
 /// Messages on one line each, under one `error:`.
-impl From<grouser::simulation::SimulationError> for Failure {
-    fn from(error: grouser::simulation::SimulationError) -> Self {
-        use grouser::simulation::SimulationError;
+impl From<grouser::simulation::RunError> for Failure {
+    fn from(error: grouser::simulation::RunError) -> Self {
+        use grouser::simulation::RunError;
         match error {
-            SimulationError::Parameter(parameter) => parameter.into(),
+            RunError::Parameter(parameter) => parameter.into(),
             error => Self::Run(escape::line(&error.to_string()).into_owned()),
         }
     }

@@ -54,7 +54,8 @@ mod tests {
     #[test]
     fn the_library_still_says_so() {
         let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let folders = ["grouser-core", "grouser"].map(|name| crates.join(name).join("src"));
+        let folders =
+            ["grouser-core", "grouser-io", "grouser"].map(|name| crates.join(name).join("src"));
         let text: String = folders.iter().map(|folder| sources(folder)).collect();
         // A string that goes on in the next line.
         let lines = text.split("\\\n").map(str::trim_start);

@@ -11,15 +11,17 @@
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
 
-pub mod bearing;
 pub mod bekker;
 pub mod bulldozing;
 pub mod equilibrium;
 pub mod extended;
 pub mod forces;
 mod gauss;
+mod inputs;
 pub mod ishigami;
 mod kernel;
+pub mod load_sinkage;
+mod mirror;
 pub mod model;
 pub mod patch;
 pub mod rft;
@@ -28,14 +30,15 @@ pub mod stress;
 mod theory;
 pub mod time_step;
 
-pub use bearing::Bearing;
 pub use bekker::Bekker;
 pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
 pub use extended::Extended;
 pub use forces::WheelForces;
+pub use inputs::Contact;
 pub use ishigami::Ishigami;
 pub use kernel::InstructionSet;
-pub use model::{Contact, WheelSoilModel};
+pub use load_sinkage::LoadSinkage;
+pub use model::WheelSoilModel;
 pub use patch::ContactPatch;
 pub use rft::Rft;
 pub use slip::Slip;

@@ -12,7 +12,7 @@
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | contact | [`contact`] | what the soil does to one wheel |
-//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`site`] | numbers and things |
+//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] [`site`] | numbers and things |
 //!
 //! Most users take the crate `grouser`, which has these modules too, and reads documents,
 //! calibrates and studies. This crate is for those who bring their own of all that, for example
@@ -26,6 +26,7 @@ pub mod root;
 pub mod simulation;
 pub mod site;
 pub mod soil;
+pub mod terrain;
 pub mod units;
 pub mod vehicle;
 pub mod wheel;

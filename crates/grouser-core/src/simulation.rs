@@ -1,27 +1,42 @@
 //! Layer 3, simulation: a run, from its [`Scenario`] to its [`Trajectory`].
 //!
+//! [`Run`] leads a rover from the start of a scenario to its end, or step by step: a [`Controller`],
+//! such as the scenario's drive, turns the wheels, a [`State`] is all that changes, and what is
+//! looked at becomes a [`Record`].
+//!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
-//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities in [`balance`].
-//! `progress` takes one of them and keeps samples, and [`watch`] sees what becomes of the rover;
-//! [`run`] leads a whole scenario, `simulator` goes step by step for a controller.
+//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
+//! A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
 //! [`power`] does the books of the energy.
 
-pub mod balance;
+pub mod controller;
 pub mod equations;
+mod error;
 mod integrate;
+mod leg;
+mod method;
+mod outcome;
 pub mod power;
-mod progress;
 pub mod quasi_steady;
+mod record;
 pub mod run;
 pub mod scenario;
-mod simulator;
+mod state;
+pub mod steady_state;
 mod times;
 pub mod trajectory;
 pub mod watch;
+mod work;
 
-pub use balance::Unsteady;
+pub use controller::{CONTROL_PERIOD, Controller, Observation};
+pub use error::RunError;
+pub use method::Method;
+pub use outcome::{Outcome, StuckBecause};
 pub use power::EnergyBalance;
-pub use run::{Simulation, SimulationError};
+pub use record::{Record, WheelRecord};
+pub use run::{LEAST_STEP, Run};
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
-pub use simulator::{LEAST_STEP, Simulator};
-pub use trajectory::{Method, Outcome, Sample, StuckBecause, Trajectory, WheelSample, Work};
+pub use state::State;
+pub use steady_state::NotSteady;
+pub use trajectory::Trajectory;
+pub use work::Work;

@@ -1,33 +1,66 @@
-//! Where the rover drives: a soil on a plane slope, under some gravity.
-
-use std::f64::consts::FRAC_PI_2;
+//! Where the rover drives: ground under some gravity.
 
 use crate::error::{ParameterError, positive};
 use crate::soil::Soil;
+use crate::terrain::{Patch, Plane, Terrain};
+use crate::units::Vec2;
 
-/// A plane of homogeneous soil.
+/// Ground under some gravity: a [`Plane`], unless it is said to be another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Site {
-    /// The soil.
-    pub soil: Soil,
-    /// Inclination of the plane, *α* [rad], 0 to below π/2; it rises along +y.
-    pub slope: f64,
+pub struct Site<T: ?Sized = Plane> {
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
+    /// The ground.
+    pub terrain: T,
 }
 
 impl Site {
+    /// A plane of one soil.
+    ///
+    /// * `slope`: its inclination, *α* [rad]
+    /// * `gravity`: *g* [m/s²]
+    #[must_use]
+    pub fn plane(soil: Soil, slope: f64, gravity: f64) -> Self {
+        Self { gravity, terrain: Plane { soil, slope } }
+    }
+
+    /// The same plane of another soil.
+    #[must_use]
+    pub fn with_soil(self, soil: Soil) -> Self {
+        Self { terrain: Plane { soil, ..self.terrain }, ..self }
+    }
+
+    /// The same soil on another slope [rad].
+    #[must_use]
+    pub fn with_slope(self, slope: f64) -> Self {
+        Self { terrain: Plane { slope, ..self.terrain }, ..self }
+    }
+
     /// That there can be such a place.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.
     pub fn check(&self) -> Result<(), ParameterError> {
-        self.soil.check()?;
+        self.terrain.soil.check()?;
         positive("gravity [m/s²]", self.gravity)?;
-        if (0.0..FRAC_PI_2).contains(&self.slope) {
-            Ok(())
-        } else {
-            Err(ParameterError::new("slope [rad]", self.slope, "0 to below π/2"))
-        }
+        self.terrain.check()
+    }
+}
+
+/// A mass's weight, in the frame of the ground that it is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight {
+    /// Into the ground [N].
+    pub into: f64,
+    /// Up the ground's x and y axes [N], against the pull along it.
+    pub uphill: Vec2,
+}
+
+impl<T: Terrain + ?Sized> Site<T> {
+    /// The weight of a mass [kg] on a patch of the ground.
+    #[must_use]
+    pub fn weight(&self, mass: f64, patch: &Patch<'_>) -> Weight {
+        let weight = mass * self.gravity;
+        Weight { into: weight * patch.normal.z, uphill: weight * patch.climb() }
     }
 }

@@ -7,7 +7,8 @@
 //! [FourWheel], in the corrected form that `docs/equations.md` lists.
 //!
 //! Frames: `slope` has x along the contour, y uphill and z out of the ground; `body` has x
-//! forward, y left and z up, its origin at the centre of mass of the body without its wheels.
+//! forward, y left and z up, its origin at the centre of mass of the body without its wheels; a
+//! `wheel` frame is the body's, turned to the left by the wheel's steering angle, at its hub.
 
 pub mod drive;
 pub mod dynamics;
@@ -17,8 +18,8 @@ pub mod reaction;
 pub mod rover;
 pub mod state;
 
-pub use drive::{Drive, DriveLaw};
+pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, WheelReaction};
-pub use rover::{Body, Inertia, Mount, Rover, RoverParts, WheelUnit};
+pub use rover::{Body, Inertia, Mount, MountParts, Rover, RoverParts, WheelUnit};
 pub use state::{Acceleration, RoverState};

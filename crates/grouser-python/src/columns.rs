@@ -3,7 +3,7 @@
 use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
-use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::table::{ColumnKind, Table, Values};
@@ -41,8 +41,8 @@ type Declared = (String, Option<&'static str>, &'static str);
 pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     dict.set_item("wheel", declared(&WHEEL))?;
-    dict.set_item("wheel_sample", declared(&WHEEL_SAMPLE))?;
-    dict.set_item("sample", declared(&SAMPLE))?;
+    dict.set_item("wheel_sample", declared(&WHEEL_RECORD))?;
+    dict.set_item("sample", declared(&RECORD))?;
     dict.set_item("attitude", declared(&held()))?;
     dict.set_item("attitude_band", declared(&BAND))?;
     dict.set_item("attitude_band_limit", declared(&BAND_LIMIT))?;

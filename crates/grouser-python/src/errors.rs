@@ -4,7 +4,7 @@ use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
 use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
-use grouser::simulation::SimulationError;
+use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
 use grouser_store::StoreError;
 use pyo3::exceptions::PyTypeError;
@@ -136,10 +136,10 @@ pub(crate) fn parameter(
 }
 
 /// A run that cannot be computed.
-pub(crate) fn of_simulation(error: &SimulationError) -> PyErr {
+pub(crate) fn of_simulation(error: &RunError) -> PyErr {
     match error {
-        SimulationError::Parameter(error) => of_parameter(error),
-        SimulationError::Reaction { time, .. } | SimulationError::Stalled { time, .. } => {
+        RunError::Parameter(error) => of_parameter(error),
+        RunError::Reaction { time, .. } | RunError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
         }
     }

@@ -3,7 +3,7 @@
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
 //! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
-//! campaigns ([`campaign`]), lends the reaction to other engines ([`time_step`]) and hands tables on
+//! campaigns ([`campaign`]), lends the reaction to other engines ([`time_step`], and the [`ground`] under their wheels) and hands tables on
 //! ([`arrow`]), without Python's lock, with threads that a forked process has too ([`threads`]), and
 //! with an ear for Ctrl-C ([`interrupt`]). Nothing here computes physics, and nothing below knows of
 //! Python.
@@ -14,6 +14,7 @@ mod campaign;
 mod columns;
 mod descriptions;
 mod errors;
+mod ground;
 mod interrupt;
 mod rollouts;
 mod simulators;
@@ -44,6 +45,8 @@ mod _core {
         Document, find_document, presets, read_document_file, read_document_table,
         read_document_text, to_toml,
     };
+    #[pymodule_export]
+    use super::ground::Footprints;
     #[pymodule_export]
     use super::rollouts::rollout;
     #[pymodule_export]

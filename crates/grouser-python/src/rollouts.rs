@@ -1,7 +1,7 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
 use grouser::contact::Theory;
-use grouser::document::columns::run::SAMPLE;
+use grouser::document::columns::run::RECORD;
 use grouser::document::{Kind, range, scenario_with};
 use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
@@ -77,7 +77,7 @@ impl Runs {
         let (base, names_its_theory) = &self.bases[of(&self.base_of)];
         let mut scenario = base.clone();
         if let Some((soil, theory)) = self.soils.get(of(&self.soil_of)) {
-            scenario.site.soil = *soil;
+            scenario.site.terrain.soil = *soil;
             if !names_its_theory {
                 scenario.theory = theory.unwrap_or_default();
             }
@@ -122,7 +122,7 @@ fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static s
 }
 
 /// The numbers of a sample.
-type Row = [f64; SAMPLE.len()];
+type Row = [f64; RECORD.len()];
 
 /// What is kept of a run.
 struct End {
@@ -135,18 +135,18 @@ struct End {
 
 impl End {
     fn of(scenario: &Scenario, keep: bool) -> Self {
-        let row = |sample| SAMPLE.each_ref().map(|column| column.number(sample));
+        let row = |sample| RECORD.each_ref().map(|column| column.number(sample));
         match run(scenario) {
             Ok(run) => Self {
                 outcome: run.outcome.name(),
                 reason: run.outcome.reason(),
                 last: row(run.last()),
-                samples: if keep { run.samples.iter().map(row).collect() } else { Vec::new() },
+                samples: if keep { run.records.iter().map(row).collect() } else { Vec::new() },
             },
             Err(error) => Self {
                 outcome: "failed",
                 reason: Some(error.to_string()),
-                last: [f64::NAN; SAMPLE.len()],
+                last: [f64::NAN; RECORD.len()],
                 samples: Vec::new(),
             },
         }
@@ -196,13 +196,13 @@ fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'
     let dict = PyDict::new(py);
     dict.set_item("outcome", PyList::new(py, ends.iter().map(|end| end.outcome))?)?;
     dict.set_item("reason", PyList::new(py, ends.iter().map(|end| end.reason.as_deref()))?)?;
-    for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
+    for (place, name) in RECORD.iter().map(|it| it.name).enumerate() {
         dict.set_item(name, column(py, ends.iter().map(|end| end.last[place])))?;
     }
     if keep {
         let longest = ends.iter().map(|end| end.samples.len()).max().unwrap_or(0);
         let samples = PyDict::new(py);
-        for (place, name) in SAMPLE.iter().map(|it| it.name).enumerate() {
+        for (place, name) in RECORD.iter().map(|it| it.name).enumerate() {
             let row = |end: &End| {
                 let told = end.samples.iter().map(|row| row[place]);
                 told.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()

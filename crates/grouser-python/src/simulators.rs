@@ -2,10 +2,11 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use grouser::document::columns::run::SAMPLE;
+use grouser::document::columns::run::RECORD;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range, scenario_with};
-use grouser::simulation::{LEAST_STEP, Scenario, SimulationError, Simulator, WheelSample};
+use grouser::simulation::{LEAST_STEP, Run, RunError, Scenario, WheelRecord};
+use grouser::vehicle::Mount;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -27,7 +28,7 @@ const LONGEST_STEP: f64 = grouser::simulation::scenario::LONGEST_DURATION;
 struct Led {
     nominal: Scenario,
     soils: Option<UncertainSoil>,
-    rover: Simulator,
+    rover: Run,
     failure: Option<String>,
 }
 
@@ -40,30 +41,30 @@ struct Fresh {
 }
 
 impl Led {
-    fn new(loaded: &LoadedScenario) -> Result<Self, SimulationError> {
+    fn new(loaded: &LoadedScenario) -> Result<Self, RunError> {
         let nominal = loaded.value.clone();
         let soils = loaded.uncertain.clone();
-        let rover = Simulator::new(nominal.clone())?;
+        let rover = Run::new(&nominal)?;
         Ok(Self { nominal, soils, rover, failure: None })
     }
 
-    fn reset(&mut self, fresh: Fresh) -> Result<(), SimulationError> {
+    fn reset(&mut self, fresh: Fresh) -> Result<(), RunError> {
         let mut scenario = self.nominal.clone();
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // That draws can be had was found out when the document was read.
             if let Ok(soil) = soils.draw(seed, 0) {
-                scenario.site.soil = soil;
+                scenario.site.terrain.soil = soil;
             }
         }
         let numbers = [(SLOPE.name, fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];
         let numbers = numbers.into_iter().filter_map(|(key, number)| Some((key, number?)));
-        self.rover = Simulator::new(scenario_with(&scenario, numbers)?)?;
+        self.rover = Run::new(&scenario_with(&scenario, numbers)?)?;
         self.failure = None;
         Ok(())
     }
 
     /// Goes on for a while, unless its run has ended or failed.
-    fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), SimulationError> {
+    fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), RunError> {
         if self.failure.is_some() {
             return Ok(());
         }
@@ -90,8 +91,8 @@ impl Led {
 pub(crate) struct Simulators {
     rovers: Mutex<Vec<Led>>,
     wheels: Vec<String>,
-    /// ω = v/r_s of each rover's wheels: r_s [m].
-    radii: Vec<f64>,
+    /// ω = v/r_s of each wheel of each rover: r_s [m].
+    radii: Vec<Vec<f64>>,
 }
 
 #[pymethods]
@@ -106,8 +107,8 @@ impl Simulators {
             let message = "the rovers differ in their number of wheels".to_owned();
             return Err(errors::parameter(message, "scenarios", None, "rovers of as many wheels"));
         }
-        let radius = |one: &&LoadedScenario| one.value.rover.wheel().shearing_radius();
-        let radii = loaded.iter().map(radius).collect();
+        let radii = loaded.iter().map(|one| one.value.rover.mounts().iter());
+        let radii = radii.map(|each| each.map(Mount::shearing_radius).collect()).collect();
         let rovers = loaded.into_iter().map(Led::new).collect::<Result<_, _>>();
         let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
         Ok(Self { rovers, wheels, radii })
@@ -184,12 +185,15 @@ impl Simulators {
         }
         check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
         let mut rims = Vec::with_capacity(count);
-        for (row, radius) in commands.rows().into_iter().zip(&self.radii) {
-            let given = row.to_vec();
-            let factor = if are_rim_speeds { 1.0 } else { *radius };
-            let limit = RIM_SPEED_M_S.end() / factor;
-            check("commands", &given, &(-limit..=limit))?;
-            rims.push(given.into_iter().map(|command| command * factor).collect::<Vec<f64>>());
+        for (row, radii) in commands.rows().into_iter().zip(&self.radii) {
+            let mut rim_speeds = Vec::with_capacity(wheels);
+            for (command, radius) in row.iter().zip(radii) {
+                let factor = if are_rim_speeds { 1.0 } else { *radius };
+                let limit = RIM_SPEED_M_S.end() / factor;
+                check("commands", &[*command], &(-limit..=limit))?;
+                rim_speeds.push(command * factor);
+            }
+            rims.push(rim_speeds);
         }
         let active: Vec<bool> = active.to_vec();
         self.each(py, |rover, place| {
@@ -202,7 +206,7 @@ impl Simulators {
     /// A row for each rover with the columns of a trajectory.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<Vec<f64>> = py.detach(|| {
-            let row = |led: &Led| SAMPLE.iter().map(|it| it.number(led.rover.now())).collect();
+            let row = |led: &Led| RECORD.iter().map(|it| it.number(led.rover.now())).collect();
             self.lock().iter().map(row).collect()
         });
         Ok(PyArray2::from_vec2(py, &rows)?)
@@ -212,7 +216,7 @@ impl Simulators {
     /// over or sunk.
     fn wheel_samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let wheels = 0..self.wheels.len();
-        let matrix = |get: &dyn Fn(&WheelSample) -> f64, rovers: &[Led]| {
+        let matrix = |get: &dyn Fn(&WheelRecord) -> f64, rovers: &[Led]| {
             let row = |led: &Led| {
                 let now = &led.rover.now().wheels;
                 wheels.clone().map(|k| now.get(k).map_or(f64::NAN, get)).collect()
@@ -229,7 +233,7 @@ impl Simulators {
     /// Outcome and message of each rover, `None` while it is under way; and how it was computed.
     #[allow(clippy::type_complexity, reason = "three words of each rover")]
     fn words(&self, py: Python<'_>) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
-        let words = |led: &Led| (led.outcome(), led.message(), led.rover.method().name());
+        let words = |led: &Led| (led.outcome(), led.message(), led.rover.state().method().name());
         py.detach(|| self.lock().iter().map(words).collect())
     }
 }
@@ -246,7 +250,7 @@ impl Simulators {
     fn each(
         &self,
         py: Python<'_>,
-        act: impl Fn(&mut Led, usize) -> Result<(), SimulationError> + Sync,
+        act: impl Fn(&mut Led, usize) -> Result<(), RunError> + Sync,
     ) -> PyResult<()> {
         let mut told = Ok(());
         let mut start = 0;
@@ -260,7 +264,7 @@ impl Simulators {
                 let act = |(place, led): (usize, &mut Led)| act(led, place);
                 pool.install(|| batch.into_par_iter().map(act).collect())
             });
-            told = told.and(done.into_iter().collect::<Result<(), SimulationError>>());
+            told = told.and(done.into_iter().collect::<Result<(), RunError>>());
             py.check_signals()?;
             start += BATCH;
         }
@@ -272,5 +276,5 @@ impl Simulators {
 #[pyfunction]
 pub(crate) fn simulator_columns() -> (Vec<&'static str>, Vec<&'static str>) {
     let wheel = wheel_sample_columns().map(|(name, _)| name);
-    (SAMPLE.iter().map(|it| it.name).collect(), wheel.collect())
+    (RECORD.iter().map(|it| it.name).collect(), wheel.collect())
 }

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use grouser::document::columns::run::{ENERGY_ERROR, SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::run::{ENERGY_ERROR, RECORD, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE, heading,
@@ -12,7 +12,7 @@ use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
 use grouser::document::table::Table;
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
-use grouser::simulation::{Scenario, Simulation, SimulationError, Trajectory, WheelSample};
+use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
@@ -39,8 +39,8 @@ pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bo
     to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &names)
 }
 
-pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, SimulationError> {
-    Simulation::new(scenario)?.run()
+pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
+    Run::new(scenario)?.to_end()
 }
 
 pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
@@ -61,8 +61,8 @@ fn to_python<'py>(
     dict.set_item(ENERGY_ERROR.name, ENERGY_ERROR.unit.from_si(run.energy_error()))?;
     dict.set_item("wheels", names)?;
     let rover = PyDict::new(py);
-    for one in &SAMPLE {
-        rover.set_item(one.name, column(py, run.samples.iter().map(|it| one.number(it))))?;
+    for one in &RECORD {
+        rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
     }
     dict.set_item("rover", rover)?;
     dict.set_item("each_wheel", each_wheel(py, run, names.len())?)?;
@@ -78,7 +78,7 @@ fn each_wheel<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (name, get) in wheel_sample_columns() {
-        let rows = run.samples.iter().map(|sample| {
+        let rows = run.records.iter().map(|sample| {
             (0..count).map(|k| sample.wheels.get(k).map_or(f64::NAN, &get)).collect::<Vec<f64>>()
         });
         dict.set_item(name, PyArray2::from_vec2(py, &rows.collect::<Vec<_>>())?)?;
@@ -87,11 +87,11 @@ fn each_wheel<'py>(
 }
 
 /// A number of a wheel at one time.
-type WheelNumber = Box<dyn Fn(&WheelSample) -> f64>;
+type WheelNumber = Box<dyn Fn(&WheelRecord) -> f64>;
 
 /// The columns of a wheel at one time: its own, then its results.
 pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, WheelNumber)> {
-    let own = WHEEL_SAMPLE.iter().map(|it| {
+    let own = WHEEL_RECORD.iter().map(|it| {
         let number: WheelNumber = Box::new(|wheel| it.number(wheel));
         (it.name, number)
     });

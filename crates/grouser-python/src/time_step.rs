@@ -104,7 +104,7 @@ impl SteppingWheels {
             gravity: self.gravity,
             damping: self.damping,
             rest_speed: self.rest_speed,
-            mobility: &DMatrix::from_row_slice(rows, columns, mobility),
+            inverse_mass: &DMatrix::from_row_slice(rows, columns, mobility),
             free: &DVector::from_column_slice(free),
         };
         let wheels = self.wheels.iter().zip(sinkages);

@@ -298,6 +298,20 @@ def test_grounds_of_every_kind_agree_on_a_plane() -> None:
     np.testing.assert_allclose(fallen(fielded, "ground", heights), one, rtol=1e-4, atol=1e-6)
 
 
+def test_a_rover_of_different_wheels_is_the_one_of_its_description() -> None:
+    mounts = gr.Rover("hakuto").to_dict()["mount"]
+    wheel = {"radius_m": 0.1, "width_m": 0.16, "grousers": {"height_m": 0.01, "count": 24}}
+    mounts[0] |= {"steering_deg": 20.0, "mass_kg": 0.8, "wheel": wheel}
+    model = mujoco.MjModel.from_xml_string(rover_xml(gr.Rover("hakuto", mount=mounts)))
+    steered, straight = (model.body(mounts[place]["name"]) for place in (0, 1))
+    half = np.radians(10.0)
+    np.testing.assert_allclose(steered.quat, [np.cos(half), 0.0, 0.0, np.sin(half)], atol=1e-12)
+    np.testing.assert_allclose(straight.quat, [1.0, 0.0, 0.0, 0.0])
+    assert (steered.mass[0], straight.mass[0]) == (0.8, 0.422)
+    widths = [model.geom_size[body.geomadr[0], 1] for body in (steered, straight)]
+    np.testing.assert_allclose(widths, [0.08, 0.04])
+
+
 # ---- stability ----
 
 

@@ -52,7 +52,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let start = Instant::now();
         let yaws: Vec<Option<f64>> = studies
             .par_iter()
-            .map(|study| Some(study.on_slope(scenario.site.slope).ok()?.ok()?.yaw.to_degrees()))
+            .map(|study| {
+                Some(study.on_slope(scenario.site.terrain.slope).ok()?.ok()?.yaw.to_degrees())
+            })
             .collect();
         bare += start.elapsed();
 

@@ -14,8 +14,8 @@
 //! | 4 studies | [`studies`] | wheel tests, heading offsets, calibration, campaigns, the paper's comparison |
 //! | 3 simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | 2 vehicle | [`vehicle`] | the rover: loads, motion, drives |
-//! | 1 contact | [`contact`] | forces of the soil on one wheel |
-//! | 0 foundations | [`units`] [`error`] [`soil`] [`wheel`] [`site`] | quantities, soils, wheels, sites |
+//! | 1 contact | [`contact`] | what the soil does to one wheel |
+//! | 0 foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] [`site`] | what things are |
 //!
 //! Inside, everything is in SI units and radians; [`document`] converts. Below it there is no
 //! file, no clock and no printing: a [`Scenario`](simulation::Scenario) alone determines its
@@ -28,26 +28,26 @@
 //!
 //! ```
 //! use grouser::document::{self, Overrides, Source};
-//! use grouser::simulation::{Outcome, Scenario, Simulation, Start};
+//! use grouser::simulation::{Outcome, Run, Scenario, Start};
 //! use grouser::studies::heading::HeadingStudy;
 //! use grouser::units::deg;
 //!
 //! // The default scenario: the paper's rover on Toyoura sand, on 10°, nose along the contour.
 //! let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-//! let drift = Simulation::new(&scenario)?.run()?.last().state.position.y;
+//! let drift = Run::new(&scenario)?.to_end()?.last().state.position.y;
 //! assert!(drift < -0.09); // 9 cm downhill in 20 s
 //!
-//! let heading = HeadingStudy::of(&scenario).curve()?.at(scenario.site.slope)?;
-//! assert!((heading.yaw - deg(5.04)).abs() < deg(0.01));
+//! let attitude = HeadingStudy::of(&scenario).curve()?.at(scenario.site.terrain.slope)?;
+//! assert!((attitude.yaw - deg(5.04)).abs() < deg(0.01));
 //!
-//! let start = Start { yaw: heading.yaw, ..scenario.start };
-//! let run = Simulation::new(&Scenario { start, ..scenario })?.run()?;
+//! let start = Start { yaw: attitude.yaw, ..scenario.start };
+//! let run = Run::new(&Scenario { start, ..scenario })?.to_end()?;
 //! assert_eq!(run.outcome, Outcome::Completed);
 //! assert!(run.last().state.position.y.abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub use grouser_core::{contact, error, simulation, site, soil, units, vehicle, wheel};
+pub use grouser_core::{contact, error, simulation, site, soil, terrain, units, vehicle, wheel};
 use grouser_core::{elementary, newton, root};
 
 pub mod document;

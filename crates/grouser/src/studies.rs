@@ -21,10 +21,10 @@ pub mod ensemble;
 pub mod heading;
 pub mod heading_band;
 pub mod heading_map;
-pub mod measurement;
-mod normal;
-mod random;
 pub mod reproduction;
 pub mod simulated_test;
 pub mod validation;
 pub mod wheel_test;
+
+pub use grouser_io::measurements::wheel_tests as measurement;
+use grouser_io::statistics::{normal, random};

@@ -1,4 +1,4 @@
-//! `grouser presets [NAME]`: lists presets, or prints one.
+//! `grouser presets [NAME]`: lists presets, or prints one.: lists presets, or prints one.
 
 use grouser::document::{self, Kind, Preset};
 use serde::Serialize;

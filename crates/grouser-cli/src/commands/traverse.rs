@@ -1,9 +1,9 @@
-//! `grouser traverse`: drives a rover across a slope.
+//! `grouser traverse`: drives a rover across a slope.: drives a rover across a slope.
 
 use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{X, Y, YAW};
 use grouser::document::escape;
-use grouser::simulation::{Outcome, Simulation, Trajectory};
+use grouser::simulation::{Outcome, Run, Trajectory};
 use serde_json::json;
 
 use super::Answer;
@@ -21,7 +21,7 @@ const LINES: usize = 10;
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::traverse(args)?;
-    let run = Simulation::new(&scenario.value)?.run()?;
+    let run = Run::new(&scenario.value)?.to_end()?;
     let rover = &scenario.value.rover;
     let rows = Rows::of_table(&run::table(&run, rover));
     let object = RunObject { run: &run, rover };
@@ -84,7 +84,7 @@ fn table(run: &Trajectory) -> String {
 /// The path, seen from above.
 fn chart(run: &Trajectory) -> Chart {
     let points =
-        run.samples.iter().map(|sample| (sample.state.position.x, sample.state.position.y));
+        run.records.iter().map(|sample| (sample.state.position.x, sample.state.position.y));
     Chart {
         title: "Path on the slope".into(),
         x_label: "along the contour, x [m]".into(),

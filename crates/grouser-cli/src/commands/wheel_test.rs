@@ -1,4 +1,4 @@
-//! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
+//! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.: forces and sinkage of one wheel on a test stand.
 
 use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::table::Table;
@@ -45,8 +45,8 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     });
     match args.stand.trials {
         None => {
-            let table = columns::wheel::table(&test.run());
-            let brief = columns::wheel::brief();
+            let table = columns::wheel_test::table(&test.run());
+            let brief = columns::wheel_test::brief();
             output_results(
                 args,
                 folder,

@@ -2,7 +2,7 @@
 
 use grouser::contact::Settled;
 use grouser::document::columns::{SINKAGE, SLIP_ANGLE, SLOPE, YAW};
-use grouser::simulation::{Trajectory, WheelSample};
+use grouser::simulation::{Trajectory, WheelRecord};
 use grouser::studies::comparison::MeasuredTraverse;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
 use grouser::studies::wheel_test::WheelTestRow;
@@ -97,7 +97,7 @@ pub(crate) fn heading(study: &Reproduction) -> Figure {
 /// Fig. 9: paths without and with compensation.
 fn traverses(study: &Reproduction) -> Figure {
     let path = |run: &Trajectory| -> Vec<(f64, f64)> {
-        run.samples.iter().map(|s| (s.state.position.x, 1e3 * s.state.position.y)).collect()
+        run.records.iter().map(|s| (s.state.position.x, 1e3 * s.state.position.y)).collect()
     };
     let mut series = Vec::new();
     for (index, SlopeRuns { measured, uncompensated, compensated, .. }) in
@@ -239,12 +239,12 @@ fn curves(
 fn along_run(
     study: &Reproduction,
     rover: &Rover,
-    quantity: fn(&WheelSample) -> f64,
+    quantity: fn(&WheelRecord) -> f64,
 ) -> Vec<Series> {
     let wheels = rover.mounts().iter().enumerate();
     let styles = [Style::Line, Style::Dashed, Style::Dotted];
     let series = wheels.map(|(index, mount)| {
-        let samples = &study.start_up.samples;
+        let samples = &study.start_up.records;
         let points = samples
             .iter()
             .filter_map(|sample| Some((sample.time, quantity(sample.wheels.get(index)?))));

@@ -66,7 +66,7 @@ fn the_truth_is_found_within_its_uncertainty() {
 #[test]
 fn a_data_set_of_the_program_is_fitted_by_its_name() {
     let place = Place::new();
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-io/data/measurements");
     fs::copy(format!("{data}/cmu_single_wheel.csv"), place.file("rows.csv")).expect("it is there");
     let fit = "calibrate --wheel cmu-smooth --soil direct-90 --where slip_angle_deg=0 \
                --fit soil.shear.longitudinal_m --point-fit --data";

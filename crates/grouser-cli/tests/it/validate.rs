@@ -357,7 +357,7 @@ fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
 #[test]
 fn a_copy_of_the_programs_file_is_ranked_once() {
     let place = with_data_set();
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-io/data/measurements");
     let rows = std::fs::read(format!("{data}/cmu_single_wheel.csv")).expect("it is there");
     place.write("lab/cmu_single_wheel.csv", rows);
     let both = place.json("validate --all --data-dir lab");
@@ -374,7 +374,7 @@ fn a_copy_of_the_programs_file_is_ranked_once() {
 #[test]
 fn a_data_set_of_the_program_is_found_by_its_name() {
     let place = Place::new();
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser/data/measurements");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-io/data/measurements");
     let rows = std::fs::read(format!("{data}/cmu_single_wheel.csv")).expect("it is there");
     place.write("rows.csv", rows);
     place.write("cmu-single-wheel", "not measurements");

@@ -15,7 +15,9 @@
 
 use super::bulldozing::{self, WallResistance};
 use super::forces::WheelForces;
-use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::inputs::Contact;
+use super::mirror::from_both_sides;
+use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
 use crate::elementary::wide::{exp_m1, hypot};
 use crate::soil::Shear;

@@ -100,8 +100,8 @@ pub fn flank_load(
     let surface = RimPoint::new(patch.entry, 0.0).height;
     let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
-        let (share, width) = (EVEN.share[lane], EVEN.width[lane]);
-        let point = RimPoint::new(start + share * span, 0.0);
+        let (abscissa, width) = (EVEN.abscissa[lane], EVEN.width[lane]);
+        let point = RimPoint::new(start + abscissa * span, 0.0);
         let (sin, cos) = (point.sin, point.cosine());
         let depth = r * (surface - point.height);
         let strip = width * span * resistance.at(depth) * (r - depth * cos);

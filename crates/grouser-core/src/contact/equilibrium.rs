@@ -2,9 +2,10 @@
 
 use std::f64::consts::LN_10;
 
-use super::bearing::Bearing;
 use super::forces::WheelForces;
-use super::model::{Contact, WheelSoilModel};
+use super::inputs::Contact;
+use super::load_sinkage::LoadSinkage;
+use super::model::WheelSoilModel;
 use crate::{elementary, root};
 
 /// A wheel that has sunk until the soil carries it.
@@ -103,15 +104,15 @@ fn settle_near(
         let forces = model.forces(contact, 0.0);
         return Ok(Settled { sinkage: 0.0, forces, evaluations: 1 });
     }
-    let bearing = model.bearing(contact);
-    let bearing = bearing.as_ref();
-    let shallow = bearing.map(Bearing::shallow);
+    let relation = model.load_sinkage(contact);
+    let relation = relation.as_ref();
+    let shallow = relation.map(LoadSinkage::shallow);
     let exponent = shallow.map_or_else(|| growth(contact), |(_, power)| power);
     let guess = guess
         .or_else(|| shallow.map(|(factor, power)| elementary::pow(load / factor, 1.0 / power)));
     let axle = elementary::ln(contact.wheel.shearing_radius());
     let mut search =
-        Search { model, contact, load, bearing, exponent, axle, evaluations: 0, last: None };
+        Search { model, contact, load, relation, exponent, axle, evaluations: 0, last: None };
     let start = search.start(guess);
     let log_sinkage = if let Some(log_sinkage) = search.interpolated(start) {
         log_sinkage
@@ -147,7 +148,7 @@ fn interpolate_at_zero(points: &[Point]) -> f64 {
     x[0]
 }
 
-/// The exponent with which F_z of a theory without a bearing grows.
+/// The exponent with which F_z of a theory without a load–sinkage relation grows.
 fn growth(contact: &Contact) -> f64 {
     let Contact { wheel, soil, slip, gravity } = contact;
     let unit_weight = soil.unit_weight(*gravity);
@@ -159,7 +160,7 @@ struct Search<'a> {
     model: &'a dyn WheelSoilModel,
     contact: &'a Contact,
     load: f64,
-    bearing: Option<&'a Bearing>,
+    relation: Option<&'a LoadSinkage>,
     /// With which F_z grows for shallow sinkage: n + ½.
     exponent: f64,
     /// ln r_s.
@@ -179,8 +180,8 @@ impl Search<'_> {
         match self.last {
             Some((at, forces)) if at == log_sinkage => (sinkage, forces),
             _ => {
-                let forces = match self.bearing {
-                    Some(bearing) => self.model.forces_of(self.contact, bearing, sinkage),
+                let forces = match self.relation {
+                    Some(relation) => self.model.forces_of(self.contact, relation, sinkage),
                     None => self.model.forces(self.contact, sinkage),
                 };
                 self.evaluations += 1;
@@ -192,10 +193,10 @@ impl Search<'_> {
 
     /// ln(F_z/W): negative where the soil carries less than the load.
     fn excess(&mut self, log_sinkage: f64) -> f64 {
-        let force = match &self.bearing {
-            Some(bearing) => {
+        let force = match &self.relation {
+            Some(relation) => {
                 self.evaluations += 1;
-                bearing.normal_force(self.sinkage(log_sinkage))
+                relation.normal_force(self.sinkage(log_sinkage))
             }
             None => self.reaction(log_sinkage).1.normal_force,
         };

@@ -19,12 +19,14 @@
 //!
 //! [`Slip::total`]: super::slip::Slip::total
 
-use super::bearing::{Arc, Bearing, Numerics};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
+use super::inputs::Contact;
 use super::ishigami;
 use super::kernel::InstructionSet;
-use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::load_sinkage::{Arc, LoadSinkage, Numerics};
+use super::mirror::from_both_sides;
+use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
 
@@ -68,14 +70,14 @@ impl WheelSoilModel for Extended {
         from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
     }
 
-    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
+    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
         from_both_sides(contact, sinkage, |contact, side| {
-            on_arc(contact, bearing.arc(side), sinkage)
+            on_arc(contact, relation.arc(side), sinkage)
         })
     }
 
-    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
-        Some(Bearing::new(contact, |contact| self.arc(contact)))
+    fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
+        Some(LoadSinkage::new(contact, |contact| self.arc(contact)))
     }
 }
 

@@ -12,11 +12,13 @@
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
-use super::bearing::{Arc, Bearing, Numerics, Reaction};
 use super::bulldozing::{self, FlankLoad, WallResistance};
 use super::forces::WheelForces;
+use super::inputs::Contact;
 use super::kernel::InstructionSet;
-use super::model::{Contact, WheelSoilModel, from_both_sides};
+use super::load_sinkage::{Arc, LoadSinkage, Numerics, Reaction};
+use super::mirror::from_both_sides;
+use super::model::WheelSoilModel;
 use super::stress::Response;
 
 /// The theory of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.
@@ -59,14 +61,14 @@ impl WheelSoilModel for Ishigami {
         from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
     }
 
-    fn forces_of(&self, contact: &Contact, bearing: &Bearing, sinkage: f64) -> WheelForces {
+    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
         from_both_sides(contact, sinkage, |contact, side| {
-            on_arc(contact, bearing.arc(side), sinkage)
+            on_arc(contact, relation.arc(side), sinkage)
         })
     }
 
-    fn bearing(&self, contact: &Contact) -> Option<Bearing> {
-        Some(Bearing::new(contact, |contact| self.arc(contact)))
+    fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
+        Some(LoadSinkage::new(contact, |contact| self.arc(contact)))
     }
 }
 

@@ -25,9 +25,10 @@ mod surface;
 
 use super::forces::WheelForces;
 use super::gauss::{GAUSS_4, GAUSS_16, GAUSS_64, Rule};
+use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
-use super::model::{Contact, WheelSoilModel};
+use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
 use surface::FrontHalf;
 

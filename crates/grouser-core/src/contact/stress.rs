@@ -7,7 +7,7 @@
 
 mod breaks;
 
-use super::model::Contact;
+use super::inputs::Contact;
 use super::patch::ContactPatch;
 use super::slip::Slip;
 use crate::elementary;

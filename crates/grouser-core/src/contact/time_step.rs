@@ -13,7 +13,7 @@
 //! ```
 //!
 //! *u°* is the motion at the end of the step without the soil, *h°* the sinkage at its start. The
-//! mobility *A* [1/kg] says how forces change velocities: of a mechanism with Jacobians J_u, J_f and
+//! effective inverse mass *A* (Delassus matrix) [1/kg] says how forces change velocities: of a mechanism with Jacobians J_u, J_f and
 //! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the theory's own; what a finite
 //! Δt adds is backward Euler's damping, of the order of Δt.
 //!
@@ -25,7 +25,8 @@
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::forces::WheelForces;
-use super::model::{Contact, WheelSoilModel};
+use super::inputs::Contact;
+use super::model::WheelSoilModel;
 use super::slip::{CREEP_SPEED, Slip};
 use crate::elementary::wide;
 use crate::soil::Soil;
@@ -70,8 +71,8 @@ pub struct TimeStep<'a> {
     /// Below this speed [m/s] of rim and hub the stresses fade to none, in place of
     /// [`CREEP_SPEED`].
     pub rest_speed: f64,
-    /// Mobility, *A* [1/kg, 1/(kg·m)]: a row for each velocity, a column for each force.
-    pub mobility: &'a DMatrix<f64>,
+    /// Effective inverse mass (Delassus matrix), *A* [1/kg, 1/(kg·m)]: a row for each velocity, a column for each force.
+    pub inverse_mass: &'a DMatrix<f64>,
     /// Velocities at the end of the step without the soil, *u°* [m/s].
     pub free: &'a DVector<f64>,
 }
@@ -142,7 +143,7 @@ impl TimeStep<'_> {
         for (k, (wheel, after)) in wheels.iter().zip(&stepped).enumerate() {
             forces.fixed_rows_mut::<FORCES>(FORCES * k).copy_from(&wrench(&wheel.wheel, after));
         }
-        let residual = &motion - self.free - self.mobility * forces * self.duration;
+        let residual = &motion - self.free - self.inverse_mass * forces * self.duration;
         Try { motion, wheels: stepped, residual }
     }
 
@@ -167,7 +168,7 @@ impl TimeStep<'_> {
                 continue;
             }
             let slopes = self.slopes(wheel, &here.wheels[k], &here.motion, MOTIONS * k);
-            let columns = self.mobility.fixed_columns::<FORCES>(FORCES * k) * slopes;
+            let columns = self.inverse_mass.fixed_columns::<FORCES>(FORCES * k) * slopes;
             let mut block = jacobian.fixed_columns_mut::<MOTIONS>(MOTIONS * k);
             block -= columns * self.duration;
         }
@@ -195,7 +196,7 @@ impl TimeStep<'_> {
     }
 }
 
-/// Forces as the mobility takes them.
+/// Forces as the effective inverse mass takes them.
 fn wrench(wheel: &Wheel, stepped: &SteppedWheel) -> SVector<f64, FORCES> {
     let f = &stepped.forces;
     let rim_force = -f.torque / wheel.shearing_radius();

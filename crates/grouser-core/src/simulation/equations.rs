@@ -3,11 +3,13 @@
 use std::cell::{Cell, RefCell};
 
 use super::power;
-use super::trajectory::Work;
+use super::scenario::Scenario;
+use super::work::Work;
 use crate::contact::Slip;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
-use crate::vehicle::kinematics::{hub_velocity, wheel_slips};
+use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
     Acceleration, OwnMoments, ReactionError, Rover, RoverState, WheelReaction, dynamics,
@@ -48,14 +50,27 @@ pub struct Rates {
 }
 
 impl<'a> Equations<'a> {
+    /// The equations of a scenario, for wheels that turn at these rim speeds, ω r_s [m/s].
+    #[must_use]
+    pub fn of(scenario: &'a Scenario, rim_speeds: &'a [f64]) -> Self {
+        let ground = Ground {
+            rover: &scenario.rover,
+            site: &scenario.site,
+            model: scenario.theory.model(),
+            sharing: scenario.sharing,
+            own_moments: scenario.own_moments,
+        };
+        Self::new(ground, rim_speeds)
+    }
+
     /// The equations for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
     pub fn new(ground: Ground<'a>, rim_speeds: &'a [f64]) -> Self {
-        let radius = ground.rover.wheel().shearing_radius();
+        let wheel_speeds = ground.rover.wheel_speeds(rim_speeds).collect();
         Self {
             ground,
             rim_speeds,
-            wheel_speeds: rim_speeds.iter().map(|speed| speed / radius).collect(),
+            wheel_speeds,
             work: Cell::default(),
             failure: RefCell::new(None),
         }
@@ -68,7 +83,7 @@ impl<'a> Equations<'a> {
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
         let slips: Vec<Slip> = self.slips(state).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
-        self.ground.reactions(state.yaw, &slips)
+        self.ground.reactions(state, &slips)
     }
 
     /// The slip of every wheel, from the motion alone.
@@ -93,7 +108,7 @@ impl<'a> Equations<'a> {
         let wheels = self.reactions(state)?;
         let acceleration =
             dynamics::acceleration(rover, site, state, &forces_of(&wheels), own_moments);
-        let hubs = rover.mounts().iter().map(|mount| hub_velocity(state, mount.position.xy()));
+        let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount));
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =
@@ -116,7 +131,7 @@ impl<'a> Equations<'a> {
 
     /// Where it moves.
     #[must_use]
-    pub fn site(&self) -> &Site {
+    pub fn site(&self) -> &Site<dyn Terrain> {
         self.ground.site
     }
 

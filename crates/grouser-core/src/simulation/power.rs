@@ -1,8 +1,9 @@
 //! The books of a run's energy: what the motors put in, and where it went.
 
-use crate::elementary::wide;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
+use crate::vehicle::load;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
 /// Energy since the start of a run [J].
@@ -25,7 +26,7 @@ pub struct EnergyBalance {
 /// Power of the motors and into the soil [W].
 ///
 /// * `wheel_speeds`: ω of each wheel [rad/s]
-/// * `hub_velocities`: of each hub, in the body frame [m/s]
+/// * `hub_velocities`: of each hub, in the wheel's frame [m/s]
 /// * `aligning_work_rate`: yaw rate where aligning moments act on the rover, else 0 [rad/s]
 #[must_use]
 pub fn powers(
@@ -59,13 +60,14 @@ pub fn kinetic_energy(rover: &Rover, state: &RoverState) -> f64 {
 /// * `wheel_speeds`: ω of each wheel [rad/s]
 #[must_use]
 pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
-    let inertia = rover.wheel_unit().inertia.yy;
-    wheel_speeds.iter().map(|speed| 0.5 * inertia * speed * speed).sum()
+    let each = rover.mounts().iter().map(|mount| mount.unit.inertia.yy).zip(wheel_speeds);
+    each.map(|(inertia, speed)| 0.5 * inertia * speed * speed).sum()
 }
 
 /// Potential energy on the slope [J]; what the rover sinks does not count.
 #[must_use]
-pub fn potential_energy(rover: &Rover, site: &Site, state: &RoverState) -> f64 {
-    let centre = state.position + state.slope_from_body() * rover.centre_of_mass();
-    rover.mass() * site.gravity * wide::sin(site.slope) * centre.y
+pub fn potential_energy(rover: &Rover, site: &Site<dyn Terrain>, state: &RoverState) -> f64 {
+    let slope_from_body = state.slope_from_body();
+    let centre = state.position + slope_from_body * rover.centre_of_mass();
+    load::weight(rover, site, state, &slope_from_body).uphill.dot(&centre)
 }

@@ -1,32 +1,32 @@
-//! Quasi-steady motion: velocities in balance at every instant, the pose alone integrated.
+//! Quasi-steady motion: steady velocities at every instant, the pose alone integrated.
 //!
-//! On a plane with steady commands nothing but the yaw γ decides the balance: velocities V(γ),
+//! On a plane with steady commands nothing but the yaw γ decides the steady state: velocities V(γ),
 //! powers and wheels are functions of one variable,
 //!
 //! ```text
 //! γ̇ = r(γ)        (ẋ, ẏ) = R(γ) (u, v)(γ)        Ė = P(γ)
 //! ```
 //!
-//! They are tabulated over the stretch of yaw ahead, as polynomials through balances found there,
+//! They are tabulated over the stretch of yaw ahead, as polynomials through steady states found there,
 //! and the pose follows from the table. So the work goes with the yaw that a rover turns through,
-//! not with the way it drives: one that keeps its yaw costs one balance, however far it goes.
+//! not with the way it drives: one that keeps its yaw costs one steady state, however far it goes.
 
 use nalgebra::Vector3;
 
-use super::balance::{Balance, Balancer, Memory, Unsteady};
 use super::equations::Equations;
 use super::integrate::Point;
 use super::power;
+use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use crate::contact::WheelForces;
 use crate::units::Vec2;
-use crate::vehicle::WheelReaction;
 use crate::vehicle::kinematics::wheel_slips;
 use crate::vehicle::state::rotation;
+use crate::vehicle::{Mount, WheelReaction};
 
-/// The velocities may lag behind their balance by this much, over the fastest rim's speed [-]: the
-/// balance's own motion in one settling time. Source: ours; theories err by ten times as much.
+/// The velocities may lag behind their steady state by this much, over the fastest rim's speed [-]: the
+/// steady state's own motion in one settling time. Source: ours; theories err by ten times as much.
 pub const MOST_LAG: f64 = 0.01;
-/// And the balance may change its yaw rate at most this fast, over the rate of settling [-], or
+/// And the steady state may change its yaw rate at most this fast, over the rate of settling [-], or
 /// yaw and velocities would not be a slow and a fast motion. Source: ours.
 pub const MOST_COUPLING: f64 = 0.1;
 
@@ -38,7 +38,7 @@ const LINEAR: f64 = 1.75e-3;
 const LONGEST_STRETCH: f64 = 0.1;
 /// A stretch reaches further than the yaw rate at its start would need, by this factor [-].
 const AMPLE: f64 = 1.25;
-/// Parabolas through three balances must meet those between them to this, over the fastest rim's
+/// Parabolas through three steady states must meet those between them to this, over the fastest rim's
 /// speed [-]. The polynomial through all five is nearer by a hundred times where motion is smooth.
 const RESOLVED: f64 = 1e-5;
 /// A step in time turns the rover by at most this share of a stretch [-].
@@ -47,9 +47,11 @@ const STEP_SHARE: f64 = 0.1;
 /// Balances over a stretch of yaw, evenly spaced: one, two or five.
 #[derive(Clone)]
 pub(super) struct Stretch {
-    nodes: Vec<Balance>,
+    nodes: Vec<SteadyState>,
     /// From the first to the last [rad], with its sign.
     width: f64,
+    /// How far from its only steady state a stretch of one holds [rad].
+    reach: f64,
 }
 
 /// What one run hands on from one advance to the next.
@@ -62,12 +64,12 @@ pub(super) struct Carried {
 /// The motion of a rover whose wheels turn at given speeds.
 pub(super) struct QuasiSteady<'a> {
     equations: &'a Equations<'a>,
-    balancer: Balancer<'a>,
+    solver: SteadySolver<'a>,
     stretch: Stretch,
 }
 
 impl<'a> QuasiSteady<'a> {
-    /// The motion from a point on; sets the point's velocities to their balance.
+    /// The motion from a point on; sets the point's velocities to their steady state.
     ///
     /// * `carried`: of the run so far
     /// * `horizon`: how long the rims will keep their speeds [s]
@@ -78,24 +80,24 @@ impl<'a> QuasiSteady<'a> {
         point: &mut Point,
         horizon: f64,
         rims_changed: bool,
-    ) -> Result<Self, Unsteady> {
-        let mut balancer = Balancer::new(equations, carried.memory);
+    ) -> Result<Self, NotSteady> {
+        let mut solver = SteadySolver::new(equations, carried.memory);
         let yaw = point.state.yaw;
         let guess = match carried.stretch {
-            Some(stretch) if !rims_changed => return Ok(Self { equations, balancer, stretch }),
+            Some(stretch) if !rims_changed => return Ok(Self { equations, solver, stretch }),
             Some(stretch) => stretch.velocities(yaw),
             None => rolling(equations),
         };
-        let here = balancer.find(yaw, &guess)?;
-        let stretch = Stretch::ahead(&mut balancer, here, horizon)?;
-        let mut motion = Self { equations, balancer, stretch };
+        let here = solver.find(yaw, &guess)?;
+        let stretch = Stretch::ahead(&mut solver, here, horizon)?;
+        let mut motion = Self { equations, solver, stretch };
         motion.set_velocities(point);
         Ok(motion)
     }
 
     /// What the next advance starts with.
     pub(super) fn carry(self) -> Carried {
-        Carried { memory: self.balancer.memory(), stretch: Some(self.stretch) }
+        Carried { memory: self.solver.memory(), stretch: Some(self.stretch) }
     }
 
     /// The wheels at a point of the motion.
@@ -120,7 +122,7 @@ impl<'a> QuasiSteady<'a> {
         point: &mut Point,
         span: f64,
         horizon: f64,
-    ) -> Result<(), Unsteady> {
+    ) -> Result<(), NotSteady> {
         let mut gone = 0.0;
         while gone < span {
             let yaw = point.state.yaw;
@@ -129,8 +131,8 @@ impl<'a> QuasiSteady<'a> {
             let left = span - gone;
             let step = if self.stretch.nodes.len() > 1 { left.min(longest) } else { left };
             if !self.stretch.covers(yaw + rate * step) {
-                let here = self.balancer.find(yaw, &self.stretch.velocities(yaw))?;
-                self.stretch = Stretch::ahead(&mut self.balancer, here, horizon - gone)?;
+                let here = self.solver.find(yaw, &self.stretch.velocities(yaw))?;
+                self.stretch = Stretch::ahead(&mut self.solver, here, horizon - gone)?;
                 continue;
             }
             self.step(point, step);
@@ -158,8 +160,8 @@ impl<'a> QuasiSteady<'a> {
         self.set_velocities(point);
     }
 
-    /// Sets velocities to their balance. What that changes in kinetic energy the motors pay for:
-    /// the balance itself leaves nothing over to accelerate with.
+    /// Sets velocities to their steady state. What that changes in kinetic energy the motors pay for:
+    /// the steady state itself leaves nothing over to accelerate with.
     fn set_velocities(&mut self, point: &mut Point) {
         let rover = self.equations.rover();
         let before = power::kinetic_energy(rover, &point.state);
@@ -179,33 +181,40 @@ struct PoseRates {
 }
 
 impl Stretch {
-    /// The stretch that the rover will turn through from a balance on.
-    fn ahead(balancer: &mut Balancer<'_>, here: Balance, horizon: f64) -> Result<Self, Unsteady> {
-        let settling_time = balancer.settling_time(&here)?;
+    /// The stretch that the rover will turn through from a steady state on.
+    fn ahead(
+        solver: &mut SteadySolver<'_>,
+        here: SteadyState,
+        horizon: f64,
+    ) -> Result<Self, NotSteady> {
+        let settling_time = solver.settling_time(&here)?;
         let rate = here.velocities.z;
         // On level ground no yaw differs from another.
-        if balancer.is_level() || rate.abs() * horizon <= HELD {
-            return Ok(Self { nodes: vec![here], width: 0.0 });
+        if solver.is_level() {
+            return Ok(Self { nodes: vec![here], width: 0.0, reach: f64::INFINITY });
+        }
+        if rate.abs() * horizon <= HELD {
+            return Ok(Self { nodes: vec![here], width: 0.0, reach: AMPLE * HELD });
         }
         let width = (AMPLE * rate * horizon).clamp(-LONGEST_STRETCH, LONGEST_STRETCH);
-        let stretch = Self::through(balancer, here, width)?;
-        stretch.check(balancer, settling_time, rate)?;
+        let stretch = Self::through(solver, here, width)?;
+        stretch.check(solver, settling_time, rate)?;
         Ok(stretch)
     }
 
     /// Balances over a stretch that starts with a known one, halved until it is resolved.
     fn through(
-        balancer: &mut Balancer<'_>,
-        here: Balance,
+        solver: &mut SteadySolver<'_>,
+        here: SteadyState,
         mut width: f64,
-    ) -> Result<Self, Unsteady> {
+    ) -> Result<Self, NotSteady> {
         let mut known = vec![(0.0, here)];
         while width.abs() > LINEAR {
-            if fill(balancer, &mut known, width, &QUARTERS).is_ok()
-                && roughness(balancer, &known) <= RESOLVED
+            if fill(solver, &mut known, width, &QUARTERS).is_ok()
+                && roughness(solver, &known) <= RESOLVED
             {
-                let nodes = known.into_iter().map(|(_, balance)| balance).collect();
-                return Ok(Self { nodes, width });
+                let nodes = known.into_iter().map(|(_, steady)| steady).collect();
+                return Ok(Self { nodes, width, reach: 0.0 });
             }
             known.retain(|(share, _)| *share <= 0.5);
             for (share, _) in &mut known {
@@ -214,22 +223,23 @@ impl Stretch {
             width *= 0.5;
         }
         known.retain(|(share, _)| *share == 0.0 || *share == 1.0);
-        fill(balancer, &mut known, width, &[0.0, 1.0])?;
-        Ok(Self { nodes: known.into_iter().map(|(_, balance)| balance).collect(), width })
+        fill(solver, &mut known, width, &[0.0, 1.0])?;
+        let nodes = known.into_iter().map(|(_, steady)| steady).collect();
+        Ok(Self { nodes, width, reach: 0.0 })
     }
 
-    /// That velocities can follow the balance as it moves along the stretch.
+    /// That velocities can follow the steady state as it moves along the stretch.
     fn check(
         &self,
-        balancer: &Balancer<'_>,
+        solver: &SteadySolver<'_>,
         settling_time: f64,
         rate: f64,
-    ) -> Result<(), Unsteady> {
+    ) -> Result<(), NotSteady> {
         let [first, last] = [&self.nodes[0], &self.nodes[self.nodes.len() - 1]];
         let slope = (last.velocities - first.velocities) / self.width;
-        let lag = settling_time * rate.abs() * balancer.size(&slope);
+        let lag = settling_time * rate.abs() * solver.size(&slope);
         if lag > MOST_LAG || settling_time * slope.z.abs() > MOST_COUPLING {
-            return Err(Unsteady::Lags { settling_time, lag });
+            return Err(NotSteady::Lags { settling_time, lag });
         }
         Ok(())
     }
@@ -242,6 +252,9 @@ impl Stretch {
     /// Whether a yaw is on the stretch. A little before its start counts: a rover that swings back
     /// by rounding is still where it was.
     fn covers(&self, yaw: f64) -> bool {
+        if self.width == 0.0 {
+            return (yaw - self.nodes[0].yaw).abs() <= self.reach;
+        }
         (-0.05..=1.0).contains(&self.share(yaw))
     }
 
@@ -270,17 +283,17 @@ impl Stretch {
     }
 }
 
-/// Where the balances of a long stretch are.
+/// Where the steady states of a long stretch are.
 const QUARTERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Finds the balances that are missing at some shares of a stretch, each from those known; leaves
+/// Finds the steady states that are missing at some shares of a stretch, each from those known; leaves
 /// them in the order of the shares.
 fn fill(
-    balancer: &mut Balancer<'_>,
-    known: &mut Vec<(f64, Balance)>,
+    solver: &mut SteadySolver<'_>,
+    known: &mut Vec<(f64, SteadyState)>,
     width: f64,
     shares: &[f64],
-) -> Result<(), Unsteady> {
+) -> Result<(), NotSteady> {
     let start = known[0].1.yaw;
     for &share in shares {
         if known.iter().any(|(at, _)| *at == share) {
@@ -289,21 +302,21 @@ fn fill(
         let places: Vec<f64> = known.iter().take(5).map(|(at, _)| *at).collect();
         let weighted = known.iter().zip(lagrange(&places, share));
         let guess = weighted.map(|((_, node), weight)| node.velocities * weight).sum();
-        let balance = balancer.find(start + share * width, &guess)?;
-        known.push((share, balance));
+        let steady = solver.find(start + share * width, &guess)?;
+        known.push((share, steady));
         known.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     }
     Ok(())
 }
 
-/// How far parabolas through the first, the middle and the last of five balances miss the other
+/// How far parabolas through the first, the middle and the last of five steady states miss the other
 /// two, over the fastest rim's speed [-].
-fn roughness(balancer: &Balancer<'_>, nodes: &[(f64, Balance)]) -> f64 {
+fn roughness(solver: &SteadySolver<'_>, nodes: &[(f64, SteadyState)]) -> f64 {
     let miss = |at: usize| {
         let weights = lagrange(&[0.0, 0.5, 1.0], nodes[at].0);
         let parabola: Vector3<f64> =
             (0..3).map(|node| nodes[2 * node].1.velocities * weights[node]).sum();
-        balancer.size(&(nodes[at].1.velocities - parabola))
+        solver.size(&(nodes[at].1.velocities - parabola))
     };
     miss(1).max(miss(3))
 }
@@ -318,7 +331,7 @@ fn lagrange(places: &[f64], at: f64) -> [f64; 5] {
     weights
 }
 
-/// A wheel between its reactions at several balances; its slip is for the caller to set.
+/// A wheel between its reactions at several steady states; its slip is for the caller to set.
 fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> WheelReaction {
     let mut sum: Option<WheelReaction> = None;
     for (reaction, weight) in weighted {
@@ -333,7 +346,7 @@ fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> Whee
         angles.exit += weight * patch.exit;
         angles.max_stress += weight * patch.max_stress;
     }
-    sum.expect("a stretch has balances")
+    sum.expect("a stretch has steady states")
 }
 
 /// A reaction with all that is weighted at zero; nothing was evaluated for it.
@@ -351,6 +364,9 @@ fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
     let (mounts, rims) = (equations.rover().mounts(), equations.rim_speeds());
     let count = rims.len() as f64;
     let mean = mounts.iter().map(|mount| mount.position.xy()).sum::<Vec2>() / count;
+    if mounts.iter().any(|mount| mount.steering != 0.0) {
+        return rolling_steered(mounts, rims, mean);
+    }
     let mean_rim = rims.iter().sum::<f64>() / count;
     let (mut across, mut spread) = (0.0, 0.0);
     for (mount, rim) in mounts.iter().zip(rims) {
@@ -360,4 +376,24 @@ fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
     }
     let rate = if spread > 0.0 { across / spread } else { 0.0 };
     super::scenario::ROLLING_SHARE * Vector3::new(mean_rim + rate * mean.y, -rate * mean.x, rate)
+}
+
+/// The same where wheels are steered: the rigid motion whose velocities at the hubs come nearest to
+/// those of wheels that roll without slip, to which side forces hold them as well.
+///
+/// * `mean`: of the hubs [m]
+fn rolling_steered(mounts: &[Mount], rims: &[f64], mean: Vec2) -> Vector3<f64> {
+    let count = rims.len() as f64;
+    let rolled = |mount: &Mount, rim: f64| mount.body_from_wheel(Vec2::new(rim, 0.0));
+    let velocities = mounts.iter().zip(rims).map(|(mount, rim)| rolled(mount, *rim));
+    let mean_velocity = velocities.clone().sum::<Vec2>() / count;
+    let (mut turning, mut spread) = (0.0, 0.0);
+    for (mount, velocity) in mounts.iter().zip(velocities) {
+        let arm = mount.position.xy() - mean;
+        turning += arm.perp(&velocity);
+        spread += arm.norm_squared();
+    }
+    let rate = turning / spread;
+    let at_body = mean_velocity - rate * Vec2::new(-mean.y, mean.x);
+    super::scenario::ROLLING_SHARE * Vector3::new(at_body.x, at_body.y, rate)
 }

@@ -1,139 +1,281 @@
-//! A run: drive, motion, samples, and a watch over what becomes of the rover.
+//! A run: a scenario on its way, step by step or to its end.
 
-use super::progress::{Progress, Rims};
-use super::scenario::Scenario;
-use super::trajectory::{Outcome, Sample, Trajectory};
-use crate::error::ParameterError;
-use crate::vehicle::drive::DriveInput;
-use crate::vehicle::{Drive, ReactionError};
+use std::cell::Cell;
 
-/// Time between two looks of a drive that varies [s]. Source: ours, a usual rate of rover control.
-pub const CONTROL_PERIOD: f64 = 0.1;
+use super::controller::{Controller, Observation};
+use super::equations::Equations;
+use super::error::RunError;
+use super::leg::Leg;
+use super::outcome::Outcome;
+use super::record::Record;
+use super::scenario::{LONGEST_DURATION, Scenario};
+use super::state::State;
+use super::times::{is_same_time, snapped};
+use super::trajectory::Trajectory;
+use super::watch::WATCH_PERIOD;
+use super::work::Work;
+use crate::error::{ParameterError, positive};
+use crate::vehicle::DriveLaw;
 
-/// Why a run could not be computed. (What a rover does is an [`Outcome`], not an error.)
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SimulationError {
-    /// The scenario is no run.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
-    /// The soil's reaction could not be found.
-    #[error("at {time:.3} s: {source}")]
-    Reaction {
-        /// When [s].
-        time: f64,
-        /// What is wrong.
-        source: ReactionError,
-    },
-    /// The integrator could not go on.
-    #[error(
-        "the run cannot be computed beyond {time:.3} s: no time step is short enough for the motion \
-         there ({reason}); a locked or suddenly braked wheel is the usual reason, another speed \
-         or a rolling start may avoid it"
-    )]
-    Stalled {
-        /// When [s].
-        time: f64,
-        /// What the integrator said.
-        reason: String,
-    },
+/// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
+pub const LEAST_STEP: f64 = 1e-6;
+
+/// A run of a scenario, as far as it has come.
+///
+/// Whoever leads it, the motion is the same, by the same equations and the same integrator:
+/// [`to_end`](Self::to_end) by the scenario's own drive, [`advance`](Self::advance) by a
+/// [`Controller`], [`step`](Self::step) by one command after the other.
+///
+/// A clone goes on as the original would, bit for bit.
+///
+/// ```no_run
+/// # fn example(scenario: &grouser_core::simulation::Scenario) -> Result<(), Box<dyn std::error::Error>> {
+/// use grouser_core::simulation::Run;
+/// // To the end of the scenario:
+/// let trajectory = Run::new(scenario)?.to_end()?;
+/// // One command after the other, each for a tenth of a second:
+/// let mut run = Run::new(scenario)?;
+/// while run.outcome().is_none() && run.now().state.position.x < 1.0 {
+///     run.step(&[0.05, 0.05, 0.06, 0.06], 0.1)?;
+/// }
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone)]
+pub struct Run {
+    scenario: Scenario,
+    state: State,
+    /// Those that stay, and after them the one of the state, if it is another.
+    records: Vec<Record>,
+    /// How many stay.
+    kept: usize,
 }
 
-/// A run in progress.
-pub struct Simulation<'a> {
-    scenario: &'a Scenario,
-    drive: Box<dyn Drive + 'a>,
-    rim_speeds: Vec<f64>,
-    progress: Progress,
-}
-
-impl<'a> Simulation<'a> {
-    /// The run of a scenario, at its start.
+impl Run {
+    /// The run of a scenario, at its start, with the wheels turning as the scenario's drive says.
     ///
     /// # Errors
-    /// [`SimulationError`] if the scenario is no run, or the wheels do not settle at its start
-    /// for another reason than a physical one.
-    pub fn new(scenario: &'a Scenario) -> Result<Self, SimulationError> {
-        Self::with_drive(scenario, Box::new(scenario.drive.clone()))
+    /// [`RunError`] if the scenario is no run, or the wheels do not settle at its start for another
+    /// reason than a physical one.
+    pub fn new(scenario: &Scenario) -> Result<Self, RunError> {
+        Self::with_controller(scenario, &mut scenario.drive.clone())
     }
 
-    /// The same, with a drive of your own instead of the scenario's.
+    /// The same with wheels that turn as a controller says.
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_drive(
-        scenario: &'a Scenario,
-        mut drive: Box<dyn Drive + 'a>,
-    ) -> Result<Self, SimulationError> {
+    pub fn with_controller(
+        scenario: &Scenario,
+        controller: &mut dyn Controller,
+    ) -> Result<Self, RunError> {
         scenario.check()?;
-        let rover = &scenario.rover;
-        let mut rim_speeds = vec![0.0; rover.wheel_count()];
-        let slip_ratios = vec![0.0; rover.wheel_count()];
-        let input = DriveInput { rover, yaw: scenario.start.yaw, slip_ratios: &slip_ratios };
-        drive.rim_speeds(&input, &mut rim_speeds);
-        let mut progress = Progress::new(scenario, &rim_speeds);
-        progress.advance_through(scenario, rims(scenario, &*drive, &rim_speeds, 0.0), &[])?;
-        Ok(Self { scenario, drive, rim_speeds, progress })
+        let standing = vec![0.0; scenario.rover.wheel_count()];
+        let mut state = State::new(scenario, standing.clone());
+        let rim_speeds = ask(controller, scenario, &mut state)?;
+        let work = state.work;
+        state = State { work, ..State::new(scenario, rim_speeds) };
+        let kept_until = if controller.period().is_some() { 0.0 } else { scenario.duration };
+        let mut records = Vec::new();
+        let leg = Leg {
+            scenario,
+            state: &mut state,
+            records: &mut records,
+            is_new_command: true,
+            kept_until,
+            record_only_at: None,
+        };
+        leg.start()?;
+        let kept = records.len();
+        Ok(Self { scenario: scenario.clone(), state, records, kept })
     }
 
-    /// Runs to the end of the scenario, or to the outcome that ends it before.
+    /// A run that goes on from a [`state`](Self::state) of the same scenario.
+    #[must_use]
+    pub fn resume(scenario: &Scenario, state: State) -> Self {
+        let mut run = Self { scenario: scenario.clone(), state, records: Vec::new(), kept: 0 };
+        run.record_now();
+        run.kept = 1;
+        run
+    }
+
+    /// Leads the run by the scenario's own drive to the end of the scenario, or to the outcome that
+    /// ends it before.
     ///
     /// # Errors
-    /// [`SimulationError`] if the run cannot be computed.
-    pub fn run(mut self) -> Result<Trajectory, SimulationError> {
-        let duration = self.scenario.duration;
-        if self.drive.varies() {
-            while self.progress.outcome.is_none() && self.progress.time < duration {
-                let periods = (self.progress.time / CONTROL_PERIOD).round() + 1.0;
-                self.advance((periods * CONTROL_PERIOD).min(duration))?;
-            }
-        } else {
-            self.advance(duration)?;
+    /// [`RunError`] if the run cannot be computed.
+    pub fn to_end(mut self) -> Result<Trajectory, RunError> {
+        let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
+        // At the start the wheels turn as it says already.
+        let is_asked = self.state.time > 0.0;
+        self.lead(&mut drive, duration, is_asked)?;
+        Ok(self.finish())
+    }
+
+    /// Leads the run by a controller to a time [s], or to the outcome that ends it before. The
+    /// controller is asked now and after each of its periods.
+    ///
+    /// # Errors
+    /// [`RunError`] for commands that no wheel can follow, and where the motion cannot be computed,
+    /// at which the rover stays where it last was looked at.
+    pub fn advance(&mut self, controller: &mut dyn Controller, until: f64) -> Result<(), RunError> {
+        let led = self.lead(controller, until, true);
+        self.record_now();
+        led
+    }
+
+    /// Turns the wheels at the given speeds for a while. At its beginning they take them at once, and
+    /// keep them to its end. A rover whose [`outcome`](Self::outcome) is known stays as it is: its run
+    /// has ended.
+    ///
+    /// Of steps nothing is recorded but where the last one led: [`now`](Self::now).
+    ///
+    /// * `rim_speeds`: ω r_s of each wheel [m/s], in the mounts' order
+    /// * `span`: how long [s], from [`LEAST_STEP`] to a day
+    ///
+    /// # Errors
+    /// [`RunError`] for speeds and times that nothing can have, which change nothing; and where the
+    /// motion cannot be computed, at which the rover stays where it last was looked at.
+    pub fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), RunError> {
+        check(rim_speeds, &self.scenario)?;
+        if !(LEAST_STEP..=LONGEST_DURATION).contains(&span) {
+            let expected = "from 1e-6 to 86400";
+            return Err(ParameterError::new("step [s]", span, expected).into());
         }
-        let Progress { samples, outcome, method, work, .. } = self.progress;
-        Ok(Trajectory { samples, outcome: outcome.unwrap_or(Outcome::Completed), method, work })
-    }
-
-    /// Asks the drive, then lets the motion go on to a time [s], unless an outcome ends it.
-    ///
-    /// # Errors
-    /// [`SimulationError`] if the motion cannot be computed.
-    pub fn advance(&mut self, until: f64) -> Result<(), SimulationError> {
-        if self.progress.outcome.is_some() || until <= self.progress.time {
+        if self.state.outcome.is_some() {
             return Ok(());
         }
-        self.ask_drive();
-        let rims = rims(self.scenario, &*self.drive, &self.rim_speeds, until);
-        self.progress.advance(self.scenario, rims, until)
+        let is_new_command = self.state.rim_speeds != rim_speeds;
+        if is_new_command {
+            self.state.turn(&self.scenario, rim_speeds);
+        }
+        let until = snapped(self.state.time + span, WATCH_PERIOD);
+        self.records.truncate(self.kept);
+        let done = self.leg(is_new_command, until, Some(until)).go_to(until);
+        self.record_now();
+        done
+    }
+
+    /// The trajectory so far.
+    #[must_use]
+    pub fn finish(self) -> Trajectory {
+        let State { outcome, method, work, .. } = self.state;
+        let outcome = outcome.unwrap_or(Outcome::Completed);
+        Trajectory { records: self.records, outcome, method, work }
+    }
+
+    /// What is simulated.
+    #[must_use]
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// All that changes.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The rover now: at its start, where it was led to, or when its outcome was found.
+    ///
+    /// # Panics
+    /// Never: there always is a record.
+    #[must_use]
+    pub fn now(&self) -> &Record {
+        self.records.last().expect("a run has a record of its start")
+    }
+
+    /// The records so far: at the start, at every sample interval that a controller led the rover
+    /// through, and now.
+    #[must_use]
+    pub fn records(&self) -> &[Record] {
+        &self.records
     }
 
     /// What became of the rover, if that is known already.
     #[must_use]
     pub fn outcome(&self) -> Option<&Outcome> {
-        self.progress.outcome.as_ref()
+        self.state.outcome()
     }
 
-    /// The samples so far.
-    #[must_use]
-    pub fn samples(&self) -> &[Sample] {
-        &self.progress.samples
+    /// Goes on under a controller, without a record of where that ends, unless one is due there.
+    fn lead(
+        &mut self,
+        controller: &mut dyn Controller,
+        until: f64,
+        is_asked: bool,
+    ) -> Result<(), RunError> {
+        let mut is_asked = is_asked;
+        if let Some(period) = controller.period() {
+            positive("control period [s]", period)?;
+        }
+        self.records.truncate(self.kept);
+        let mut led = Ok(());
+        while led.is_ok() && self.state.outcome.is_none() && self.state.time < until {
+            let mut is_new_command = controller.period().is_some();
+            if is_asked {
+                let rim_speeds = ask(controller, &self.scenario, &mut self.state)?;
+                is_new_command |= rim_speeds != self.state.rim_speeds;
+                self.state.turn(&self.scenario, &rim_speeds);
+            }
+            is_asked = true;
+            let next = controller.period().map_or(until, |period| {
+                let periods = (self.state.time / period).round() + 1.0;
+                (periods * period).min(until)
+            });
+            led = self.leg(is_new_command, next, None).go_to(next);
+            self.kept = self.records.len();
+        }
+        led
     }
 
-    fn ask_drive(&mut self) {
-        if self.progress.time == 0.0 || !self.drive.varies() {
+    fn leg(&mut self, is_new_command: bool, kept_until: f64, only_at: Option<f64>) -> Leg<'_> {
+        Leg {
+            scenario: &self.scenario,
+            state: &mut self.state,
+            records: &mut self.records,
+            is_new_command,
+            kept_until,
+            record_only_at: only_at,
+        }
+    }
+
+    /// Records where the run has come to, if that is not done; without wheels where those do not
+    /// settle.
+    fn record_now(&mut self) {
+        let State { time, point, rim_speeds, .. } = &self.state;
+        if self.records.last().is_some_and(|last| is_same_time(last.time, *time)) {
             return;
         }
-        let old = self.rim_speeds.clone();
-        let yaw = self.progress.point.state.yaw;
-        let slip_ratios = &self.progress.slip_ratios;
-        let input = DriveInput { rover: &self.scenario.rover, yaw, slip_ratios };
-        self.drive.rim_speeds(&input, &mut self.rim_speeds);
-        self.progress.turn(self.scenario, &old, &self.rim_speeds);
+        let equations = Equations::of(&self.scenario, rim_speeds);
+        let wheels = equations.reactions(&point.state).unwrap_or_default();
+        self.records.push(Record::new(&equations, *time, point, &wheels));
     }
 }
 
-/// What a drive makes of the time until its next look, or until the end.
-fn rims<'r>(scenario: &Scenario, drive: &dyn Drive, speeds: &'r [f64], until: f64) -> Rims<'r> {
-    let changed = drive.varies();
-    let kept_until = if changed { until } else { scenario.duration.max(until) };
-    Rims { speeds, changed, kept_until }
+/// What a controller makes of a rover: the speed of each rim [m/s].
+fn ask(
+    controller: &mut dyn Controller,
+    scenario: &Scenario,
+    state: &mut State,
+) -> Result<Vec<f64>, RunError> {
+    let seen = Observation {
+        scenario,
+        time: state.time,
+        rover: &state.point.state,
+        rim_speeds: &state.rim_speeds,
+        slip_ratios: &state.slip_ratios,
+        work: Cell::new(Work::default()),
+    };
+    let mut rim_speeds = state.rim_speeds.clone();
+    controller.command(&seen, &mut rim_speeds);
+    let work = seen.work.get();
+    state.work += work;
+    check(&rim_speeds, scenario)?;
+    Ok(rim_speeds)
+}
+
+/// That there is a finite speed for each wheel.
+fn check(rim_speeds: &[f64], scenario: &Scenario) -> Result<(), ParameterError> {
+    DriveLaw::ConstantEach(rim_speeds.to_vec()).check(&scenario.rover)
 }

@@ -4,7 +4,7 @@ use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::units::Vec2;
-use crate::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverState};
+use crate::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState};
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Scenario {
 /// How a run is computed and recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numerics {
-    /// Whether velocities are integrated or in balance.
+    /// Whether velocities are integrated or steady.
     pub approach: Approach,
     /// What carries the motion through time.
     pub integrator: Integrator,
@@ -95,7 +95,8 @@ pub struct Start {
 /// Motion at the start of a run; the wheels turn from the first instant on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Motion {
-    /// The body moves along its x axis at [`ROLLING_SHARE`] of the wheels' mean rim speed.
+    /// The body moves the way that its wheels roll, which is along its x axis where none is steered, at
+    /// [`ROLLING_SHARE`] of the wheels' mean rim velocity. It does not turn.
     #[default]
     Rolling,
     /// Nothing moves but the wheels.
@@ -139,8 +140,10 @@ impl Scenario {
             Motion::Rest => at_rest,
             Motion::Rolling => {
                 let count = rim_speeds.len() as f64;
-                let mean = rim_speeds.iter().sum::<f64>() / count;
-                let velocity = Vec2::new(ROLLING_SHARE * mean, 0.0);
+                let along =
+                    |(mount, rim): (&Mount, &f64)| mount.body_from_wheel(Vec2::new(*rim, 0.0));
+                let sum: Vec2 = self.rover.mounts().iter().zip(rim_speeds).map(along).sum();
+                let velocity = ROLLING_SHARE * (sum / count);
                 RoverState { velocity, ..at_rest }
             }
         }

@@ -1,10 +1,10 @@
 //! A watch over what becomes of a rover under way.
 
+use super::outcome::{Outcome, StuckBecause};
 use super::scenario::Scenario;
-use super::trajectory::{Outcome, StuckBecause};
 use crate::contact::Slip;
 use crate::vehicle::RoverState;
-use crate::vehicle::kinematics::hub_velocity;
+use crate::vehicle::kinematics::wheel_velocity;
 
 /// Time between two looks at what becomes of the rover [s]: however rarely samples are recorded, a
 /// finding is found. Source: ours, a tenth of [`CERTAIN_AFTER`].
@@ -55,7 +55,7 @@ impl Watch {
             .iter()
             .zip(scenario.rover.mounts())
             .filter(|(rim, _)| **rim != 0.0)
-            .map(|(rim, mount)| rim.signum() * hub_velocity(state, mount.position.xy()).x)
+            .map(|(rim, mount)| rim.signum() * wheel_velocity(state, mount).x)
             .sum();
         let turns = rim_sum > 0.0;
 

@@ -4,26 +4,6 @@ use super::rover::Rover;
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 
-/// What a drive knows when it sets the wheels' speeds.
-#[derive(Clone, Copy, Debug)]
-pub struct DriveInput<'a> {
-    /// The rover.
-    pub rover: &'a Rover,
-    /// Yaw, *γ* [rad].
-    pub yaw: f64,
-    /// Slip ratio of each wheel when it was last looked at [-]; zeros at the start.
-    pub slip_ratios: &'a [f64],
-}
-
-/// What turns the wheels. It is sampled once a control period and holds between.
-pub trait Drive {
-    /// Sets the rim speed ω r_s of each wheel [m/s].
-    fn rim_speeds(&mut self, input: &DriveInput<'_>, rim_speeds: &mut [f64]);
-
-    /// Whether the speeds can change during a run; if not, the drive is asked only once.
-    fn varies(&self) -> bool;
-}
-
 /// The drives that a document can name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveLaw {
@@ -91,27 +71,33 @@ impl DriveLaw {
             Self::Eq18AsPrinted(target) | Self::Eq18(target) => target.speed,
         }
     }
-}
 
-impl Drive for DriveLaw {
-    fn rim_speeds(&mut self, input: &DriveInput<'_>, rim_speeds: &mut [f64]) {
+    /// Sets the rim speed ω r_s of each wheel [m/s]. Eq. 18 takes the direction of each wheel, γ + δ,
+    /// for the yaw.
+    ///
+    /// * `yaw`: *γ* [rad]
+    /// * `slip_ratios`: of each wheel when it was last looked at [-]; zeros at the start
+    pub fn rim_speeds(&self, rover: &Rover, yaw: f64, slip_ratios: &[f64], rim_speeds: &mut [f64]) {
+        let each = rover.mounts().iter().map(|mount| yaw + mount.steering).zip(slip_ratios);
         match self {
             Self::Constant(speed) => rim_speeds.fill(*speed),
             Self::ConstantEach(speeds) => rim_speeds.copy_from_slice(speeds),
             Self::Eq18AsPrinted(target) => {
-                for (rim_speed, s) in rim_speeds.iter_mut().zip(input.slip_ratios) {
-                    *rim_speed = eq_18_as_printed(target, *s, input.yaw);
+                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
+                    *rim_speed = eq_18_as_printed(target, *s, yaw);
                 }
             }
             Self::Eq18(target) => {
-                for (rim_speed, s) in rim_speeds.iter_mut().zip(input.slip_ratios) {
-                    *rim_speed = eq_18(target, *s, input.yaw);
+                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
+                    *rim_speed = eq_18(target, *s, yaw);
                 }
             }
         }
     }
 
-    fn varies(&self) -> bool {
+    /// Whether the speeds can change during a run.
+    #[must_use]
+    pub fn varies(&self) -> bool {
         matches!(self, Self::Eq18AsPrinted(_) | Self::Eq18(_))
     }
 }

@@ -18,6 +18,7 @@ use super::rover::Rover;
 use super::state::{Acceleration, RoverState};
 use crate::contact::WheelForces;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
 
 /// Forces of the soil on the rover: their sum [N] in the body frame, and their moment about the
@@ -33,7 +34,7 @@ pub fn soil_resultant(
     let mut force = Vec2::zeros();
     let mut moment = 0.0;
     for (mount, wheel) in rover.mounts().iter().zip(wheels) {
-        let wheel_force = Vec2::new(wheel.drawbar_pull, wheel.side_force);
+        let wheel_force = mount.body_from_wheel(Vec2::new(wheel.drawbar_pull, wheel.side_force));
         force += wheel_force;
         moment += mount.position.xy().perp(&wheel_force);
         if own_moments == OwnMoments::Included {
@@ -47,13 +48,13 @@ pub fn soil_resultant(
 #[must_use]
 pub fn acceleration(
     rover: &Rover,
-    site: &Site,
+    site: &Site<dyn Terrain>,
     state: &RoverState,
     wheels: &[WheelForces],
     own_moments: OwnMoments,
 ) -> Acceleration {
     let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
-    let weight = slope_pull(rover, site, state.yaw);
+    let weight = slope_pull(rover, site, state);
     let force = soil_force + weight;
     let moment = soil_moment + rover.centre_of_mass().perp(&weight);
 

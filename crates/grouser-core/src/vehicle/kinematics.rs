@@ -1,6 +1,6 @@
 //! The motion of each hub ([FourWheel], Eqs 2-3) and the slip of each wheel (Eqs 15-17).
 
-use super::rover::Rover;
+use super::rover::{Mount, Rover};
 use super::state::RoverState;
 use crate::contact::Slip;
 use crate::units::Vec2;
@@ -13,7 +13,13 @@ pub fn hub_velocity(state: &RoverState, arm: Vec2) -> Vec2 {
     state.velocity + state.yaw_rate * Vec2::new(-arm.y, arm.x)
 }
 
-/// The slip of every wheel; wheel frames are parallel to the body's, for no wheel is steered.
+/// Velocity of a wheel's hub, in the wheel's own frame [m/s].
+#[must_use]
+pub fn wheel_velocity(state: &RoverState, mount: &Mount) -> Vec2 {
+    mount.wheel_from_body(hub_velocity(state, mount.position.xy()))
+}
+
+/// The slip of every wheel.
 ///
 /// * `rim_speeds`: ω r_s of each wheel [m/s]
 pub fn wheel_slips<'a>(
@@ -21,7 +27,9 @@ pub fn wheel_slips<'a>(
     state: &'a RoverState,
     rim_speeds: &'a [f64],
 ) -> impl Iterator<Item = Slip> + 'a {
-    rover.mounts().iter().zip(rim_speeds).map(|(mount, &rim_speed)| {
-        Slip::of_motion(rim_speed, hub_velocity(state, mount.position.xy()))
-    })
+    rover
+        .mounts()
+        .iter()
+        .zip(rim_speeds)
+        .map(|(mount, &rim_speed)| Slip::of_motion(rim_speed, wheel_velocity(state, mount)))
 }

@@ -12,12 +12,13 @@
 //! springs would. No load is negative: a wheel that would have to pull has lifted, and the others
 //! share. Where no such loads exist the rover tips over its outermost wheels.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Rotation2, Vector3};
 
 use super::rover::Rover;
+use super::state::RoverState;
 use crate::contact::WheelForces;
-use crate::elementary::wide;
-use crate::site::Site;
+use crate::site::{Site, Weight};
+use crate::terrain::Terrain;
 use crate::units::Vec2;
 
 /// What moves load from wheel to wheel.
@@ -47,13 +48,31 @@ pub enum OwnMoments {
 #[error("the weight falls outside the wheels")]
 pub struct Tipping;
 
-/// The weight's pull along the slope, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
-/// 12-13, with the signs it leaves out): m g sin α points downhill, to −y of the slope frame.
+/// The rover's weight on the ground under it.
+///
+/// * `slope_from_body`: the rotation of the state
 #[must_use]
-pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
-    let pull = rover.mass() * site.gravity * wide::sin(site.slope);
-    let (sin, cos) = wide::sin_cos(yaw);
-    -pull * Vec2::new(sin, cos)
+pub fn weight(
+    rover: &Rover,
+    site: &Site<dyn Terrain>,
+    state: &RoverState,
+    slope_from_body: &Rotation2<f64>,
+) -> Weight {
+    let patch = site.terrain.patch(state.position, rover.footprint(slope_from_body));
+    site.weight(rover.mass(), &patch)
+}
+
+/// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
+/// 12-13, with the signs it leaves out): on a plane m g sin α points downhill, to −y of the slope frame.
+#[must_use]
+pub fn slope_pull(rover: &Rover, site: &Site<dyn Terrain>, state: &RoverState) -> Vec2 {
+    let slope_from_body = state.slope_from_body();
+    pull(&weight(rover, site, state, &slope_from_body), &slope_from_body)
+}
+
+/// The same of a weight that is known.
+pub(super) fn pull(weight: &Weight, slope_from_body: &Rotation2<f64>) -> Vec2 {
+    -slope_from_body.inverse_transform_vector(&weight.uphill)
 }
 
 /// Moments that the loads balance, *(P, R)* = (Σ d_x N, Σ d_y N) [N·m].
@@ -65,14 +84,20 @@ pub fn slope_pull(rover: &Rover, site: &Site, yaw: f64) -> Vec2 {
 /// ```
 ///
 /// The first line puts the wheels' forces into the contact plane; the others take them to the
-/// hubs, with the moments that then go with them.
+/// hubs, with the moments that then go with them. Where wheels differ in radius, or are steered by
+/// δ, what such a moment has beyond that of a force in the contact plane is turned with its wheel:
 ///
+/// ```text
+/// with torque       P = −H ΣF_x − Σ cos δ (T − r_s F_x,w)        R = H G_y − Σ sin δ (T − r_s F_x,w)
+/// own moments       P + Σ sin δ (M_x − r_s F_y,w)                R − Σ cos δ (M_x − r_s F_y,w)
+/// ```
+///
+/// * `pull`: that of the weight, *(G_x, G_y)* of [`slope_pull`] [N]
 /// * `wheels`: the soil's reactions, or none for the first line
 #[must_use]
 pub fn moments(
     rover: &Rover,
-    site: &Site,
-    yaw: f64,
+    pull: Vec2,
     sharing: LoadSharing,
     own_moments: OwnMoments,
     wheels: &[WheelForces],
@@ -81,17 +106,50 @@ pub fn moments(
         return Vec2::zeros();
     }
     let height = rover.centre_height();
-    let radius = rover.wheel().shearing_radius();
-    let mut balance = height * slope_pull(rover, site, yaw);
+    let mut balance = height * pull;
     if wheels.is_empty() {
         return balance;
     }
+    let Some(radius) = rover.common_radius() else {
+        return balance_of_each(rover, balance, sharing, own_moments, wheels);
+    };
     let sum = |part: fn(&WheelForces) -> f64| wheels.iter().map(part).sum::<f64>();
     if sharing == LoadSharing::QuasiStaticTorque {
         balance.x = -(height - radius) * sum(|w| w.drawbar_pull) - sum(|w| w.torque);
     }
     if own_moments == OwnMoments::Included {
         balance.y += radius * sum(|w| w.side_force) - sum(|w| w.overturning_moment);
+    }
+    balance
+}
+
+/// The same for wheels that differ, or are steered.
+///
+/// * `balance`: that of forces in the contact plane [N·m]
+fn balance_of_each(
+    rover: &Rover,
+    mut balance: Vec2,
+    sharing: LoadSharing,
+    own_moments: OwnMoments,
+    wheels: &[WheelForces],
+) -> Vec2 {
+    let of_torque = sharing == LoadSharing::QuasiStaticTorque;
+    if of_torque {
+        balance.x = 0.0;
+    }
+    for (mount, wheel) in rover.mounts().iter().zip(wheels) {
+        let (force, radius) =
+            (Vec2::new(wheel.drawbar_pull, wheel.side_force), mount.shearing_radius());
+        let mut excess = Vec2::zeros();
+        if of_torque {
+            balance.x -= rover.centre_height() * mount.body_from_wheel(force).x;
+            excess.y = radius * force.x - wheel.torque;
+        }
+        if own_moments == OwnMoments::Included {
+            excess.x = wheel.overturning_moment - radius * force.y;
+        }
+        let excess = mount.body_from_wheel(excess);
+        balance += Vec2::new(excess.y, -excess.x);
     }
     balance
 }

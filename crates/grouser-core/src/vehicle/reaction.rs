@@ -2,13 +2,16 @@
 
 use std::iter::repeat;
 
+use nalgebra::Rotation2;
+
 use super::load::{self, LoadSharing, OwnMoments, Tipping};
 use super::rover::Rover;
+use super::state::RoverState;
 use crate::contact::{
     Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle, settle_from,
 };
-use crate::elementary::wide;
 use crate::site::Site;
+use crate::terrain::Terrain;
 use crate::units::Vec2;
 
 /// What decides the soil's reaction on a rover, besides its motion.
@@ -17,7 +20,7 @@ pub struct Ground<'a> {
     /// The rover.
     pub rover: &'a Rover,
     /// Where it is.
-    pub site: &'a Site,
+    pub site: &'a Site<dyn Terrain>,
     /// The theory of the wheel-soil reaction.
     pub model: &'a dyn WheelSoilModel,
     /// How the weight is shared.
@@ -63,6 +66,15 @@ pub enum ReactionError {
     },
 }
 
+/// Where a rover stands, and with what weight.
+struct Stance {
+    /// [m]
+    place: Vec2,
+    slope_from_body: Rotation2<f64>,
+    /// Its part into the ground [N].
+    weight: f64,
+}
+
 impl Ground<'_> {
     /// The reaction on every wheel, in the mounts' order.
     ///
@@ -71,12 +83,20 @@ impl Ground<'_> {
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or the turns do not agree.
-    pub fn reactions(&self, yaw: f64, slips: &[Slip]) -> Result<Vec<WheelReaction>, ReactionError> {
+    pub fn reactions(
+        &self,
+        state: &RoverState,
+        slips: &[Slip],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
         let coupled = sharing == LoadSharing::QuasiStaticTorque
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
-        let mut moments = load::moments(rover, site, yaw, sharing, own_moments, &[]);
-        let mut wheels = self.settle_under(moments, slips, &[])?;
+        let slope_from_body = state.slope_from_body();
+        let weight = load::weight(rover, site, state, &slope_from_body);
+        let pull = load::pull(&weight, &slope_from_body);
+        let stance = Stance { place: state.position, slope_from_body, weight: weight.into };
+        let mut moments = load::moments(rover, pull, sharing, own_moments, &[]);
+        let mut wheels = self.settle_under(&stance, moments, slips, &[])?;
         if !coupled {
             return Ok(wheels);
         }
@@ -88,13 +108,13 @@ impl Ground<'_> {
         let mut change = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
             let forces: Vec<WheelForces> = wheels.iter().map(|w| w.settled.forces).collect();
-            let next = load::moments(rover, site, yaw, sharing, own_moments, &forces);
+            let next = load::moments(rover, pull, sharing, own_moments, &forces);
             change = (next - moments).norm() / scale;
             if change <= AGREED {
                 return Ok(wheels);
             }
             moments = next;
-            wheels = self.settle_under(moments, slips, &wheels)?;
+            wheels = self.settle_under(&stance, moments, slips, &wheels)?;
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }
@@ -103,17 +123,20 @@ impl Ground<'_> {
     ///   they were a moment ago is not asked: the same motion has the same bits, whatever came before.)
     fn settle_under(
         &self,
+        stance: &Stance,
         moments: Vec2,
         slips: &[Slip],
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, model, sharing, .. } = *self;
-        let weight = rover.mass() * site.gravity * wide::cos(site.slope);
+        let Stance { place, slope_from_body, weight } = *stance;
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
         let settled = wheels.map(|(((&slip, load), mount), guess)| {
-            let (wheel, soil, gravity) = (*rover.wheel(), site.soil, site.gravity);
+            let at = place + slope_from_body * mount.position.xy();
+            let soil = *site.terrain.soil(at, mount.footprint(&slope_from_body));
+            let (wheel, gravity) = (mount.unit.wheel, site.gravity);
             let contact = Contact { wheel, soil, slip, gravity };
             guess
                 .map_or_else(

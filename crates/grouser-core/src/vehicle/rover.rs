@@ -1,6 +1,13 @@
-//! A rover: a body and three or more equal wheels, rigidly joined ([FourWheel], Tables 1 and 2).
+//! A rover: a body and three or more wheels, rigidly joined ([FourWheel], Tables 1 and 2).
+//!
+//! Each mount has a wheel with its motor, and may be steered by a fixed angle.
 
+use nalgebra::Rotation2;
+
+use super::state::rotation;
 use crate::error::{ParameterError, finite, positive};
+use crate::terrain::Footprint;
+use crate::terrain::footprint::REACH;
 use crate::units::{Vec2, Vec3};
 use crate::wheel::Wheel;
 
@@ -24,7 +31,7 @@ pub struct Body {
     pub inertia: Inertia,
 }
 
-/// A wheel with its motor; every wheel of a rover is the same.
+/// A wheel with its motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelUnit {
     /// Mass [kg].
@@ -35,30 +42,112 @@ pub struct WheelUnit {
     pub wheel: Wheel,
 }
 
-/// Where a wheel sits.
+/// A wheel in its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
     /// The wheel's name, such as `front-left`.
     pub name: String,
     /// Its hub, in the body frame [m].
     pub position: Vec3,
+    /// The wheel with its motor.
+    pub unit: WheelUnit,
+    /// Steering angle, *δ* [rad]: the wheel is turned to the left by this much, for good.
+    pub steering: f64,
 }
 
-/// What a rover is made from.
+impl Mount {
+    /// Shearing radius of the wheel, *r_s* [m].
+    #[must_use]
+    pub fn shearing_radius(&self) -> f64 {
+        self.unit.wheel.shearing_radius()
+    }
+
+    /// A vector of the body frame, in the wheel's.
+    #[must_use]
+    pub fn wheel_from_body(&self, vector: Vec2) -> Vec2 {
+        match self.turn() {
+            None => vector,
+            Some(turn) => turn.inverse_transform_vector(&vector),
+        }
+    }
+
+    /// A vector of the wheel's frame, in the body's.
+    #[must_use]
+    pub fn body_from_wheel(&self, vector: Vec2) -> Vec2 {
+        self.turn().map_or(vector, |turn| turn * vector)
+    }
+
+    /// Where ground counts for the wheel.
+    ///
+    /// * `slope_from_body`: the rover's rotation
+    #[must_use]
+    pub fn footprint(&self, slope_from_body: &Rotation2<f64>) -> Footprint {
+        let Wheel { width, .. } = self.unit.wheel;
+        Footprint {
+            forward: slope_from_body * self.body_from_wheel(Vec2::x()),
+            half_length: REACH * self.shearing_radius(),
+            half_width: 0.5 * width,
+        }
+    }
+
+    /// The rotation from the body's frame to the wheel's; none for a wheel that points straight ahead.
+    fn turn(&self) -> Option<Rotation2<f64>> {
+        (self.steering != 0.0).then(|| rotation(self.steering))
+    }
+}
+
+/// What a rover is made from: a wheel unit for all mounts, and what single mounts have instead.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoverParts {
     /// The body, without its wheels.
     pub body: Body,
-    /// A wheel with its motor; all are the same.
+    /// The wheel with its motor of every mount that has no other.
     pub wheel_unit: WheelUnit,
     /// Where the wheels sit.
-    pub mounts: Vec<Mount>,
+    pub mounts: Vec<MountParts>,
+}
+
+/// Where a wheel sits, and what it has instead of the common wheel unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MountParts {
+    /// The wheel's name, such as `front-left`.
+    pub name: String,
+    /// Its hub, in the body frame [m].
+    pub position: Vec3,
+    /// Steering angle, *δ* [rad], positive to the left.
+    pub steering: f64,
+    /// A wheel of its own.
+    pub wheel: Option<Wheel>,
+    /// A mass of its own [kg].
+    pub mass: Option<f64>,
+    /// An inertia of its own.
+    pub inertia: Option<Inertia>,
+}
+
+impl RoverParts {
+    /// Each mount with all that it has.
+    #[must_use]
+    pub fn complete_mounts(&self) -> Vec<Mount> {
+        let common = self.wheel_unit;
+        let complete = |mount: &MountParts| Mount {
+            name: mount.name.clone(),
+            position: mount.position,
+            unit: WheelUnit {
+                mass: mount.mass.unwrap_or(common.mass),
+                inertia: mount.inertia.unwrap_or(common.inertia),
+                wheel: mount.wheel.unwrap_or(common.wheel),
+            },
+            steering: mount.steering,
+        };
+        self.mounts.iter().map(complete).collect()
+    }
 }
 
 /// A rover that can stand and be moved: made by [`Rover::new`], then unchanged.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Rover {
     parts: RoverParts,
+    mounts: Vec<Mount>,
     mass: f64,
     first_moment: Vec2,
     yaw_inertia: f64,
@@ -66,20 +155,36 @@ pub struct Rover {
     load_arms: Vec<Vec2>,
 }
 
-/// Hubs may differ in height by this much [m] and still share one contact plane.
+/// Two rovers are one if they have the same body, and on it the same wheels.
+impl PartialEq for Rover {
+    fn eq(&self, other: &Self) -> bool {
+        self.parts.body == other.parts.body && self.mounts == other.mounts
+    }
+}
+
+/// The lowest points of wheels may differ in height by this much [m] and still share one contact plane.
 const LEVEL: f64 = 1e-9;
 
 impl Rover {
-    /// A rover from its parts.
+    /// A rover from its body and its wheels.
     ///
     /// # Errors
     /// [`ParameterError`] if a mass or an inertia is not positive, if there are fewer than three
-    /// wheels, if they stand in one line, or if their hubs differ in height.
-    pub fn new(
-        body: Body,
-        wheel_unit: WheelUnit,
-        mounts: Vec<Mount>,
-    ) -> Result<Self, ParameterError> {
+    /// wheels, if they stand in one line, or if they do not reach down to one plane.
+    pub fn new(body: Body, mounts: Vec<Mount>) -> Result<Self, ParameterError> {
+        let Some(first) = mounts.first() else {
+            return Err(ParameterError::new("the number of wheels", 0.0, "three or more"));
+        };
+        let wheel_unit = first.unit;
+        let parts = |Mount { name, position, unit, steering }: Mount| MountParts {
+            name,
+            position,
+            steering,
+            wheel: (unit.wheel != wheel_unit.wheel).then_some(unit.wheel),
+            mass: (unit.mass != wheel_unit.mass).then_some(unit.mass),
+            inertia: (unit.inertia != wheel_unit.inertia).then_some(unit.inertia),
+        };
+        let mounts = mounts.into_iter().map(parts).collect();
         Self::draft(RoverParts { body, wheel_unit, mounts }).checked()
     }
 
@@ -89,12 +194,19 @@ impl Rover {
     pub const fn draft(parts: RoverParts) -> Self {
         Self {
             parts,
+            mounts: Vec::new(),
             mass: 0.0,
             first_moment: Vec2::new(0.0, 0.0),
             yaw_inertia: 0.0,
             centre_height: 0.0,
             load_arms: Vec::new(),
         }
+    }
+
+    /// The parts that it is made from.
+    #[must_use]
+    pub fn parts(&self) -> &RoverParts {
+        &self.parts
     }
 
     /// The parts, to be changed; the rover has to be [`checked`](Self::checked) after that.
@@ -108,29 +220,45 @@ impl Rover {
     /// As for [`new`](Self::new).
     pub fn checked(self) -> Result<Self, ParameterError> {
         let parts = self.parts;
-        let RoverParts { body, wheel_unit, ref mounts } = parts;
+        let mounts = parts.complete_mounts();
+        let body = parts.body;
+        let alike = alike(&mounts);
         positive("body mass [kg]", body.mass)?;
-        positive("wheel unit mass [kg]", wheel_unit.mass)?;
-        for (part, inertia) in [("body", body.inertia), ("wheel unit", wheel_unit.inertia)] {
+        for (unit, _) in &alike {
+            positive("wheel unit mass [kg]", unit.mass)?;
+        }
+        let inertias = alike.iter().map(|(unit, _)| ("wheel unit", unit.inertia));
+        for (part, inertia) in std::iter::once(("body", body.inertia)).chain(inertias) {
             for (axis, value) in [("xx", inertia.xx), ("yy", inertia.yy), ("zz", inertia.zz)] {
                 positive(&format!("{part} inertia {axis} [kg·m²]"), value)?;
             }
         }
-        wheel_unit.wheel.check()?;
-        check_stance(mounts)?;
+        for (unit, _) in &alike {
+            unit.wheel.check()?;
+        }
+        check_stance(&mounts)?;
 
-        let count = mounts.len() as f64;
-        let mass = body.mass + count * wheel_unit.mass;
-        let sum: Vec3 = mounts.iter().map(|mount| mount.position).sum();
-        let centre = sum * (wheel_unit.mass / mass);
+        let (mut mass, mut yaw_inertia) = (body.mass, body.inertia.zz);
+        for (unit, positions) in &alike {
+            mass += positions.len() as f64 * unit.mass;
+        }
+        let (mut first_moment, mut centre) = (Vec2::zeros(), Vec3::zeros());
+        for (unit, positions) in &alike {
+            let count = positions.len() as f64;
+            let sum: Vec3 = positions.iter().sum();
+            let spread: f64 = positions.iter().map(|position| position.xy().norm_squared()).sum();
+            first_moment += sum.xy() * unit.mass;
+            centre += sum * (unit.mass / mass);
+            yaw_inertia = yaw_inertia + count * unit.inertia.zz + unit.mass * spread;
+        }
         let plane = mounts.iter().map(|mount| mount.position.xy());
-        let spread: f64 = plane.clone().map(|position| position.norm_squared()).sum();
         Ok(Self {
             mass,
-            first_moment: sum.xy() * wheel_unit.mass,
-            yaw_inertia: body.inertia.zz + count * wheel_unit.inertia.zz + wheel_unit.mass * spread,
-            centre_height: wheel_unit.wheel.shearing_radius() + centre.z - mounts[0].position.z,
+            first_moment,
+            yaw_inertia,
+            centre_height: mounts[0].shearing_radius() + centre.z - mounts[0].position.z,
             load_arms: plane.map(|position| position - centre.xy()).collect(),
+            mounts,
             parts,
         })
     }
@@ -142,6 +270,11 @@ impl Rover {
         let mut mirrored = self.clone();
         for mount in &mut mirrored.parts.mounts {
             mount.position.y = -mount.position.y;
+            mount.steering = -mount.steering;
+        }
+        for mount in &mut mirrored.mounts {
+            mount.position.y = -mount.position.y;
+            mount.steering = -mount.steering;
         }
         for arm in &mut mirrored.load_arms {
             arm.y = -arm.y;
@@ -153,11 +286,16 @@ impl Rover {
     /// Whether the rover is its own mirror image: then headings hold either way.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
-        /// Hubs may be off by this much [m]: a tenth of a millimetre turns no rover.
+        /// Hubs may be off by this much [m], and steering angles [rad]: a tenth of a millimetre turns
+        /// no rover.
         const SAME: f64 = 1e-4;
-        self.parts.mounts.iter().all(|mount| {
+        self.mounts.iter().all(|mount| {
             let image = Vec2::new(mount.position.x, -mount.position.y);
-            self.parts.mounts.iter().any(|other| (other.position.xy() - image).amax() <= SAME)
+            self.mounts.iter().any(|other| {
+                (other.position.xy() - image).amax() <= SAME
+                    && (other.steering + mount.steering).abs() <= SAME
+                    && other.unit == mount.unit
+            })
         })
     }
 
@@ -167,28 +305,41 @@ impl Rover {
         &self.parts.body
     }
 
-    /// The wheel unit.
-    #[must_use]
-    pub fn wheel_unit(&self) -> &WheelUnit {
-        &self.parts.wheel_unit
-    }
-
-    /// The wheel's geometry.
-    #[must_use]
-    pub fn wheel(&self) -> &Wheel {
-        &self.parts.wheel_unit.wheel
-    }
-
-    /// The mounts, in the order of every per-wheel list.
+    /// The mounts with their wheels, in the order of every per-wheel list.
     #[must_use]
     pub fn mounts(&self) -> &[Mount] {
-        &self.parts.mounts
+        &self.mounts
     }
 
     /// How many wheels there are.
     #[must_use]
     pub fn wheel_count(&self) -> usize {
-        self.parts.mounts.len()
+        self.mounts.len()
+    }
+
+    /// Where ground counts for the rover: as far as its hubs.
+    ///
+    /// * `slope_from_body`: its rotation
+    #[must_use]
+    pub fn footprint(&self, slope_from_body: &Rotation2<f64>) -> Footprint {
+        let hubs = self.mounts.iter().map(|mount| mount.position);
+        let [half_length, half_width] =
+            hubs.fold([0.0, 0.0], |[x, y]: [f64; 2], hub| [x.max(hub.x.abs()), y.max(hub.y.abs())]);
+        Footprint { forward: slope_from_body * Vec2::x(), half_length, half_width }
+    }
+
+    /// The shearing radius that all wheels have, if they do and point straight ahead [m]: then one
+    /// lever and one axis serve them all.
+    #[must_use]
+    pub fn common_radius(&self) -> Option<f64> {
+        let radius = self.mounts.first()?.shearing_radius();
+        let is_common = |mount: &Mount| mount.shearing_radius() == radius && mount.steering == 0.0;
+        self.mounts.iter().all(is_common).then_some(radius)
+    }
+
+    /// Angular speeds of the wheels, *ω* [rad/s], that turn at these rim speeds, *ω r_s* [m/s].
+    pub fn wheel_speeds<'a>(&'a self, rim_speeds: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        rim_speeds.iter().zip(&self.mounts).map(|(speed, mount)| speed / mount.shearing_radius())
     }
 
     /// Mass of body and wheels, *m* [kg].
@@ -197,7 +348,7 @@ impl Rover {
         self.mass
     }
 
-    /// First moment of the wheels about the body's centre of mass, *S* = m_w Σ d, in the body
+    /// First moment of the wheels about the body's centre of mass, *S* = Σ m_w d, in the body
     /// frame [kg·m]. ([FourWheel], Eqs 8-9, calls its components I_xz and I_yz.)
     #[must_use]
     pub fn first_moment(&self) -> Vec2 {
@@ -230,6 +381,18 @@ impl Rover {
     }
 }
 
+/// The wheel units of a rover, each with the hubs that have it [m].
+fn alike(mounts: &[Mount]) -> Vec<(WheelUnit, Vec<Vec3>)> {
+    let mut alike: Vec<(WheelUnit, Vec<Vec3>)> = Vec::new();
+    for mount in mounts {
+        match alike.iter_mut().find(|(unit, _)| *unit == mount.unit) {
+            Some((_, positions)) => positions.push(mount.position),
+            None => alike.push((mount.unit, vec![mount.position])),
+        }
+    }
+    alike
+}
+
 fn check_stance(mounts: &[Mount]) -> Result<(), ParameterError> {
     if mounts.len() < 3 {
         let count = mounts.len() as f64;
@@ -239,9 +402,15 @@ fn check_stance(mounts: &[Mount]) -> Result<(), ParameterError> {
         for (axis, value) in ["x", "y", "z"].iter().zip(mount.position.iter()) {
             finite(&format!("position {axis} of wheel {} [m]", mount.name), *value)?;
         }
-        if (mount.position.z - mounts[0].position.z).abs() > LEVEL {
+        finite(&format!("steering of wheel {} [rad]", mount.name), mount.steering)?;
+        let larger = mount.shearing_radius() - mounts[0].shearing_radius();
+        if (mount.position.z - mounts[0].position.z - larger).abs() > LEVEL {
             let name = format!("height z of wheel {} [m]", mount.name);
-            let expected = "that of the other wheels: all stand on one plane";
+            let expected = if larger == 0.0 {
+                "that of the other wheels: all stand on one plane"
+            } else {
+                "its radius over the lowest points of the other wheels: all stand on one plane"
+            };
             return Err(ParameterError::new(name, mount.position.z, expected));
         }
     }
@@ -273,14 +442,13 @@ mod tests {
         let inertia = Inertia { xx: 0.138, yy: 0.142, zz: 0.230 };
         let wheel_inertia = Inertia { xx: 0.001, yy: 0.001_54, zz: 0.001 };
         let wheel = Wheel { radius: 0.11, width: 0.08, grousers: None };
-        let mounts = [(0.19, 0.24), (-0.17, 0.24), (-0.17, -0.24), (0.19, -0.24)]
-            .map(|(x, y)| Mount { name: format!("{x},{y}"), position: Vec3::new(x, y, -0.06) });
-        let rover = Rover::new(
-            Body { mass: 5.24, inertia },
-            WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel },
-            mounts.to_vec(),
-        )
-        .expect("a rover that stands");
+        let unit = WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel };
+        let mounts = [(0.19, 0.24), (-0.17, 0.24), (-0.17, -0.24), (0.19, -0.24)].map(|(x, y)| {
+            let (name, position) = (format!("{x},{y}"), Vec3::new(x, y, -0.06));
+            Mount { name, position, unit, steering: 0.0 }
+        });
+        let rover =
+            Rover::new(Body { mass: 5.24, inertia }, mounts.to_vec()).expect("a rover that stands");
         assert!((rover.mass() - 6.928).abs() < 1e-12);
         assert!((rover.yaw_inertia() - (0.230 + 0.004 + 0.422 * 0.3604)).abs() < 1e-12);
         assert!((rover.centre_of_mass().x - 0.0024).abs() < 5e-5);

@@ -13,6 +13,7 @@ __all__ = [
     "Document",
     "EARTH_GRAVITY",
     "FAILED_STATUSES",
+    "Footprints",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
     "REST_SPEED_M_S",
@@ -77,6 +78,35 @@ class Document:
     def files(self) -> dict[str, str]: ...
     def to_toml(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
+
+@final
+class Footprints:
+    def __new__(cls, shearing_radius_m: _Floats, width_m: _Floats) -> Footprints: ...
+    def points(
+        self,
+        origin: Sequence[float] | _Floats,
+        axes: Sequence[float] | _Floats,
+        hubs: _Floats,
+        axles: _Floats,
+    ) -> tuple[_Floats, _Floats]: ...
+    def planes(
+        self,
+        origin: Sequence[float] | _Floats,
+        axes: Sequence[float] | _Floats,
+        hubs: _Floats,
+        axles: _Floats,
+        heights: _Floats,
+    ) -> tuple[_Floats, _Floats]: ...
+    def planes_on_field(
+        self,
+        origin: Sequence[float] | _Floats,
+        axes: Sequence[float] | _Floats,
+        hubs: _Floats,
+        axles: _Floats,
+        field: NDArray[np.float32],
+        half_size: tuple[float, float],
+        unit: float,
+    ) -> tuple[_Floats, _Floats]: ...
 
 @final
 class SteppingWheels:

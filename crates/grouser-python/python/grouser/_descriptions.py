@@ -245,14 +245,15 @@ class Wheel(_Description):
 class Rover(_Description):
     """A rover: ``body``, ``wheel_unit`` with its ``wheel``, and a ``mount`` for each wheel with its
     ``position_m`` [m] from the body's centre of mass, in the body frame (x forward, y left, z up).
-    Made and failing as `Soil` is."""
+    A mount may have a ``wheel``, ``mass_kg`` and ``inertia_kg_m2`` of its own, and ``steering_deg``
+    [°], positive to the left. Made and failing as `Soil` is."""
 
     __slots__ = ()
     _kind = "rover"
 
     @property
     def wheel(self) -> Wheel:
-        """The wheel on every mount."""
+        """The wheel of every mount that has no other."""
         return Wheel(self._items["wheel_unit"]["wheel"])
 
 

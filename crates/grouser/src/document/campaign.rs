@@ -14,13 +14,11 @@
 
 mod inputs;
 mod rows;
-mod sections;
 mod statistics;
 mod table;
 
+pub use grouser_io::campaign::{Sampling, Settings, Stand, Study};
 pub use rows::FAILED;
-pub use sections::Study;
-pub(super) use sections::{Settings, Stand};
 pub use statistics::{Frequencies, QuantityStatistics};
 pub use table::{Column, Role};
 

@@ -3,6 +3,7 @@
 //! Numbers are written as they are, bit for bit, little-endian; an identity at the start names
 //! the calibration, and a check sum at the end (FNV-1a, 64 bits) finds damage.
 
+use super::fnv_1a;
 use crate::studies::calibration::PosteriorState;
 use crate::studies::calibration::posterior::Ensemble;
 
@@ -121,14 +122,6 @@ impl<'a> Reader<'a> {
 
 fn check_sum(bytes: &[u8]) -> u64 {
     fnv_1a(bytes.iter().copied())
-}
-
-/// FNV-1a with 64 bits (Fowler, Noll and Vo): distinguishes bytes that differ by accident, not by
-/// intent, and is the same for every compiler.
-pub(super) fn fnv_1a(bytes: impl Iterator<Item = u8>) -> u64 {
-    const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
-    const PRIME: u64 = 0x0000_0100_0000_01B3;
-    bytes.fold(BASIS, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(PRIME))
 }
 
 /// A fingerprint of a file's bytes, to tell whether it is still the same.

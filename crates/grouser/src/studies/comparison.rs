@@ -53,9 +53,9 @@ impl Levelness {
     /// The deviation of a run that started at y = 0.
     #[must_use]
     pub fn of(run: &Trajectory) -> Self {
-        let count = run.samples.len() as f64;
-        let squares: f64 = run.samples.iter().map(|sample| sample.state.position.y.powi(2)).sum();
-        let (first, last) = (&run.samples[0].state, &run.last().state);
+        let count = run.records.len() as f64;
+        let squares: f64 = run.records.iter().map(|sample| sample.state.position.y.powi(2)).sum();
+        let (first, last) = (&run.records[0].state, &run.last().state);
         Self {
             rms_distance_error: (squares / count).sqrt() / last.position.x.abs(),
             final_distance_error: last.position.y.abs(),

@@ -1,6 +1,6 @@
 //! A traverse in a few numbers: its length, drift, slip, sinkage and energy.
 
-use crate::simulation::{Sample, Trajectory, WheelSample};
+use crate::simulation::{Record, Trajectory, WheelRecord};
 
 /// Length, drift and means of a traverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,8 @@ impl Drive {
         /// A shorter way counts as standing still [m].
         const STILL: f64 = 1e-9;
         let last = run.last();
-        let steps = run.samples.windows(2);
-        let length = |pair: &[Sample]| (pair[1].state.position - pair[0].state.position).norm();
+        let steps = run.records.windows(2);
+        let length = |pair: &[Record]| (pair[1].state.position - pair[0].state.position).norm();
         let distance: f64 = steps.map(length).sum();
         let per_metre = |quantity: f64| (distance > STILL).then(|| quantity / distance);
         let energy = last.energy.motors;
@@ -47,8 +47,8 @@ impl Drive {
     }
 }
 
-fn mean(run: &Trajectory, quantity: fn(&WheelSample) -> f64) -> Option<f64> {
-    let all = run.samples.iter().flat_map(|sample| &sample.wheels).map(quantity);
+fn mean(run: &Trajectory, quantity: fn(&WheelRecord) -> f64) -> Option<f64> {
+    let all = run.records.iter().flat_map(|sample| &sample.wheels).map(quantity);
     let (count, sum) = all.fold((0_usize, 0.0), |(count, sum), value| (count + 1, sum + value));
     (count > 0).then(|| sum / count as f64)
 }

@@ -9,7 +9,6 @@
 //! The meaning of the values, and the computation, are the caller's.
 
 pub mod design;
-mod distribution;
 mod permutation;
 pub mod sensitivity;
 pub mod statistics;
@@ -18,9 +17,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use self::design::{Design, Sampling};
-pub use self::distribution::{Contradiction, Correlation, Distribution, Marginal, NothingAccepted};
-pub use self::statistics::{Band, Probability};
+use self::design::Design;
+use grouser_io::campaign::Sampling;
+pub use grouser_io::statistics::{
+    Band, Contradiction, Correlation, Distribution, Marginal, NothingAccepted, Probability,
+};
 
 /// Computes many cases, in their order. They are shared among threads, which changes no result.
 ///

@@ -9,6 +9,9 @@
 //! ΣF_x(s, γ) = W sin α sin γ        ΣF_y(s, γ) = W sin α cos γ
 //! ```
 //!
+//! Wheels may differ: they still share one slip ratio, so that all rims turn at one speed. Steered
+//! wheels have no slip angle in common, and no attitude here.
+//!
 //! The solutions (s, γ, α) form a curve that starts at γ = 0 on level ground. It rises to a
 //! steepest slope, where turning further uphill costs as much thrust as it gains, and folds back.
 //! The curve is followed by its arc length, so that the fold is a point like any other. The yaw
@@ -33,7 +36,7 @@ use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::soil::Soil;
 use crate::vehicle::reaction::forces_of;
-use crate::vehicle::{LoadSharing, OwnMoments, Rover, WheelReaction, dynamics};
+use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
 /// Finds heading offsets of a rover on a soil, for any slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,8 +95,14 @@ impl HeadingOffset {
     pub fn energy_per_metre(&self, rover: &Rover) -> f64 {
         let s = self.slip_ratio;
         let rim_over_hub = if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s };
-        let radius = rover.wheel().shearing_radius();
-        self.torque() / radius * wide::cos(self.yaw - self.course) * rim_over_hub
+        let crab = self.yaw - self.course;
+        let thrust = || {
+            let each = self.each_torque(rover);
+            each.map(|(mount, torque)| torque / mount.shearing_radius()).sum()
+        };
+        let thrust: f64 =
+            rover.common_radius().map_or_else(thrust, |radius| self.torque() / radius);
+        thrust * wide::cos(crab) * rim_over_hub
     }
 
     /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a contour traverse.
@@ -102,10 +111,20 @@ impl HeadingOffset {
         0.0 - wide::sin(self.course)
     }
 
-    /// Power of the motors at a rim speed ω r_s [m/s], ΣT ω [W].
+    /// Power of the motors at one rim speed ω r_s of all wheels [m/s], ΣT ω [W].
     #[must_use]
     pub fn power(&self, rover: &Rover, rim_speed: f64) -> f64 {
-        self.torque() * rim_speed / rover.wheel().shearing_radius()
+        let of_each = || {
+            let each = self.each_torque(rover);
+            each.map(|(mount, torque)| torque * rim_speed / mount.shearing_radius()).sum()
+        };
+        rover.common_radius().map_or_else(of_each, |radius| self.torque() * rim_speed / radius)
+    }
+
+    /// The torque of each wheel [N·m].
+    fn each_torque<'a>(&'a self, rover: &'a Rover) -> impl Iterator<Item = (&'a Mount, f64)> {
+        let torques = self.wheels.iter().map(|wheel| wheel.settled.forces.torque);
+        rover.mounts().iter().zip(torques)
     }
 }
 
@@ -158,7 +177,7 @@ impl HeadingStudy {
     pub fn of(scenario: &Scenario) -> Self {
         Self {
             rover: scenario.rover.clone(),
-            soil: scenario.site.soil,
+            soil: scenario.site.terrain.soil,
             gravity: scenario.site.gravity,
             theory: scenario.theory,
             sharing: scenario.sharing,
@@ -169,7 +188,7 @@ impl HeadingStudy {
     /// Follows the curve of contour traverses from level ground to its end.
     ///
     /// # Errors
-    /// [`ParameterError`] if the soil or gravity is invalid.
+    /// [`ParameterError`] if soil or gravity are no such things, or a wheel is steered.
     pub fn curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.curve_on(0.0)
     }
@@ -209,7 +228,14 @@ impl HeadingStudy {
     /// The curve of a held course or yaw, as far as its first point that is not below a slope, or to its
     /// end.
     fn follow(&self, held: Held, slope: f64) -> Result<HeadingCurve, ParameterError> {
-        Site { soil: self.soil, slope: 0.0, gravity: self.gravity }.check()?;
+        Site::plane(self.soil, 0.0, self.gravity).check()?;
+        for mount in self.rover.mounts() {
+            if mount.steering != 0.0 {
+                let name = format!("steering of wheel {} [rad]", mount.name);
+                let expected = "0 where all wheels are to share one slip ratio and one slip angle";
+                return Err(ParameterError::new(name, mount.steering, expected));
+            }
+        }
         let path = Path::new(self, held);
         let (mut points, mut held_below) = (Vec::new(), 0.0);
         let end = match path.start() {

@@ -5,10 +5,7 @@ use super::comparison::MeasuredTraverse;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::wheel_test::{WheelTest, WheelTestRow};
 use crate::error::ParameterError;
-use crate::simulation::{
-    Motion, Numerics, Scenario, Simulation, SimulationError, Start, Trajectory,
-};
-use crate::site::Site;
+use crate::simulation::{Motion, Numerics, Run, RunError, Scenario, Start, Trajectory};
 use crate::soil::{Shear, ShearModulus, Soil};
 use crate::vehicle::LoadSharing;
 
@@ -85,7 +82,7 @@ pub enum ReproductionError {
     Parameter(#[from] ParameterError),
     /// A traverse could not be computed.
     #[error(transparent)]
-    Simulation(#[from] SimulationError),
+    Simulation(#[from] RunError),
 }
 
 impl Plan {
@@ -126,14 +123,14 @@ impl Plan {
         WheelCurve { longitudinal_modulus: modulus, rows: WheelTest { soil, ..test }.run() }
     }
 
-    /// The rover's wheel on the scenario's soil, over slip ratios from 0 to 1.
+    /// The rover's first wheel on the scenario's soil, over slip ratios from 0 to 1.
     fn wheel_test(&self, loads: &[f64], slip_angles: &[f64]) -> WheelTest {
         /// Steps from slip ratio 0 to 1.
         const STEPS: u32 = 50;
         let Scenario { rover, site, theory, .. } = &self.scenario;
         WheelTest {
-            wheel: *rover.wheel(),
-            soil: site.soil,
+            wheel: rover.mounts()[0].unit.wheel,
+            soil: site.terrain.soil,
             gravity: site.gravity,
             theory: *theory,
             loads: loads.to_vec(),
@@ -151,7 +148,7 @@ impl Plan {
         let mut run = |yaw: f64, sharing: LoadSharing| {
             progress("traverse");
             let scenario = Scenario { sharing, ..self.traverse(measured.slope, yaw) };
-            Simulation::new(&scenario)?.run()
+            Run::new(&scenario)?.to_end()
         };
         let sharing = self.scenario.sharing;
         let heading = headings.at(measured.slope);
@@ -172,9 +169,9 @@ impl Plan {
         })
     }
 
-    fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, SimulationError> {
+    fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
         let row = slopes.get(START_UP_ROW).or(slopes.first());
-        let (slope, yaw) = row.map_or((self.scenario.site.slope, 0.0), |row| {
+        let (slope, yaw) = row.map_or((self.scenario.site.terrain.slope, 0.0), |row| {
             (row.measured.slope, row.heading.as_ref().map_or(0.0, |heading| heading.yaw))
         });
         let (duration, sample_interval) = START_UP;
@@ -184,12 +181,12 @@ impl Plan {
             numerics: Numerics { sample_interval, ..self.scenario.numerics },
             ..self.traverse(slope, yaw)
         };
-        Simulation::new(&scenario)?.run()
+        Run::new(&scenario)?.to_end()
     }
 
     fn traverse(&self, slope: f64, yaw: f64) -> Scenario {
         let base = self.scenario.clone();
-        Scenario { site: Site { slope, ..base.site }, start: Start { yaw, ..base.start }, ..base }
+        Scenario { site: base.site.with_slope(slope), start: Start { yaw, ..base.start }, ..base }
     }
 }
 

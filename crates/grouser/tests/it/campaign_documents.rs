@@ -173,7 +173,7 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
         let scenario = document::read_scenario(&Source::default_scenario(), &overrides);
         let scenario = scenario.expect("it is one").value;
         let curve = HeadingStudy::of(&scenario).curve().expect("a soil");
-        let attitude = curve.at(scenario.site.slope).expect("it exists");
+        let attitude = curve.at(scenario.site.terrain.slope).expect("it exists");
         assert_eq!(yaw, Some(attitude.yaw.to_degrees()));
     }
 }

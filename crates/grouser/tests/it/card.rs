@@ -46,7 +46,7 @@ fn drift_is_that_of_a_run_with_the_nose_on_the_contour() {
     for slope in [3.0, 10.0, 16.0].map(deg) {
         let held = drift.at(slope).expect("it is held");
         let run = given::run(&Scenario { duration: 1.0, ..given::traverse(slope, 0.0) });
-        let (first, last) = (run.samples[5].state.position, run.last().state.position);
+        let (first, last) = (run.records[5].state.position, run.last().state.position);
         let way = (last.x - first.x).hypot(last.y - first.y);
         let drifted = (first.y - last.y) / way;
         assert!((held.drift() - drifted).abs() < 2e-3, "{} and {drifted}", held.drift());

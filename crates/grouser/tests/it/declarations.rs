@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, held};
-use grouser::document::columns::run::{SAMPLE, WHEEL_SAMPLE};
+use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::unit_of;
@@ -45,9 +45,9 @@ fn keys() -> BTreeSet<String> {
     keys
 }
 
-/// The sources below a folder of the library.
+/// The sources below a folder of the repository's crates.
 fn sources(folder: &str) -> Vec<(PathBuf, String)> {
-    sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder))
+    sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder))
 }
 
 fn sources_below(folder: &Path) -> Vec<(PathBuf, String)> {
@@ -69,9 +69,9 @@ fn sources_below(folder: &Path) -> Vec<(PathBuf, String)> {
 
 #[test]
 fn a_number_of_a_document_has_one_row() {
-    let describe = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/document/describe.rs");
+    let describe = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/src/describe.rs");
     let mut texts = fs::read_to_string(describe).expect("a source is text");
-    texts.extend(sources("document/describe").into_iter().map(|(_, text)| text));
+    texts.extend(sources("grouser-io/src/describe").into_iter().map(|(_, text)| text));
     let keys = keys();
     assert!(keys.contains("cohesion_kpa") && keys.len() > 20, "{keys:?}");
     let rows = keys.iter().map(|key| (key.as_str(), texts.matches(&format!("\"{key}\"")).count()));
@@ -86,9 +86,9 @@ fn no_type_that_is_read_repeats_a_key_with_its_unit() {
     let keys = keys();
     let mut repeated = Vec::new();
     // The paper's table of results is no document.
-    let documents =
-        sources("document").into_iter().filter(|(path, _)| !path.ends_with("experiment.rs"));
-    for (path, text) in documents {
+    let documents = [sources("grouser-io/src"), sources("grouser/src/document")];
+    let documents = documents.into_iter().flatten();
+    for (path, text) in documents.filter(|(path, _)| !path.ends_with("experiment.rs")) {
         let mut is_read = false;
         for line in text.lines().map(str::trim) {
             if line.starts_with("#[derive(") {
@@ -140,14 +140,18 @@ fn lines_of(text: &str) -> impl Iterator<Item = &str> {
 
 #[test]
 fn a_result_has_one_column() {
-    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let is_of_columns = |path: &Path| {
+        let within = path.components().any(|part| part.as_os_str() == "columns");
+        (within || path.ends_with("columns.rs")) && !path.ends_with("measurements/columns.rs")
+    };
     let (columns, others): (Vec<_>, Vec<_>) =
-        ["src", "../grouser-cli/src", "../grouser-python/src"]
-            .iter()
-            .flat_map(|folder| sources_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)))
+        ["grouser-io/src", "grouser/src", "grouser-cli/src", "grouser-python/src"]
+            .into_iter()
+            .flat_map(sources)
             .partition(|(path, _)| {
-                path.starts_with(library.join("document/columns"))
-                    || path.ends_with("document/columns.rs")
+                !path.display().to_string().contains("grouser-cli")
+                    && !path.display().to_string().contains("grouser-python")
+                    && is_of_columns(path)
             });
     let declared = columns.iter().flat_map(|(_, text)| lines_of(text)).flat_map(|line| {
         let quoted = names_of(line).into_iter();
@@ -200,8 +204,8 @@ fn a_column_has_the_unit_of_its_name() {
         }
     }
     check(&WHEEL);
-    check(&SAMPLE);
-    check(&WHEEL_SAMPLE);
+    check(&RECORD);
+    check(&WHEEL_RECORD);
     check(&held());
     check(&BAND);
     check(&TRIALS);

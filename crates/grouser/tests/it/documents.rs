@@ -79,7 +79,7 @@ fn every_preset_says_its_name_and_its_source() {
 
 #[test]
 fn every_file_of_the_data_is_a_preset() {
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/data");
     for (folder, kind) in [
         ("soils", Kind::Soil),
         ("wheels", Kind::Wheel),
@@ -238,13 +238,13 @@ fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
     let run = default.expect("it is read").value;
     let written = Source::find(Kind::Scenario, "traverse-10-deg").expect("a preset");
     assert_eq!(run, document::read_scenario(&written, &overrides).expect("it is read").value);
-    assert_eq!(run.site.slope, deg(10.0));
+    assert_eq!(run.site.terrain.slope, deg(10.0));
     assert_eq!(run.site.gravity, 9.80665);
     assert_eq!(run.duration, 20.0);
     assert_eq!(run.theory, Theory::Ishigami);
     assert_eq!(run.drive, DriveLaw::Constant(0.06));
     assert_eq!((run.sharing, run.own_moments), (LoadSharing::QuasiStatic, OwnMoments::Neglected));
-    assert_eq!(run.site.soil, soil("toyoura"));
+    assert_eq!(run.site.terrain.soil, soil("toyoura"));
     assert_eq!(run.rover.mounts()[0].name, "front-left");
 }
 
@@ -284,9 +284,9 @@ fn overrides_reach_every_part_of_a_scenario() {
         "scenario.drive={speed_m_s=[0.1, 0.1, -0.1, -0.1]}",
     ]);
     let run = run.expect("all are allowed");
-    assert_eq!(run.value.site.slope, deg(5.0));
-    assert_eq!(run.value.site.soil.cohesion, 500.0);
-    assert_eq!(run.value.rover.wheel().radius, 0.2);
+    assert_eq!(run.value.site.terrain.slope, deg(5.0));
+    assert_eq!(run.value.site.terrain.soil.cohesion, 500.0);
+    assert_eq!(run.value.rover.mounts()[0].unit.wheel.radius, 0.2);
     assert_eq!(run.value.rover.mass(), 24.0);
     assert_eq!(run.value.drive, DriveLaw::ConstantEach(vec![0.1, 0.1, -0.1, -0.1]));
     let set = "soil Toyoura sand: cohesion_kpa: set to 0.5";
@@ -304,7 +304,7 @@ fn an_override_ends_the_assumption_it_replaces() {
 #[test]
 fn a_new_law_needs_no_cleaning_up() {
     let run = override_scenario(&["soil.shear.law=isotropic", "soil.bulldozing.law=none"]);
-    let soil = run.expect("allowed").value.site.soil;
+    let soil = run.expect("allowed").value.site.terrain.soil;
     assert!(matches!(soil.shear, Shear::Isotropic { .. }));
     assert_eq!(soil.bulldozing, Bulldozing::None);
     let run = override_scenario(&["scenario.drive.law=eq18", "scenario.drive.speed_m_s=0.1"]);
@@ -341,7 +341,7 @@ fn changes_are_set_as_flags_are_and_quoted_whole() {
     };
     let run = changed("scenario.soil.shear.longitudinal_m", "0.02").expect("allowed");
     let Shear::Anisotropic { longitudinal: ShearModulus::Linear { at_zero, .. }, .. } =
-        run.value.site.soil.shear
+        run.value.site.terrain.soil.shear
     else {
         panic!("Toyoura's law")
     };
@@ -693,7 +693,7 @@ fn paths_start_from_the_folder_of_the_document_that_names_them() {
     let path = folder.file("run.toml", run);
     let run = document::read_scenario(&Source::file(&path), &Overrides::none());
     let run = run.expect("all parts are found");
-    assert_eq!(run.value.rover.wheel(), &wheel("jfr-2007"));
+    assert_eq!(run.value.rover.mounts()[0].unit.wheel, wheel("jfr-2007"));
     assert_eq!(document::check(&Source::file(&path)), Ok(Kind::Scenario));
 
     folder.file("parts/wheel.toml", text(Kind::Wheel, "jfr-2007").replace("0.092", "9.2"));

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
-use grouser::simulation::{Motion, Numerics, Scenario, Simulation, Start, Trajectory};
+use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
     Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
@@ -83,14 +83,16 @@ pub(crate) fn simulant_2007() -> Soil {
 
 /// A body of [FourWheel], Table 1, on wheels of Table 1 with their hubs at (x, y), 6 cm lower.
 pub(crate) fn rover_on(wheel: Wheel, hubs: &[(f64, f64)]) -> Rover {
+    let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
+    let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
+    let unit = WheelUnit { mass: 0.422, inertia, wheel };
     let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
         name: format!("wheel {}", number + 1),
         position: Vec3::new(x, y, -0.06),
+        unit,
+        steering: 0.0,
     });
-    let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
-    let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
-    let wheel_unit = WheelUnit { mass: 0.422, inertia, wheel };
-    Rover::new(body, wheel_unit, mounts.collect()).expect("a rover that stands")
+    Rover::new(body, mounts.collect()).expect("a rover that stands")
 }
 
 /// [FourWheel], Table 2, in its order: front left, rear left, rear right, front right.
@@ -109,7 +111,7 @@ pub(crate) const RIM_SPEED: f64 = 0.06;
 pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
     Scenario {
         rover: hakuto(),
-        site: Site { soil: toyoura(), slope, gravity: EARTH_GRAVITY },
+        site: Site::plane(toyoura(), slope, EARTH_GRAVITY),
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
@@ -122,8 +124,8 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
 
 /// The run of a scenario that can be computed.
 pub(crate) fn run(scenario: &Scenario) -> Trajectory {
-    let simulation = Simulation::new(scenario).expect("the scenario is a run");
-    simulation.run().expect("it can be computed")
+    let run = Run::new(scenario).expect("the scenario is a run");
+    run.to_end().expect("it can be computed")
 }
 
 /// A wheel on a test stand, on Earth.

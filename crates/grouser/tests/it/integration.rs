@@ -1,6 +1,6 @@
 //! Runs end where another integrator leads the same equations with far more effort.
 
-use grouser::simulation::{Integrator, Numerics, Sample, Scenario, Simulator};
+use grouser::simulation::{Integrator, Numerics, Record, Run, Scenario};
 use grouser::units::deg;
 use grouser::vehicle::DriveLaw;
 use grouser::vehicle::drive::SlipTarget;
@@ -37,8 +37,8 @@ impl Driver {
     }
 
     /// Where it leads a rover in 20 s.
-    fn end(&self, scenario: &Scenario) -> Simulator {
-        let mut rover = Simulator::new(scenario.clone()).expect("a rover at its start");
+    fn end(&self, scenario: &Scenario) -> Run {
+        let mut rover = Run::new(scenario).expect("a rover at its start");
         for rims in self.commands().take(200) {
             rover.step(&rims, 0.1).expect("a step");
         }
@@ -65,7 +65,7 @@ fn recorded(name: &str) -> Value {
 }
 
 /// How far a rover is from where it was recorded [m], and its yaw [rad].
-fn check_end(name: &str, end: &Sample, within: f64) {
+fn check_end(name: &str, end: &Record, within: f64) {
     let row = recorded(name);
     let number = |key: &str| row[key].as_f64().expect("a number");
     let state = &end.state;

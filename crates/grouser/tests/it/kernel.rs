@@ -125,8 +125,8 @@ fn most_other_wheels_are_integrated_to_a_few_millionths() {
 /// All numbers of a reaction as bits.
 fn bits(model: &dyn WheelSoilModel, contact: &Contact, sinkage: f64) -> Vec<u64> {
     let forces = model.forces(contact, sinkage);
-    let bearing = model.bearing(contact).expect("these theories have one");
-    let all = numbers_of(&forces).into_iter().chain([bearing.normal_force(sinkage)]);
+    let relation = model.load_sinkage(contact).expect("these theories have one");
+    let all = numbers_of(&forces).into_iter().chain([relation.normal_force(sinkage)]);
     all.map(f64::to_bits).collect()
 }
 
@@ -165,7 +165,7 @@ fn every_instruction_set_gives_the_same_bits() {
 
 /// The search asks for F_z alone; what it finds is the wheel's normal force to the last bit.
 #[test]
-fn a_bearing_has_the_bits_of_the_normal_force() {
+fn a_load_sinkage_relation_has_the_bits_of_the_normal_force() {
     for case in 0..5_000 {
         let contact = any_case(Theory::Ishigami, case).contact;
         let sinkage = Draw::of_case(!case).sized(1e-6, 1.0) * contact.wheel.shearing_radius();

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of each layer, from the foundations up.
 const LAYERS: [&[&str]; 6] = [
-    &["units", "error", "elementary", "newton", "root", "soil", "wheel", "site"],
+    &["units", "error", "elementary", "newton", "root", "soil", "wheel", "terrain", "site"],
     &["contact"],
     &["vehicle"],
     &["simulation"],
@@ -30,11 +30,18 @@ fn no_source_breaks_a_rule_of_its_layer() {
     let mut breaches = Vec::new();
     let mut count = 0;
     for sources in sources_of_the_library() {
+        let is_io = sources.parent().is_some_and(|path| path.ends_with("grouser-io"));
         visit(&sources, &mut |file| {
             let text = fs::read_to_string(file).expect("a source is text");
             let name = file.strip_prefix(&sources).expect("it lies below").display().to_string();
             count += 1;
-            for Breach { line, what } in breaches_in(&name, &text) {
+            // What is a crate below the studies can import none of them; the compiler sees to that.
+            let found = if is_io {
+                platform_functions(&without_tests(&tokens_of(&text)))
+            } else {
+                breaches_in(&name, &text)
+            };
+            for Breach { line, what } in found {
                 breaches.push(format!("{name}:{line}: {what}"));
             }
         });
@@ -44,9 +51,9 @@ fn no_source_breaks_a_rule_of_its_layer() {
 }
 
 /// The folders of sources of the crates that make up the library.
-pub(super) fn sources_of_the_library() -> [PathBuf; 2] {
+pub(super) fn sources_of_the_library() -> [PathBuf; 3] {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    ["grouser-core", "grouser"].map(|name| crates.join(name).join("src"))
+    ["grouser-core", "grouser-io", "grouser"].map(|name| crates.join(name).join("src"))
 }
 
 pub(super) fn visit(folder: &Path, found: &mut dyn FnMut(&Path)) {

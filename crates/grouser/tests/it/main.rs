@@ -19,6 +19,7 @@ mod measured;
 mod measurements;
 mod messages;
 mod million;
+mod mounts;
 mod paper;
 mod reference;
 mod rft;

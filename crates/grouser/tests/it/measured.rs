@@ -147,7 +147,7 @@ fn the_slip_angles_kept_for_examination_are_not_here() {
 /// Its rows are those of the file that its document names, and stand beside it.
 #[test]
 fn every_data_set_brings_the_rows_that_its_document_names() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/data/measurements");
     for preset in document::presets(Kind::DataSet) {
         let set = document::read_data_set(&Source::Preset(preset), &Overrides::none());
         let set = set.unwrap_or_else(|error| panic!("{error}"));
@@ -167,7 +167,7 @@ fn every_data_set_brings_the_rows_that_its_document_names() {
 /// the program prints.
 #[test]
 fn the_notice_of_the_licence_goes_with_the_rows() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-io/data/measurements");
     let notice = fs::read_to_string(folder.join("LICENSE-cmu-single-wheel")).expect("it is there");
     let preset = document::preset(Kind::DataSet, "cmu-single-wheel").expect("a data set");
     let comments = preset.text.lines().filter_map(|line| line.strip_prefix('#'));
@@ -193,8 +193,8 @@ fn a_name_finds_a_data_set_and_a_path_a_file() {
 /// Points of published figures: how many each test has, what was read, and the range of its slip.
 #[test]
 fn the_published_wheel_tests_are_read() {
-    let file =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("data/measurements/published_wheel_tests.csv");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../grouser-io/data/measurements/published_wheel_tests.csv");
     let pull = Quantity::DrawbarPull;
     for (wheel, points, load, slips, quantities) in [
         ("ding-2011-smooth", 6, 80.0, [0.0, 0.6], vec![pull, Quantity::Sinkage, Quantity::Torque]),

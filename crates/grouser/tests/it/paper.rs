@@ -8,8 +8,8 @@ use grouser::studies::comparison::{Levelness, yaw_error};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, NoHeading};
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
-use grouser::vehicle::drive::{DriveInput, SlipTarget};
-use grouser::vehicle::{Drive, DriveLaw, LoadSharing, OwnMoments};
+use grouser::vehicle::drive::SlipTarget;
+use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
 use grouser::wheel::Wheel;
 
 use super::given;
@@ -26,7 +26,7 @@ fn tables_1_and_2_make_a_rover_of_7_kg_with_its_centre_low_and_2_mm_ahead() {
     assert!((rover.yaw_inertia() - 0.386).abs() < 5e-4, "{} kg·m²", rover.yaw_inertia());
     assert!((rover.centre_of_mass() - Vec2::new(0.0024, 0.0)).norm() < 5e-5);
     // The common centre of mass lies 14.6 mm below the body's, the hubs 60 mm.
-    let height = rover.wheel().shearing_radius() + 0.060 - 0.0146;
+    let height = rover.mounts()[0].shearing_radius() + 0.060 - 0.0146;
     assert!((rover.centre_height() - height).abs() < 5e-5, "{} m", rover.centre_height());
 }
 
@@ -43,7 +43,7 @@ fn table_2_has_a_wheelbase_of_36_cm_and_a_track_of_48_cm() {
 /// the axial spread, I_xx − I_yy/2, of a uniform ring.
 #[test]
 fn the_assumed_width_follows_from_table_1() {
-    let unit = *given::hakuto().wheel_unit();
+    let unit = given::hakuto().mounts()[0].unit;
     let spread = ((unit.inertia.xx - unit.inertia.yy / 2.0) / unit.mass).sqrt();
     let width = spread * 12.0_f64.sqrt();
     assert!((width - unit.wheel.width).abs() < 0.002, "{width} m");
@@ -137,11 +137,9 @@ fn equation_17_is_positive_to_the_left() {
 }
 
 /// Rim speed [m/s] that a drive sets at a slip and a yaw.
-fn rim_speed(mut drive: DriveLaw, slip_ratio: f64, yaw: f64) -> f64 {
-    let rover = given::hakuto();
+fn rim_speed(drive: &DriveLaw, slip_ratio: f64, yaw: f64) -> f64 {
     let mut speeds = [0.0; 4];
-    let input = DriveInput { rover: &rover, yaw, slip_ratios: &[slip_ratio; 4] };
-    drive.rim_speeds(&input, &mut speeds);
+    drive.rim_speeds(&given::hakuto(), yaw, &[slip_ratio; 4], &mut speeds);
     speeds[0]
 }
 
@@ -151,7 +149,7 @@ fn rim_speed(mut drive: DriveLaw, slip_ratio: f64, yaw: f64) -> f64 {
 #[test]
 fn equation_18_as_printed_and_corrected() {
     let target = SlipTarget { speed: 0.06, slip_ratio: 0.2 };
-    let along_contour = |drive: DriveLaw, yaw: f64| rim_speed(drive, 0.2, yaw) * 0.8 / yaw.cos();
+    let along_contour = |drive: DriveLaw, yaw: f64| rim_speed(&drive, 0.2, yaw) * 0.8 / yaw.cos();
     let printed = |yaw| along_contour(DriveLaw::Eq18AsPrinted(target), yaw);
     let corrected = |yaw| along_contour(DriveLaw::Eq18(target), yaw);
     assert!((printed(0.0) - 0.8 * 0.06).abs() < 1e-12);
@@ -159,8 +157,8 @@ fn equation_18_as_printed_and_corrected() {
     let too_fast = printed(deg(15.0)) / printed(0.0);
     assert!((too_fast - 1.07).abs() < 0.005, "{too_fast}");
     // More slip than the reference slows the printed law down and speeds the corrected one up.
-    assert!(rim_speed(DriveLaw::Eq18AsPrinted(target), 0.3, 0.0) < 0.06);
-    assert!(rim_speed(DriveLaw::Eq18(target), 0.3, 0.0) > 0.06 / 0.8);
+    assert!(rim_speed(&DriveLaw::Eq18AsPrinted(target), 0.3, 0.0) < 0.06);
+    assert!(rim_speed(&DriveLaw::Eq18(target), 0.3, 0.0) > 0.06 / 0.8);
 }
 
 // ---- Section 4.2 and Fig. 7: the single wheel ----

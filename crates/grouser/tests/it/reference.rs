@@ -251,13 +251,19 @@ const TABLE_HEIGHT: f64 = 0.145;
 fn yaw_moment_with_transfers(slope_deg: f64, pitch: f64, roll: f64) -> f64 {
     let attitude = hakuto_attitude(LoadSharing::QuasiStatic, slope_deg);
     let rover = given::hakuto();
-    let site = Site { soil: given::toyoura(), slope: deg(slope_deg), gravity: EARTH_GRAVITY };
-    let weight = rover.mass() * site.gravity * site.slope.cos();
-    let pull = TABLE_HEIGHT * slope_pull(&rover, &site, attitude.yaw);
+    let site = Site::plane(given::toyoura(), deg(slope_deg), EARTH_GRAVITY);
+    let weight = rover.mass() * site.gravity * deg(slope_deg).cos();
+    let pull = TABLE_HEIGHT
+        * slope_pull(&rover, &site, &RoverState { yaw: attitude.yaw, ..RoverState::default() });
     let moments = Vec2::new(pitch * pull.x, roll * pull.y);
     let loads = wheel_loads(&rover, LoadSharing::QuasiStatic, weight, moments).expect("it stands");
     let slip = Slip::on_test_stand(attitude.slip_ratio, -attitude.yaw);
-    let contact = Contact { wheel: *rover.wheel(), soil: site.soil, slip, gravity: site.gravity };
+    let contact = Contact {
+        wheel: rover.mounts()[0].unit.wheel,
+        soil: site.terrain.soil,
+        slip,
+        gravity: site.gravity,
+    };
     let forces_under = |&load: &f64| given::settled(&Ishigami::default(), &contact, load).forces;
     let wheels: Vec<WheelForces> = loads.iter().map(forces_under).collect();
     let (force, moment) = dynamics::soil_resultant(&rover, &wheels, OwnMoments::Neglected);
@@ -356,7 +362,7 @@ fn an_uncompensated_rover_drifts_by_the_angle_that_the_theory_says() {
 #[test]
 fn soil_constants_that_ignore_gravity_nearly_double_the_yaw_on_the_moon() {
     let earth = hakuto_study(LoadSharing::QuasiStatic);
-    let width = earth.rover.wheel().width;
+    let width = earth.rover.mounts()[0].unit.wheel.width;
     let stiffness = earth.soil.pressure_sinkage.stiffness(
         width,
         0.0,

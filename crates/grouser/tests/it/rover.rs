@@ -1,9 +1,11 @@
 //! The rover as a rigid body: momentum, the balance of its wheels, and when it tips.
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use grouser::contact::WheelForces;
 use grouser::site::Site;
+use grouser::terrain::{Patch, Terrain};
 use grouser::units::{EARTH_GRAVITY, Vec2, Vec3, deg};
 use grouser::vehicle::load::{stability_margin, wheel_loads};
 use grouser::vehicle::{
@@ -19,15 +21,22 @@ use super::given::{self, cases};
 fn lopsided() -> Rover {
     let inertia = Inertia { xx: 0.1, yy: 0.1, zz: 0.1 };
     let hubs = [(1.0, 0.3), (1.5, 2.0), (0.4, 1.6), (2.0, 1.0)];
-    let mounts = hubs
-        .iter()
-        .map(|&(x, y)| Mount { name: format!("at {x}, {y}"), position: Vec3::new(x, y, -0.1) });
-    let wheel_unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel() };
-    Rover::new(Body { mass: 1.0, inertia }, wheel_unit, mounts.collect()).expect("it stands")
+    let unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel() };
+    let mounts = hubs.iter().map(|&(x, y)| Mount {
+        name: format!("at {x}, {y}"),
+        position: Vec3::new(x, y, -0.1),
+        unit,
+        steering: 0.0,
+    });
+    Rover::new(Body { mass: 1.0, inertia }, mounts.collect()).expect("it stands")
 }
 
 fn site(slope: f64) -> Site {
-    Site { soil: given::toyoura(), slope, gravity: EARTH_GRAVITY }
+    Site::plane(given::toyoura(), slope, EARTH_GRAVITY)
+}
+
+fn at_yaw(yaw: f64) -> RoverState {
+    RoverState { yaw, ..RoverState::default() }
 }
 
 fn wheel_force(x: f64, y: f64, aligning_moment: f64) -> WheelForces {
@@ -40,7 +49,7 @@ fn wheel_force(x: f64, y: f64, aligning_moment: f64) -> WheelForces {
 /// frame, summed over the parts as if each flew by itself.
 fn motion_of_the_parts(rover: &Rover, state: &RoverState) -> (Vec2, f64, f64) {
     let body = (rover.body().mass, rover.body().inertia.zz, Vec2::zeros());
-    let unit = rover.wheel_unit();
+    let unit = rover.mounts()[0].unit;
     let wheels = rover.mounts().iter().map(|m| (unit.mass, unit.inertia.zz, m.position.xy()));
     let slope_from_body = Rotation2::new(state.yaw);
     let (mut momentum, mut angular, mut energy) = (Vec2::zeros(), 0.0, 0.0);
@@ -195,13 +204,15 @@ fn any_rover() -> impl Strategy<Value = Rover> {
         "the wheels stand in a line",
         |(hubs, body_mass, wheel_mass, inertia)| {
             let inertia = Inertia { xx: inertia, yy: inertia, zz: inertia };
+            let unit = WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel() };
             let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
                 name: number.to_string(),
                 position: Vec3::new(x, y, -0.1),
+                unit,
+                steering: 0.0,
             });
             let body = Body { mass: body_mass, inertia };
-            let wheel_unit = WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel() };
-            Rover::new(body, wheel_unit, mounts.collect()).ok()
+            Rover::new(body, mounts.collect()).ok()
         },
     )
 }
@@ -224,7 +235,7 @@ fn by_the_common_centre(
 ) -> Acceleration {
     let turned = |vector: Vec2| Rotation2::new(state.yaw) * vector;
     let quarter = |vector: Vec2| Vec2::new(-vector.y, vector.x);
-    let unit = rover.wheel_unit();
+    let unit = rover.mounts()[0].unit;
     let hubs: Vec<Vec2> = rover.mounts().iter().map(|m| m.position.xy()).collect();
     let mass = rover.body().mass + unit.mass * hubs.len() as f64;
     let centre: Vec2 = hubs.iter().map(|hub| unit.mass / mass * hub).sum();
@@ -234,7 +245,7 @@ fn by_the_common_centre(
             .iter()
             .map(|hub| unit.inertia.zz + unit.mass * (hub - centre).norm_squared())
             .sum::<f64>();
-    let weight = Vec2::new(0.0, -mass * site.gravity * site.slope.sin());
+    let weight = Vec2::new(0.0, -mass * site.gravity * site.terrain.slope.sin());
     let mut force = weight;
     let mut moment = 0.0;
     for (hub, wheel) in hubs.iter().zip(wheels) {
@@ -282,7 +293,7 @@ proptest! {
     fn the_weight_pulls_downhill_whatever_the_yaw(yaw in -PI..PI, slope in 0.0..1.5) {
         let (rover, site) = (given::hakuto(), site(slope));
         let weight = rover.mass() * site.gravity;
-        let pull = load::slope_pull(&rover, &site, yaw);
+        let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
         prop_assert!((pull.x + weight * slope.sin() * yaw.sin()).abs() < 1e-12 * weight);
         prop_assert!((pull.y + weight * slope.sin() * yaw.cos()).abs() < 1e-12 * weight);
         let in_slope = Rotation2::new(yaw) * pull;
@@ -383,8 +394,14 @@ proptest! {
 /// Loads of a rover that stands on a slope.
 fn quasi_static_loads(rover: &Rover, site: &Site, yaw: f64) -> Result<Vec<f64>, load::Tipping> {
     let sharing = LoadSharing::QuasiStatic;
-    let moments = load::moments(rover, site, yaw, sharing, OwnMoments::Neglected, &[]);
-    wheel_loads(rover, sharing, rover.mass() * site.gravity * site.slope.cos(), moments)
+    let moments = load::moments(
+        rover,
+        load::slope_pull(rover, site, &at_yaw(yaw)),
+        sharing,
+        OwnMoments::Neglected,
+        &[],
+    );
+    wheel_loads(rover, sharing, rover.mass() * site.gravity * site.terrain.slope.cos(), moments)
 }
 
 /// On 50° with its nose turned 30° uphill the paper's rover still stands, on three wheels.
@@ -395,8 +412,8 @@ fn a_wheel_lifts_before_the_rover_tips() {
     // Front left is the uphill corner.
     assert_eq!(loads[0], 0.0);
     assert!(loads[1..].iter().all(|load| *load > 0.0), "{loads:?}");
-    let weight = rover.mass() * site.gravity * site.slope.cos();
-    let moments = rover.centre_height() * load::slope_pull(&rover, &site, yaw);
+    let weight = rover.mass() * site.gravity * site.terrain.slope.cos();
+    let moments = rover.centre_height() * load::slope_pull(&rover, &site, &at_yaw(yaw));
     check_balance(&rover, &loads, weight, moments).expect("they balance");
 }
 
@@ -445,7 +462,7 @@ fn the_papers_rover_tips_at_57_degrees() {
 #[test]
 fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
     let (rover, site, yaw) = (given::hakuto(), site(deg(15.0)), deg(20.0));
-    let pull = load::slope_pull(&rover, &site, yaw);
+    let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
     let wheel = WheelForces {
         drawbar_pull: -pull.x / 4.0,
         side_force: -pull.y / 4.0,
@@ -453,14 +470,48 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
         overturning_moment: -0.2,
         ..WheelForces::default()
     };
-    let below = rover.centre_height() - rover.wheel().shearing_radius();
+    let below = rover.centre_height() - rover.mounts()[0].shearing_radius();
     let (sharing, own) = (LoadSharing::QuasiStaticTorque, OwnMoments::Included);
-    let moments = load::moments(&rover, &site, yaw, sharing, own, &[wheel; 4]);
+    let moments = load::moments(&rover, pull, sharing, own, &[wheel; 4]);
     // About y: −Σ d_x N + (−below) ΣF_x − ΣT = 0, for the soil turns a driven wheel backward.
     let pitch = -below * 4.0 * wheel.drawbar_pull - 4.0 * wheel.torque;
     // About x: Σ d_y N + below ΣF_y + ΣM_x = 0.
     let roll = -below * 4.0 * wheel.side_force - 4.0 * wheel.overturning_moment;
     assert!((moments - Vec2::new(pitch, roll)).norm() < 1e-12, "{moments}, not {pitch}, {roll}");
+}
+
+// ---- the ground ----
+
+/// Axes of the ground are square to each other and to its normal, the first of them level across y: the
+/// climb along each is the sine of its inclination, and what a weight loses into the ground it has
+/// along it.
+#[test]
+fn a_weight_is_divided_between_the_ground_and_its_axes() {
+    let normal = Vec3::new(0.2, -0.3, 0.8).normalize();
+    let patch = Patch { height: 0.0, normal, soil: Cow::Owned(given::toyoura()) };
+    let x_axis = Vec3::new(normal.z, 0.0, -normal.x).normalize();
+    let y_axis = normal.cross(&x_axis);
+    let climb = patch.climb();
+    assert!((climb - Vec2::new(x_axis.z, y_axis.z)).norm() < 1e-15, "{climb}");
+    let weight = site(0.0).weight(7.0, &patch);
+    let whole = 7.0 * EARTH_GRAVITY;
+    let parts = weight.into.hypot(weight.uphill.norm());
+    assert!((parts - whole).abs() < 1e-12 && weight.into < whole, "{weight:?}");
+}
+
+/// A plane climbs along y: by its height over the way along it, and square to its normal.
+#[test]
+fn a_plane_has_one_soil_one_normal_and_a_height_that_grows_along_y() {
+    let plane = site(deg(20.0)).terrain;
+    let patch = |x: f64, y: f64| {
+        let footprint = given::hakuto().footprint(&Rotation2::identity());
+        plane.patch(Vec2::new(x, y), footprint)
+    };
+    let (here, there) = (patch(0.0, 0.0), patch(3.0, 2.0));
+    assert_eq!((here.normal, *here.soil), (there.normal, plane.soil));
+    let way = Vec3::new(3.0, 2.0 * deg(20.0).cos(), there.height - here.height);
+    assert!(here.normal.dot(&way).abs() < 1e-15 && (way.norm() - 13_f64.sqrt()).abs() < 1e-14);
+    assert!((here.climb() - Vec2::new(0.0, deg(20.0).sin())).norm() < 1e-15);
 }
 
 // ---- the stance ----
@@ -469,10 +520,14 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
 fn no_rover_stands_on_two_wheels_or_on_a_line() {
     let parts = given::hakuto();
     let stand = |hubs: &[(f64, f64, f64)]| {
-        let mounts = hubs
-            .iter()
-            .map(|&(x, y, z)| Mount { name: "wheel".into(), position: Vec3::new(x, y, z) });
-        Rover::new(*parts.body(), *parts.wheel_unit(), mounts.collect())
+        let unit = parts.mounts()[0].unit;
+        let mounts = hubs.iter().map(|&(x, y, z)| Mount {
+            name: "wheel".into(),
+            position: Vec3::new(x, y, z),
+            unit,
+            steering: 0.0,
+        });
+        Rover::new(*parts.body(), mounts.collect())
     };
     assert!(stand(&[(0.1, 0.2, 0.0), (-0.1, 0.2, 0.0)]).is_err());
     assert!(stand(&[(0.1, 0.2, 0.0), (0.0, 0.2, 0.0), (-0.1, 0.2, 0.0)]).is_err());

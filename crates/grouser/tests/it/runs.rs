@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use grouser::contact::Theory;
 use grouser::document::{self, Kind, Overrides, Source};
-use grouser::simulation::balance::LONGEST_SETTLING;
+use grouser::simulation::steady_state::LONGEST_SETTLING;
 use grouser::simulation::{
-    Approach, Integrator, Method, Motion, Numerics, Outcome, Sample, Scenario, Start, StuckBecause,
-    Trajectory, WheelSample,
+    Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
+    Trajectory, WheelRecord,
 };
 use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
@@ -31,8 +31,8 @@ fn on_level_ground() -> Scenario {
 }
 
 fn with_shear(shear: Shear, scenario: Scenario) -> Scenario {
-    let soil = Soil { shear, ..scenario.site.soil };
-    Scenario { site: Site { soil, ..scenario.site }, ..scenario }
+    let soil = Soil { shear, ..scenario.site.terrain.soil };
+    Scenario { site: scenario.site.with_soil(soil), ..scenario }
 }
 
 fn with_integrator(integrator: Integrator, scenario: &Scenario) -> Scenario {
@@ -72,14 +72,14 @@ pub(crate) fn all_kinds() -> Vec<(&'static str, Scenario)> {
             Scenario {
                 drive: DriveLaw::ConstantEach(vec![0.04, 0.04, 0.08, 0.08]),
                 own_moments: OwnMoments::Included,
-                site: Site { slope: deg(15.0), ..base.site },
+                site: base.site.with_slope(deg(15.0)),
                 ..base.clone()
             },
         ),
         ("equal loads", Scenario { sharing: LoadSharing::Uniform, ..base.clone() }),
         ("isotropic", with_shear(isotropic, base.clone())),
         ("Bekker's theory", Scenario { theory: Theory::Bekker, ..base.clone() }),
-        ("sliding", Scenario { site: Site { slope: deg(35.0), ..base.site }, ..base }),
+        ("sliding", Scenario { site: base.site.with_slope(deg(35.0)), ..base }),
     ]
 }
 
@@ -159,8 +159,8 @@ impl Apart {
     /// in a tenth of a second.
     fn over(one: &Trajectory, other: &Trajectory) -> Self {
         let mut apart = Self { position: 0.0, yaw: 0.0, slip_ratio: 0.0, sinkage: 0.0, power: 0.0 };
-        let power = |sample: &Sample| sample.wheels.iter().map(WheelSample::power).sum::<f64>();
-        for (one, other) in one.samples.iter().zip(&other.samples).skip(10) {
+        let power = |sample: &Record| sample.wheels.iter().map(WheelRecord::power).sum::<f64>();
+        for (one, other) in one.records.iter().zip(&other.records).skip(10) {
             assert_eq!(one.time, other.time);
             let max = |most: &mut f64, value: f64| *most = most.max(value.abs());
             max(&mut apart.position, (one.state.position - other.state.position).norm());
@@ -202,7 +202,7 @@ impl Apart {
 fn tolerance(dynamic: &Trajectory, steady: &Trajectory) -> Apart {
     /// Longest time of settling [s].
     const SETTLING: f64 = LONGEST_SETTLING;
-    let (start, balance) = (&dynamic.samples[0].state, &steady.samples[0].state);
+    let (start, balance) = (&dynamic.records[0].state, &steady.records[0].state);
     let to_settle = (start.velocity - balance.velocity).norm();
     // Hubs are 0.3 m from the middle: what jolts the rover along may turn it as well.
     let turn_to_settle = (start.yaw_rate - balance.yaw_rate).abs() + to_settle / 0.3;
@@ -225,12 +225,12 @@ fn quasi_steady_and_dynamic_runs_agree() {
     {
         for yaw in [-40.0, -10.0, 0.0, 4.0, 12.0, 30.0, 70.0, 180.0] {
             let base = traverse(deg(slope), deg(yaw));
-            let site = Site { soil: *soil, ..base.site };
+            let site = base.site.with_soil(*soil);
             let scenario = Scenario { site, duration: 5.0, ..base };
             let name = format!("{soil_name}, {slope}°, yaw {yaw}°");
             let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
             assert_eq!(dynamic.outcome, steady.outcome, "{name}");
-            assert_eq!(dynamic.samples.len(), steady.samples.len(), "{name}");
+            assert_eq!(dynamic.records.len(), steady.records.len(), "{name}");
             let within = tolerance(&dynamic, &steady);
             beyond.extend(Apart::over(&dynamic, &steady).beyond(&name, &within));
             // Where the wheels all but spin, velocities need tenths of a second.
@@ -299,8 +299,12 @@ fn without_a_valid_balance_the_run_is_dynamic() {
         Scenario { drive: locked, duration: 2.0, start: AT_REST, ..traverse(deg(10.0), 0.0) };
     for scenario in [parked, Scenario { duration: 2.0, ..traverse(deg(58.0), 0.0) }] {
         let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
-        assert!(matches!(steady.method, Method::FellBack { time: 0.0, .. }), "{:?}", steady.method);
-        assert_eq!((dynamic.samples, dynamic.outcome), (steady.samples, steady.outcome));
+        assert!(
+            matches!(steady.method, Method::FallbackToDynamic { time: 0.0, .. }),
+            "{:?}",
+            steady.method
+        );
+        assert_eq!((dynamic.records, dynamic.outcome), (steady.records, steady.outcome));
     }
 }
 
@@ -325,7 +329,7 @@ fn the_books_of_energy_close() {
 fn the_soil_never_gives_energy_back() {
     for (name, scenario) in all_kinds() {
         let run = run(&scenario);
-        for pair in run.samples.windows(2) {
+        for pair in run.records.windows(2) {
             let (before, after) = (pair[0].energy.soil, pair[1].energy.soil);
             assert!(after > before, "{name}: {before} J, then {after} J at {} s", pair[1].time);
         }
@@ -465,8 +469,8 @@ fn on_level_ground_straight_ahead_stays_straight() {
 #[test]
 fn the_sign_law_does_not_chatter() {
     let with_sign = |scenario: Scenario| {
-        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.site.soil };
-        run(&Scenario { site: Site { soil, ..scenario.site }, ..scenario })
+        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.site.terrain.soil };
+        run(&Scenario { site: scenario.site.with_soil(soil), ..scenario })
     };
     for scenario in [
         on_level_ground(),
@@ -660,7 +664,7 @@ fn on_35_degrees_the_rover_slides_from_across_and_from_uphill() {
 fn on_58_degrees_the_rover_tips_over_before_it_starts() {
     let run = run(&traverse(deg(58.0), 0.0));
     assert_eq!(run.outcome, Outcome::TippedOver { time: 0.0 });
-    assert_eq!(run.samples.len(), 1);
+    assert_eq!(run.records.len(), 1);
 }
 
 #[test]
@@ -669,7 +673,7 @@ fn in_mud_a_wheel_sinks_to_its_axle() {
     let pressure_sinkage = PressureSinkage::Reece { k_c: 0.0, k_phi: 1.0, exponent };
     let soil = Soil { pressure_sinkage, ..given::toyoura() };
     let level = on_level_ground();
-    let mud = Scenario { site: Site { soil, ..level.site }, ..level };
+    let mud = Scenario { site: level.site.with_soil(soil), ..level };
     check_stuck(
         &mud,
         |because| matches!(because, StuckBecause::SunkToAxle { load, capacity, .. } if capacity < load),
@@ -695,7 +699,7 @@ fn runs_with_locked_wheels_are_computed_on_every_soil() {
     for (soil, slope) in soils.iter().flat_map(|soil| [(soil, 0.0), (soil, deg(15.0))]) {
         for speeds in speeds {
             let base = traverse(slope, 0.0);
-            let site = Site { soil: *soil, ..base.site };
+            let site = base.site.with_soil(*soil);
             let drive = DriveLaw::ConstantEach(speeds.to_vec());
             run(&Scenario { site, drive, duration: 5.0, ..base });
         }
@@ -732,6 +736,6 @@ fn a_drive_that_varies_keeps_to_the_sample_interval() {
         Scenario { drive: DriveLaw::Eq18(TARGET), duration: 3.0, ..traverse(deg(10.0), 0.0) };
     let numerics = Numerics { sample_interval: 1.0, ..base.numerics };
     let times: Vec<f64> =
-        run(&Scenario { numerics, ..base }).samples.iter().map(|sample| sample.time).collect();
+        run(&Scenario { numerics, ..base }).records.iter().map(|sample| sample.time).collect();
     assert_eq!(times, [0.0, 1.0, 2.0, 3.0]);
 }

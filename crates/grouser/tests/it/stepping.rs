@@ -2,11 +2,11 @@
 
 use grouser::error::ParameterError;
 use grouser::simulation::{
-    Approach, Integrator, Motion, Numerics, Outcome, Sample, Scenario, SimulationError, Simulator,
-    Start, WheelSample,
+    Approach, Controller, Integrator, Method, Motion, Numerics, Observation, Outcome, Record, Run,
+    RunError, Scenario, Start, WheelRecord,
 };
-use grouser::site::Site;
 use grouser::units::deg;
+use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::{DriveLaw, RoverState};
 use proptest::prelude::*;
 
@@ -16,12 +16,12 @@ use super::given::{self, RIM_SPEED, run, traverse};
 /// integrator's relative tolerance.
 const TOLERANCE: f64 = 1e-6;
 
-fn simulator(scenario: &Scenario) -> Simulator {
-    Simulator::new(scenario.clone()).expect("a rover at its start")
+fn simulator(scenario: &Scenario) -> Run {
+    Run::new(scenario).expect("a rover at its start")
 }
 
 /// A rover led by a list of commands, each for a span [s].
-fn led(scenario: &Scenario, span: f64, commands: &[[f64; 4]]) -> Simulator {
+fn led(scenario: &Scenario, span: f64, commands: &[[f64; 4]]) -> Run {
     let mut rover = simulator(scenario);
     for command in commands {
         rover.step(command, span).expect("a step");
@@ -56,7 +56,7 @@ fn steps_with_constant_commands_lead_where_the_run_leads() {
         assert!(apart(&now.state, &end.state) < TOLERANCE, "steps of {span} s");
         let (energy, there) = (now.energy.motors, end.energy.motors);
         assert!((energy - there).abs() < TOLERANCE * there.abs().max(1.0));
-        let slips = |sample: &Sample| sample.wheels.iter().map(WheelSample::power).sum::<f64>();
+        let slips = |sample: &Record| sample.wheels.iter().map(WheelRecord::power).sum::<f64>();
         assert!((slips(now) - slips(end)).abs() < TOLERANCE);
     }
 }
@@ -104,7 +104,7 @@ proptest! {
         let again = led(&scenario, span, &rims);
         prop_assert_eq!(clone.now(), again.now());
         prop_assert_eq!(clone.outcome(), again.outcome());
-        prop_assert_eq!(clone.work(), again.work());
+        prop_assert_eq!(clone.state().work(), again.state().work());
     }
 }
 
@@ -155,8 +155,108 @@ fn quasi_steady_steps_lead_where_the_quasi_steady_run_leads() {
     // and at the wheels' distance of 0.3 m as an angle.
     let apart = apart(&rover.now().state, &whole.last().state);
     assert!(apart < 2.0 * 1e-5 * 0.36 / 0.3, "{apart}");
-    assert_eq!(rover.method(), &whole.method);
+    assert_eq!(rover.state().method(), &whole.method);
     assert!(rover.now().wheels.len() == 4 && rover.outcome().is_none());
+}
+
+/// Steps of a command that is the scenario's own find the balance anew as the rover turns.
+#[test]
+fn quasi_steady_steps_of_the_same_command_follow_a_rover_that_turns() {
+    let rims = [0.058, 0.058, 0.062, 0.062];
+    let drive = DriveLaw::ConstantEach(rims.to_vec());
+    let base = Scenario { duration: 6.0, drive, ..traverse(deg(10.0), 0.0) };
+    let approach = Approach::QuasiSteady;
+    let scenario = Scenario { numerics: Numerics { approach, ..base.numerics }, ..base };
+    let whole = run(&scenario);
+    let yaw = whole.last().state.yaw;
+    assert!(yaw > deg(1.0) && whole.method == Method::QuasiSteady, "{yaw}");
+    for (span, count) in [(0.1, 60), (0.01, 600)] {
+        let rover = led(&scenario, span, &vec![rims; count]);
+        let apart = apart(&rover.now().state, &whole.last().state);
+        assert!(apart < 2.0 * 1e-5 * 0.36 / 0.3, "{apart} after steps of {span} s");
+    }
+}
+
+/// The law of Eq. 18 by a closure of one's own is the drive of a scenario, bit for bit.
+#[test]
+fn a_controller_leads_as_the_scenarios_drive_does() {
+    let law = DriveLaw::Eq18(SlipTarget { speed: 0.06, slip_ratio: 0.2 });
+    let scenario = Scenario { duration: 3.0, drive: law.clone(), ..traverse(deg(10.0), deg(3.0)) };
+    let whole = run(&scenario);
+    let mut own = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
+        law.rim_speeds(&seen.scenario().rover, seen.rover().yaw, seen.slip_ratios(), rim_speeds);
+    };
+    // Another drive in the scenario says nothing to a run that a controller starts.
+    let other = Scenario { drive: DriveLaw::Constant(0.01), ..scenario.clone() };
+    let mut led = Run::with_controller(&other, &mut own).expect("a start");
+    let at_start = led.records().len();
+    led.step(led.state().rim_speeds().to_vec().as_slice(), 0.1).expect("the first period");
+    for until in [1.0, 2.0, 3.0] {
+        led.advance(&mut own, until).expect("it is led");
+    }
+    assert_eq!((at_start, led.records().len()), (1, 30), "the first period was a step");
+    assert_eq!(led.now(), whole.last());
+    assert_eq!(led.finish().records[1..], whole.records[2..]);
+}
+
+/// A state is all that changes: another run goes on from there, bit for bit, by either approach.
+#[test]
+fn a_run_goes_on_from_a_state() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let base = traverse(deg(12.0), 0.0);
+        let scenario = Scenario { numerics: Numerics { approach, ..base.numerics }, ..base };
+        let mut run = led(&scenario, 0.13, &WILD[..3]);
+        let mut again = Run::resume(&scenario, run.state().clone());
+        assert_eq!(again.now().state, run.now().state);
+        for command in &WILD[3..] {
+            run.step(command, 0.13).expect("a step");
+            again.step(command, 0.13).expect("a step");
+            assert_eq!((run.now(), run.outcome()), (again.now(), again.outcome()));
+        }
+    }
+}
+
+/// A controller sees the wheels: here the soil's torques and the loads, which bear the weight.
+#[test]
+fn a_controller_sees_time_motion_and_wheels() {
+    let scenario = Scenario { duration: 1.0, ..traverse(deg(10.0), deg(5.0)) };
+    let weight = scenario.rover.mass() * scenario.site.gravity * deg(10.0).cos();
+    let mut looks = Vec::new();
+    let mut watcher = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
+        let wheels = seen.wheels().expect("they settle");
+        let load: f64 = wheels.iter().map(|wheel| wheel.load).sum();
+        let torque: f64 = wheels.iter().map(|wheel| wheel.settled.forces.torque).sum();
+        assert!((load - weight).abs() < 1e-9 * weight && wheels[0].settled.sinkage > 0.0);
+        assert_eq!(seen.slip_ratios(), wheels.iter().map(|w| w.slip.ratio).collect::<Vec<_>>());
+        looks.push((seen.time(), seen.rover().velocity.x, torque));
+        rim_speeds.fill(RIM_SPEED);
+    };
+    let mut run = Run::with_controller(&scenario, &mut watcher).expect("a start");
+    run.advance(&mut watcher, 1.0).expect("it is led");
+    let times: Vec<f64> = looks.iter().map(|look| look.0).collect();
+    assert_eq!(times.len(), 11, "{times:?}");
+    assert!(times.iter().skip(1).enumerate().all(|(k, time)| (time - 0.1 * k as f64).abs() < 1e-9));
+    // Before the start it stands with its wheels at rest, on a slope that drags at it.
+    let (first, last) = (looks[0], looks[10]);
+    assert!(first.1 == 0.0 && first.2.abs() < 1e-9, "{first:?}");
+    assert!(last.1 > 0.8 * RIM_SPEED && last.2 > 0.1, "{last:?}");
+}
+
+#[test]
+fn commands_that_no_wheel_can_follow_are_refused() {
+    let scenario = traverse(0.0, 0.0);
+    let mut run = simulator(&scenario);
+    let mut wild = |_: &Observation<'_>, rim_speeds: &mut [f64]| rim_speeds.fill(f64::NAN);
+    assert!(matches!(run.advance(&mut wild, 1.0), Err(RunError::Parameter(_))));
+    assert_eq!(run.now().time, 0.0);
+    struct Backward;
+    impl Controller for Backward {
+        fn command(&mut self, _: &Observation<'_>, _: &mut [f64]) {}
+        fn period(&self) -> Option<f64> {
+            Some(-0.1)
+        }
+    }
+    assert!(matches!(run.advance(&mut Backward, 1.0), Err(RunError::Parameter(_))));
 }
 
 #[test]
@@ -173,11 +273,11 @@ fn what_nothing_can_do_changes_nothing() {
     ];
     for (rims, span) in wrong {
         let told = rover.step(rims, span);
-        assert!(matches!(told, Err(SimulationError::Parameter(ParameterError { .. }))));
+        assert!(matches!(told, Err(RunError::Parameter(ParameterError { .. }))));
         assert_eq!(rover.now(), &before);
     }
-    let nowhere = Site { slope: f64::NAN, ..traverse(0.0, 0.0).site };
-    assert!(Simulator::new(Scenario { site: nowhere, ..traverse(0.0, 0.0) }).is_err());
+    let nowhere = traverse(0.0, 0.0).site.with_slope(f64::NAN);
+    assert!(Run::new(&Scenario { site: nowhere, ..traverse(0.0, 0.0) }).is_err());
 }
 
 #[test]
@@ -185,7 +285,7 @@ fn a_rover_at_its_start_was_looked_at() {
     let rover = simulator(&traverse(deg(10.0), deg(5.5)));
     let now = rover.now();
     assert_eq!((now.time, now.wheels.len(), now.energy.motors), (0.0, 4, 0.0));
-    assert_eq!(rover.rim_speeds(), [RIM_SPEED; 4]);
+    assert_eq!(rover.state().rim_speeds(), [RIM_SPEED; 4]);
     assert_eq!(rover.scenario().drive, DriveLaw::Constant(RIM_SPEED));
     assert!(!matches!(rover.outcome(), Some(Outcome::Completed)));
 }

@@ -23,13 +23,18 @@ fn lone_wheel() -> DMatrix<f64> {
     )
 }
 
-fn reaction(mobility: &DMatrix<f64>, duration: f64, sinkage: f64, free: [f64; MOTIONS]) -> Stepped {
+fn reaction(
+    inverse_mass: &DMatrix<f64>,
+    duration: f64,
+    sinkage: f64,
+    free: [f64; MOTIONS],
+) -> Stepped {
     let step = TimeStep {
         duration,
         gravity: EARTH_GRAVITY,
         damping: SINKAGE_DAMPING,
         rest_speed: REST_SPEED,
-        mobility,
+        inverse_mass,
         free: &DVector::from_row_slice(&free),
     };
     let (wheel, soil, model) = (hakuto_wheel(), toyoura(), Theory::Ishigami.model());
@@ -84,9 +89,9 @@ proptest! {
     ) {
         let free: Vec<f64> =
             free.iter().zip(is_still).map(|(v, still)| if still { 0.0 } else { *v }).collect();
-        let mobility = lone_wheel() * (MASS / 10.0_f64.powf(log_mass));
+        let inverse_mass = lone_wheel() * (MASS / 10.0_f64.powf(log_mass));
         let free = [free[0], free[1], free[2], free[3]];
-        let stepped = reaction(&mobility, 10.0_f64.powf(log_duration), sinkage, free);
+        let stepped = reaction(&inverse_mass, 10.0_f64.powf(log_duration), sinkage, free);
         prop_assert!(stepped.residual <= 1e-6 * REST_SPEED, "{stepped:?}");
     }
 }

@@ -293,7 +293,7 @@ fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
     let scenario = scenario();
     let study = HeadingStudy::of(&scenario.value);
     let curve = study.curve().expect("it is a soil");
-    let band = band(&vec![scenario.value.site.soil; 5], &slopes());
+    let band = band(&vec![scenario.value.site.terrain.soil; 5], &slopes());
     for on_slope in &band.slopes {
         match curve.at(on_slope.slope) {
             Err(_) => assert_eq!((on_slope.level.successes, on_slope.yaw), (0, None)),
@@ -363,7 +363,7 @@ fn a_study_that_is_broken_off_has_no_result() {
 /// A soil that cannot move the rover has no attitude and no steepest slope; it still counts.
 #[test]
 fn soils_that_do_not_carry_the_rover_count_against_it() {
-    let good = scenario().value.site.soil;
+    let good = scenario().value.site.terrain.soil;
     let mut slick = good;
     slick.friction_angle = deg(5.0);
     slick.exit = Exit::Ratio(0.0);
@@ -386,7 +386,7 @@ fn every_drawn_curve_ends_for_a_physical_reason() {
 
 #[test]
 fn the_first_soil_that_is_none_is_the_error() {
-    let good = scenario().value.site.soil;
+    let good = scenario().value.site.terrain.soil;
     let bad = |density| Soil { density, ..good };
     let study = HeadingStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];

@@ -1,6 +1,7 @@
 //! Charts of a validation: predictions through measured points, and residuals.
 
-use grouser::document::columns::fit::{self, TOTAL_SLIP, column_of};
+use grouser::document::columns::TOTAL_SLIP;
+use grouser::document::columns::fit::{self, column_of};
 use grouser::document::columns::{self, SLIP_ANGLE};
 use grouser::document::table::Table;
 use grouser::studies::measurement::Quantity;

@@ -4,7 +4,7 @@
 
 use super::super::patch::ContactPatch;
 use super::super::stress::{MobilisedShear, RimPoint, RimStress, ShearLaw, StressField};
-use super::rule::{ArcRule, Pack};
+use super::rule::{ArcRule, NodeBlock};
 use super::{LANES, Lanes, sum};
 
 /// Integrals of the stresses over the arc [Pa·rad].
@@ -79,23 +79,23 @@ fn over_pieces<const ALL: bool>(
     sums: &mut LaneSums,
 ) {
     if field.has_two_pieces() {
-        let packs = if field.turns_under_hub() { rule.turning_whole } else { rule.whole };
-        for pack in packs {
-            over_both_sides::<ALL>(field, law, pack, sums);
+        let blocks = if field.turns_under_hub() { rule.near_stall } else { rule.two_piece };
+        for block in blocks {
+            over_both_sides::<ALL>(field, law, block, sums);
         }
         return;
     }
     let (count, breaks) = field.breaks();
-    let pieces = if field.shears_at_once() { rule.hard_pieces } else { rule.pieces };
+    let pieces = if field.shears_at_once() { rule.fast_slip } else { rule.pieces };
     for (number, ends) in breaks[..count].windows(2).enumerate() {
-        let packs = match number {
+        let blocks = match number {
             0 => pieces.opening,
             _ if number == count - 2 => pieces.closing,
             _ => pieces.inner,
         };
         let (start, span) = (breaks[0] - ends[0], ends[0] - ends[1]);
-        for pack in packs {
-            over_piece::<ALL>(field, law, pack, start, span, sums);
+        for block in blocks {
+            over_piece::<ALL>(field, law, block, start, span, sums);
         }
     }
 }
@@ -108,15 +108,15 @@ fn over_pieces<const ALL: bool>(
 fn over_both_sides<const ALL: bool>(
     field: &StressField,
     law: &impl ShearLaw,
-    pack: &Pack,
+    block: &NodeBlock,
     sums: &mut LaneSums,
 ) {
     let ContactPatch { entry, max_stress, exit } = field.patch;
     let (front, rear) = (entry - max_stress, max_stress - exit);
     for lane in 0..LANES {
-        let (share, width) = (pack.share[lane], pack.width[lane]);
-        let before = field.point(share * front);
-        let behind = field.point((front + rear) - share * rear);
+        let (abscissa, width) = (block.abscissa[lane], block.width[lane]);
+        let before = field.point(abscissa * front);
+        let behind = field.point((front + rear) - abscissa * rear);
         let normal = field.front_normal(before.height);
         sums.add::<ALL>(lane, &before, field.stress(law, normal, &before), width * front);
         sums.add::<ALL>(lane, &behind, field.stress(law, normal, &behind), width * rear);
@@ -128,15 +128,15 @@ fn over_both_sides<const ALL: bool>(
 fn over_piece<const ALL: bool>(
     field: &StressField,
     law: &impl ShearLaw,
-    pack: &Pack,
+    block: &NodeBlock,
     start: f64,
     span: f64,
     sums: &mut LaneSums,
 ) {
     for lane in 0..LANES {
-        let point = field.point(start + pack.share[lane] * span);
+        let point = field.point(start + block.abscissa[lane] * span);
         let stress = field.stress(law, field.normal(&point), &point);
-        sums.add::<ALL>(lane, &point, stress, pack.width[lane] * span);
+        sums.add::<ALL>(lane, &point, stress, block.width[lane] * span);
     }
 }
 

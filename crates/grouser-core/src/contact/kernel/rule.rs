@@ -7,17 +7,17 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::super::gauss::{GAUSS_8, GAUSS_16, GAUSS_64, Rule as Gauss};
-use super::super::model::Contact;
+use super::super::inputs::Contact;
 use super::{LANES, Lanes};
 use crate::soil::{Shear, ShearModulus};
 
 /// Nodes on a span.
 ///
-/// A node lies its share of the span behind the span's front end (behind the peak: before its rear
+/// A node lies its abscissa, a share of the span, behind the span's front end (behind the peak: before its rear
 /// end), and stands for its width of it.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct Pack {
-    pub share: Lanes,
+pub(in crate::contact) struct NodeBlock {
+    pub abscissa: Lanes,
     pub width: Lanes,
 }
 
@@ -25,21 +25,21 @@ pub(in crate::contact) struct Pack {
 #[derive(Debug)]
 pub(in crate::contact) struct ArcRule {
     /// Each half of an arc of two pieces, as every driving wheel has.
-    pub(super) whole: &'static [Pack],
+    pub(super) two_piece: &'static [NodeBlock],
     /// The same where the slip velocity turns under the hub.
-    pub(super) turning_whole: &'static [Pack],
+    pub(super) near_stall: &'static [NodeBlock],
     /// The pieces of any other arc.
     pub(super) pieces: &'static PieceRule,
     /// The same under a wheel that is almost locked: the soil shears at once, however soft it is.
-    pub(super) hard_pieces: &'static PieceRule,
+    pub(super) fast_slip: &'static PieceRule,
 }
 
 /// How a piece is integrated at the entry, within the arc, and at the exit.
 #[derive(Debug)]
 pub(super) struct PieceRule {
-    pub opening: &'static [Pack],
-    pub inner: &'static [Pack],
-    pub closing: &'static [Pack],
+    pub opening: &'static [NodeBlock],
+    pub inner: &'static [NodeBlock],
+    pub closing: &'static [NodeBlock],
 }
 
 impl ArcRule {
@@ -74,7 +74,7 @@ enum Ends {
     Closing,
 }
 
-const fn share(ends: Ends, (x, weight): (f64, f64)) -> (f64, f64) {
+const fn abscissa(ends: Ends, (x, weight): (f64, f64)) -> (f64, f64) {
     match ends {
         Ends::Opening => (x * x, 2.0 * x * weight),
         Ends::Inner => (x, weight),
@@ -83,30 +83,30 @@ const fn share(ends: Ends, (x, weight): (f64, f64)) -> (f64, f64) {
 }
 
 /// One piece.
-const fn piece<const PACKS: usize>(ends: Ends, rule: &Gauss) -> [Pack; PACKS] {
-    assert!(rule.len() == PACKS * LANES, "the nodes fill the lanes");
-    let mut packs = [Pack { share: [0.0; LANES], width: [0.0; LANES] }; PACKS];
+const fn piece<const BLOCKS: usize>(ends: Ends, rule: &Gauss) -> [NodeBlock; BLOCKS] {
+    assert!(rule.len() == BLOCKS * LANES, "the nodes fill the lanes");
+    let mut blocks = [NodeBlock { abscissa: [0.0; LANES], width: [0.0; LANES] }; BLOCKS];
     let mut k = 0;
     while k < rule.len() {
-        let (pack, lane) = (&mut packs[k / LANES], k % LANES);
-        (pack.share[lane], pack.width[lane]) = share(ends, rule[k]);
+        let (block, lane) = (&mut blocks[k / LANES], k % LANES);
+        (block.abscissa[lane], block.width[lane]) = abscissa(ends, rule[k]);
         k += 1;
     }
-    packs
+    blocks
 }
 
 /// Nodes for what is smooth at both ends.
-pub(in crate::contact) static EVEN: Pack = piece::<1>(Ends::Inner, &GAUSS_8)[0];
+pub(in crate::contact) static EVEN: NodeBlock = piece::<1>(Ends::Inner, &GAUSS_8)[0];
 
-static OPENING_8: [Pack; 1] = piece(Ends::Opening, &GAUSS_8);
-static INNER_8: [Pack; 1] = piece(Ends::Inner, &GAUSS_8);
-static CLOSING_8: [Pack; 1] = piece(Ends::Closing, &GAUSS_8);
-static OPENING_16: [Pack; 2] = piece(Ends::Opening, &GAUSS_16);
-static INNER_16: [Pack; 2] = piece(Ends::Inner, &GAUSS_16);
-static CLOSING_16: [Pack; 2] = piece(Ends::Closing, &GAUSS_16);
-static OPENING_64: [Pack; 8] = piece(Ends::Opening, &GAUSS_64);
-static INNER_64: [Pack; 8] = piece(Ends::Inner, &GAUSS_64);
-static CLOSING_64: [Pack; 8] = piece(Ends::Closing, &GAUSS_64);
+static OPENING_8: [NodeBlock; 1] = piece(Ends::Opening, &GAUSS_8);
+static INNER_8: [NodeBlock; 1] = piece(Ends::Inner, &GAUSS_8);
+static CLOSING_8: [NodeBlock; 1] = piece(Ends::Closing, &GAUSS_8);
+static OPENING_16: [NodeBlock; 2] = piece(Ends::Opening, &GAUSS_16);
+static INNER_16: [NodeBlock; 2] = piece(Ends::Inner, &GAUSS_16);
+static CLOSING_16: [NodeBlock; 2] = piece(Ends::Closing, &GAUSS_16);
+static OPENING_64: [NodeBlock; 8] = piece(Ends::Opening, &GAUSS_64);
+static INNER_64: [NodeBlock; 8] = piece(Ends::Inner, &GAUSS_64);
+static CLOSING_64: [NodeBlock; 8] = piece(Ends::Closing, &GAUSS_64);
 
 static PIECES_8: PieceRule =
     PieceRule { opening: &OPENING_8, inner: &INNER_8, closing: &CLOSING_8 };
@@ -117,29 +117,29 @@ static PIECES_64: PieceRule =
 
 /// For soils in which shear is mobilised over lengths like a tenth of the wheel's radius and more.
 pub(in crate::contact) static COARSE: ArcRule = ArcRule {
-    whole: &OPENING_8,
-    turning_whole: &OPENING_8,
+    two_piece: &OPENING_8,
+    near_stall: &OPENING_8,
     pieces: &PIECES_8,
-    hard_pieces: &PIECES_16,
+    fast_slip: &PIECES_16,
 };
 /// The same for the isotropic law, whose stress turns where the rim is nearly as fast as the soil.
 pub(in crate::contact) static COARSE_ISOTROPIC: ArcRule = ArcRule {
-    whole: &OPENING_8,
-    turning_whole: &OPENING_16,
+    two_piece: &OPENING_8,
+    near_stall: &OPENING_16,
     pieces: &PIECES_16,
-    hard_pieces: &PIECES_16,
+    fast_slip: &PIECES_16,
 };
 /// For all.
 pub(in crate::contact) static FINE: ArcRule = ArcRule {
-    whole: &OPENING_16,
-    turning_whole: &OPENING_16,
+    two_piece: &OPENING_16,
+    near_stall: &OPENING_16,
     pieces: &PIECES_16,
-    hard_pieces: &PIECES_16,
+    fast_slip: &PIECES_16,
 };
 /// Four times as many as the finest, to measure the others' error.
 pub(in crate::contact) static REFERENCE: ArcRule = ArcRule {
-    whole: &OPENING_64,
-    turning_whole: &OPENING_64,
+    two_piece: &OPENING_64,
+    near_stall: &OPENING_64,
     pieces: &PIECES_64,
-    hard_pieces: &PIECES_64,
+    fast_slip: &PIECES_64,
 };

@@ -12,8 +12,8 @@
 
 use super::super::forces::WheelForces;
 use super::super::gauss::Rule;
+use super::super::inputs::Contact;
 use super::super::kernel::{LANES, Lanes};
-use super::super::model::Contact;
 use super::super::patch::ContactPatch;
 use super::exposure::{Comb, Exposure};
 use super::facet::{self, Vector, dot, scaled};

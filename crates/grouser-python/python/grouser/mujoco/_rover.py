@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from typing import Any
 from xml.etree import ElementTree as Xml
 
 from .. import _core
@@ -63,43 +65,52 @@ def rover_xml(
     world = _add(root, "worldbody")
     _add(world, "light", pos=(0, 0, 5), dir=(0, 0, -1))
     _add(world, "geom", name="ground", type="plane", size=(50, 50, 0.1), rgba=(0.76, 0.66, 0.5, 1))
-    wheel, unit = rover.wheel, rover.wheel_unit
-    radius = wheel.radius_m + (wheel.grousers["height_m"] if wheel.to_dict().get("grousers") else 0)
-    hubs = [mount["position_m"] for mount in rover.mount]
+    units = [{**rover.wheel_unit, **mount} for mount in rover.mount]
+    radii = [_shearing_radius(unit["wheel"]) for unit in units]
+    hubs = [unit["position_m"] for unit in units]
     body = _add(
         world,
         "body",
         name="body",
-        pos=(0, 0, radius - hubs[0][2]),
+        pos=(0, 0, radii[0] - hubs[0][2]),
         quat=(math.cos(yaw / 2), 0, 0, math.sin(yaw / 2)),
     )
     _add(body, "freejoint", name="free")
     _add(body, "inertial", pos=(0, 0, 0), **_mass(rover.body))
     half = [max(abs(hub[axis]) for hub in hubs) for axis in (0, 1)]
-    inner = half[1] - 0.5 * wheel.width_m
-    box = (0.8 * half[0], 0.8 * inner, 0.3 * radius)
+    inner = half[1] - 0.5 * max(unit["wheel"]["width_m"] for unit in units)
+    box = (0.8 * half[0], 0.8 * inner, 0.3 * min(radii))
     _add(body, "geom", type="box", size=box, mass=0, contype=0, conaffinity=0)
     motors = _add(root, "actuator")
-    gain = _GAIN * unit["inertia_kg_m2"]["yy"] / timestep_s
-    for mount in rover.mount:
-        name = mount["name"]
-        hub = _add(body, "body", name=name, pos=mount["position_m"])
+    for unit, radius in zip(units, radii):
+        name, steering = unit["name"], math.radians(unit.get("steering_deg", 0.0))
+        turned = {"quat": (math.cos(steering / 2), 0, 0, math.sin(steering / 2))}
+        hub = _add(
+            body, "body", name=name, pos=unit["position_m"], **(turned if steering else {})
+        )
         _add(hub, "joint", type="hinge", name=name, axis=(0, 1, 0))
         _add(hub, "inertial", pos=(0, 0, 0), **_mass(unit))
         _add(
             hub,
             "geom",
             type="cylinder",
-            size=(radius, 0.5 * wheel.width_m),
+            size=(radius, 0.5 * unit["wheel"]["width_m"]),
             euler=(90, 0, 0),
             mass=0,
             contype=0,
             conaffinity=0,
             rgba=(0.25, 0.25, 0.28, 1),
         )
+        gain = _GAIN * unit["inertia_kg_m2"]["yy"] / timestep_s
         _add(motors, "velocity", name=f"{name}-motor", joint=name, kv=gain)
     Xml.indent(root)
     return Xml.tostring(root, encoding="unicode")
+
+
+def _shearing_radius(wheel: Mapping[str, Any]) -> float:
+    """Radius of the grousers' tips [m]."""
+    grousers = wheel.get("grousers")
+    return float(wheel["radius_m"] + (grousers["height_m"] if grousers else 0))
 
 
 def _mass(part: object) -> dict[str, object]:

@@ -10,9 +10,10 @@ use super::super::uncertainty::{Inputs, Statement};
 use super::super::values::Misfit;
 use super::super::varied::{Key, NoNumber, Numbers};
 use super::super::{Document, Kind};
+use super::Sampling;
 use super::rows::Base;
-use super::sections::{Settings, Study};
-use crate::studies::ensemble::design::{SOBOL_DIMENSIONS, Sampling};
+use super::{Settings, Study};
+use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::{Ensemble, Matrix};
 
 /// The uncertain inputs, resolved.

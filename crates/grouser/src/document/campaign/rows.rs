@@ -10,10 +10,10 @@ use super::super::table::{Cell, ColumnKind};
 use super::super::text::Node;
 use super::super::values::Misfit;
 use super::super::varied::{Key, Numbers, Varied};
-use super::sections::{Stand, Study};
 use super::table::{Column, Role};
+use super::{Stand, Study};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
-use crate::simulation::{Scenario, Simulation};
+use crate::simulation::{Run, Scenario};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
 use crate::vehicle::DriveLaw;
@@ -144,7 +144,7 @@ impl Base {
 
 fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     let heading = HeadingStudy::of(scenario)
-        .on_slope(scenario.site.slope)
+        .on_slope(scenario.site.terrain.slope)
         .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
         .map_err(|error| {
             let status = match error {
@@ -171,8 +171,8 @@ fn cells<'r, R, const WORDS: usize>(
 }
 
 fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
-    let run = Simulation::new(scenario)
-        .and_then(Simulation::run)
+    let run = Run::new(scenario)
+        .and_then(Run::to_end)
         .map_err(|error| Failure { status: NOT_COMPUTED, reason: error.to_string() })?;
     let (end, drive) = (run.last(), Drive::of(&run));
     let words = [

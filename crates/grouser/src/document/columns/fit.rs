@@ -4,8 +4,8 @@ use super::super::measurements::Measurements;
 use super::super::table::Table;
 use super::super::unit::{M_S, ONE};
 use super::{
-    Column, DRAWBAR_PULL, LOAD, OK, Quantity, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STATUS,
-    TORQUE, quantity, text, whole,
+    Column, DRAWBAR_PULL, LOAD, OK, Quantity, RIM_SPEED_SETTING, SIDE_FORCE, SINKAGE, SLIP_ANGLE,
+    SLIP_RATIO, STATUS, TORQUE, TOTAL_SLIP, quantity, text, whole,
 };
 use crate::contact::{SettleError, Settled};
 use crate::studies::measurement::{Quantity as Measured, Trial};
@@ -21,12 +21,6 @@ pub const fn column_of(measured: Measured) -> Quantity {
         Measured::Torque => TORQUE,
     }
 }
-
-/// Slip by the total speed.
-pub const TOTAL_SLIP: Quantity = quantity("slip_ratio_total_speed", ONE);
-
-/// Rim speed that was set.
-pub(in super::super) const RIM_SPEED_SETTING: Quantity = quantity("rim_speed_setting_m_s", M_S);
 
 /// A cell's condition.
 const CELL: [Column<CellComparison>; 7] = [

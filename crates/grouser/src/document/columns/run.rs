@@ -1,4 +1,4 @@
-//! The columns of a run: its records in time, those of each wheel, and the outcome.
+//! A run: its records in time, each wheel's, and what became of the rover.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -10,13 +10,13 @@ use super::{
     X, Y, YAW, maybe, number, quantity, text,
 };
 use crate::contact::Settled;
-use crate::simulation::{Sample, Trajectory, WheelSample};
+use crate::simulation::{Record, Trajectory, WheelRecord};
 use crate::studies::drive::Drive;
 use crate::vehicle::Rover;
 
 /// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
 /// frame.
-pub const SAMPLE: [Column<Sample>; 12] = [
+pub const RECORD: [Column<Record>; 12] = [
     TIME.number("Time", |it| it.time),
     X.number("Along the contour, of the body's centre of mass", |it| it.state.position.x),
     Y.number("Uphill", |it| it.state.position.y),
@@ -26,7 +26,7 @@ pub const SAMPLE: [Column<Sample>; 12] = [
         it.state.velocity.y
     }),
     number("yaw_rate_deg_s", DEG_S, "Yaw rate", |it| it.state.yaw_rate),
-    POWER.number("Power of all motors", |it| it.wheels.iter().map(WheelSample::power).sum()),
+    POWER.number("Power of all motors", |it| it.wheels.iter().map(WheelRecord::power).sum()),
     ENERGY.number("Work of the motors so far", |it| it.energy.motors),
     number("soil_energy_j", J, "Work done on the soil so far", |it| it.energy.soil),
     number("kinetic_energy_j", J, "Kinetic energy", |it| it.energy.kinetic),
@@ -36,12 +36,12 @@ pub const SAMPLE: [Column<Sample>; 12] = [
 ];
 
 /// A wheel at one time, beside its results ([`WHEEL`]).
-pub const WHEEL_SAMPLE: [Column<WheelSample>; 5] = [
+pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
     number("wheel_speed_rad_s", RAD_S, "Angular speed", |it| it.wheel_speed),
     SLIP_RATIO.number("Slip ratio", |it| it.reaction.slip.ratio),
     SLIP_ANGLE.number("Slip angle", |it| it.reaction.slip.angle),
     LOAD.number("Load", |it| it.reaction.load),
-    POWER.number("Power of its motor", WheelSample::power),
+    POWER.number("Power of its motor", WheelRecord::power),
 ];
 
 /// Error of the energy balance.
@@ -61,7 +61,7 @@ const RUN: [Column<Trajectory>; 6] = [
     ENERGY_ERROR.number("Error of the energy balance", Trajectory::energy_error),
 ];
 
-/// A run in a few numbers, means over wheels and records: columns of a campaign, beside those of the end.
+/// A run in a few numbers, means over wheels and records: what a campaign keeps beside the end.
 pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     number("distance_m", M, "Length of the way", |it| it.distance),
     maybe("drift_m_per_m", M_PER_M, "Drift per metre travelled, positive downhill", |it| it.drift),
@@ -73,16 +73,16 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
 ];
 
 /// The end of a run: columns of a campaign.
-pub(in super::super) const END: &[Column<Sample>] = SAMPLE.split_at(4).0;
+pub(in super::super) const END: &[Column<Record>] = RECORD.split_at(4).0;
 
 /// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
 /// empty where the rover has just tipped over or sunk, and left out where no sample has any.
 #[must_use]
 pub fn table(run: &Trajectory, rover: &Rover) -> Table {
-    let mut table = Table::of(&SAMPLE, &run.samples);
-    let wheels = run.samples.iter().map(|sample| sample.wheels.len()).max().unwrap_or(0);
+    let mut table = Table::of(&RECORD, &run.records);
+    let wheels = run.records.iter().map(|record| record.wheels.len()).max().unwrap_or(0);
     for (place, mount) in rover.mounts().iter().take(wheels).enumerate() {
-        let wheels: Vec<_> = run.samples.iter().map(|sample| sample.wheels.get(place)).collect();
+        let wheels: Vec<_> = run.records.iter().map(|record| record.wheels.get(place)).collect();
         let settled: Vec<Option<&Settled>> =
             wheels.iter().map(|wheel| Some(&(*wheel)?.reaction.settled)).collect();
         let prefix = format!("{}.", mount.name);
@@ -90,22 +90,22 @@ pub fn table(run: &Trajectory, rover: &Rover) -> Table {
         let (first, results): (Vec<_>, Vec<_>) =
             WHEEL.iter().partition(|column| column.name == MAX_NORMAL_STRESS.name);
         table = table.and_named(&prefix, first, &settled);
-        table = table.and_named(&prefix, &WHEEL_SAMPLE, &wheels);
+        table = table.and_named(&prefix, &WHEEL_RECORD, &wheels);
         table = table.and_named(&prefix, results, &settled);
     }
     table
 }
 
 /// The means over a record's wheels; missing where the rover has just tipped over or sunk.
-const MEANS: [Column<Sample>; 3] = [
+const MEANS: [Column<Record>; 3] = [
     SLIP_RATIO.maybe("Mean slip ratio", |it| mean(it, |wheel| wheel.reaction.slip.ratio)),
     SLIP_ANGLE.maybe("Mean slip angle", |it| mean(it, |wheel| wheel.reaction.slip.angle)),
     SINKAGE.maybe("Mean sinkage", |it| mean(it, |wheel| wheel.reaction.settled.sinkage)),
 ];
 
-fn mean(sample: &Sample, of: fn(&WheelSample) -> f64) -> Option<f64> {
-    let count = sample.wheels.len();
-    (count > 0).then(|| sample.wheels.iter().map(of).sum::<f64>() / count as f64)
+fn mean(record: &Record, of: fn(&WheelRecord) -> f64) -> Option<f64> {
+    let count = record.wheels.len();
+    (count > 0).then(|| record.wheels.iter().map(of).sum::<f64>() / count as f64)
 }
 
 /// The start and some more records up to the end, with the means of their wheels: for reading.
@@ -113,15 +113,15 @@ fn mean(sample: &Sample, of: fn(&WheelSample) -> f64) -> Option<f64> {
 /// * `lines`: how many besides the start, at most
 #[must_use]
 pub fn brief(run: &Trajectory, lines: usize) -> Table {
-    let last = run.samples.len() - 1;
+    let last = run.records.len() - 1;
     let lines = lines.min(last);
     let rows: Vec<_> =
-        (0..=lines).map(|line| Some(&run.samples[line * last / lines.max(1)])).collect();
-    let power = SAMPLE.iter().position(|it| it.name == POWER.name).unwrap_or(0);
-    Table::default().and(END, &rows).and(&MEANS, &rows).and(&SAMPLE[power..=power], &rows)
+        (0..=lines).map(|line| Some(&run.records[line * last / lines.max(1)])).collect();
+    let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
+    Table::default().and(END, &rows).and(&MEANS, &rows).and(&RECORD[power..=power], &rows)
 }
 
-/// A run with its records as one object of JSON: the outcome, `final`, and `samples`.
+/// A run with its records as one object of JSON: what became of the rover, `final`, and `samples`.
 #[derive(Clone, Copy, Debug)]
 pub struct RunObject<'a> {
     /// The run.
@@ -132,26 +132,26 @@ pub struct RunObject<'a> {
 
 impl Serialize for RunObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let sample = |sample| SampleObject { sample, rover: self.rover };
+        let record = |record| RecordObject { record, rover: self.rover };
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
-        map.serialize_entry("final", &sample(self.run.last()))?;
-        let samples: Vec<SampleObject<'_>> = self.run.samples.iter().map(sample).collect();
-        map.serialize_entry("samples", &samples)?;
+        map.serialize_entry("final", &record(self.run.last()))?;
+        let records: Vec<RecordObject<'_>> = self.run.records.iter().map(record).collect();
+        map.serialize_entry("samples", &records)?;
         map.end()
     }
 }
 
-struct SampleObject<'a> {
-    sample: &'a Sample,
+struct RecordObject<'a> {
+    record: &'a Record,
     rover: &'a Rover,
 }
 
-impl Serialize for SampleObject<'_> {
+impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        SAMPLE.iter().try_for_each(|column| column.write(&mut map, self.sample))?;
-        let wheels = self.sample.wheels.iter().zip(self.rover.mounts());
+        RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        let wheels = self.record.wheels.iter().zip(self.rover.mounts());
         let wheels: Vec<_> =
             wheels.map(|(wheel, mount)| WheelObject { name: &mount.name, wheel }).collect();
         map.serialize_entry("wheels", &wheels)?;
@@ -161,14 +161,14 @@ impl Serialize for SampleObject<'_> {
 
 struct WheelObject<'a> {
     name: &'a str,
-    wheel: &'a WheelSample,
+    wheel: &'a WheelRecord,
 }
 
 impl Serialize for WheelObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("wheel", self.name)?;
-        WHEEL_SAMPLE.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
+        WHEEL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
         let settled = &self.wheel.reaction.settled;
         WHEEL.iter().try_for_each(|column| column.write(&mut map, settled))?;
         map.end()

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::Calibration;
 use super::posterior::{Chain, PosteriorState};
-use crate::studies::ensemble::statistics::quantile;
+use grouser_io::statistics::quantile;
 
 /// Samples of several chains that sampled one density, each by itself.
 ///

@@ -12,19 +12,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::permutation::{Permutation, mix};
 use crate::studies::random;
-
-/// The method by which points are spread.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampling {
-    /// Independent points.
-    #[default]
-    MonteCarlo,
-    /// One point in each of N equal parts of every dimension.
-    LatinHypercube,
-    /// The Sobol sequence, scrambled; from [`SOBOL_LENGTH`] points on, one after another, each
-    /// scrambled anew.
-    Sobol,
-}
+pub use grouser_io::campaign::Sampling;
 
 /// A set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

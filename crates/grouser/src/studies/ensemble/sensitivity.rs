@@ -21,8 +21,9 @@
 use rayon::prelude::*;
 
 use super::design::resampling;
-use super::statistics::{Estimate, quantile};
+use super::statistics::Estimate;
 use crate::studies::random;
+use grouser_io::statistics::quantile;
 
 /// The indices of one input.
 #[derive(Clone, Copy, Debug, PartialEq)]

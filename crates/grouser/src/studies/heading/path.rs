@@ -11,7 +11,7 @@ use crate::newton;
 use crate::root;
 use crate::site::Site;
 use crate::vehicle::reaction::{Ground, forces_of};
-use crate::vehicle::{ReactionError, WheelReaction, dynamics, load};
+use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics, load};
 
 /// (s, c, α): slip ratio, crab angle c = γ − χ, slope.
 pub(super) type Place = Vector3<f64>;
@@ -96,7 +96,12 @@ impl<'a> Path<'a> {
     }
 
     fn site(&self, slope: f64) -> Site {
-        Site { soil: self.study.soil, slope, gravity: self.study.gravity }
+        Site::plane(self.study.soil, slope, self.study.gravity)
+    }
+
+    /// The rover at a crab angle [rad]; how fast it goes does not count.
+    fn state(&self, crab: f64) -> RoverState {
+        RoverState { yaw: self.held.yaw(crab), ..RoverState::default() }
     }
 
     fn reactions(&self, place: &Place) -> Result<Vec<WheelReaction>, ReactionError> {
@@ -111,7 +116,7 @@ impl<'a> Path<'a> {
             sharing: *sharing,
             own_moments: *own_moments,
         };
-        ground.reactions(self.held.yaw(crab), &slips)
+        ground.reactions(&self.state(crab), &slips)
     }
 
     /// The wheels at a place, and the forces left over there, over the weight: along and across
@@ -121,7 +126,7 @@ impl<'a> Path<'a> {
         let wheels = self.reactions(place)?;
         let forces = forces_of(&wheels);
         let (soil, _) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
-        let pull = load::slope_pull(&study.rover, &self.site(place.z), self.held.yaw(place.y));
+        let pull = load::slope_pull(&study.rover, &self.site(place.z), &self.state(place.y));
         let left_over = (soil + pull) / (study.rover.mass() * study.gravity);
         Ok(([left_over.x, left_over.y], wheels))
     }

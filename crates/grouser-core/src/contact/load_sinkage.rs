@@ -1,0 +1,167 @@
+//! The load–sinkage relation of one wheel: the load that the soil carries at any sinkage, made ready for a
+//! search.
+//!
+//! A wheel that settles asks for F_z at several sinkages. What does not depend on the sinkage, and
+//! what F_z does not depend on, is left out of that loop.
+
+#![expect(clippy::inline_always, reason = "part of the kernel")]
+
+use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::inputs::Contact;
+use super::kernel::InstructionSet;
+use super::kernel::dispatch::Work;
+use super::kernel::integral::{self, StressSums};
+use super::kernel::rule::{self, ArcRule};
+use super::mirror::Side;
+use super::patch::ContactPatch;
+use super::stress::{Response, StressLaw};
+
+/// The vertical force of the soil on one wheel as a function of its sinkage.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadSinkage {
+    views: Views,
+    /// r_s b [m²].
+    area: f64,
+}
+
+/// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
+#[derive(Clone, Copy, Debug)]
+enum Views {
+    One(Arc),
+    Both { front: (Arc, f64), back: (Arc, f64) },
+}
+
+impl LoadSinkage {
+    pub(super) fn new(contact: &Contact, arc: impl Fn(&Contact) -> Arc) -> Self {
+        let area = contact.wheel.shearing_radius() * contact.wheel.width;
+        let front = || arc(contact);
+        let back = || arc(&Contact { slip: contact.slip.front_to_back(), ..*contact });
+        let (front_share, back_share) = contact.slip.shares_of_sides();
+        let views = if back_share <= 0.0 {
+            Views::One(front())
+        } else if front_share <= 0.0 {
+            Views::One(back())
+        } else {
+            Views::Both { front: (front(), front_share), back: (back(), back_share) }
+        };
+        Self { views, area }
+    }
+
+    /// *F_z* [N] at a sinkage [m]: the bits of the theory's
+    /// [`forces`](super::model::WheelSoilModel::forces).
+    #[must_use]
+    pub fn normal_force(&self, sinkage: f64) -> f64 {
+        if sinkage <= 0.0 {
+            return 0.0;
+        }
+        match &self.views {
+            Views::One(arc) => self.area * arc.up(sinkage),
+            Views::Both { front, back } => {
+                let force = |(arc, share): &(Arc, f64)| self.area * arc.up(sinkage) * share;
+                force(front) + force(back)
+            }
+        }
+    }
+
+    /// The arc of the side that enters the soil, or of one of both.
+    pub(super) fn arc(&self, side: Side) -> &Arc {
+        match (&self.views, side) {
+            (Views::One(arc), _)
+            | (Views::Both { front: (arc, _), .. }, Side::Front)
+            | (Views::Both { back: (arc, _), .. }, Side::Back) => arc,
+        }
+    }
+
+    /// F_z of a shallow wheel without shear: the factor [N/m^p] and the power p of its sinkage. A search
+    /// starts there.
+    #[must_use]
+    pub fn shallow(&self) -> (f64, f64) {
+        let (factor, power) = self.arc(Side::Front).law.shallow();
+        (self.area * factor, power)
+    }
+}
+
+/// The arc of a wheel that enters the soil with its front.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    law: StressLaw,
+    rule: &'static ArcRule,
+    set: InstructionSet,
+}
+
+/// What the kernel computes of an arc at one sinkage.
+pub(super) struct Reaction {
+    pub patch: ContactPatch,
+    pub sums: StressSums,
+    /// Of a wall that is not heaped up further.
+    pub flank: FlankLoad,
+    pub max_normal_stress: f64,
+}
+
+/// How a theory runs the kernel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Numerics {
+    /// Without it, as many nodes as the contact needs.
+    pub rule: Option<&'static ArcRule>,
+    /// Without it, the best that the processor has.
+    pub set: Option<InstructionSet>,
+}
+
+impl Numerics {
+    pub(super) const DEFAULT: Self = Self { rule: None, set: None };
+    pub(super) const REFERENCE: Self = Self { rule: Some(&rule::REFERENCE), set: None };
+
+    pub(super) fn arc(&self, contact: &Contact, response: &Response) -> Arc {
+        Arc {
+            law: StressLaw::new(contact, response),
+            rule: self.rule.unwrap_or_else(|| ArcRule::of(contact)),
+            set: self.set.unwrap_or_else(InstructionSet::best),
+        }
+    }
+}
+
+impl Arc {
+    /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
+    fn up(&self, sinkage: f64) -> f64 {
+        self.set.run(Up { arc: self, sinkage })
+    }
+
+    pub(super) fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
+        self.set.run(All { arc: self, wall, sinkage })
+    }
+}
+
+struct Up<'a> {
+    arc: &'a Arc,
+    sinkage: f64,
+}
+
+impl Work for Up<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        integral::up(&self.arc.law.sunk(self.sinkage), self.arc.rule)
+    }
+}
+
+struct All<'a> {
+    arc: &'a Arc,
+    wall: &'a WallResistance,
+    sinkage: f64,
+}
+
+impl Work for All<'_> {
+    type Output = Reaction;
+
+    #[inline(always)]
+    fn run(self) -> Reaction {
+        let field = self.arc.law.sunk(self.sinkage);
+        Reaction {
+            sums: integral::all(&field, self.arc.rule),
+            flank: bulldozing::flank_load(self.wall, &field.patch, self.arc.law.radius()),
+            max_normal_stress: field.max_normal(),
+            patch: field.patch,
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! One leg of a run: over it the wheels keep their speeds.
+//!
+//! Pose and velocities are carried on by the one or the other way, a watch sees what becomes of the
+//! rover, and records are kept. A [`Run`](super::Run) is made of legs.
+
+use std::ops::ControlFlow;
+
+use super::equations::Equations;
+use super::error::RunError;
+use super::integrate::{self, Point, Stalled};
+use super::method::Method;
+use super::outcome::{Outcome, StuckBecause};
+use super::quasi_steady::{Carried, QuasiSteady};
+use super::record::Record;
+use super::scenario::{Integrator, Scenario};
+use super::state::State;
+use super::steady_state::NotSteady;
+use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
+use super::watch::WATCH_PERIOD;
+use crate::contact::SettleError;
+use crate::vehicle::{ReactionError, WheelReaction};
+
+/// A stretch of time over which the wheels keep their speeds.
+pub(super) struct Leg<'a> {
+    pub(super) scenario: &'a Scenario,
+    pub(super) state: &'a mut State,
+    pub(super) records: &'a mut Vec<Record>,
+    /// Whether the wheels had other speeds before.
+    pub(super) is_new_command: bool,
+    /// Until when they are expected to keep them [s].
+    pub(super) kept_until: f64,
+    /// The only time to be recorded [s], besides that of an outcome; without it those of the
+    /// scenario's sample interval, and its end.
+    pub(super) record_only_at: Option<f64>,
+}
+
+impl Leg<'_> {
+    /// Looks at the rover at the start of its run.
+    pub(super) fn start(mut self) -> Result<(), RunError> {
+        self.go_through(&[])
+    }
+
+    /// Goes on to a time [s] with records and looks on the way, unless an outcome ends the run.
+    pub(super) fn go_to(mut self, until: f64) -> Result<(), RunError> {
+        let now = self.state.time;
+        let mut times = match self.record_only_at {
+            None => multiples_between(now, until, self.scenario.numerics.sample_interval),
+            Some(_) => Vec::new(),
+        };
+        times.extend(multiples_between(now, until, WATCH_PERIOD));
+        times.push(until);
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|later, earlier| is_same_time(*later, *earlier));
+        self.go_through(&times)
+    }
+
+    /// Goes on through the given times and looks at the rover at each; with none, at the start.
+    fn go_through(&mut self, times: &[f64]) -> Result<(), RunError> {
+        let rim_speeds = std::mem::take(&mut self.state.rim_speeds);
+        let equations = Equations::of(self.scenario, &rim_speeds);
+        let mut times = times;
+        let mut done = Ok(());
+        if self.state.method == Method::QuasiSteady {
+            let carried = std::mem::take(&mut self.state.carried);
+            match self.go_steadily(&equations, carried, times) {
+                Ok(carried) => self.state.carried = carried,
+                Err(Ended::Failed(error)) => done = Err(error),
+                Err(Ended::NotSteady(because)) => {
+                    let time = self.state.time;
+                    self.state.method = Method::FallbackToDynamic { time, because };
+                    times = &times[times.partition_point(|other| *other <= time)..];
+                }
+            }
+        }
+        if self.state.method != Method::QuasiSteady && done.is_ok() {
+            done = self.go_dynamically(&equations, times);
+        }
+        self.state.work += equations.work();
+        self.state.rim_speeds = rim_speeds;
+        done
+    }
+
+    /// Steady velocities, the pose integrated.
+    fn go_steadily(
+        &mut self,
+        equations: &Equations<'_>,
+        carried: Carried,
+        times: &[f64],
+    ) -> Result<Carried, Ended> {
+        let mut point = self.state.point;
+        let horizon = self.kept_until - self.state.time;
+        let started =
+            QuasiSteady::from(equations, carried, &mut point, horizon, self.is_new_command);
+        let mut motion = started.map_err(Ended::NotSteady)?;
+        if times.is_empty() {
+            // A run starts steady: what its start would cost the motors is not in the books.
+            point.motors = 0.0;
+            let wheels = || Ok(motion.wheels(&point));
+            let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
+        }
+        for &time in times {
+            let span = time - self.state.time;
+            let advanced = motion.advance(&mut point, span, self.kept_until - self.state.time);
+            advanced.map_err(Ended::NotSteady)?;
+            let wheels = || Ok(motion.wheels(&point));
+            let looked = self.look(equations, time, &point, &wheels);
+            if looked.map_err(Ended::Failed)?.is_break() {
+                break;
+            }
+        }
+        Ok(motion.carry())
+    }
+
+    /// Pose and velocities integrated.
+    fn go_dynamically(&mut self, equations: &Equations<'_>, times: &[f64]) -> Result<(), RunError> {
+        let (start, start_time) = (self.state.point, self.state.time);
+        let integrator = self.scenario.numerics.integrator;
+        let mut history = std::mem::take(&mut self.state.history);
+        let mut failed = None;
+        let mut on_sample = |now: f64, reached: &Point| {
+            let wheels = || equations.reactions(&reached.state);
+            self.look(equations, now, reached, &wheels).unwrap_or_else(|error| {
+                failed = Some(error);
+                ControlFlow::Break(())
+            })
+        };
+        let integrated = if times.is_empty() {
+            let _ = on_sample(start_time, &start);
+            Ok(())
+        } else {
+            match integrator {
+                Integrator::Adaptive { tolerance } => integrate::adaptive(
+                    equations,
+                    &start,
+                    start_time,
+                    times,
+                    tolerance,
+                    &mut history,
+                    &mut on_sample,
+                ),
+                Integrator::Rk4 { step } => {
+                    integrate::rk4(equations, &start, start_time, times, step, &mut on_sample)
+                }
+            }
+        };
+        self.state.history = history;
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        if let Err(Stalled { time, reason }) = integrated {
+            // The integrator stalls where the equations end: then their reason is the reason.
+            match equations.take_failure() {
+                Some(error) => self.state.outcome = Some(outcome_of(time, error)?),
+                None => return Err(RunError::Stalled { time, reason }),
+            }
+        }
+        Ok(())
+    }
+
+    /// Looks at the rover: what became of it, and a record where one is due.
+    fn look(
+        &mut self,
+        equations: &Equations<'_>,
+        now: f64,
+        reached: &Point,
+        wheels: Wheels<'_>,
+    ) -> Result<ControlFlow<()>, RunError> {
+        let rover = &reached.state;
+        let state = &mut *self.state;
+        (state.time, state.point) = (now, *reached);
+        if is_multiple(now, WATCH_PERIOD) {
+            let slips = equations.slips(rover);
+            state.outcome =
+                state.watch.look(self.scenario, now, rover, slips, equations.rim_speeds());
+        }
+        state.slip_ratios.clear();
+        state.slip_ratios.extend(equations.slips(rover).map(|slip| slip.ratio));
+        let is_due = match self.record_only_at {
+            None => is_sample_due(self.scenario, now),
+            Some(time) => is_same_time(now, time),
+        };
+        if state.outcome.is_some() || is_due {
+            match wheels() {
+                Ok(wheels) => self.records.push(Record::new(equations, now, reached, &wheels)),
+                Err(error) => {
+                    self.records.push(Record::new(equations, now, reached, &[]));
+                    state.outcome = Some(outcome_of(now, error)?);
+                }
+            }
+        }
+        Ok(match state.outcome {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        })
+    }
+}
+
+/// Why a quasi-steady motion went no further.
+enum Ended {
+    /// It is not valid from here on.
+    NotSteady(NotSteady),
+    /// It cannot be computed.
+    Failed(RunError),
+}
+
+/// Wheels at the point that is looked at, if they are asked for.
+type Wheels<'a> = &'a dyn Fn() -> Result<Vec<WheelReaction>, ReactionError>;
+
+/// The outcome that a missing reaction means, if it means one.
+fn outcome_of(time: f64, error: ReactionError) -> Result<Outcome, RunError> {
+    match error {
+        ReactionError::Tipping(_) => Ok(Outcome::TippedOver { time }),
+        ReactionError::Wheel { wheel, source: SettleError::SunkToAxle { load, capacity } } => {
+            let because = StuckBecause::SunkToAxle { wheel, load, capacity };
+            Ok(Outcome::Immobilised { time, because })
+        }
+        source => Err(RunError::Reaction { time, source }),
+    }
+}

@@ -1,0 +1,75 @@
+//! What may become of a rover.
+
+/// What became of the rover.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It drove for as long as it was told to.
+    Completed,
+    /// It no longer gets ahead.
+    Immobilised {
+        /// When that was certain [s].
+        time: f64,
+        /// What stopped it.
+        because: StuckBecause,
+    },
+    /// It slides downhill faster than its wheels turn.
+    Sliding {
+        /// When that was certain [s].
+        time: f64,
+    },
+    /// Its weight fell outside its wheels.
+    TippedOver {
+        /// When [s].
+        time: f64,
+    },
+}
+
+/// What stopped a rover.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StuckBecause {
+    /// The wheels' mean slip stayed above [`SPINNING_SLIP`](super::watch::SPINNING_SLIP).
+    WheelsSpin,
+    /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the rims'.
+    NoProgress,
+    /// A wheel sank to its axle.
+    SunkToAxle {
+        /// Its name.
+        wheel: String,
+        /// Its load [N].
+        load: f64,
+        /// The most that the soil carries [N].
+        capacity: f64,
+    },
+}
+
+impl Outcome {
+    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Immobilised { .. } => "immobilised",
+            Self::Sliding { .. } => "sliding",
+            Self::TippedOver { .. } => "tipped_over",
+        }
+    }
+
+    /// The reason, in a few words; none for a completed run.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Self::Completed => None,
+            Self::Immobilised { because, .. } => Some(match because {
+                StuckBecause::WheelsSpin => "the wheels spin without moving the rover".into(),
+                StuckBecause::NoProgress => {
+                    "the rover gets ahead by less than 1 % of its rims".into()
+                }
+                StuckBecause::SunkToAxle { wheel, load, capacity } => format!(
+                    "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries {capacity:.3} N"
+                ),
+            }),
+            Self::Sliding { .. } => Some("it slides downhill faster than its wheels turn".into()),
+            Self::TippedOver { .. } => Some("its weight falls outside its wheels".into()),
+        }
+    }
+}

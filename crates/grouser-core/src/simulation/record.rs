@@ -1,0 +1,61 @@
+//! One look at the rover in time.
+
+use super::equations::Equations;
+use super::integrate::Point;
+use super::power::{self, EnergyBalance};
+use crate::vehicle::{RoverState, WheelReaction};
+
+/// The rover at one time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Time since the start [s].
+    pub time: f64,
+    /// Pose and velocity.
+    pub state: RoverState,
+    /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
+    pub wheels: Vec<WheelRecord>,
+    /// Energy since the start.
+    pub energy: EnergyBalance,
+}
+
+impl Record {
+    /// The rover at a point of its run; without wheels where those do not settle.
+    pub(super) fn new(
+        equations: &Equations<'_>,
+        time: f64,
+        point: &Point,
+        wheels: &[WheelReaction],
+    ) -> Self {
+        let (rover, site, state) = (equations.rover(), equations.site(), point.state);
+        let wheel_speeds = equations.wheel_speeds();
+        let energy = EnergyBalance {
+            motors: point.motors,
+            soil: point.soil,
+            kinetic: power::kinetic_energy(rover, &state) + power::spin_energy(rover, wheel_speeds),
+            potential: power::potential_energy(rover, site, &state),
+        };
+        let wheels = wheels
+            .iter()
+            .zip(wheel_speeds)
+            .map(|(&reaction, &wheel_speed)| WheelRecord { wheel_speed, reaction })
+            .collect();
+        Self { time, state, wheels, energy }
+    }
+}
+
+/// A wheel at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelRecord {
+    /// Angular speed, *ω* [rad/s].
+    pub wheel_speed: f64,
+    /// Slip, load, sinkage and forces.
+    pub reaction: WheelReaction,
+}
+
+impl WheelRecord {
+    /// Power of the motor, T ω [W].
+    #[must_use]
+    pub fn power(&self) -> f64 {
+        self.reaction.settled.forces.torque * self.wheel_speed
+    }
+}

@@ -1,0 +1,111 @@
+//! All that changes in a run.
+
+use super::integrate::{History, Point};
+use super::method::Method;
+use super::outcome::Outcome;
+use super::power;
+use super::quasi_steady::Carried;
+use super::scenario::{Approach, Scenario};
+use super::watch::Watch;
+use super::work::Work;
+use crate::vehicle::RoverState;
+
+/// All that changes in a run: where the rover is, how it and its wheels move, its energies, and what
+/// the solver knows of the motion so far.
+///
+/// A scenario and a state determine all that follows: a clone goes on as the original would, bit for
+/// bit ([`Run::resume`](super::Run::resume)).
+#[derive(Clone)]
+pub struct State {
+    pub(super) time: f64,
+    pub(super) point: Point,
+    /// Of each wheel, *ω r_s* [m/s].
+    pub(super) rim_speeds: Vec<f64>,
+    /// Of each wheel, when the rover was last looked at.
+    pub(super) slip_ratios: Vec<f64>,
+    pub(super) outcome: Option<Outcome>,
+    pub(super) method: Method,
+    pub(super) work: Work,
+    pub(super) watch: Watch,
+    /// Of the dynamic motion while the wheels keep their speeds.
+    pub(super) history: History,
+    /// Of the quasi-steady motion so far.
+    pub(super) carried: Carried,
+}
+
+impl State {
+    /// At the start of a scenario, before the rover was looked at.
+    ///
+    /// * `rim_speeds`: of each wheel [m/s]
+    pub(super) fn new(scenario: &Scenario, rim_speeds: Vec<f64>) -> Self {
+        let state = scenario.start_state(&rim_speeds);
+        Self {
+            time: 0.0,
+            point: Point { state, motors: 0.0, soil: 0.0 },
+            slip_ratios: vec![0.0; rim_speeds.len()],
+            rim_speeds,
+            outcome: None,
+            method: match scenario.numerics.approach {
+                Approach::Dynamic => Method::Dynamic,
+                Approach::QuasiSteady => Method::QuasiSteady,
+            },
+            work: Work::default(),
+            watch: Watch::default(),
+            history: History::default(),
+            carried: Carried::default(),
+        }
+    }
+
+    /// Time since the start [s].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Pose and velocities.
+    #[must_use]
+    pub fn rover(&self) -> &RoverState {
+        &self.point.state
+    }
+
+    /// The wheels' rim speeds, *ω r_s* [m/s].
+    #[must_use]
+    pub fn rim_speeds(&self) -> &[f64] {
+        &self.rim_speeds
+    }
+
+    /// What became of the rover, if that is known already.
+    #[must_use]
+    pub fn outcome(&self) -> Option<&Outcome> {
+        self.outcome.as_ref()
+    }
+
+    /// How the motion was computed so far.
+    #[must_use]
+    pub fn method(&self) -> &Method {
+        &self.method
+    }
+
+    /// Work of the solver so far.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// That the motors turn the wheels at other speeds from now on.
+    ///
+    /// * `rim_speeds`: of each wheel [m/s]
+    pub(super) fn turn(&mut self, scenario: &Scenario, rim_speeds: &[f64]) {
+        let rover = &scenario.rover;
+        let spin_energy = |rims: &[f64]| {
+            let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
+            power::spin_energy(rover, &wheel_speeds)
+        };
+        // The motors change the spin at once; the books must not lose that work.
+        self.point.motors += spin_energy(rim_speeds) - spin_energy(&self.rim_speeds);
+        if rim_speeds != self.rim_speeds {
+            self.history.clear();
+            self.rim_speeds.copy_from_slice(rim_speeds);
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! Steady states: the velocities at which nothing accelerates.
+//!
+//! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ̇) with
+//!
+//! ```text
+//! a(V; γ) = 0          a = (u̇, v̇, γ̈) of the equations of motion, at the yaw γ
+//! ```
+//!
+//! They are sought by Newton's method with Broyden's updates of the inverse Jacobian, from the
+//! steady state last found; from far away by implicit Euler steps that lengthen as the accelerations
+//! fade, which go the way that the rover would go. The Jacobian says how fast, and whether, a
+//! rover settles on its steady state.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::equations::{Equations, Evaluation};
+use crate::newton;
+use crate::units::Vec2;
+use crate::vehicle::load;
+use crate::vehicle::{RoverState, WheelReaction};
+
+/// Why a rover's velocities are not those of a steady state, or not known to be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotSteady {
+    /// None was found.
+    #[error("no velocities were found at which nothing accelerates")]
+    NoSteadyState,
+    /// A disturbance of the steady state grows.
+    #[error("the balance is unstable: a disturbance grows at {rate:.3} /s")]
+    Unstable {
+        /// Its rate of growth [1/s].
+        rate: f64,
+    },
+    /// The wheels all but spin on the spot, or are dragged: a little thrust more or less decides
+    /// between standing and moving, and getting there takes its time.
+    #[error("the wheels all but spin or are dragged: their mean slip ratio is {slip_ratio:.2}")]
+    Spinning {
+        /// Mean size of the wheels' slip ratios [-].
+        slip_ratio: f64,
+    },
+    /// Velocities take so long to settle that it shows.
+    #[error("velocities take {settling_time:.2} s to settle")]
+    Slow {
+        /// Time in which a disturbance fades by e [s].
+        settling_time: f64,
+    },
+    /// The steady state moves faster than the velocities can follow.
+    #[error(
+        "the balance moves too fast: velocities settle within {settling_time:.2e} s and lag behind \
+         by {lag:.1e} of the rims' speed"
+    )]
+    Lags {
+        /// Time in which a disturbance fades by e [s].
+        settling_time: f64,
+        /// How far the velocities lag behind, over the fastest rim's speed [-].
+        lag: f64,
+    },
+}
+
+/// A steady state.
+#[derive(Clone, Debug)]
+pub(super) struct SteadyState {
+    /// Yaw, *γ* [rad].
+    pub(super) yaw: f64,
+    /// *(u, v, γ̇)* [m/s, m/s, rad/s], in the body frame.
+    pub(super) velocities: Vector3<f64>,
+    /// Power of the motors and into the soil [W].
+    pub(super) powers: (f64, f64),
+    /// The wheels.
+    pub(super) wheels: Vec<WheelReaction>,
+}
+
+/// Finds steady states, each from the one before.
+pub(super) struct SteadySolver<'a> {
+    equations: &'a Equations<'a>,
+    /// Speed to measure velocities by: the fastest rim's [m/s].
+    scale: f64,
+    /// Length that makes a yaw rate a speed: the farthest wheel's distance [m].
+    reach: f64,
+    memory: Memory,
+}
+
+/// What the last steady state teaches about the next one.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Memory {
+    /// Inverse Jacobian, (∂a/∂V)⁻¹ [s].
+    inverse: Option<Matrix3<f64>>,
+    /// Where stability was last looked at, and the settling time there [s].
+    checked: Option<(f64, Vector3<f64>, f64)>,
+}
+
+/// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed [-]:
+/// a tenth of the relative tolerance of dynamic runs.
+const CLOSE: f64 = 1e-7;
+
+/// Wheels that slip more than this on the mean all but spin [-]. Source: ours; the thrust of sand
+/// has then long stopped growing with slip.
+pub const MOST_SLIP: f64 = 0.9;
+/// Velocities that take longer to settle are no fast motion [s]. Source: ours, a control period:
+/// what happens meanwhile would be missed by drives and samples. (On Earth they take milliseconds,
+/// in the Moon's gravity half of this.)
+pub const LONGEST_SETTLING: f64 = 0.1;
+
+impl<'a> SteadySolver<'a> {
+    pub(super) fn new(equations: &'a Equations<'a>, memory: Memory) -> Self {
+        let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
+        let arms = equations.rover().load_arms();
+        let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
+        Self { equations, scale: fastest, reach, memory }
+    }
+
+    /// What to begin the next search with.
+    pub(super) fn memory(&self) -> Memory {
+        self.memory
+    }
+
+    /// Whether the ground is level.
+    pub(super) fn is_level(&self) -> bool {
+        load::slope_pull(self.equations.rover(), self.equations.site(), &RoverState::default())
+            == Vec2::zeros()
+    }
+
+    /// Size of velocities over the fastest rim's [-].
+    pub(super) fn size(&self, velocities: &Vector3<f64>) -> f64 {
+        let [u, v, rate] = [velocities.x, velocities.y, velocities.z];
+        u.abs().max(v.abs()).max((rate * self.reach).abs()) / self.scale
+    }
+
+    /// The steady state at a yaw, sought from nearby velocities.
+    pub(super) fn find(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+    ) -> Result<SteadyState, NotSteady> {
+        // Wheels that stand still hold a rover by creep alone: that is no motion to speak of.
+        if self.scale == 0.0 {
+            return Err(NotSteady::NoSteadyState);
+        }
+        if let Some(inverse) = self.memory.inverse
+            && let Some(steady) = self.correct(yaw, guess, inverse)
+        {
+            return Ok(steady);
+        }
+        let fresh = self.evaluate(yaw, guess).and_then(|here| self.jacobian(yaw, guess, &here));
+        if let Some(inverse) = fresh.and_then(Matrix3::try_inverse)
+            && let Some(steady) = self.correct(yaw, guess, inverse)
+        {
+            return Ok(steady);
+        }
+        self.settle(yaw, guess).ok_or(NotSteady::NoSteadyState)
+    }
+
+    /// The steady state nearest to the guess.
+    fn correct(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+        inverse: Matrix3<f64>,
+    ) -> Option<SteadyState> {
+        /// Steps longer than this leave the neighbourhood in which a tangent tells anything [-].
+        const LONGEST: f64 = 0.5;
+        let zero = newton::zero_near(
+            |velocities| self.evaluate(yaw, velocities).map(|here| (acceleration_of(&here), here)),
+            guess,
+            inverse,
+            |step| self.size(step),
+            LONGEST,
+            |_, step| self.size(step) <= CLOSE,
+        )?;
+        self.memory.inverse = Some(zero.inverse);
+        Some(steady_state_at(yaw, zero.at, zero.value))
+    }
+
+    /// Implicit Euler steps from the guess, linear in each, as long as the accelerations allow.
+    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
+        /// The first step [s]: within the milliseconds in which slip settles.
+        const FIRST_STEP: f64 = 1e-3;
+        const MOST_STEPS: usize = 40;
+        let mut velocities = *guess;
+        let mut here = self.evaluate(yaw, &velocities)?;
+        let mut span = FIRST_STEP;
+        for _ in 0..MOST_STEPS {
+            let acceleration = acceleration_of(&here);
+            let jacobian = self.jacobian(yaw, &velocities, &here)?;
+            if let Some(inverse) = jacobian.try_inverse()
+                && self.size(&(inverse * acceleration)) <= CLOSE
+            {
+                self.memory.inverse = Some(inverse);
+                return Some(steady_state_at(yaw, velocities, here));
+            }
+            let implicit = Matrix3::identity() / span - jacobian;
+            let step = implicit.try_inverse()? * acceleration;
+            match self.evaluate(yaw, &(velocities + step)) {
+                // A long way in one step: not what the rover would do.
+                Some(_) if self.size(&step) > 1.0 => span *= 0.1,
+                Some(next) => {
+                    let fading = acceleration.norm() / acceleration_of(&next).norm();
+                    span *= fading.clamp(0.3, 10.0);
+                    velocities += step;
+                    here = next;
+                }
+                None => span *= 0.1,
+            }
+        }
+        None
+    }
+
+    /// That a rover settles on the steady state; the time in which it does [s]. The last answer holds
+    /// in its neighbourhood.
+    pub(super) fn settling_time(&mut self, steady: &SteadyState) -> Result<f64, NotSteady> {
+        /// How far that is [rad], and over the fastest rim's speed [-].
+        const NEAR_YAW: f64 = 0.2;
+        const NEAR_VELOCITIES: f64 = 0.05;
+        if let Some((yaw, velocities, time)) = self.memory.checked
+            && (yaw - steady.yaw).abs() < NEAR_YAW
+            && self.size(&(velocities - steady.velocities)) < NEAR_VELOCITIES
+        {
+            return Ok(time);
+        }
+        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio.abs());
+        let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
+        if slip_ratio > MOST_SLIP {
+            return Err(NotSteady::Spinning { slip_ratio });
+        }
+        let jacobian = self
+            .evaluate(steady.yaw, &steady.velocities)
+            .and_then(|here| self.jacobian(steady.yaw, &steady.velocities, &here))
+            .ok_or(NotSteady::NoSteadyState)?;
+        self.memory.inverse = jacobian.try_inverse();
+        let slowest = jacobian
+            .complex_eigenvalues()
+            .iter()
+            .map(|value| value.re)
+            .fold(f64::NEG_INFINITY, f64::max);
+        if slowest >= 0.0 || slowest.is_infinite() {
+            return Err(NotSteady::Unstable { rate: slowest });
+        }
+        let time = -1.0 / slowest;
+        if time > LONGEST_SETTLING {
+            return Err(NotSteady::Slow { settling_time: time });
+        }
+        self.memory.checked = Some((steady.yaw, steady.velocities, time));
+        Ok(time)
+    }
+
+    fn evaluate(&self, yaw: f64, velocities: &Vector3<f64>) -> Option<Evaluation> {
+        self.equations.attempt(&state_of(yaw, velocities))
+    }
+
+    /// ∂a/∂V, by forward differences.
+    fn jacobian(
+        &self,
+        yaw: f64,
+        velocities: &Vector3<f64>,
+        here: &Evaluation,
+    ) -> Option<Matrix3<f64>> {
+        /// Step over the fastest rim's speed [-]: forces are exact to 1e-12.
+        const STEP: f64 = 1e-6;
+        self.equations.count(|work| work.jacobians += 1);
+        let steps = [self.scale, self.scale, self.scale / self.reach].map(|size| STEP * size);
+        let mut jacobian = Matrix3::zeros();
+        for (axis, step) in steps.into_iter().enumerate() {
+            let mut beside = *velocities;
+            beside[axis] += step;
+            let there = self.evaluate(yaw, &beside)?;
+            let change = acceleration_of(&there) - acceleration_of(here);
+            jacobian.set_column(axis, &(change / step));
+        }
+        Some(jacobian)
+    }
+}
+
+/// The state of a rover at the origin.
+pub(super) fn state_of(yaw: f64, velocities: &Vector3<f64>) -> RoverState {
+    let velocity = Vec2::new(velocities.x, velocities.y);
+    RoverState { position: Vec2::zeros(), yaw, velocity, yaw_rate: velocities.z }
+}
+
+fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {
+    let acceleration = &evaluation.rates.acceleration;
+    let rate = acceleration.velocity_rate;
+    Vector3::new(rate.x, rate.y, acceleration.yaw_acceleration)
+}
+
+fn steady_state_at(yaw: f64, velocities: Vector3<f64>, evaluation: Evaluation) -> SteadyState {
+    let Evaluation { rates, wheels } = evaluation;
+    SteadyState { yaw, velocities, powers: (rates.motor_power, rates.soil_power), wheels }
+}

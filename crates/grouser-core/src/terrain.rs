@@ -1,0 +1,91 @@
+//! The ground by place: how high it is, how it is inclined, and what soil it is of.
+
+use std::borrow::Cow;
+use std::f64::consts::FRAC_PI_2;
+
+use crate::elementary::wide;
+use crate::error::ParameterError;
+use crate::soil::Soil;
+use crate::units::{Vec2, Vec3};
+
+pub mod footprint;
+pub mod height_field;
+
+pub use footprint::Footprint;
+pub use height_field::HeightField;
+
+/// Ground that a rover drives on.
+///
+/// Places are in the ground's own coordinates, those of a rover's position; on a plane they are
+/// measured along it.
+pub trait Terrain {
+    /// The ground under a wheel, or under the rover.
+    ///
+    /// * `at`: the place below its centre [m]
+    /// * `footprint`: how far from there the ground counts
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_>;
+
+    /// The soil of that patch.
+    fn soil(&self, at: Vec2, footprint: Footprint) -> Cow<'_, Soil> {
+        self.patch(at, footprint).soil
+    }
+}
+
+/// A piece of ground, flat and of one soil.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch<'a> {
+    /// Height above the origin of the coordinates [m], against gravity.
+    pub height: f64,
+    /// Unit vector out of the ground: its parts along the coordinates' x and y, both taken level, and
+    /// against gravity.
+    pub normal: Vec3,
+    /// The soil: the ground's own, or one made for the place.
+    pub soil: Cow<'a, Soil>,
+}
+
+impl Patch<'_> {
+    /// How fast the ground climbs along its x axis, which is square to y, and its y axis [-]: the sines
+    /// of their inclinations. Gravity's pull along the ground points against it.
+    #[must_use]
+    pub fn climb(&self) -> Vec2 {
+        let (x, y, z) = (self.normal.x, self.normal.y, self.normal.z);
+        let across = (x * x + z * z).sqrt();
+        Vec2::new(0.0 - x / across, -y * (z / across))
+    }
+}
+
+/// A plane of homogeneous soil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// The soil.
+    pub soil: Soil,
+    /// Inclination, *α* [rad], 0 to below π/2; the plane rises along +y.
+    pub slope: f64,
+}
+
+impl Plane {
+    /// That there can be such a plane.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first value that is wrong.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.soil.check()?;
+        if (0.0..FRAC_PI_2).contains(&self.slope) {
+            Ok(())
+        } else {
+            Err(ParameterError::new("slope [rad]", self.slope, "0 to below π/2"))
+        }
+    }
+}
+
+impl Terrain for Plane {
+    fn patch(&self, at: Vec2, _: Footprint) -> Patch<'_> {
+        let (sin, cos) = wide::sin_cos(self.slope);
+        let soil = Cow::Borrowed(&self.soil);
+        Patch { height: at.y * sin, normal: Vec3::new(0.0, -sin, cos), soil }
+    }
+
+    fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
+        Cow::Borrowed(&self.soil)
+    }
+}

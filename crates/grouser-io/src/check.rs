@@ -1,0 +1,386 @@
+//! Checks a tree of values against the schema of its kind, before anything is made of it.
+//!
+//! All checks of a JSON Schema are here: keys, their types, keywords, ranges and lengths. Contradictions between
+//! values are checked where the domain's values are made.
+
+use serde_json::Value as Json;
+
+use super::Kind;
+use super::error::{DocumentError, Problem, number};
+use super::schema::{alternatives, keys, paths_of, root, words};
+use super::text::{Entry, Node, Origin, Value};
+
+/// That a tree is a document of its kind.
+///
+/// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
+pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
+    let root = root(kind);
+    Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
+}
+
+/// The keys that a table of a document may have, given what it says already.
+pub(crate) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'static str>> {
+    let table = table_at(kind, tree, path.iter().map(String::as_str))?;
+    Some(keys(table).map(|(key, _)| key).collect())
+}
+
+/// The schema of a table of a document, given the laws that it names.
+fn table_at<'s>(
+    kind: Kind,
+    tree: &Node,
+    path: impl Iterator<Item = &'s str>,
+) -> Option<&'static Json> {
+    let root = root(kind);
+    let checker = Checker { root, prefix: "" };
+    let (mut schema, mut node) = (root, tree);
+    for step in path {
+        let table = checker.choose(schema, node, "", &node.origin).ok()?;
+        schema = table.get("properties")?.get(step)?;
+        node = &node.entry(step)?.node;
+    }
+    checker.choose(schema, node, "", &node.origin).ok()
+}
+
+/// The keyword that was probably meant.
+#[must_use]
+pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
+    /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;
+    /// `cohesion` finds `cohesion_kpa`, `sand` does not find `sine`.
+    const ALIKE: f64 = 0.8;
+    let word = word.to_lowercase();
+    words
+        .into_iter()
+        .map(|known| (strsim::jaro_winkler(&word, known), known))
+        .filter(|(likeness, _)| *likeness > ALIKE)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, known)| known)
+}
+
+/// The keys that choose among tables; a table has one of them.
+const LAWS: [&str; 2] = ["law", "distribution"];
+
+/// The key that chooses among some tables.
+fn law_key(tables: &[&Json]) -> &'static str {
+    let has = |law: &&str| tables.iter().any(|table| keys(table).any(|(key, _)| key == *law));
+    LAWS.into_iter().find(has).unwrap_or(LAWS[0])
+}
+
+struct Checker<'a> {
+    root: &'static Json,
+    prefix: &'a str,
+}
+
+impl Checker<'_> {
+    /// * `path`: the value's key, with the tables it stands in
+    /// * `key`: where that key was written
+    fn value(
+        &self,
+        schema: &'static Json,
+        node: &Node,
+        path: &str,
+        key: &Origin,
+    ) -> Result<(), DocumentError> {
+        if let Some(words) = words(self.root, schema) {
+            return check_word(&words, node, path);
+        }
+        let all = alternatives(self.root, schema);
+        let schema = self.choose(schema, node, path, key)?;
+        match &node.value {
+            Value::Table(entries) => self.table(schema, node, entries, path, key, &all),
+            Value::List(nodes) => self.list(schema, node, nodes, path),
+            Value::Integer(integer) => check_range(schema, node, *integer as f64, path),
+            Value::Float(float) => check_range(schema, node, *float, path),
+            Value::String(_) | Value::Boolean(_) | Value::Date(_) => Ok(()),
+        }
+    }
+
+    /// The alternative of a schema that a value means to meet.
+    fn choose(
+        &self,
+        schema: &'static Json,
+        node: &Node,
+        path: &str,
+        key: &Origin,
+    ) -> Result<&'static Json, DocumentError> {
+        let all = alternatives(self.root, schema);
+        let fitting: Vec<_> = all.iter().copied().filter(|one| fits(one, node)).collect();
+        match fitting[..] {
+            [] => Err(wrong_type(&all, node, path, schema)),
+            [one] => Ok(one),
+            _ => self.choose_law(&fitting, node, path, key),
+        }
+    }
+
+    /// Of several tables, the one whose `law` the value names.
+    fn choose_law(
+        &self,
+        tables: &[&'static Json],
+        node: &Node,
+        path: &str,
+        key: &Origin,
+    ) -> Result<&'static Json, DocumentError> {
+        let law = law_key(tables);
+        let words_of = |table: &'static Json| self.laws_of(table);
+        let Some(entry) = node.entry(law) else {
+            let without = tables.iter().copied().find(|table| !requires(table, law));
+            let all: Vec<_> = tables.iter().copied().filter_map(words_of).flatten().collect();
+            return without.ok_or_else(|| {
+                DocumentError::at(key, Problem::MissingKey { key: join(path, law) })
+                    .with_hint(format!("it names the {law}: {}", listed(&all)))
+            });
+        };
+        let all: Vec<_> = tables.iter().copied().filter_map(words_of).flatten().collect();
+        check_word(&all, &entry.node, &join(path, law))?;
+        let named = tables.iter().copied().find(|table| {
+            matches!((&entry.node.value, words_of(table)),
+                (Value::String(law), Some(words)) if words.contains(&law.as_str()))
+        });
+        named.ok_or_else(|| wrong_type(tables, node, path, &Json::Null))
+    }
+
+    /// The laws that a table's keys belong to.
+    fn laws_of(&self, table: &'static Json) -> Option<Vec<&'static str>> {
+        words(self.root, table.get("properties")?.get(law_key(&[table]))?)
+    }
+
+    /// * `all`: the schemas among which `schema` was chosen
+    fn table(
+        &self,
+        schema: &'static Json,
+        node: &Node,
+        entries: &[Entry],
+        path: &str,
+        key: &Origin,
+        all: &[&'static Json],
+    ) -> Result<(), DocumentError> {
+        for entry in entries {
+            let path = join(path, &entry.key);
+            match keys(schema).find(|(key, _)| *key == entry.key) {
+                Some((_, schema)) => {
+                    self.value(schema, &entry.node, &path, &entry.key_origin)?;
+                }
+                None => return Err(self.unknown_key(schema, all, node, entry, path)),
+            }
+        }
+        let missing = keys(schema).find(|(key, _)| {
+            // A file's own `schema` is asked for where the file is read.
+            *key != "schema" && requires(schema, key) && node.entry(key).is_none()
+        });
+        match missing {
+            None => Ok(()),
+            Some((name, schema)) => {
+                let about = schema.get("description").and_then(Json::as_str).map(first_line);
+                Err(DocumentError::at(key, Problem::MissingKey { key: join(path, name) })
+                    .with_hint(about))
+            }
+        }
+    }
+
+    fn unknown_key(
+        &self,
+        schema: &'static Json,
+        all: &[&'static Json],
+        table: &Node,
+        entry: &Entry,
+        path: String,
+    ) -> DocumentError {
+        let key = law_key(all);
+        let law = match table.entry(key).map(|entry| &entry.node.value) {
+            Some(Value::String(law)) => format!(" with {key} = \"{law}\""),
+            _ => String::new(),
+        };
+        let known: Vec<_> = keys(schema).map(|(key, _)| key).collect();
+        let knowing = all.iter().filter(|table| keys(table).any(|(key, _)| key == entry.key));
+        let laws: Vec<_> = knowing.filter_map(|table| self.laws_of(table)).flatten().collect();
+        let hint = if !laws.is_empty() {
+            format!("it goes with {key} = {}", listed(&laws))
+        } else if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
+            format!("did you mean `{meant}`?")
+        } else if let [only] = &paths_of(self.root, &entry.key)[..]
+            && join(self.prefix, only) != path
+        {
+            format!("did you mean `{}`?", join(self.prefix, only))
+        } else {
+            format!("the keys here{law} are {}", quoted(&known, '`'))
+        };
+        DocumentError::at(&entry.key_origin, Problem::UnknownKey { key: path }).with_hint(hint)
+    }
+
+    fn list(
+        &self,
+        schema: &'static Json,
+        node: &Node,
+        nodes: &[Node],
+        path: &str,
+    ) -> Result<(), DocumentError> {
+        check_length(schema, node, nodes.len(), path)?;
+        let Some(items) = schema.get("items") else { return Ok(()) };
+        for (index, item) in nodes.iter().enumerate() {
+            self.value(items, item, &join(path, &index.to_string()), &item.origin)?;
+        }
+        Ok(())
+    }
+}
+
+fn check_word(allowed: &[&str], node: &Node, path: &str) -> Result<(), DocumentError> {
+    let Value::String(word) = &node.value else {
+        let (found, expected) = (node.describe(), listed(allowed));
+        let problem = Problem::WrongType { key: path.to_owned(), found, expected };
+        return Err(DocumentError::at(&node.origin, problem));
+    };
+    if allowed.contains(&word.as_str()) {
+        return Ok(());
+    }
+    let hint =
+        nearest(word, allowed.iter().copied()).map(|word| format!("did you mean \"{word}\"?"));
+    let value = word.escape_debug().to_string();
+    let problem = Problem::NotAllowed { key: path.to_owned(), value, allowed: listed(allowed) };
+    Err(DocumentError::at(&node.origin, problem).with_hint(hint))
+}
+
+fn check_range(schema: &Json, node: &Node, value: f64, path: &str) -> Result<(), DocumentError> {
+    let end = |name: &str| schema.get(name).and_then(Json::as_f64);
+    let (least, most) = (end("minimum"), end("maximum"));
+    let above = end("exclusiveMinimum");
+    let words = |end: Option<f64>| end.map(number);
+    let range = match (words(least), words(above), words(most)) {
+        (Some(least), _, Some(most)) => Some(format!("{least} to {most}")),
+        (None, Some(above), Some(most)) => Some(format!("above {above} and at most {most}")),
+        (Some(least), _, None) => Some(format!("at least {least}")),
+        (None, Some(above), None) => Some(format!("above {above}")),
+        (None, None, Some(most)) => Some(format!("at most {most}")),
+        (None, None, None) => None,
+    };
+    let key = path.to_owned();
+    if !value.is_finite() {
+        let range = range.map_or_else(String::new, |range| format!(", {range}"));
+        let problem = Problem::NotFinite { key, value, range };
+        return Err(DocumentError::at(&node.origin, problem));
+    }
+    let outside = least.is_some_and(|least| value < least)
+        || above.is_some_and(|above| value <= above)
+        || most.is_some_and(|most| value > most);
+    match range {
+        Some(range) if outside => {
+            Err(DocumentError::at(&node.origin, Problem::OutOfRange { key, value, range })
+                .with_hint(schema.get("description").and_then(Json::as_str).map(first_line)))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn check_length(schema: &Json, node: &Node, count: usize, path: &str) -> Result<(), DocumentError> {
+    let bound = |name: &str| schema.get(name).and_then(Json::as_u64);
+    let (least, most) = (bound("minItems"), bound("maxItems"));
+    let length = count as u64;
+    if least.is_none_or(|least| length >= least) && most.is_none_or(|most| length <= most) {
+        return Ok(());
+    }
+    let allowed = match (least, most) {
+        (Some(least), Some(most)) if least == most => format!("{least}"),
+        (Some(least), Some(most)) => format!("{least} to {most}"),
+        (Some(least), None) => format!("{least} or more"),
+        (None, Some(most)) => format!("at most {most}"),
+        (None, None) => String::new(),
+    };
+    let problem = Problem::WrongLength { key: path.to_owned(), count, allowed };
+    Err(DocumentError::at(&node.origin, problem))
+}
+
+/// * `key`: the schema of the key, for what it says of it
+fn wrong_type(schemas: &[&Json], node: &Node, path: &str, key: &Json) -> DocumentError {
+    let mut expected: Vec<_> = schemas.iter().map(|schema| type_in_words(schema)).collect();
+    expected.dedup();
+    let problem = Problem::WrongType {
+        key: path.to_owned(),
+        found: node.describe(),
+        expected: expected.join(" or "),
+    };
+    let hint = match &node.value {
+        Value::String(text) if text.trim().parse::<f64>().is_ok() => {
+            Some("a number is written without quotes".to_owned())
+        }
+        _ => key.get("description").and_then(Json::as_str).map(first_line),
+    };
+    DocumentError::at(&node.origin, problem).with_hint(hint)
+}
+
+/// Whether a value is of the schema's type. A whole number is a number, too.
+fn fits(schema: &Json, node: &Node) -> bool {
+    let wanted = schema.get("type").and_then(Json::as_str).unwrap_or_default();
+    match &node.value {
+        Value::String(_) => wanted == "string",
+        Value::Integer(_) => wanted == "integer" || wanted == "number",
+        Value::Float(_) => wanted == "number",
+        Value::Boolean(_) => wanted == "boolean",
+        Value::Date(_) => false,
+        Value::List(_) => wanted == "array",
+        Value::Table(_) => wanted == "object",
+    }
+}
+
+fn type_in_words(schema: &Json) -> &'static str {
+    match schema.get("type").and_then(Json::as_str) {
+        Some("string") => "a text in quotes",
+        Some("integer") => "a whole number",
+        Some("number") => "a number",
+        Some("boolean") => "true or false",
+        Some("array") => "a list",
+        _ => "a table",
+    }
+}
+
+fn requires(schema: &Json, key: &str) -> bool {
+    let required = schema.get("required").and_then(Json::as_array);
+    required.is_some_and(|keys| keys.iter().any(|required| required == key))
+}
+
+fn join(path: &str, key: &str) -> String {
+    if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") }
+}
+
+fn listed(words: &[&str]) -> String {
+    quoted(words, '"')
+}
+
+/// `a`, `b` or `c`.
+fn quoted(words: &[&str], quote: char) -> String {
+    let quoted: Vec<_> = words.iter().map(|word| format!("{quote}{word}{quote}")).collect();
+    match quoted.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+fn first_line(description: &str) -> String {
+    description.split("\n\n").next().unwrap_or_default().replace('\n', " ")
+}
+
+/// A `schema` that names no kind of document.
+pub(crate) fn unknown_tag(tags: &[&str], node: &Node) -> DocumentError {
+    match check_word(tags, node, "schema") {
+        Err(error) => error,
+        Ok(()) => DocumentError::at(&node.origin, Problem::Empty),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_misspelling_finds_what_was_meant_and_nothing_else() {
+        let keys = ["cohesion_kpa", "friction_angle_deg", "density_kg_m3", "shear", "exit"];
+        for (word, meant) in [
+            ("cohesion", Some("cohesion_kpa")),
+            ("Cohesion_kPa", Some("cohesion_kpa")),
+            ("friction_angel_deg", Some("friction_angle_deg")),
+            ("shaer", Some("shear")),
+            ("radius_m", None),
+            ("x", None),
+        ] {
+            assert_eq!(nearest(word, keys), meant, "{word}");
+        }
+    }
+}

@@ -1,0 +1,262 @@
+//! `scenario/1`: a run. Every key has a default, and together the defaults are the source paper's
+//! experiment on a slope of 10° without compensation.
+
+use super::super::field::{
+    At, DEG, Field, Fill, Form, Inner, Law, Laws, M_S, ONE, S, Table, number, numbers, part,
+    positive, table, word, words,
+};
+use super::super::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
+use super::rover::{self, ROVER};
+use super::soil::{self, SOIL};
+use super::{assumed, gravity, model, notes, purpose, schema};
+use grouser_core::contact::Theory;
+use grouser_core::simulation::scenario::LONGEST_DURATION;
+use grouser_core::simulation::{Approach, Motion, Numerics, Scenario, Start};
+use grouser_core::site::Site;
+use grouser_core::vehicle::drive::SlipTarget;
+use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
+
+/// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
+pub const FASTEST: f64 = 10.0;
+
+/// Source: [FourWheel], section 5.2: "each wheel speed is set at 6 cm/s" [m/s].
+const PAPERS_SPEED: f64 = 0.06;
+/// Source: [FourWheel], section 3: s_ref is chosen at 0.2 [-].
+const PAPERS_SLIP: f64 = 0.2;
+/// The slope on which the source's Table 4 is best met [°].
+const PAPERS_SLOPE: f64 = 10.0;
+/// About the length of the source's runs, which is not printed [s].
+const PAPERS_DURATION: f64 = 20.0;
+
+const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
+
+/// A rover by its parts.
+pub static ROVER_OF_PARTS: At<Rover, RoverParts> = At { inner: &ROVER, at: Rover::parts_mut };
+
+/// A scenario before its numbers are put in.
+pub fn blank() -> Scenario {
+    Scenario {
+        rover: Rover::draft(rover::BLANK),
+        site: Site::plane(soil::BLANK, 0.0, 0.0),
+        theory: Theory::default(),
+        sharing: LoadSharing::QuasiStatic,
+        own_moments: OwnMoments::Neglected,
+        drive: DriveLaw::Constant(0.0),
+        start: Start { yaw: 0.0, motion: Motion::Rolling },
+        duration: 0.0,
+        numerics: Numerics::default(),
+    }
+}
+
+pub static SCENARIO: Table<Scenario> = Table {
+    doc: "One run of one rover on one plane of soil.",
+    fields: &[
+        schema("scenario/1"),
+        purpose(),
+        super::source().optional(),
+        notes(),
+        assumed(),
+        part(
+            "rover",
+            Kind::Rover,
+            "The rover: a preset's name, a path from this document's folder, or a rover's keys.",
+            &At {
+                inner: &ROVER_OF_PARTS as &dyn Inner<Rover>,
+                at: |run: &mut Scenario| &mut run.rover,
+            },
+        )
+        .otherwise(Fill::Keyword(DEFAULT_ROVER)),
+        part(
+            "soil",
+            Kind::Soil,
+            "The soil: a preset's name, a path from this document's folder, or a soil's keys.",
+            &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.terrain.soil },
+        )
+        .otherwise(Fill::Keyword(DEFAULT_SOIL)),
+        model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
+        gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
+        number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
+            Some(&mut run.site.terrain.slope)
+        })
+        .or(PAPERS_SLOPE),
+        positive("duration_s", S, LONGEST_DURATION, "How long the run lasts", |run: &mut Scenario| {
+            Some(&mut run.duration)
+        })
+        .or(PAPERS_DURATION),
+        number("sample_interval_s", S, 1e-3..=3600.0, "Time between two recorded samples", |run: &mut Scenario| {
+            Some(&mut run.numerics.sample_interval)
+        })
+        .or(Numerics::DEFAULT.sample_interval),
+        words(
+            "load_transfer",
+            "Load transfer: how the weight is shared among the wheels.",
+            &[
+                word(
+                    "quasi-static",
+                    "The weight's pull along the slope, in pitch and roll.",
+                    |run: &mut Scenario| run.sharing = LoadSharing::QuasiStatic,
+                ),
+                word(
+                    "quasi-static-torque",
+                    "The same, with the wheels' torque in the pitch balance.",
+                    |run: &mut Scenario| run.sharing = LoadSharing::QuasiStaticTorque,
+                ),
+                word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
+            ],
+        )
+        .otherwise(Fill::Keyword("quasi-static"))
+        .formerly("loads"),
+        words(
+            "wheel_moments",
+            "Whether the wheels' own overturning and aligning moments act on the rover.",
+            &[
+                word("neglected", "They are reported only.", |run: &mut Scenario| {
+                    run.own_moments = OwnMoments::Neglected;
+                }),
+                word("included", "They act on the rover.", |run: &mut Scenario| {
+                    run.own_moments = OwnMoments::Included;
+                }),
+            ],
+        )
+        .otherwise(Fill::Keyword("neglected"))
+        .formerly("moments"),
+        words(
+            "simulation",
+            "Whether velocities are integrated, or those of a steady state at every instant.",
+            &[
+                word("dynamic", "They are integrated with the pose.", |run: &mut Scenario| {
+                    run.numerics.approach = Approach::Dynamic;
+                }),
+                word(
+                    "quasi-steady",
+                    "They are those at which nothing accelerates: fast; where that is not valid, dynamic.",
+                    |run: &mut Scenario| run.numerics.approach = Approach::QuasiSteady,
+                ),
+            ],
+        )
+        .otherwise(Fill::Keyword("dynamic")),
+        table(
+            "drive",
+            "What turns the wheels.",
+            &At { inner: &DRIVE, at: |run: &mut Scenario| &mut run.drive },
+        )
+        .otherwise(Fill::Keys(&[])),
+        table(
+            "start",
+            "How the run starts.",
+            &At { inner: &START, at: |run: &mut Scenario| &mut run.start },
+        )
+        .otherwise(Fill::Keys(&[])),
+    ],
+};
+
+static DRIVE: Laws<DriveLaw> = Laws {
+    doc: "What turns the wheels.",
+    key: "law",
+    may_be_left_out: true,
+    is_written_last: false,
+    all: &[
+        Law {
+            name: "constant",
+            word: Some("Constant wheel speeds."),
+            choose: |law| *law = DriveLaw::Constant(0.0),
+            table: Table {
+                doc: "Constant wheel speeds, as in the source's experiments.",
+                fields: &[numbers(
+                    "rim_speed_m_s",
+                    M_S,
+                    -FASTEST..=FASTEST,
+                    Form::OneOrEach(
+                        "Rim speed of every wheel",
+                        "Rim speed of each mount's wheel, in the mounts' order",
+                    ),
+                    "Speed of the rim, (r + h_g) ω []; a list gives one for each mount, in their order",
+                    |law: &mut DriveLaw, count| {
+                        *law = count.map_or(DriveLaw::Constant(0.0), |count| {
+                            DriveLaw::ConstantEach(vec![0.0; count])
+                        });
+                    },
+                    |law: &mut DriveLaw, place| match law {
+                        DriveLaw::Constant(speed) if place == 0 => Some(speed),
+                        DriveLaw::ConstantEach(speeds) => speeds.get_mut(place),
+                        _ => None,
+                    },
+                )
+                .or(PAPERS_SPEED)
+                .formerly("speed_m_s")],
+            },
+        },
+        Law {
+            name: "eq18-as-printed",
+            word: Some("As printed."),
+            choose: |law| *law = DriveLaw::Eq18AsPrinted(NO_TARGET),
+            table: Table {
+                doc: "Eq. 18 of the source as printed.",
+                fields: &[DESIRED_SPEED, REFERENCE_SLIP],
+            },
+        },
+        Law {
+            name: "eq18",
+            word: Some("Corrected."),
+            choose: |law| *law = DriveLaw::Eq18(NO_TARGET),
+            table: Table {
+                doc: "Eq. 18 of the source, corrected.",
+                fields: &[DESIRED_SPEED, REFERENCE_SLIP],
+            },
+        },
+    ],
+};
+
+const DESIRED_SPEED: Field<DriveLaw> = positive(
+    "ground_speed_m_s",
+    M_S,
+    FASTEST,
+    "Desired speed along the contour, v_des",
+    |law: &mut DriveLaw| Some(&mut target(law)?.speed),
+)
+.or(PAPERS_SPEED)
+.formerly("speed_m_s");
+const REFERENCE_SLIP: Field<DriveLaw> = number(
+    "reference_slip_ratio",
+    ONE,
+    0.0..=0.95,
+    "Reference slip ratio, s_ref",
+    |law: &mut DriveLaw| Some(&mut target(law)?.slip_ratio),
+)
+.or(PAPERS_SLIP);
+
+fn target(law: &mut DriveLaw) -> Option<&mut SlipTarget> {
+    match law {
+        DriveLaw::Eq18AsPrinted(target) | DriveLaw::Eq18(target) => Some(target),
+        DriveLaw::Constant(_) | DriveLaw::ConstantEach(_) => None,
+    }
+}
+
+static START: Table<Start> = Table {
+    doc: "How the run starts.",
+    fields: &[
+        number(
+            "yaw_deg",
+            DEG,
+            -180.0..=180.0,
+            "Yaw, γ; above 0 with the nose uphill",
+            |start: &mut Start| Some(&mut start.yaw),
+        )
+        .or(0.0),
+        words(
+            "motion",
+            "Whether the rover already moves.",
+            &[
+                word(
+                    "rolling",
+                    "The hubs move at 0.95 of the rim speed along the body's x axis.",
+                    |start: &mut Start| start.motion = Motion::Rolling,
+                ),
+                word("rest", "Nothing moves but the wheels.", |start: &mut Start| {
+                    start.motion = Motion::Rest;
+                }),
+            ],
+        )
+        .otherwise(Fill::Keyword("rolling")),
+    ],
+};

@@ -1,0 +1,109 @@
+//! Kinds of documents: their names, versions, and the documents that each names.
+
+use std::fmt;
+
+/// What a document describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A soil, `soil/1`.
+    Soil,
+    /// A wheel, `wheel/1`.
+    Wheel,
+    /// A rover, `rover/1`.
+    Rover,
+    /// A run, `scenario/1`.
+    Scenario,
+    /// A file of measurements, `data-set/1`.
+    DataSet,
+    /// Many runs over what is not known exactly, `campaign/1`.
+    Campaign,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario, Self::DataSet, Self::Campaign];
+
+    /// Its name in commands and overrides.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Soil => "soil",
+            Self::Wheel => "wheel",
+            Self::Rover => "rover",
+            Self::Scenario => "scenario",
+            Self::DataSet => "data-set",
+            Self::Campaign => "campaign",
+        }
+    }
+
+    /// What the document's `schema` key says.
+    #[must_use]
+    pub const fn tag(self) -> &'static str {
+        match self {
+            Self::Soil => "soil/1",
+            Self::Wheel => "wheel/1",
+            Self::Rover => "rover/1",
+            Self::Scenario => "scenario/1",
+            Self::DataSet => "data-set/1",
+            Self::Campaign => "campaign/1",
+        }
+    }
+
+    /// The keys under which it names other documents, and the preset that stands there if it does
+    /// not.
+    pub(super) const fn parts(self) -> &'static [Part] {
+        match self {
+            Self::Soil | Self::Wheel | Self::DataSet => &[],
+            Self::Rover => &[
+                Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
+                Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
+            ],
+            Self::Scenario => &[
+                Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
+                Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
+            ],
+            Self::Campaign => &[
+                Part { kind: Self::Scenario, path: &["scenario"], default: None },
+                Part { kind: Self::Soil, path: &["wheel_test", "soil"], default: None },
+                Part { kind: Self::Wheel, path: &["wheel_test", "wheel"], default: None },
+            ],
+        }
+    }
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The rover of a scenario that names none.
+pub const DEFAULT_ROVER: &str = "hakuto";
+/// The soil of a scenario that names none.
+pub const DEFAULT_SOIL: &str = "toyoura";
+
+/// A document inside another.
+pub(super) struct Part {
+    pub kind: Kind,
+    /// The keys that lead to it, with [`EACH`] for every entry of a list.
+    pub path: &'static [&'static str],
+    pub default: Option<&'static str>,
+}
+
+/// In the path of a [`Part`]: each entry of a list.
+pub(super) const EACH: &str = "*";
+
+impl Part {
+    /// Whether there may be several, one in each entry of a list. What is set for the documents of its
+    /// kind does not reach into those: only what is set at their own place does.
+    pub(super) fn is_listed(&self) -> bool {
+        self.path.contains(&EACH)
+    }
+
+    /// Whether a key lies within it.
+    pub(super) fn holds(&self, path: &[String]) -> bool {
+        let meets = |(step, key): (&String, &&str)| step == key || *key == EACH;
+        path.len() > self.path.len() && path.iter().zip(self.path).all(meets)
+    }
+}

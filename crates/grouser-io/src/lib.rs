@@ -1,0 +1,106 @@
+//! Documents of Grouser: soils, wheels, rovers, runs and measurements with units in their names, and what they mean
+//! in SI.
+//!
+//! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. It is read in these
+//! steps:
+//!
+//! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
+//! 2. [`Overrides`]: values set from outside replace those of the document.
+//! 3. Named parts (a scenario's rover and soil, a rover's wheel) are read and put in their place.
+//!    Relative paths start from the folder of the document they stand in.
+//! 4. The tree is checked against the [`schema()`] of its kind: keys, types, keywords, ranges.
+//! 5. The rows of its kind's table fill in what it leaves out, and put its numbers into the domain's value, in
+//!    SI units and radians; what only several values together can show is checked there.
+//! 6. What is uncertain about a soil is read, with the samples that it names.
+//!
+//! The result is [`Loaded`]: the value, and the resolved document, which written back as TOML repeats the run on its
+//! own. An error is a [`DocumentError`], with the line and the column.
+//!
+//! Units and degrees are converted here and nowhere else. A number of a document (its key, unit, range, meaning and
+//! place in the value) is one row of a table in [`describe`]; a result (its name, unit, meaning and origin) is one
+//! entry of [`columns`].
+//!
+//! Most users take the crate `grouser`, where all of this is the module `document`.
+//!
+//! ```
+//! use grouser_io::{Kind, Overrides, Source};
+//!
+//! let overrides = Overrides::parse(["soil.cohesion_kpa=0.5"])?;
+//! let toyoura = grouser_io::read_soil(&Source::find(Kind::Soil, "toyoura")?, &overrides)?;
+//! assert_eq!(toyoura.value.cohesion, 500.0);
+//! # Ok::<(), grouser_io::DocumentError>(())
+//! ```
+
+pub mod campaign;
+mod check;
+pub mod columns;
+mod data_set;
+pub mod describe;
+pub mod error;
+pub mod escape;
+pub mod field;
+pub mod file;
+mod kind;
+mod loaded;
+pub mod measurements;
+mod notes;
+mod overrides;
+mod presets;
+mod read;
+mod samples;
+mod schema;
+mod source;
+pub mod statistics;
+pub mod table;
+pub mod text;
+pub mod uncertain_soil;
+pub mod uncertainty;
+pub mod unit;
+pub mod values;
+pub mod varied;
+
+use std::ops::RangeInclusive;
+
+use grouser_core::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY};
+use serde::Serialize;
+
+pub use check::nearest;
+pub use data_set::{DataSet, DataSetCase};
+pub use error::{DocumentError, Place, Problem, Spot};
+pub use kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
+pub use loaded::{Companion, Document, Loaded, fnv_1a};
+pub use overrides::Overrides;
+pub use presets::{Preset, preset, presets};
+pub use read::{
+    LoadedDataSet, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source,
+    place_of, read_data_set, read_rover, read_scenario, read_soil, read_wheel, written,
+};
+pub use schema::{range, schema};
+pub use source::{LARGEST_FILE, Source};
+pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
+pub use unit::{UNITS, Unit, unit_of};
+pub use varied::scenario_with;
+
+use describe::scenario::FASTEST;
+
+/// Allowed speeds of a rim, ω r_s [m/s].
+pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
+
+/// A document as TOML.
+///
+/// # Panics
+/// Never: documents have text keys and finite numbers only.
+#[must_use]
+pub fn to_toml<D: Serialize>(document: &D) -> String {
+    toml::to_string_pretty(document).expect("text keys and finite numbers")
+}
+
+/// Gravities by name, with their values [m/s²].
+pub const GRAVITIES: [(&str, f64); 3] =
+    [("earth", EARTH_GRAVITY), ("moon", MOON_GRAVITY), ("mars", MARS_GRAVITY)];
+
+/// A gravity [m/s²] by its name: `earth`, `moon` or `mars`.
+#[must_use]
+pub fn gravity(name: &str) -> Option<f64> {
+    GRAVITIES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
+}

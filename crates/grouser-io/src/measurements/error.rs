@@ -1,0 +1,286 @@
+//! Errors of measurement files.
+
+use std::fmt;
+use std::io;
+
+use super::super::error::number;
+use super::super::escape;
+use super::super::file::FileProblem;
+use super::limits::Excess;
+
+/// Characters of a cell that a message quotes.
+pub const QUOTED: usize = 60;
+
+/// A measurement file that cannot be used: where, what, and how it may be mended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasurementError {
+    // Boxed, so that a result is not mostly room for an error.
+    file: Box<str>,
+    line: Option<u64>,
+    problem: MeasurementProblem,
+    hint: Option<Box<str>>,
+    /// Where a document names the file.
+    named_at: Option<Box<str>>,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeasurementProblem {
+    /// A path that leads nowhere.
+    #[error("there is no such file")]
+    NoSuchFile,
+    /// A word that is neither a data set of the program nor a file.
+    #[error("there is no such data set and no such file")]
+    NoSuchDataSetOrFile,
+    /// A folder where a file should be.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// A link without a file, a device, a pipe with a name.
+    #[error("{0}")]
+    NotAFile(FileProblem),
+    /// The disk, or permission for it, failed.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// More than is read.
+    #[error("{0}")]
+    TooLarge(Excess),
+    /// Not a table.
+    #[error("not CSV: {0}")]
+    NotCsv(String),
+    /// Nothing at all.
+    #[error("has no header: the first line names the columns")]
+    NoHeader,
+    /// Nothing but a header.
+    #[error("has no rows below its header")]
+    NoRows,
+    /// Nothing that is wanted.
+    #[error("has no row that meets the conditions: {conditions}")]
+    NoRowMeets {
+        /// The conditions, as they were written.
+        conditions: String,
+    },
+    /// Nothing that was run well.
+    #[error("has no row whose `status` is `ok`; the first says: {first}")]
+    NoRowOk {
+        /// The first row's status.
+        first: String,
+    },
+    /// Rows, but nothing that was read in them.
+    #[error("has no reading: every cell of drawbar pull, side force, sinkage and torque is empty")]
+    NoReadings,
+    /// Two columns of one name.
+    #[error("the column `{0}` is there twice")]
+    RepeatedColumn(String),
+    /// Two columns with the same meaning.
+    #[error("the columns `{0}` and `{1}` have the same meaning")]
+    CompetingColumns(String, String),
+    /// A column that must be there.
+    #[error("{what} is missing: no column {expected}")]
+    MissingColumn {
+        /// What cannot be known without it.
+        what: &'static str,
+        /// The names it may have.
+        expected: String,
+    },
+    /// A file for import of which nothing is known.
+    #[error("none of its columns is called as ours, and no mapping names one")]
+    NothingToImport,
+    /// A condition on a column that is not there.
+    #[error("there is no column `{0}`")]
+    NoSuchColumn(String),
+    /// The header in the middle of the rows.
+    #[error("the header stands here again: two files pasted together?")]
+    RepeatedHeader,
+    /// A value that is no number.
+    #[error("`{column}` is '{value}', it must be a number")]
+    NotANumber {
+        /// Its column.
+        column: String,
+        /// What stands there.
+        value: String,
+    },
+    /// A value that must be there.
+    #[error("`{column}` has no value: {why}")]
+    MissingValue {
+        /// Its column.
+        column: String,
+        /// Why it is needed.
+        why: &'static str,
+    },
+    /// A number outside its range.
+    #[error("`{column}` is {}, it must be from {} to {}", number(*.value), number(*.least), number(*.most))]
+    OutOfRange {
+        /// Its column.
+        column: String,
+        /// The number.
+        value: f64,
+        /// The least it may be.
+        least: f64,
+        /// The most it may be.
+        most: f64,
+    },
+    /// A slip that the speeds contradict.
+    #[error("`{column}` is {}, the speeds make it {:.4}", number(*.value), .of_speeds)]
+    SlipAgainstSpeeds {
+        /// The slip's column.
+        column: String,
+        /// The slip that is written.
+        value: f64,
+        /// The slip of the speeds.
+        of_speeds: f64,
+    },
+    /// Two loads in one row.
+    #[error("`{column}` is {}, `{other}` is {}", number(*.value), number(*.other_value))]
+    LoadsDiffer {
+        /// The first column.
+        column: &'static str,
+        /// Its value.
+        value: f64,
+        /// The second column.
+        other: &'static str,
+        /// Its value.
+        other_value: f64,
+    },
+    /// Rows of several wheels, without a choice.
+    #[error("has rows of several wheels: {}", labels.join(", "))]
+    SeveralWheels {
+        /// Their names in the file.
+        labels: Vec<String>,
+    },
+}
+
+impl From<FileProblem> for MeasurementProblem {
+    fn from(problem: FileProblem) -> Self {
+        match problem {
+            FileProblem::NoSuchFile => Self::NoSuchFile,
+            FileProblem::Folder => Self::Folder,
+            FileProblem::TooLarge { limit } => Self::TooLarge(Excess::Bytes { most: limit }),
+            FileProblem::Unreadable { message, .. } => Self::Unreadable(message),
+            FileProblem::BrokenLink { .. } | FileProblem::NotAFile { .. } => {
+                Self::NotAFile(problem)
+            }
+        }
+    }
+}
+
+impl MeasurementError {
+    pub fn whole(file: &str, problem: MeasurementProblem) -> Self {
+        let hint: Option<String> = match &problem {
+            MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
+                format!("choose by the condition wheel={label}, or a wheel whose name ends so")
+            }),
+            _ => None,
+        };
+        let hint = hint.map(String::into_boxed_str);
+        Self { file: file.into(), line: None, problem, hint, named_at: None }
+    }
+
+    pub fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
+        Self { line: Some(line), ..Self::whole(file, problem) }
+    }
+
+    pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
+        self.hint = hint.into().map(String::into_boxed_str);
+        self
+    }
+
+    /// The same, of a file that a document names.
+    ///
+    /// * `place`: where it does
+    pub fn named_at(mut self, place: String) -> Self {
+        self.named_at = Some(place.into_boxed_str());
+        self
+    }
+
+    /// A failure while reading.
+    ///
+    /// * `line`: where it was, for limits of a single row
+    pub fn io(file: &str, error: &io::Error, line: u64) -> Self {
+        match error.get_ref().and_then(|error| error.downcast_ref::<Excess>()) {
+            Some(excess @ Excess::Bytes { .. }) => {
+                Self::whole(file, MeasurementProblem::TooLarge(*excess))
+            }
+            Some(excess) => Self::at(file, line, MeasurementProblem::TooLarge(*excess)),
+            None => Self::whole(file, MeasurementProblem::Unreadable(error.to_string())),
+        }
+    }
+
+    /// A failure while reading a table.
+    ///
+    /// * `at`: the line that was being read
+    pub fn csv(file: &str, error: &csv::Error, at: u64) -> Self {
+        let line = error.position().map(csv::Position::line);
+        let problem = match error.kind() {
+            csv::ErrorKind::Io(error) => return Self::io(file, error, at),
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } => MeasurementProblem::NotCsv(
+                format!("the fields of this line are {len}, those of the header {expected_len}"),
+            ),
+            csv::ErrorKind::Utf8 { .. } => {
+                MeasurementProblem::NotCsv("this line is not UTF-8 text".to_owned())
+            }
+            _ => MeasurementProblem::NotCsv(error.to_string()),
+        };
+        let hint = match error.kind() {
+            csv::ErrorKind::Utf8 { .. } => {
+                Some("a spreadsheet can save its table as CSV in UTF-8".to_owned())
+            }
+            csv::ErrorKind::UnequalLengths { expected_len, len, .. } if len < expected_len => {
+                Some("is a quotation mark left open, or a field missing?".to_owned())
+            }
+            _ => None,
+        };
+        Self { line, ..Self::whole(file, problem) }.with_hint(hint)
+    }
+
+    /// What messages call the file.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The line where the trouble is, if it is in one.
+    #[must_use]
+    pub fn line(&self) -> Option<u64> {
+        self.line
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn problem(&self) -> &MeasurementProblem {
+        &self.problem
+    }
+
+    /// Whether the file is fine, but has rows of several wheels.
+    #[must_use]
+    pub fn is_of_several_wheels(&self) -> bool {
+        matches!(self.problem, MeasurementProblem::SeveralWheels { .. })
+    }
+
+    /// Whether the disk or its permissions failed, rather than the file.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        matches!(self.problem, MeasurementProblem::Unreadable(_))
+    }
+}
+
+/// Characters of a problem or a hint: a header may have a thousand columns.
+const LONGEST_MESSAGE: usize = 2000;
+
+impl fmt::Display for MeasurementError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&escape::line(&self.file))?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {}", escape::short_line(&self.problem.to_string(), LONGEST_MESSAGE))?;
+        if let Some(place) = &self.named_at {
+            write!(f, "\nthe file is named by {}", escape::line(place))?;
+        }
+        match &self.hint {
+            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST_MESSAGE)),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for MeasurementError {}

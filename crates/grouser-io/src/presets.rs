@@ -1,0 +1,114 @@
+//! The documents that come with the program: those of the crate's folder `data/`.
+
+use super::{Kind, Overrides, Source, written};
+
+/// A document that comes with the program.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Preset {
+    /// The kind of document.
+    pub kind: Kind,
+    /// The name it is called by: that of its file.
+    pub name: &'static str,
+    /// The document, with its comments.
+    pub text: &'static str,
+    /// The measured rows of a data set, as CSV; other kinds have none.
+    pub rows: Option<&'static str>,
+}
+
+/// All presets of a kind, in the order in which they are listed.
+pub fn presets(kind: Kind) -> impl Iterator<Item = &'static Preset> {
+    PRESETS.iter().filter(move |preset| preset.kind == kind)
+}
+
+/// The preset of a kind and a name, which may be the one that it had in earlier versions.
+#[must_use]
+pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
+    let former = FORMER_NAMES.iter().find(|(former, _)| *former == name);
+    let name = former.map_or(name, |(_, name)| name);
+    presets(kind).find(|preset| preset.name == name)
+}
+
+/// Names of presets in earlier versions, and those of today.
+const FORMER_NAMES: [(&str, &str); 1] = [("campaign-attitude", "campaign-heading")];
+
+impl Preset {
+    /// The document's name and source.
+    ///
+    /// # Panics
+    /// Never: every preset is read by a test.
+    #[must_use]
+    pub fn title_and_source(&'static self) -> (String, String) {
+        let document = written(self.kind, &Source::Preset(self), &Overrides::none())
+            .expect("every preset is read by a test")
+            .document;
+        (document.name().to_owned(), document.source().to_owned())
+    }
+}
+
+macro_rules! preset {
+    ($kind:ident, $folder:literal, $name:literal) => {
+        Preset {
+            kind: Kind::$kind,
+            name: $name,
+            text: include_str!(concat!("../data/", $folder, "/", $name, ".toml")),
+            rows: None,
+        }
+    };
+    ($kind:ident, $folder:literal, $name:literal, $rows:literal) => {
+        Preset {
+            rows: Some(include_str!(concat!("../data/", $folder, "/", $rows))),
+            ..preset!($kind, $folder, $name)
+        }
+    };
+}
+
+static PRESETS: &[Preset] = &[
+    preset!(Soil, "soils", "toyoura"),
+    preset!(Soil, "soils", "toyoura-uncertain"),
+    preset!(Soil, "soils", "toyoura-as-printed"),
+    preset!(Soil, "soils", "toyoura-lab-2007"),
+    preset!(Soil, "soils", "toyoura-lab-2012"),
+    preset!(Soil, "soils", "simulant-2007"),
+    preset!(Soil, "soils", "lunar-nominal"),
+    preset!(Soil, "soils", "lunar-umd"),
+    preset!(Soil, "soils", "lunar-chrono"),
+    preset!(Soil, "soils", "hit-lss1"),
+    preset!(Soil, "soils", "mars-simulant"),
+    preset!(Soil, "soils", "mars-regolith"),
+    preset!(Soil, "soils", "mars-sand"),
+    preset!(Soil, "soils", "mines-lunar"),
+    preset!(Soil, "soils", "dry-sand"),
+    preset!(Soil, "soils", "clay"),
+    preset!(Soil, "soils", "direct-90"),
+    preset!(Soil, "soils", "direct-90-grousers"),
+    preset!(Soil, "soils", "cmu-direct90-smooth"),
+    preset!(Soil, "soils", "cmu-direct90-grouser"),
+    preset!(Soil, "soils", "krex-granite"),
+    preset!(Soil, "soils", "mit-rig-a"),
+    preset!(Soil, "soils", "mit-rig-b"),
+    preset!(Wheel, "wheels", "hakuto"),
+    preset!(Wheel, "wheels", "el-dorado-2"),
+    preset!(Wheel, "wheels", "jfr-2007"),
+    preset!(Wheel, "wheels", "lab-2007"),
+    preset!(Wheel, "wheels", "cmu-smooth"),
+    preset!(Wheel, "wheels", "cmu-grouser"),
+    preset!(Wheel, "wheels", "mit-rig"),
+    preset!(Rover, "rovers", "hakuto"),
+    preset!(Rover, "rovers", "hakuto-flight"),
+    preset!(Rover, "rovers", "el-dorado-2"),
+    preset!(Scenario, "scenarios", "traverse-10-deg"),
+    preset!(Scenario, "scenarios", "traverse-10-deg-compensated"),
+    preset!(Scenario, "scenarios", "traverse-10-deg-torque"),
+    preset!(Scenario, "scenarios", "spot-turn"),
+    preset!(Scenario, "scenarios", "skid-steered-arc"),
+    preset!(Scenario, "scenarios", "reverse"),
+    preset!(Scenario, "scenarios", "start-from-rest"),
+    preset!(Scenario, "scenarios", "eq18-as-printed"),
+    preset!(Scenario, "scenarios", "eq18-corrected"),
+    preset!(Scenario, "scenarios", "moon-10-deg"),
+    preset!(Scenario, "scenarios", "too-steep"),
+    preset!(DataSet, "measurements", "cmu-single-wheel", "cmu_single_wheel.csv"),
+    preset!(Campaign, "campaigns", "campaign-heading"),
+    preset!(Campaign, "campaigns", "campaign-traverse"),
+    preset!(Campaign, "campaigns", "campaign-wheel-test"),
+];

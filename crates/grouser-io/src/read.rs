@@ -1,0 +1,276 @@
+//! Reading a document: finding it, putting others' values and named parts into it, checking it, and what it means.
+
+use grouser_core::simulation::Scenario;
+use grouser_core::soil::Soil;
+use grouser_core::vehicle::Rover;
+use grouser_core::wheel::Wheel;
+
+use super::describe;
+use super::error::{DocumentError, Place, Problem};
+use super::field::Names;
+use super::kind::{EACH, Kind, Part};
+use super::loaded::{Document, Loaded};
+use super::overrides::Overrides;
+use super::source::Source;
+use super::text::{self, Entry, Node, Origin, Value};
+use super::values::Described;
+use super::{DataSet, check, data_set, notes, uncertain_soil};
+
+/// A soil that was read.
+pub type LoadedSoil = Loaded<Soil>;
+/// A wheel that was read.
+pub type LoadedWheel = Loaded<Wheel>;
+/// A rover that was read.
+pub type LoadedRover = Loaded<Rover>;
+/// A scenario that was read.
+pub type LoadedScenario = Loaded<Scenario>;
+/// A data set that was read.
+pub type LoadedDataSet = Loaded<DataSet>;
+
+/// Reads a soil.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, DocumentError> {
+    read(Kind::Soil, source, overrides)
+}
+
+/// Reads a wheel.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel, DocumentError> {
+    read(Kind::Wheel, source, overrides)
+}
+
+/// Reads a rover with its wheel.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_rover(source: &Source, overrides: &Overrides) -> Result<LoadedRover, DocumentError> {
+    read(Kind::Rover, source, overrides)
+}
+
+/// Reads a scenario with its rover and soil.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_scenario(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedScenario, DocumentError> {
+    read(Kind::Scenario, source, overrides)
+}
+
+/// Reads a data set with the wheels and soils that it names; the measurements themselves are read
+/// by [`measurements::read`].
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_data_set(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedDataSet, DocumentError> {
+    data_set::read(source, overrides)
+}
+
+/// The kind that a document says it is.
+///
+/// # Errors
+/// [`DocumentError`] if it is no document, or does not say so.
+pub fn kind_of_source(source: &Source) -> Result<Kind, DocumentError> {
+    kind_of(&text::parse(&source.read()?)?)
+}
+
+/// Where a document has a key, with the tables it stands in.
+pub fn place_of(source: &Source, key: &str) -> Result<Place, DocumentError> {
+    let tree = text::parse(&source.read()?)?;
+    Ok(Place::of(tree.origin_of(key)))
+}
+
+/// Reads a document that stands for one value.
+fn read<V: Described>(
+    kind: Kind,
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<Loaded<V>, DocumentError> {
+    let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
+    let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
+    let mut companions = Vec::new();
+    let uncertain = match kind {
+        Kind::Soil => uncertain_soil::read(&mut document, "", &tree, &mut companions)?,
+        Kind::Scenario => {
+            let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
+            uncertain_soil::read(&mut document, "soil", soil, &mut companions)?
+        }
+        _ => None,
+    };
+    Ok(Loaded { document, value, uncertain, assumptions, companions })
+}
+
+/// A document that was found, checked and completed, but not yet understood.
+pub struct Written {
+    pub tree: Node,
+    pub document: Document,
+    pub assumptions: Vec<String>,
+}
+
+pub fn written(
+    kind: Kind,
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<Written, DocumentError> {
+    let mut tree = load(kind, source, overrides, "")?;
+    notes::check_days(kind, &tree)?;
+    notes::add(kind, &mut tree, overrides);
+    let document = Document::of(kind, &tree.to_json());
+    let assumptions = notes::assumptions(kind, document.keys());
+    Ok(Written { tree, document, assumptions })
+}
+
+/// The checked tree of a document with all its parts.
+fn load(
+    kind: Kind,
+    source: &Source,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<Node, DocumentError> {
+    let text = source.read()?;
+    let mut tree = text::parse(&text)?;
+    check_kind(kind, &tree)?;
+    complete(kind, &mut tree, overrides, prefix)?;
+    Ok(tree)
+}
+
+/// Overrides values, fetches the parts and checks the whole.
+fn complete(
+    kind: Kind,
+    tree: &mut Node,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<(), DocumentError> {
+    describe::rows(kind).rename(tree, Names::Today);
+    overrides.apply(kind, tree)?;
+    // What was set may be a keyword, or a table, of an earlier version.
+    describe::rows(kind).rename(tree, Names::Today);
+    for part in kind.parts() {
+        let none = Overrides::none();
+        let overrides = if part.is_listed() { &none } else { overrides };
+        fetch(part, part.path, tree, overrides, prefix)?;
+    }
+    overrides.apply_within_lists(kind, tree)?;
+    check::check(kind, tree, prefix)
+}
+
+/// Puts a named part into its place, or each of those in a list.
+///
+/// * `path`: from the table to the part
+/// * `prefix`: where the table stands in a larger document
+fn fetch(
+    part: &Part,
+    path: &[&str],
+    table: &mut Node,
+    overrides: &Overrides,
+    prefix: &str,
+) -> Result<(), DocumentError> {
+    let Some((key, further)) = path.split_first() else { return Ok(()) };
+    let within = |step: &str| {
+        if prefix.is_empty() { step.to_owned() } else { format!("{prefix}.{step}") }
+    };
+    if *key == EACH {
+        let Value::List(nodes) = &mut table.value else { return Ok(()) };
+        let mut each = nodes.iter_mut().enumerate();
+        return each.try_for_each(|(place, node)| {
+            fetch(part, further, node, overrides, &within(&place.to_string()))
+        });
+    }
+    if !further.is_empty() {
+        // A table that is missing, or is none, is for the check to report.
+        let Some(entry) = table.entry_mut(key) else { return Ok(()) };
+        return fetch(part, further, &mut entry.node, overrides, &within(key));
+    }
+    let prefix = &within(key);
+    let origin = table.origin.clone();
+    let Some(entry) = table.entry_mut(key) else {
+        let (Some(default), Value::Table(entries)) = (part.default, &mut table.value) else {
+            return Ok(());
+        };
+        let source = Source::find(part.kind, default)?;
+        let node = load(part.kind, &source, overrides, prefix)?;
+        entries.push(Entry { key: (*key).to_owned(), key_origin: origin, node });
+        return Ok(());
+    };
+    match &entry.node.value {
+        Value::String(name) => {
+            let folder = &entry.node.origin.text.folder;
+            let source = Source::find_from(folder, part.kind, name)
+                .map_err(|error| error.seen_from(&entry.node.origin))?;
+            entry.node = load(part.kind, &source, overrides, prefix)
+                .map_err(|error| blame_name(error, &entry.node.origin, &source))?;
+            Ok(())
+        }
+        Value::Table(_) => {
+            if entry.node.entry("schema").is_some() {
+                check_kind(part.kind, &entry.node)?;
+            }
+            complete(part.kind, &mut entry.node, overrides, prefix)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// That a document says it is of the kind that is needed.
+fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
+    let found = kind_of(tree).map_err(|error| match error.problem() {
+        Problem::MissingKey { .. } => {
+            let hint = format!("a {expected} document starts with schema = \"{}\"", expected.tag());
+            error.with_hint(hint)
+        }
+        _ => error,
+    })?;
+    if found == expected {
+        return Ok(());
+    }
+    let (found, expected) = (found.tag().to_owned(), expected.tag());
+    let problem = Problem::WrongKind { found, expected };
+    Err(DocumentError::at(tree.origin_of("schema"), problem))
+}
+
+/// The kind that a document says it is.
+pub(super) fn kind_of(tree: &Node) -> Result<Kind, DocumentError> {
+    if tree.entries().is_empty() {
+        return Err(DocumentError::whole(&tree.origin.text.label, Problem::Empty)
+            .with_hint("a preset is a document to start from".to_owned()));
+    }
+    let tags = Kind::ALL.map(Kind::tag);
+    let Some(entry) = tree.entry("schema") else {
+        let problem = Problem::MissingKey { key: "schema".to_owned() };
+        let hint = format!("it says what the document is: {}", tags.join(", "));
+        return Err(DocumentError::at(&tree.origin, problem).with_hint(hint));
+    };
+    let word = match &entry.node.value {
+        Value::String(word) => word.as_str(),
+        _ => "",
+    };
+    Kind::ALL
+        .into_iter()
+        .find(|kind| kind.tag() == word)
+        .ok_or_else(|| check::unknown_tag(&tags, &entry.node))
+}
+
+/// A missing file is the fault of the document that names it; of any other fault it says where the
+/// file is named.
+pub(super) fn blame_name(error: DocumentError, origin: &Origin, source: &Source) -> DocumentError {
+    match (error.problem(), source) {
+        (Problem::NoSuchFile, Source::File(path))
+            if error.place().spot.is_none()
+                && error.place().document == path.display().to_string() =>
+        {
+            // Where the name is the whole path, the place shows it already.
+            let is_whole = origin.text.folder.as_os_str().is_empty();
+            let hint = (!is_whole).then(|| format!("looked for {}", path.display()));
+            error.seen_from(origin).with_hint(hint)
+        }
+        _ => error.named_by(origin),
+    }
+}

@@ -1,0 +1,119 @@
+//! The source of a document: a preset, a file, or a text in memory.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::check::nearest;
+use super::error::{DocumentError, Problem};
+use super::presets::{self, Preset};
+use super::text::Text;
+use super::{Companion, Kind, escape, file};
+
+/// The source of a document.
+#[derive(Clone, Debug)]
+pub enum Source {
+    /// A document that comes with the program.
+    Preset(&'static Preset),
+    /// A file.
+    File(PathBuf),
+    /// A text with a name for messages; its relative paths start from the current folder.
+    Text {
+        /// What messages call it.
+        label: String,
+        /// The document.
+        content: String,
+        /// Files that it may name, before those of the current folder.
+        companions: Vec<Companion>,
+    },
+}
+
+/// The largest file that is read [bytes]: a document has a few kilobytes.
+pub const LARGEST_FILE: u64 = 1 << 20;
+
+impl Source {
+    /// The preset of that name, or else the file at that path.
+    ///
+    /// What ends in `.toml` or has a slash in it is a path.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is neither.
+    pub fn find(kind: Kind, name: &str) -> Result<Self, DocumentError> {
+        Self::find_from(Path::new(""), kind, name)
+    }
+
+    /// A file.
+    #[must_use]
+    pub fn file(path: impl Into<PathBuf>) -> Self {
+        Self::File(path.into())
+    }
+
+    /// A text in memory.
+    #[must_use]
+    pub fn text(label: impl Into<String>, content: impl Into<String>) -> Self {
+        Self::text_with(label, content, Vec::new())
+    }
+
+    /// A text in memory, and the files beside it.
+    #[must_use]
+    pub fn text_with(
+        label: impl Into<String>,
+        content: impl Into<String>,
+        companions: Vec<Companion>,
+    ) -> Self {
+        Self::Text { label: label.into(), content: content.into(), companions }
+    }
+
+    /// The empty scenario: every value is the default of its key.
+    #[must_use]
+    pub fn default_scenario() -> Self {
+        Self::text("the default scenario", "schema = \"scenario/1\"\nname = \"traverse\"\n")
+    }
+
+    /// [`find`](Self::find), with relative paths from a folder.
+    pub fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+        if let Some(preset) = presets::preset(kind, name) {
+            return Ok(Self::Preset(preset));
+        }
+        let is_toml = Path::new(name).extension().is_some_and(|end| end == "toml");
+        let path = folder.join(name);
+        // A link is there even if its file is not: reading it says so.
+        let is_there = || !name.is_empty() && path.symlink_metadata().is_ok();
+        if is_toml || name.contains(['/', '\\']) || is_there() {
+            return Ok(Self::File(path));
+        }
+        let problem = Problem::NoSuchPresetOrFile { kind, name: escape::line(name).into_owned() };
+        let names: Vec<_> = presets::presets(kind).map(|preset| preset.name).collect();
+        let hint = nearest(name, names.iter().copied()).map_or_else(
+            || format!("the {kind} presets are {}", names.join(", ")),
+            |meant| format!("did you mean `{meant}`?"),
+        );
+        Err(DocumentError::whole(escape::line(name).into_owned(), problem).with_hint(hint))
+    }
+
+    pub fn read(&self) -> Result<Arc<Text>, DocumentError> {
+        let mut beside = Vec::new();
+        let (label, content, folder) = match self {
+            Self::Preset(preset) => {
+                (format!("preset {}", preset.name), preset.text.to_owned(), PathBuf::new())
+            }
+            Self::Text { label, content, companions } => {
+                beside.clone_from(companions);
+                (label.clone(), content.clone(), PathBuf::new())
+            }
+            Self::File(path) => {
+                let label = path.display().to_string();
+                let content = read_file(path, LARGEST_FILE)
+                    .map_err(|problem| DocumentError::whole(&label, problem))?;
+                (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
+            }
+        };
+        Ok(Arc::new(Text { label, content, folder, is_argument: false, companions: beside }))
+    }
+}
+
+/// The text of a file of at most `limit` bytes.
+pub(crate) fn read_file(path: &Path, limit: u64) -> Result<String, Problem> {
+    let bytes = file::read(path, limit).map_err(Problem::from)?;
+    String::from_utf8(bytes)
+        .map_err(|error| Problem::NotText { valid_up_to: error.utf8_error().valid_up_to() })
+}

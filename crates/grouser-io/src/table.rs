@@ -1,0 +1,293 @@
+//! Results as a table of named columns. Every output of rows is written from it: terminal, CSV, JSON, Parquet,
+//! Arrow and arrays.
+
+use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
+
+use super::columns::Column;
+
+/// The kind of a column's values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// Numbers.
+    Float,
+    /// Whole numbers that are not negative.
+    Whole,
+    /// Words and sentences.
+    Text,
+}
+
+/// The value of a row in one column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number.
+    Float(Option<f64>),
+    /// A whole number.
+    Whole(Option<u64>),
+    /// A word or a sentence.
+    Text(Option<String>),
+}
+
+impl Cell {
+    pub fn text(text: impl Into<String>) -> Self {
+        Self::Text(Some(text.into()))
+    }
+
+    /// Nothing.
+    pub fn none(kind: ColumnKind) -> Self {
+        match kind {
+            ColumnKind::Float => Self::Float(None),
+            ColumnKind::Whole => Self::Whole(None),
+            ColumnKind::Text => Self::Text(None),
+        }
+    }
+}
+
+impl Serialize for Cell {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Float(value) => value.serialize(serializer),
+            Self::Whole(value) => value.serialize(serializer),
+            Self::Text(value) => value.serialize(serializer),
+        }
+    }
+}
+
+/// The values of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Numbers.
+    Float(Vec<Option<f64>>),
+    /// Whole numbers.
+    Whole(Vec<Option<u64>>),
+    /// Words and sentences.
+    Text(Vec<Option<String>>),
+}
+
+impl Values {
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Float(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Text(values) => values.len(),
+        }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn of(kind: ColumnKind, length: usize) -> Self {
+        match kind {
+            ColumnKind::Float => Self::Float(Vec::with_capacity(length)),
+            ColumnKind::Whole => Self::Whole(Vec::with_capacity(length)),
+            ColumnKind::Text => Self::Text(Vec::with_capacity(length)),
+        }
+    }
+
+    /// Some of them, by their places.
+    fn select(&self, rows: &[usize]) -> Self {
+        match self {
+            Self::Float(values) => Self::Float(rows.iter().map(|row| values[*row]).collect()),
+            Self::Whole(values) => Self::Whole(rows.iter().map(|row| values[*row]).collect()),
+            Self::Text(values) => Self::Text(rows.iter().map(|row| values[*row].clone()).collect()),
+        }
+    }
+
+    fn append(&mut self, more: Self) {
+        match (self, more) {
+            (Self::Float(values), Self::Float(more)) => values.extend(more),
+            (Self::Whole(values), Self::Whole(more)) => values.extend(more),
+            (Self::Text(values), Self::Text(more)) => values.extend(more),
+            _ => unreachable!("both are of one column"),
+        }
+    }
+
+    fn push(&mut self, cell: Cell) {
+        match (self, cell) {
+            (Self::Float(values), Cell::Float(value)) => values.push(value),
+            (Self::Whole(values), Cell::Whole(value)) => values.push(value),
+            (Self::Text(values), Cell::Text(value)) => values.push(value),
+            _ => unreachable!("a cell is of its column's kind"),
+        }
+    }
+
+    /// Writes one of them as the value of a key.
+    fn write<M: SerializeMap>(&self, map: &mut M, name: &str, row: usize) -> Result<(), M::Error> {
+        match self {
+            Self::Float(values) => map.serialize_entry(name, &values[row]),
+            Self::Whole(values) => map.serialize_entry(name, &values[row]),
+            Self::Text(values) => map.serialize_entry(name, &values[row]),
+        }
+    }
+}
+
+/// Rows by their columns. As JSON it is a list of rows, an object each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Names and values, in their order; all of one length.
+    pub columns: Vec<(String, Values)>,
+}
+
+impl Table {
+    /// How many rows there are.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |(_, values)| values.len())
+    }
+
+    /// The values of a column.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&Values> {
+        self.columns.iter().find(|(known, _)| known == name).map(|(_, values)| values)
+    }
+
+    /// The numbers of a column; none if it has none.
+    #[must_use]
+    pub fn numbers(&self, name: &str) -> &[Option<f64>] {
+        match self.column(name) {
+            Some(Values::Float(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// Two columns of numbers as points, where both are there.
+    pub fn points<'t>(&'t self, x: &str, y: &str) -> impl Iterator<Item = (f64, f64)> + 't {
+        let pairs = self.numbers(x).iter().zip(self.numbers(y));
+        pairs.filter_map(|(x, y)| x.zip(*y))
+    }
+
+    /// The words of a column; none if it has none.
+    #[must_use]
+    pub fn texts(&self, name: &str) -> &[Option<String>] {
+        match self.column(name) {
+            Some(Values::Text(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// The count in the first row of a column.
+    #[must_use]
+    pub fn count(&self, name: &str) -> Option<u64> {
+        match self.column(name)? {
+            Values::Whole(values) => *values.first()?,
+            _ => None,
+        }
+    }
+
+    /// Some columns of some rows, by names and places.
+    #[must_use]
+    pub fn select(&self, names: &[&str], rows: &[usize]) -> Self {
+        let one = |name: &&str| Some(((*name).to_owned(), self.column(name)?.select(rows)));
+        Self { columns: names.iter().filter_map(one).collect() }
+    }
+
+    /// Some rows, by their places.
+    #[must_use]
+    pub fn rows_at(&self, rows: &[usize]) -> Self {
+        let one = |(name, values): &(String, Values)| (name.clone(), values.select(rows));
+        Self { columns: self.columns.iter().map(one).collect() }
+    }
+
+    /// A row as an object of JSON.
+    #[must_use]
+    pub fn row(&self, row: usize) -> Row<'_> {
+        Row { table: self, row }
+    }
+
+    /// With more columns, of as many rows.
+    ///
+    /// * `rows`: what they are of; a row that is not there has nothing in these columns
+    #[must_use]
+    pub fn and<'c, R: 'c>(
+        self,
+        columns: impl IntoIterator<Item = &'c Column<R>>,
+        rows: &[Option<&R>],
+    ) -> Self {
+        self.and_named("", columns, rows)
+    }
+
+    /// The same, with something before each name.
+    #[must_use]
+    pub fn and_named<'c, R: 'c>(
+        mut self,
+        prefix: &str,
+        columns: impl IntoIterator<Item = &'c Column<R>>,
+        rows: &[Option<&R>],
+    ) -> Self {
+        for column in columns {
+            for (end, name) in column.names().into_iter().enumerate() {
+                let mut values = Values::of(column.kind(), rows.len());
+                for row in rows {
+                    values.push(column.cell(*row, end));
+                }
+                self.columns.push((format!("{prefix}{name}"), values));
+            }
+        }
+        self
+    }
+
+    /// Rows of another table with these columns behind its own; an empty table becomes the other.
+    pub fn append(&mut self, more: Self) {
+        if self.columns.is_empty() {
+            *self = more;
+            return;
+        }
+        for ((_, values), (_, more)) in self.columns.iter_mut().zip(more.columns) {
+            values.append(more);
+        }
+    }
+
+    /// A table of rows that are all there.
+    #[must_use]
+    pub fn of<R>(columns: &[Column<R>], rows: &[R]) -> Self {
+        Self::default().and(columns, &rows.iter().map(Some).collect::<Vec<_>>())
+    }
+
+    /// Rows of cells under their columns.
+    pub fn of_cells<'c>(
+        columns: impl Iterator<Item = (&'c str, ColumnKind)>,
+        rows: Vec<Vec<Cell>>,
+    ) -> Self {
+        let empty =
+            |(name, kind): (&str, ColumnKind)| (name.to_owned(), Values::of(kind, rows.len()));
+        let mut table = Self { columns: columns.map(empty).collect() };
+        for row in rows {
+            for ((_, values), cell) in table.columns.iter_mut().zip(row) {
+                values.push(cell);
+            }
+        }
+        table
+    }
+}
+
+impl Serialize for Table {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut rows = serializer.serialize_seq(Some(self.rows()))?;
+        for row in 0..self.rows() {
+            rows.serialize_element(&self.row(row))?;
+        }
+        rows.end()
+    }
+}
+
+/// A row of a table: as JSON an object.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'t> {
+    table: &'t Table,
+    row: usize,
+}
+
+impl Serialize for Row<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let columns = &self.table.columns;
+        let mut map = serializer.serialize_map(Some(columns.len()))?;
+        for (name, values) in columns {
+            values.write(&mut map, name, self.row)?;
+        }
+        map.end()
+    }
+}

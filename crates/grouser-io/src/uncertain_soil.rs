@@ -1,0 +1,131 @@
+//! Samples soils from the `[uncertainty]` of a document.
+//!
+//! A sample replaces numbers of the document and passes the same checks as the document itself.
+
+use super::describe::uncertainty::{Samples, Stated, UNCERTAINTY};
+use super::error::{DocumentError, Problem};
+use super::field::Inner as _;
+use super::text::Node;
+use super::uncertainty::{Inputs, Statement};
+use super::values::Described;
+use super::varied::{Key, Varied};
+use super::{Companion, Document, Kind};
+use crate::statistics::{Distribution, NothingAccepted};
+use grouser_core::soil::Soil;
+
+/// A soil with uncertain numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UncertainSoil {
+    base: Varied<Soil>,
+    /// Those of distributions, then those of samples.
+    keys: Vec<Key>,
+    /// How many are of distributions.
+    parameters: usize,
+    distribution: Distribution,
+}
+
+/// The name of the samples' file beside a resolved document.
+pub const SAMPLES_FILE: &str = "soil-samples.csv";
+
+impl UncertainSoil {
+    /// Soil number `index`, which depends on the seed and that number alone. Samples outside the
+    /// range of a key, or that are no valid soil together, are drawn again.
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if that does not end.
+    pub fn draw(&self, seed: u64, index: u64) -> Result<Soil, NothingAccepted> {
+        self.distribution.draw(seed, index, |values| self.soil(values))
+    }
+
+    /// The first soils.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw), for the first soil that cannot be drawn.
+    pub fn draws(&self, seed: u64, count: u32) -> Result<Vec<Soil>, NothingAccepted> {
+        (0..count).map(|index| self.draw(seed, index.into())).collect()
+    }
+
+    /// The keys that differ from sample to sample.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(|key| &*key.path)
+    }
+
+    /// Those of them that rows of samples give a value.
+    pub fn sampled_keys(&self) -> impl Iterator<Item = &str> {
+        self.keys().skip(self.parameters)
+    }
+
+    /// The soil with these values of its keys, if they can be.
+    fn soil(&self, values: &[f64]) -> Option<Soil> {
+        let mut pairs = self.keys.iter().zip(values);
+        // NaN is in no range.
+        let are_inside = pairs.all(|(key, value)| key.range.contains(value));
+        are_inside.then(|| self.base.with(&self.keys, values).ok())?
+    }
+
+    /// That samples can be had: one that takes too many tries here takes them everywhere.
+    fn check_first_draw(&self, tree: &Node) -> Result<(), DocumentError> {
+        self.draw(0, 0).map(drop).map_err(|error| {
+            let range = |key: &Key| format!("`{}` {}", key.path, key.range_in_words());
+            let ranges: Vec<String> = self.keys.iter().map(range).collect();
+            let hint =
+                format!("a sample has to lie within the ranges of its keys: {}", ranges.join(", "));
+            DocumentError::at(tree.origin_of("uncertainty"), Problem::NoDraws(error))
+                .with_hint(hint)
+        })
+    }
+}
+
+/// The soils that a document, or its soil, may be; none if it does not say how well it is known. The samples'
+/// file is given the name that it has beside a resolved document.
+///
+/// * `place`: the key of the soil, or nothing
+/// * `tree`: the soil's tree
+pub fn read(
+    document: &mut Document,
+    place: &str,
+    tree: &Node,
+    companions: &mut Vec<Companion>,
+) -> Result<Option<UncertainSoil>, DocumentError> {
+    let soil =
+        if place.is_empty() { Some(document.clone()) } else { document.part(Kind::Soil, place) };
+    let Some(soil) = soil else { return Ok(None) };
+    let Some(stated) = stated(&soil, tree)? else { return Ok(None) };
+    let base = Varied { value: Soil::of(&soil), document: numbers(&soil) };
+    let statement = Statement { stated: &stated, tree, table: "uncertainty.", prefix: "" };
+    let Inputs { keys, parameters, samples, distribution, .. } = Inputs::read(&base, &[statement])?;
+    let soils = UncertainSoil { base, keys, parameters, distribution };
+    soils.check_first_draw(tree)?;
+    if let (Some((table, _)), Some(Samples::File(_))) = (samples, stated.samples) {
+        let name = SAMPLES_FILE.to_owned();
+        *document = document.changed(|keys| {
+            let soil = if place.is_empty() { Some(keys) } else { keys[place].as_object_mut() };
+            if let Some(samples) = soil.and_then(|soil| soil["uncertainty"].get_mut("samples")) {
+                *samples = name.clone().into();
+            }
+        });
+        companions.push(Companion { name, content: table.into_content() });
+    }
+    Ok(Some(soils))
+}
+
+/// The uncertainty that a soil states, if it has the table.
+///
+/// * `tree`: the soil's tree
+pub fn stated(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentError> {
+    let Some(given) = soil.get("uncertainty") else { return Ok(None) };
+    let mut stated = Stated::default();
+    UNCERTAINTY.put(&mut stated, given);
+    if stated.samples.is_some() || !stated.parameters.is_empty() {
+        return Ok(Some(stated));
+    }
+    let problem = Problem::MissingKey { key: "uncertainty.parameter".to_owned() };
+    let hint = "name keys with their standard deviations, or a file of samples: \
+                samples = \"posterior.csv\"";
+    Err(DocumentError::at(tree.origin_of("uncertainty"), problem).with_hint(hint.to_owned()))
+}
+
+/// A soil without its uncertainty, whose numbers are not the soil's.
+pub fn numbers(soil: &Document) -> Document {
+    soil.changed(|keys| drop(keys.shift_remove("uncertainty")))
+}

@@ -1,0 +1,134 @@
+//! Units at the end of names, and their conversion to and from SI, for documents and results.
+
+/// A unit outside the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    /// As tables and labels write it: `kPa`.
+    pub symbol: &'static str,
+    scale: Scale,
+}
+
+/// How a unit and its SI unit differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scale {
+    Same,
+    /// A thousand SI units.
+    Kilo,
+    /// A thousandth of the SI unit.
+    Milli,
+    /// Degrees for radians.
+    Degrees,
+}
+
+impl Unit {
+    /// A unit that is SI already.
+    pub const fn si(symbol: &'static str) -> Self {
+        Self { symbol, scale: Scale::Same }
+    }
+
+    const fn scaled(symbol: &'static str, scale: Scale) -> Self {
+        Self { symbol, scale }
+    }
+
+    /// The value in SI units and radians.
+    #[must_use]
+    pub fn to_si(self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Same => value,
+            Scale::Kilo => value * 1e3,
+            Scale::Milli => value * 1e-3,
+            Scale::Degrees => value.to_radians(),
+        }
+    }
+
+    /// A value in SI units and radians, in this unit.
+    #[must_use]
+    pub fn from_si(self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Same => value,
+            Scale::Kilo => value * 1e-3,
+            Scale::Milli => value * 1e3,
+            Scale::Degrees => value.to_degrees(),
+        }
+    }
+
+    /// The same of a value that came in with this unit, as it was written: 15°, not 14.999999999999998°.
+    #[must_use]
+    pub fn as_given(self, value: f64) -> f64 {
+        let exact = self.from_si(value);
+        let rounded = (exact * 1e9).round() / 1e9;
+        let is_same = self.to_si(rounded) == value || (rounded - exact).abs() < 1e-12;
+        if is_same { rounded } else { exact }
+    }
+}
+
+pub const KPA: Unit = Unit::scaled("kPa", Scale::Kilo);
+pub const MM: Unit = Unit::scaled("mm", Scale::Milli);
+pub const DEG: Unit = Unit::scaled("°", Scale::Degrees);
+pub const DEG_S: Unit = Unit::scaled("°/s", Scale::Degrees);
+pub const KG_M3: Unit = Unit::si("kg/m³");
+pub const KG: Unit = Unit::si("kg");
+pub const KG_M2: Unit = Unit::si("kg·m²");
+pub const M: Unit = Unit::si("m");
+pub const M_PER_M: Unit = Unit::si("m/m");
+pub const M_PER_RAD: Unit = Unit::si("m/rad");
+pub const M_PER_RAD2: Unit = Unit::si("m/rad²");
+pub const M_S: Unit = Unit::si("m/s");
+pub const MM_S: Unit = Unit::scaled("mm/s", Scale::Milli);
+pub const M_S2: Unit = Unit::si("m/s²");
+pub const RAD_S: Unit = Unit::si("rad/s");
+pub const S: Unit = Unit::si("s");
+pub const S_M: Unit = Unit::si("s/m");
+pub const N: Unit = Unit::si("N");
+pub const NM: Unit = Unit::si("N·m");
+pub const W: Unit = Unit::si("W");
+pub const J: Unit = Unit::si("J");
+pub const J_PER_M: Unit = Unit::si("J/m");
+/// Of a number without a unit.
+pub const ONE: Unit = Unit::si("-");
+/// The unit of another key.
+pub const OF_KEY: Unit = Unit::si("");
+
+/// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
+/// Python package asks this table; a test compares it with that of `docs/conventions.md`.
+pub const UNITS: [(&str, Unit); 24] = [
+    ("_m_per_m", M_PER_M),
+    ("_j_per_m", J_PER_M),
+    ("_per_rad2_m", M_PER_RAD2),
+    ("_per_rad_m", M_PER_RAD),
+    ("_kg_m2.xx", KG_M2),
+    ("_kg_m2.yy", KG_M2),
+    ("_kg_m2.zz", KG_M2),
+    ("_kg_m2", KG_M2),
+    ("_kg_m3", KG_M3),
+    ("_m_s2", M_S2),
+    ("_rad_s", RAD_S),
+    ("_deg_s", DEG_S),
+    ("_m_s", M_S),
+    ("_s_m", S_M),
+    ("_deg", DEG),
+    ("_kpa", KPA),
+    ("_kg", KG),
+    ("_mm", MM),
+    ("_nm", NM),
+    ("_n", N),
+    ("_m", M),
+    ("_s", S),
+    ("_w", W),
+    ("_j", J),
+];
+
+/// Ends of the names of quantiles: `yaw_deg_p2_5` is in degrees.
+pub const QUANTILES: [&str; 3] = ["_p2_5", "_p50", "_p97_5"];
+
+/// The unit that a key or a column ends with; none for a number without.
+#[must_use]
+pub fn unit_of(name: &str) -> Option<Unit> {
+    // An entry of a list has its list's unit, a quantile its quantity's.
+    let name = match name.rsplit_once('.') {
+        Some((list, place)) if place.parse::<usize>().is_ok() => list,
+        _ => name,
+    };
+    let name = QUANTILES.iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
+    UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| *unit)
+}

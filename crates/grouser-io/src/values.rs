@@ -1,0 +1,281 @@
+//! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
+//! the checks of values against each other.
+
+use std::ops::RangeInclusive;
+
+use super::Document;
+use super::campaign::Stand;
+use super::describe::campaign::STAND;
+use super::describe::scenario::{ROVER_OF_PARTS, SCENARIO};
+use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
+use super::describe::wheel::WHEEL;
+use super::describe::{rover, scenario, soil, wheel};
+use super::error::{DocumentError, Problem};
+use super::field::Inner;
+use super::text::Node;
+use grouser_core::error::ParameterError;
+use grouser_core::simulation::Scenario;
+use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
+use grouser_core::vehicle::{Mount, Rover};
+use grouser_core::wheel::Wheel;
+
+/// Values that are valid one by one, but not together.
+#[derive(Debug)]
+pub struct Misfit {
+    /// The key of the document, inside this one, that they stand in; nothing for this one itself.
+    part: &'static str,
+    /// The key, or table, that they stand in.
+    path: String,
+    /// What is wrong with them.
+    pub problem: Box<Problem>,
+    hint: Option<String>,
+}
+
+impl Misfit {
+    fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
+        Self { part: "", path: path.into(), problem: Box::new(problem.into()), hint: None }
+    }
+
+    /// For `map_err` of a check of what stands at a key.
+    fn at(path: &'static str) -> impl Fn(ParameterError) -> Self {
+        move |error| Self::new(path, error)
+    }
+
+    fn within(self, part: &'static str) -> Self {
+        Self { part, ..self }
+    }
+
+    /// What is wrong with the numbers of a value that was one.
+    pub fn of_numbers(self) -> ParameterError {
+        match *self.problem {
+            Problem::Unfit(error) => error,
+            _ => unreachable!("new numbers leave names as they were"),
+        }
+    }
+
+    /// The same where it was written.
+    pub fn of(self, tree: &Node) -> DocumentError {
+        let node = tree.entry(self.part).map_or(tree, |entry| &entry.node);
+        DocumentError::at(node.origin_of(&self.path), *self.problem).with_hint(self.hint)
+    }
+}
+
+/// A domain's value that a table describes.
+pub trait Described: Clone + 'static {
+    fn table() -> &'static dyn Inner<Self>;
+
+    /// The value before its numbers are put in.
+    fn blank() -> Self;
+
+    /// Takes over what follows from several keys of the document.
+    fn follow(&mut self, _document: &Document) {}
+
+    /// The value, all of it in force.
+    fn settled(self) -> Result<Self, Misfit>;
+
+    /// What a document means, not yet [`settled`](Self::settled).
+    fn of(document: &Document) -> Self {
+        let mut value = Self::blank();
+        Self::table().put(&mut value, document.keys());
+        value.follow(document);
+        value
+    }
+
+    /// What the number under a dotted key may be, in the key's unit; nothing for what leads to none.
+    fn range(&self, path: &str) -> Option<RangeInclusive<f64>> {
+        Self::table().reach(&mut self.clone(), path).map(|reached| reached.range())
+    }
+
+    /// The same with other values of some keys, in the keys' units.
+    fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Result<Self, Misfit> {
+        let mut value = self.clone();
+        for (path, number) in values {
+            // That each key leads somewhere was seen when it was chosen.
+            if let Some(reached) = Self::table().reach(&mut value, path) {
+                reached.set(number);
+            }
+        }
+        value.settled()
+    }
+}
+
+impl Described for Soil {
+    fn table() -> &'static dyn Inner<Self> {
+        &SOIL
+    }
+
+    fn blank() -> Self {
+        soil::BLANK
+    }
+
+    fn settled(mut self) -> Result<Self, Misfit> {
+        share_angle_limit(&mut self.shear);
+        self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
+        check_exponent(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
+        self.shear.check().map_err(Misfit::at("shear"))?;
+        self.extended.check().map_err(Misfit::at("small_wheel"))?;
+        self.rft.check().map_err(Misfit::at("rft"))?;
+        check_exit(self.exit).map_err(Misfit::at("exit"))?;
+        self.check().map_err(Misfit::at("schema"))?;
+        Ok(self)
+    }
+}
+
+/// A document has one limit for both axes.
+fn share_angle_limit(shear: &mut Shear) {
+    if let Shear::Anisotropic {
+        longitudinal: ShearModulus::Quadratic { angle_limit: shared, .. },
+        lateral: ShearModulus::Quadratic { angle_limit, .. },
+    } = shear
+    {
+        *angle_limit = *shared;
+    }
+}
+
+/// That n stays in its range at every slip: it is linear, so its ends suffice.
+fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
+    let (PressureSinkage::Reece { exponent, .. } | PressureSinkage::Bekker { exponent, .. }) = law;
+    for slip_ratio in [-1.0, 1.0] {
+        let n = exponent.at(slip_ratio);
+        if !(SMALLEST_EXPONENT..=LARGEST_EXPONENT).contains(&n) {
+            let name = format!("the sinkage exponent n at a slip ratio of {slip_ratio}");
+            return Err(ParameterError::new(name, n, "0.3 to 3"));
+        }
+    }
+    Ok(())
+}
+
+/// That λ stays in its range at every slip.
+fn check_exit(exit: Exit) -> Result<(), ParameterError> {
+    for percent in 0..=100 {
+        let slip_ratio = f64::from(percent) / 100.0;
+        let ratio = exit.ratio(slip_ratio);
+        if ratio > LARGEST_EXIT_RATIO {
+            let name = format!("the wheel sinkage ratio at a slip ratio of {slip_ratio}");
+            return Err(ParameterError::new(name, ratio, "0 to 1.5"));
+        }
+    }
+    Ok(())
+}
+
+impl Described for Wheel {
+    fn table() -> &'static dyn Inner<Self> {
+        &WHEEL
+    }
+
+    fn blank() -> Self {
+        wheel::BLANK
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        self.check().map_err(Misfit::at(""))?;
+        Ok(self)
+    }
+}
+
+impl Described for Rover {
+    fn table() -> &'static dyn Inner<Self> {
+        &ROVER_OF_PARTS
+    }
+
+    fn blank() -> Self {
+        Self::draft(rover::BLANK)
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        check_names(&self)?;
+        // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
+        let place = uneven_mount(&self);
+        self.checked().map_err(|error| Misfit::new(place, error))
+    }
+}
+
+/// Checks that the wheels' names differ: columns and messages use them.
+fn check_names(rover: &Rover) -> Result<(), Misfit> {
+    let mounts = &rover.parts().mounts;
+    for (index, mount) in mounts.iter().enumerate() {
+        if mounts[..index].iter().any(|other| other.name == mount.name) {
+            let key = format!("mount.{index}.name");
+            let name = mount.name.escape_debug().to_string();
+            return Err(Misfit::new(key.clone(), Problem::RepeatedName { key, name }));
+        }
+    }
+    Ok(())
+}
+
+/// The first wheel that reaches less or further down than the first one, or else all of them.
+fn uneven_mount(rover: &Rover) -> String {
+    let mounts = rover.parts().complete_mounts();
+    let differs = |mount: &Mount| {
+        let larger = mount.shearing_radius() - mounts[0].shearing_radius();
+        mount.position.z - mounts[0].position.z != larger
+    };
+    match mounts.iter().position(differs) {
+        Some(index) => format!("mount.{index}.position_m"),
+        None => "mount.0".to_owned(),
+    }
+}
+
+impl Described for Scenario {
+    fn table() -> &'static dyn Inner<Self> {
+        &SCENARIO
+    }
+
+    fn blank() -> Self {
+        scenario::blank()
+    }
+
+    fn follow(&mut self, document: &Document) {
+        let of_soil = || document.theory_at("soil.model");
+        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        let rover = self.rover.settled().map_err(|misfit| misfit.within("rover"))?;
+        let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        let run = Self { rover, site: self.site.with_soil(soil), ..self };
+        check_sample_count(run.duration, run.numerics.sample_interval)
+            .map_err(Misfit::at("sample_interval_s"))?;
+        run.drive.check(&run.rover).map_err(|error| {
+            let names: Vec<_> =
+                run.rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+            let hint = format!("the wheels are {}, in this order", names.join(", "));
+            Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
+        })?;
+        run.check().map_err(Misfit::at("schema"))?;
+        Ok(run)
+    }
+}
+
+/// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
+const MOST_SAMPLES: f64 = 1e6;
+
+pub fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
+    let count = (duration / interval).ceil();
+    if count <= MOST_SAMPLES {
+        return Ok(());
+    }
+    let name = "the number of samples, duration_s / sample_interval_s,";
+    Err(ParameterError::new(name, count, "at most 1000000"))
+}
+
+impl Described for Stand {
+    fn table() -> &'static dyn Inner<Self> {
+        &STAND
+    }
+
+    fn blank() -> Self {
+        Self::BLANK
+    }
+
+    fn follow(&mut self, document: &Document) {
+        let of_soil = || document.theory_at("soil.model");
+        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        let wheel = self.wheel.settled().map_err(|misfit| misfit.within("wheel"))?;
+        let soil = self.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        Ok(Self { soil, wheel, ..self })
+    }
+}

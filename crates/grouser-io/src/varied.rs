@@ -1,0 +1,179 @@
+//! Numbers of a document by their keys: their ranges, and the domain's value with other numbers in their place.
+//!
+//! Campaigns, calibrations, uncertain soils and rollouts all give keys other values here, by the rows of the
+//! document's table and without a document for each.
+
+use std::ops::RangeInclusive;
+
+use super::error::{DocumentError, Problem};
+use super::text::{Node, Origin};
+use super::values::{Described, Misfit};
+use super::{Document, Kind, nearest, range};
+use grouser_core::error::ParameterError;
+use grouser_core::simulation::Scenario;
+
+/// A value whose numbers are exchanged, and what its document says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied<V> {
+    pub value: V,
+    pub document: Document,
+}
+
+/// A number of a document, under a key.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Key {
+    /// The key, with the tables it stands in.
+    pub path: String,
+    /// What the document says, in the key's unit.
+    pub value: f64,
+    /// What it may be under the laws that the document follows.
+    pub range: RangeInclusive<f64>,
+}
+
+/// Numbers that may be given other values.
+pub trait Numbers {
+    /// The number under a key.
+    fn key(&self, path: &str) -> Result<Key, NoNumber>;
+
+    /// That some keys may have these values together.
+    fn check_with(&self, keys: &[Key], values: &[f64]) -> Result<(), Misfit>;
+}
+
+impl<V: Described> Varied<V> {
+    /// What a document means.
+    ///
+    /// * `tree`: where it was written
+    pub fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
+        let value = V::of(&document).settled().map_err(|misfit| misfit.of(tree))?;
+        Ok(Self { value, document })
+    }
+
+    /// The value with others under some keys.
+    pub fn with(&self, keys: &[Key], values: &[f64]) -> Result<V, Misfit> {
+        self.value.with(keys.iter().map(|key| &*key.path).zip(values.iter().copied()))
+    }
+}
+
+impl<V: Described> Numbers for Varied<V> {
+    fn key(&self, path: &str) -> Result<Key, NoNumber> {
+        let path = &*self.document.todays_key(path);
+        let value = self.document.number(path);
+        value
+            .zip(self.value.range(path))
+            .map(|(value, range)| Key { path: path.to_owned(), value, range })
+            .ok_or_else(|| NoNumber::of(&self.document, path))
+    }
+
+    fn check_with(&self, keys: &[Key], values: &[f64]) -> Result<(), Misfit> {
+        self.with(keys, values).map(drop)
+    }
+}
+
+impl Key {
+    /// A value that it must not have.
+    pub fn out_of_range(&self, value: f64) -> Problem {
+        Problem::OutOfRange { key: self.path.clone(), value, range: self.range_in_words() }
+    }
+
+    pub fn range_in_words(&self) -> String {
+        format!("{} to {}", self.range.start(), self.range.end())
+    }
+}
+
+/// The same run with other numbers under some keys of its document, in the keys' units.
+///
+/// # Errors
+/// [`ParameterError`] if they are no run together.
+pub fn scenario_with<'k>(
+    scenario: &Scenario,
+    numbers: impl IntoIterator<Item = (&'k str, f64)>,
+) -> Result<Scenario, ParameterError> {
+    scenario.with(numbers).map_err(Misfit::of_numbers)
+}
+
+/// A key without a number.
+pub struct NoNumber {
+    pub problem: Problem,
+    pub hint: Option<String>,
+}
+
+impl NoNumber {
+    fn of(document: &Document, path: &str) -> Self {
+        let key = path.escape_debug().to_string();
+        if document.get(path).is_some() {
+            let whole = if document.kind() == Kind::Soil { "this soil" } else { "what is varied" };
+            return Self { problem: Problem::NotANumber { key, whole }, hint: None };
+        }
+        let hint = if range(document.kind(), path).is_some() {
+            "the document gives this key no value: give it one first, if its law has the key"
+                .to_owned()
+        } else {
+            meant_number(document, path)
+        };
+        Self { problem: Problem::UnknownKey { key }, hint: Some(hint) }
+    }
+
+    pub fn at(self, origin: &Origin) -> DocumentError {
+        DocumentError::at(origin, self.problem).with_hint(self.hint)
+    }
+}
+
+/// What a misspelt key was meant to be, or all that it could have been.
+pub fn meant(name: &str, known: &[&str]) -> String {
+    let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
+    let same_end = known.iter().copied().find(|key| last(key) == last(name));
+    match same_end.or_else(|| nearest(name, known.iter().copied())) {
+        Some(key) => format!("did you mean `{key}`?"),
+        None => format!("there are {}", known.join(", ")),
+    }
+}
+
+/// The same among the numbers of a document.
+pub fn meant_number(document: &Document, name: &str) -> String {
+    let known = document.number_keys();
+    meant(name, &known.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Overrides, Source, read_scenario};
+    use super::*;
+
+    fn with(settings: &[&str]) -> Scenario {
+        let overrides = Overrides::parse(settings).unwrap();
+        read_scenario(&Source::default_scenario(), &overrides).unwrap().value
+    }
+
+    /// The key in a document and the number put in its place mean the same, for each drive.
+    #[test]
+    fn what_is_put_is_what_a_document_says() {
+        let numbers = [
+            ("slope_deg", 21.5),
+            ("start.yaw_deg", -7.25),
+            ("drive.speed_m_s", 0.045),
+            ("gravity_m_s2", 1.62),
+            ("duration_s", 12.5),
+            ("soil.cohesion_kpa", 0.25),
+        ];
+        for law in ["constant", "eq18"] {
+            let law = format!("scenario.drive.law={law}");
+            for (key, value) in numbers {
+                let put = scenario_with(&with(&[&law]), [(key, value)]).unwrap();
+                assert_eq!(put, with(&[&law, &format!("scenario.{key}={value}")]));
+            }
+        }
+        let each = with(&["scenario.drive.speed_m_s=[0.01, 0.02, 0.03, 0.04]"]);
+        let one = scenario_with(&each, [("drive.speed_m_s", 0.045)]).unwrap();
+        assert_eq!(one, with(&["scenario.drive.speed_m_s=0.045"]));
+    }
+
+    #[test]
+    fn numbers_that_do_not_go_together_are_refused() {
+        let eq18 = with(&["scenario.drive.law=eq18"]);
+        for (key, value) in
+            [("duration_s", 1e6), ("drive.speed_m_s", -1.0), ("slope_deg", f64::NAN)]
+        {
+            assert!(scenario_with(&eq18, [(key, value)]).is_err(), "{key}");
+        }
+    }
+}
