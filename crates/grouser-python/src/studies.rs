@@ -13,9 +13,9 @@ use grouser::document::table::Table;
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
-use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::attitude_band::AttitudeBand;
-use grouser::studies::attitude_map::AttitudeMap;
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_band::HeadingBand;
+use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
@@ -114,7 +114,7 @@ pub(crate) fn heading<'py>(
     let slopes = slopes(&slope_deg)?;
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
-        let curve = AttitudeStudy::of(&scenario).curve()?;
+        let curve = HeadingStudy::of(&scenario).curve()?;
         Ok((
             columns::heading::table(&curve, &scenario.rover, &slopes),
             columns::heading::steepest(&curve),
@@ -149,16 +149,16 @@ pub(crate) fn heading_map<'py>(
         let message = "there is no soil".to_owned();
         return Err(errors::parameter(message, "soil", None, "at least one soil"));
     };
-    let studies: Vec<_> = all.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
+    let studies: Vec<_> = all.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
     let table = listening(py, move |cancelled| {
-        let nothing = AttitudeMap { slopes: Vec::new(), rows: Vec::new() };
+        let nothing = HeadingMap { slopes: Vec::new(), rows: Vec::new() };
         let mut table = columns::heading::map_table(&nothing, &[], &rover, rim_speed_m_s);
         for (study, name) in studies.iter().zip(&names) {
             for courses in courses.chunks(COURSES) {
                 if cancelled.is_set() {
                     return Ok(table);
                 }
-                let map = AttitudeMap::of(std::slice::from_ref(study), courses, &slopes)?;
+                let map = HeadingMap::of(std::slice::from_ref(study), courses, &slopes)?;
                 let name = std::slice::from_ref(name);
                 table.append(columns::heading::map_table(&map, name, &rover, rim_speed_m_s));
             }
@@ -187,13 +187,13 @@ pub(crate) fn heading_band<'py>(
         let expected = "a soil with an `uncertainty`, such as toyoura-uncertain";
         return Err(errors::parameter(message, "uncertainty", None, expected));
     };
-    let study = AttitudeStudy::of(&scenario.value);
+    let study = HeadingStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
         let soils = uncertain.draws(seed, samples).map_err(|error| {
             Problem::Sampling(format!("the soil's uncertainty reaches too far: {error}"))
         })?;
         let go_on = || !cancelled.is_set();
-        AttitudeBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
+        HeadingBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
     })?;
     let band = found.map_err(|problem| match problem {
         Problem::Sampling(message) => {

@@ -18,8 +18,8 @@ class HeadingBand(_tables.Tabular):
 
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the sampled soils on which the contour
     can be held on that slope: 95 % of the values lie between the first and the last. NaN where it
-    can be held on none. (*Draws* are samples, and a *level attitude* is a heading offset that holds
-    the contour: columns keep the names of version 0.1.)
+    can be held on none. (Names of columns are those of
+    version 0.1, in which samples are *draws*.)
     """
 
     yaw_deg_p2_5: Floats
@@ -47,19 +47,19 @@ class HeadingBand(_tables.Tabular):
     energy_j_per_m_p97_5: Floats
     """Its upper end [J/m]."""
     probability_level: Floats
-    """Probability that a level attitude exists [-]: the share of the draws that have one."""
+    """Probability that a heading holds the contour [-]: the share of the samples that have one."""
     probability_level_low: Floats
-    """Lower end of its 95 % confidence interval, for the number of draws [-]."""
+    """Lower end of its 95 % confidence interval, for the number of samples [-]."""
     probability_level_high: Floats
     """Upper end of that interval [-]."""
     draws_level: Floats
-    """Draws with a level attitude."""
+    """Samples with a heading that holds the contour."""
     draws: int
-    """All draws."""
+    """All samples."""
     draws_mobile: int
-    """Draws on which the rover can move on level ground."""
+    """Samples on which the rover can move on level ground."""
     limit_slope_deg_p2_5: float | None
-    """The steepest slope [°], over the draws on which the rover can move; None where it never
+    """The steepest slope [°], over the samples on which the rover can move; None where it never
     can."""
     limit_slope_deg_p50: float | None
     """Its median [°]."""

@@ -41,7 +41,7 @@ class Headings(_tables.Tabular):
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
-    """Yaw that keeps the course [°], positive uphill."""
+    """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
     """Slip ratio of every wheel [-]."""
     sinkage_mm: Floats
@@ -158,7 +158,7 @@ class HeadingMap(_tables.Tabular):
     status: NDArray[np.object_]
     """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
     yaw_deg: Floats
-    """Yaw that keeps the course [°], positive uphill."""
+    """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
     """Slip ratio of every wheel [-]."""
     sinkage_mm: Floats

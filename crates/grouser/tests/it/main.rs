@@ -1,6 +1,5 @@
 //! The claims of the library, tested from outside.
 
-mod attitude_map;
 mod calibration;
 mod campaign;
 mod campaign_documents;
@@ -11,6 +10,7 @@ mod extended;
 mod files;
 mod former_names;
 mod given;
+mod heading_map;
 mod integration;
 mod kernel;
 mod laws;
