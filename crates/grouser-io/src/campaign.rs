@@ -1,7 +1,6 @@
 //! What a campaign's document says, and what its numbers go into.
 
 use super::describe::uncertainty::Stated;
-use super::describe::{soil, wheel};
 use grouser_core::contact::Theory;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
@@ -92,17 +91,4 @@ pub struct Stand {
     pub slip_ratio: f64,
     /// *β* [rad].
     pub slip_angle: f64,
-}
-
-impl Stand {
-    /// Before its numbers are put in.
-    pub const BLANK: Self = Self {
-        soil: soil::BLANK,
-        wheel: wheel::BLANK,
-        theory: Theory::Ishigami,
-        gravity: 0.0,
-        load: 0.0,
-        slip_ratio: 0.0,
-        slip_angle: 0.0,
-    };
 }

@@ -10,7 +10,7 @@ pub mod wheel;
 
 use serde::ser::SerializeMap;
 
-use super::table::{Cell, ColumnKind};
+use super::cell::{Cell, ColumnKind};
 use super::unit::{DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, S, UNITS, Unit, W};
 use crate::statistics::{Band, Probability};
 

@@ -3,10 +3,13 @@
 use std::sync::Arc;
 
 use super::check::{keys_at, nearest};
+use super::describe;
 use super::error::{DocumentError, Problem};
 use super::field::Names;
-use super::text::{Entry, Node, Origin, Text, Value, parse};
-use super::{Companion, Kind, describe};
+use super::kind::Kind;
+use super::text::parse;
+use super::tree::Companion;
+use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// Values that replace those of documents, applied in order before anything is checked.
 #[derive(Clone, Debug, Default)]

@@ -5,16 +5,21 @@ use grouser_core::soil::Soil;
 use grouser_core::vehicle::Rover;
 use grouser_core::wheel::Wheel;
 
+use super::check;
 use super::describe;
+use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
 use super::field::Names;
 use super::kind::{EACH, Kind, Part};
-use super::loaded::{Document, Loaded};
+use super::loaded::Loaded;
+use super::notes;
 use super::overrides::Overrides;
+use super::presets::Preset;
 use super::source::Source;
-use super::text::{self, Entry, Node, Origin, Value};
+use super::text;
+use super::tree::{Entry, Node, Origin, Value};
+use super::uncertain_soil;
 use super::values::Described;
-use super::{DataSet, check, data_set, notes, uncertain_soil};
 
 /// A soil that was read.
 pub type LoadedSoil = Loaded<Soil>;
@@ -24,9 +29,6 @@ pub type LoadedWheel = Loaded<Wheel>;
 pub type LoadedRover = Loaded<Rover>;
 /// A scenario that was read.
 pub type LoadedScenario = Loaded<Scenario>;
-/// A data set that was read.
-pub type LoadedDataSet = Loaded<DataSet>;
-
 /// Reads a soil.
 ///
 /// # Errors
@@ -60,18 +62,6 @@ pub fn read_scenario(
     overrides: &Overrides,
 ) -> Result<LoadedScenario, DocumentError> {
     read(Kind::Scenario, source, overrides)
-}
-
-/// Reads a data set with the wheels and soils that it names; the measurements themselves are read
-/// by [`measurements::read`].
-///
-/// # Errors
-/// [`DocumentError`] for whatever is wrong first.
-pub fn read_data_set(
-    source: &Source,
-    overrides: &Overrides,
-) -> Result<LoadedDataSet, DocumentError> {
-    data_set::read(source, overrides)
 }
 
 /// The kind that a document says it is.
@@ -126,6 +116,20 @@ pub fn written(
     let document = Document::of(kind, &tree.to_json());
     let assumptions = notes::assumptions(kind, document.keys());
     Ok(Written { tree, document, assumptions })
+}
+
+impl Preset {
+    /// What the document calls itself, and where it says its values are from.
+    ///
+    /// # Panics
+    /// Never: every preset is read by a test.
+    #[must_use]
+    pub fn title_and_source(&'static self) -> (String, String) {
+        let document = written(self.kind, &Source::Preset(self), &Overrides::none())
+            .expect("every preset is read by a test")
+            .document;
+        (document.name().to_owned(), document.source().to_owned())
+    }
 }
 
 /// The checked tree of a document with all its parts.

@@ -5,9 +5,12 @@ use std::sync::Arc;
 
 use super::check::nearest;
 use super::error::{DocumentError, Problem};
+use super::escape;
+use super::file;
+use super::kind::Kind;
 use super::presets::{self, Preset};
-use super::text::Text;
-use super::{Companion, Kind, escape, file};
+use super::tree::Companion;
+use super::tree::Text;
 
 /// Where a document comes from.
 #[derive(Clone, Debug)]

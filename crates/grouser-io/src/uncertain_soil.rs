@@ -3,13 +3,15 @@
 //! A sample puts numbers in the document's place of them and passes the same checks as the document itself.
 
 use super::describe::uncertainty::{Samples, Stated, UNCERTAINTY};
+use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
-use super::text::Node;
+use super::kind::Kind;
+use super::tree::Companion;
+use super::tree::Node;
 use super::uncertainty::{Inputs, Statement};
 use super::values::Described;
 use super::varied::{Key, Varied};
-use super::{Companion, Document, Kind};
 use crate::statistics::{Distribution, NothingAccepted};
 use grouser_core::soil::Soil;
 

@@ -6,7 +6,7 @@
 use super::describe::uncertainty::{Pair, Samples, Stated};
 use super::error::{DocumentError, Problem};
 use super::samples::SampleTable;
-use super::text::{Node, Origin};
+use super::tree::{Node, Origin};
 use super::varied::{Key, Numbers, meant};
 use crate::statistics::{Contradiction, Correlation, Distribution, Marginal};
 

@@ -3,16 +3,16 @@
 
 use std::ops::RangeInclusive;
 
-use super::Document;
 use super::campaign::Stand;
-use super::describe::campaign::STAND;
+use super::describe::campaign::{BLANK_STAND, STAND};
 use super::describe::scenario::{ROVER_OF_PARTS, SCENARIO};
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
 use super::describe::wheel::WHEEL;
 use super::describe::{rover, scenario, soil, wheel};
+use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
-use super::text::Node;
+use super::tree::Node;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
@@ -265,7 +265,7 @@ impl Described for Stand {
     }
 
     fn blank() -> Self {
-        Self::BLANK
+        BLANK_STAND
     }
 
     fn follow(&mut self, document: &Document) {

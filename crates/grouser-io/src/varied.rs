@@ -5,10 +5,13 @@
 
 use std::ops::RangeInclusive;
 
+use super::check::nearest;
+use super::document::Document;
 use super::error::{DocumentError, Problem};
-use super::text::{Node, Origin};
+use super::kind::Kind;
+use super::schema::range;
+use super::tree::{Node, Origin};
 use super::values::{Described, Misfit};
-use super::{Document, Kind, nearest, range};
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 

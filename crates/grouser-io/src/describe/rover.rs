@@ -1,12 +1,12 @@
 //! `rover/1`: a body and its wheels.
 
-use super::super::Kind;
 use super::super::field::{
     At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers, part,
     table, text,
 };
+use super::super::kind::Kind;
+use super::about::{assumed, name, notes, schema, source};
 use super::wheel::{self, WHEEL};
-use super::{assumed, name, notes, schema, source};
 use grouser_core::units::Vec3;
 use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, WheelUnit};
 

@@ -4,8 +4,8 @@ use super::super::field::{
     At, Beside, DEG, Field, Fill, KG_M3, KPA, Law, Laws, M, M_PER_RAD, M_PER_RAD2, ONE, Table,
     Unit, number, table, word, words,
 };
+use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
-use super::{assumed, date, model, name, notes, schema, source};
 use grouser_core::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
 use grouser_core::soil::{
     Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,

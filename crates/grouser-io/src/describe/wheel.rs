@@ -1,7 +1,7 @@
 //! `wheel/1`: the geometry of a wheel.
 
 use super::super::field::{At, M, Table, number, table, whole};
-use super::{assumed, name, notes, schema, source};
+use super::about::{assumed, name, notes, schema, source};
 use grouser_core::wheel::{Grousers, Wheel};
 
 /// A wheel before its numbers are put in.

@@ -3,9 +3,9 @@
 use std::fmt;
 use std::io;
 
-use super::super::error::number;
 use super::super::escape;
 use super::super::file::FileProblem;
+use super::super::tree::number;
 use super::limits::Excess;
 
 /// Characters of a cell that a message quotes.

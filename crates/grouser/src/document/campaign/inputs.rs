@@ -4,17 +4,16 @@ use serde_json::{Value as Json, json};
 
 use super::super::describe::uncertainty::Stated;
 use super::super::error::{DocumentError, Problem};
-use super::super::text::Node;
+use super::super::tree::Node;
 use super::super::uncertain_soil;
 use super::super::uncertainty::{Inputs, Statement};
 use super::super::values::Misfit;
 use super::super::varied::{Key, NoNumber, Numbers};
 use super::super::{Document, Kind};
-use super::Sampling;
 use super::rows::Base;
-use super::{Settings, Study};
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::{Ensemble, Matrix};
+use grouser_io::campaign::{Sampling, Settings, Study};
 
 /// What is uncertain, with everything in its place.
 #[derive(Clone, Debug)]

@@ -7,16 +7,16 @@ use super::super::columns::wheel::WHEEL;
 use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
 use super::super::table::{Cell, ColumnKind};
-use super::super::text::Node;
+use super::super::tree::Node;
 use super::super::values::Misfit;
 use super::super::varied::{Key, Numbers, Varied};
 use super::table::{Column, Role};
-use super::{Stand, Study};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
 use crate::studies::attitude::{AttitudeStudy, NoAttitude};
 use crate::studies::drive::Drive;
 use crate::vehicle::DriveLaw;
+use grouser_io::campaign::{Stand, Study};
 
 /// What a campaign varies.
 #[derive(Clone, Debug)]
