@@ -1,6 +1,6 @@
 //! What a campaign's document says, and what its numbers go into.
 
-use super::describe::uncertainty::Stated;
+use super::stated::Stated;
 use grouser_core::contact::Theory;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
@@ -9,12 +9,17 @@ use grouser_core::wheel::Wheel;
 /// What a campaign is to do.
 #[derive(Clone, Debug)]
 pub struct Settings {
+    /// What every run computes.
     pub study: Study,
     /// How many runs; with `sensitivity`, how many points.
     pub runs: u64,
+    /// Seed of all random numbers.
     pub seed: u64,
+    /// Runs that are computed and written together.
     pub shard_runs: u64,
+    /// How the samples are spread.
     pub sampling: Sampling,
+    /// Whether the runs are laid out for Sobol indices.
     pub sensitivity: bool,
     /// Whether the soil's own uncertainty is drawn from, too.
     pub soil_uncertainty: bool,
@@ -22,12 +27,13 @@ pub struct Settings {
     pub uncertain: Stated,
     /// What is varied: a scenario, or a stand.
     pub scenario: Option<Box<Scenario>>,
+    /// The test stand that is varied, in a study of wheel tests.
     pub stand: Option<Stand>,
 }
 
 impl Settings {
     /// Before the document's are put in.
-    pub const BLANK: Self = Self {
+    pub(crate) const BLANK: Self = Self {
         study: Study::Traverse,
         runs: 0,
         seed: 0,
@@ -80,8 +86,11 @@ impl Study {
 /// A wheel on a test stand.
 #[derive(Clone, Debug)]
 pub struct Stand {
+    /// Soil on the stand.
     pub soil: Soil,
+    /// Wheel under test.
     pub wheel: Wheel,
+    /// Wheel–soil model.
     pub theory: Theory,
     /// *g* [m/s²].
     pub gravity: f64,

@@ -25,11 +25,13 @@ pub enum Cell {
 }
 
 impl Cell {
+    /// A cell with a text.
     pub fn text(text: impl Into<String>) -> Self {
         Self::Text(Some(text.into()))
     }
 
     /// Nothing.
+    #[must_use]
     pub fn none(kind: ColumnKind) -> Self {
         match kind {
             ColumnKind::Float => Self::Float(None),

@@ -1,19 +1,19 @@
 //! The tables of each kind of document: the one place where a number of a document is declared.
 
 mod about;
-pub mod campaign;
-pub mod data_set;
-pub mod rover;
-pub mod scenario;
-pub mod soil;
-pub mod uncertainty;
-pub mod wheel;
+pub(crate) mod campaign;
+pub(crate) mod data_set;
+pub(crate) mod rover;
+pub(crate) mod scenario;
+pub(crate) mod soil;
+pub(crate) mod uncertainty;
+pub(crate) mod wheel;
 
 use super::field::Rows;
 use super::kind::Kind;
 
 /// What a kind of document may say.
-pub fn rows(kind: Kind) -> &'static dyn Rows {
+pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
     match kind {
         Kind::Soil => &soil::SOIL,
         Kind::Wheel => &wheel::WHEEL,

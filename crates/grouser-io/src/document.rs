@@ -19,12 +19,14 @@ pub struct Document {
 
 impl Document {
     /// The document of a kind that says something checked.
+    #[must_use]
     pub fn of(kind: Kind, said: &Json) -> Self {
         let keys = describe::rows(kind).complete(said);
         Self { keys, kind }
     }
 
     /// The same with other keys, in their places.
+    #[must_use]
     pub fn changed(&self, change: impl FnOnce(&mut Map<String, Json>)) -> Self {
         let mut keys = self.keys.clone();
         if let Json::Object(keys) = &mut keys {
@@ -34,6 +36,7 @@ impl Document {
     }
 
     /// The same with other values of some keys.
+    #[must_use]
     pub fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Self {
         let mut changed = self.clone();
         for (path, value) in values {
@@ -46,20 +49,24 @@ impl Document {
     }
 
     /// All that it says.
-    pub fn keys(&self) -> &Json {
+    pub(crate) fn keys(&self) -> &Json {
         &self.keys
     }
 
+    /// What kind of document it is.
+    #[must_use]
     pub fn kind(&self) -> Kind {
         self.kind
     }
 
     /// The document inside it at a dotted path.
+    #[must_use]
     pub fn part(&self, kind: Kind, path: &str) -> Option<Self> {
         self.get(path).map(|said| Self::of(kind, said))
     }
 
     /// A table of it on its own.
+    #[must_use]
     pub fn table(&self, key: &str) -> Self {
         Self { keys: self.keys.get(key).cloned().unwrap_or_default(), kind: self.kind }
     }
@@ -78,7 +85,7 @@ impl Document {
     }
 
     /// A dotted key by the names of today.
-    pub fn todays_key(&self, path: &str) -> String {
+    pub(crate) fn todays_key(&self, path: &str) -> String {
         let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
         describe::rows(self.kind).rename_path(&mut steps, Some(&self.keys));
         steps.join(".")
@@ -114,7 +121,7 @@ impl Document {
         self.theory_at("model")
     }
 
-    pub fn theory_at(&self, path: &str) -> Option<Theory> {
+    pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
         let name = self.text(path)?;
         Theory::ALL.into_iter().find(|theory| theory.name() == name)
     }
@@ -126,7 +133,7 @@ impl Document {
     }
 
     /// The dotted keys of all its numbers, entries of lists by their place.
-    pub fn number_keys(&self) -> Vec<String> {
+    pub(crate) fn number_keys(&self) -> Vec<String> {
         number_keys(&self.keys)
     }
 }

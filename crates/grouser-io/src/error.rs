@@ -252,12 +252,13 @@ impl From<FileProblem> for Problem {
 
 impl DocumentError {
     /// An error at a spot of a text.
+    #[must_use]
     pub fn at(origin: &Origin, problem: Problem) -> Self {
         Self::of(Place::of(origin), problem)
     }
 
     /// An error that concerns a text as a whole.
-    pub fn whole(document: impl Into<String>, problem: Problem) -> Self {
+    pub(crate) fn whole(document: impl Into<String>, problem: Problem) -> Self {
         Self::of(Place { document: document.into(), spot: None }, problem)
     }
 
@@ -266,20 +267,21 @@ impl DocumentError {
     }
 
     /// The same with a hint.
+    #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
         self.parts.hint = hint.into();
         self
     }
 
     /// The same, told where another document names the one that is wrong.
-    pub fn seen_from(mut self, origin: &Origin) -> Self {
+    pub(crate) fn seen_from(mut self, origin: &Origin) -> Self {
         self.parts.place = Place::of(origin);
         self
     }
 
     /// The same, with the spot where another document names the one that is wrong. Arguments have no
     /// lines to look at, and show the name themselves.
-    pub fn named_by(mut self, origin: &Origin) -> Self {
+    pub(crate) fn named_by(mut self, origin: &Origin) -> Self {
         let place = &self.parts.place;
         let is_argument = |spot: &Spot| spot.excerpt.is_none();
         let is_elsewhere = place.document == origin.text.label
@@ -333,7 +335,7 @@ impl DocumentError {
 }
 
 impl Place {
-    pub fn of(origin: &Origin) -> Self {
+    pub(crate) fn of(origin: &Origin) -> Self {
         Self { document: origin.text.label.clone(), spot: Some(Spot::of(origin)) }
     }
 }

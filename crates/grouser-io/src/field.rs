@@ -10,21 +10,21 @@ use serde_json::Value as Json;
 
 use super::kind::Kind;
 use super::tree::Node;
-pub use super::unit::{
+pub(crate) use super::unit::{
     DEG, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N, OF_KEY, ONE, S, Unit,
 };
 
 /// What a document, or a table in it, may say: keys in the order in which they are written.
 ///
 /// `T` is the domain's value that the numbers go to.
-pub struct Table<T: 'static> {
+pub(crate) struct Table<T: 'static> {
     /// What it describes.
     pub doc: &'static str,
     pub fields: &'static [Field<T>],
 }
 
 /// A key.
-pub struct Field<T: 'static> {
+pub(crate) struct Field<T: 'static> {
     pub key: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
@@ -36,7 +36,7 @@ pub struct Field<T: 'static> {
 
 /// What a document that does not have a key means.
 #[derive(Clone, Copy, Debug)]
-pub enum Presence {
+pub(crate) enum Presence {
     /// That something is missing.
     Needed,
     /// Nothing; a resolved document does not have it either, nor an empty text or list.
@@ -47,7 +47,7 @@ pub enum Presence {
 
 /// A value that stands for one that a document does not have.
 #[derive(Clone, Copy, Debug)]
-pub enum Fill {
+pub(crate) enum Fill {
     Number(f64),
     Whole(u64),
     Flag(bool),
@@ -57,7 +57,7 @@ pub enum Fill {
 }
 
 /// What a key takes, and where that goes.
-pub enum Shape<T: 'static> {
+pub(crate) enum Shape<T: 'static> {
     /// Kind and version of a document.
     Tag,
     Text(Text<T>),
@@ -79,11 +79,11 @@ pub enum Shape<T: 'static> {
 }
 
 /// Where a number goes; nowhere if the value follows another law.
-pub type Reach<T> = fn(&mut T) -> Option<&mut f64>;
+pub(crate) type Reach<T> = fn(&mut T) -> Option<&mut f64>;
 
 /// What a number may be.
 #[derive(Clone, Copy, Debug)]
-pub struct Number {
+pub(crate) struct Number {
     pub unit: Unit,
     pub least: f64,
     pub most: f64,
@@ -92,21 +92,21 @@ pub struct Number {
 }
 
 /// A text, at least so many characters long.
-pub struct Text<T: 'static> {
+pub(crate) struct Text<T: 'static> {
     pub least: u64,
     pub format: Option<&'static str>,
     pub(crate) put: fn(&mut T, &str),
 }
 
 /// Texts, at least as many and at most as many, and where each goes by its place.
-pub struct Texts<T: 'static> {
+pub(crate) struct Texts<T: 'static> {
     pub least: u64,
     pub most: Option<u64>,
     pub put: fn(&mut T, usize, &str),
 }
 
 /// A whole number.
-pub struct Whole<T: 'static> {
+pub(crate) struct Whole<T: 'static> {
     pub least: u64,
     pub most: u64,
     pub format: &'static str,
@@ -114,7 +114,7 @@ pub struct Whole<T: 'static> {
 }
 
 /// A word of a closed set, and what it makes of the value.
-pub struct Word<T: 'static> {
+pub(crate) struct Word<T: 'static> {
     pub name: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
@@ -123,7 +123,7 @@ pub struct Word<T: 'static> {
 }
 
 /// A list of numbers.
-pub struct Numbers<T: 'static> {
+pub(crate) struct Numbers<T: 'static> {
     pub number: Number,
     pub form: Form,
     /// Makes room for as many, or for one alone.
@@ -133,7 +133,7 @@ pub struct Numbers<T: 'static> {
 
 /// How numbers are written.
 #[derive(Clone, Copy, Debug)]
-pub enum Form {
+pub(crate) enum Form {
     /// A list of as many.
     Exactly(u64),
     /// One alone, or a list: what either is.
@@ -198,7 +198,7 @@ impl Reached<'_> {
 // ---- Rows ----
 
 /// A number that must be there.
-pub const fn number<T>(
+pub(crate) const fn number<T>(
     key: &'static str,
     unit: Unit,
     range: RangeInclusive<f64>,
@@ -210,7 +210,7 @@ pub const fn number<T>(
 }
 
 /// A number above zero that must be there.
-pub const fn positive<T>(
+pub(crate) const fn positive<T>(
     key: &'static str,
     unit: Unit,
     most: f64,
@@ -222,7 +222,7 @@ pub const fn positive<T>(
 }
 
 /// A list of as many numbers as the domain has there.
-pub const fn numbers<T>(
+pub(crate) const fn numbers<T>(
     key: &'static str,
     unit: Unit,
     range: RangeInclusive<f64>,
@@ -236,7 +236,7 @@ pub const fn numbers<T>(
 }
 
 /// A whole number.
-pub const fn whole<T>(
+pub(crate) const fn whole<T>(
     key: &'static str,
     range: RangeInclusive<u64>,
     format: &'static str,
@@ -248,14 +248,18 @@ pub const fn whole<T>(
 }
 
 /// Whether something is so; it is not, if nothing is said.
-pub const fn flag<T>(key: &'static str, doc: &'static str, put: fn(&mut T, bool)) -> Field<T> {
+pub(crate) const fn flag<T>(
+    key: &'static str,
+    doc: &'static str,
+    put: fn(&mut T, bool),
+) -> Field<T> {
     field(key, doc, Shape::Flag(put)).otherwise(Fill::Flag(false))
 }
 
 /// A text that must be there.
 ///
 /// * `least`: its length
-pub const fn text<T>(
+pub(crate) const fn text<T>(
     key: &'static str,
     least: u64,
     doc: &'static str,
@@ -265,41 +269,45 @@ pub const fn text<T>(
 }
 
 /// A text that does not go into the domain's value.
-pub const fn note<T>(key: &'static str, doc: &'static str) -> Field<T> {
+pub(crate) const fn note<T>(key: &'static str, doc: &'static str) -> Field<T> {
     text(key, 0, doc, nothing_with)
 }
 
 /// A day, as text.
-pub const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
+pub(crate) const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
     let text = Text { least: 0, format: Some("date"), put: nothing_with };
     field(key, doc, Shape::Text(text)).optional()
 }
 
 /// Some texts; none are left out.
-pub const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
+pub(crate) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
     field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
 }
 
 /// One of some words.
-pub const fn words<T>(key: &'static str, doc: &'static str, words: &'static [Word<T>]) -> Field<T> {
+pub(crate) const fn words<T>(
+    key: &'static str,
+    doc: &'static str,
+    words: &'static [Word<T>],
+) -> Field<T> {
     field(key, doc, Shape::Words(words))
 }
 
 /// A word, and what it makes of the value.
-pub const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Word<T> {
+pub(crate) const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Word<T> {
     Word { name, formerly: None, doc, put }
 }
 
 impl<T> Word<T> {
     /// The same, which had another name in earlier versions.
-    pub const fn formerly(mut self, name: &'static str) -> Self {
+    pub(crate) const fn formerly(mut self, name: &'static str) -> Self {
         self.formerly = Some(name);
         self
     }
 }
 
 /// A table.
-pub const fn table<T>(
+pub(crate) const fn table<T>(
     key: &'static str,
     doc: &'static str,
     inner: &'static dyn Inner<T>,
@@ -308,7 +316,7 @@ pub const fn table<T>(
 }
 
 /// At least so many tables.
-pub const fn list<T>(
+pub(crate) const fn list<T>(
     key: &'static str,
     doc: &'static str,
     each: &'static dyn Inner<T>,
@@ -318,7 +326,7 @@ pub const fn list<T>(
 }
 
 /// Another document, or its name.
-pub const fn part<T>(
+pub(crate) const fn part<T>(
     key: &'static str,
     kind: Kind,
     doc: &'static str,
@@ -327,37 +335,37 @@ pub const fn part<T>(
     field(key, doc, Shape::Part(kind, inner))
 }
 
-pub const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
+pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
     Field { key, formerly: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
-pub fn nothing<T>(_: &mut T) {}
+pub(crate) fn nothing<T>(_: &mut T) {}
 
 /// The same for a text.
 fn nothing_with<T>(_: &mut T, _: &str) {}
 
 impl<T> Field<T> {
     /// The same, that may be left out.
-    pub const fn optional(mut self) -> Self {
+    pub(crate) const fn optional(mut self) -> Self {
         self.presence = Presence::Optional;
         self
     }
 
     /// The same, with a value for documents that leave it out.
-    pub const fn otherwise(mut self, fill: Fill) -> Self {
+    pub(crate) const fn otherwise(mut self, fill: Fill) -> Self {
         self.presence = Presence::Otherwise(fill);
         self
     }
 
     /// The same, which had another key in earlier versions.
-    pub const fn formerly(mut self, key: &'static str) -> Self {
+    pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
         self.formerly = Some(key);
         self
     }
 
     /// The same of a number.
-    pub const fn or(self, number: f64) -> Self {
+    pub(crate) const fn or(self, number: f64) -> Self {
         self.otherwise(Fill::Number(number))
     }
 
@@ -380,7 +388,7 @@ impl<T> Field<T> {
 }
 
 impl Fill {
-    pub fn to_json(self) -> Json {
+    pub(crate) fn to_json(self) -> Json {
         match self {
             Self::Number(number) => Json::from(number),
             Self::Whole(number) => Json::from(number),
@@ -395,7 +403,7 @@ impl Fill {
 
 impl<T> Table<T> {
     /// What a table that does not have a key means by that.
-    pub fn implied(field: &Field<T>) -> Option<Json> {
+    pub(crate) fn implied(field: &Field<T>) -> Option<Json> {
         match field.presence {
             Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
             Presence::Needed | Presence::Optional => None,
@@ -406,25 +414,25 @@ impl<T> Table<T> {
 // ---- Tables of one type in values of another ----
 
 /// A table for a part of the value.
-pub struct At<T: 'static, P: 'static> {
+pub(crate) struct At<T: 'static, P: 'static> {
     pub inner: &'static dyn Inner<P>,
     pub at: fn(&mut T) -> &mut P,
 }
 
 /// A table for each entry of a list.
-pub struct Each<T: 'static, P: 'static> {
+pub(crate) struct Each<T: 'static, P: 'static> {
     pub inner: &'static dyn Inner<P>,
     pub list: fn(&mut T) -> &mut Vec<P>,
     pub blank: fn() -> P,
 }
 
 /// A table that does not go into the value, but is read on its own.
-pub struct Beside<P: 'static>(pub &'static dyn Inner<P>);
+pub(crate) struct Beside<P: 'static>(pub &'static dyn Inner<P>);
 
 // ---- Laws ----
 
 /// A table whose keys depend on a word in it.
-pub struct Laws<T: 'static> {
+pub(crate) struct Laws<T: 'static> {
     /// What it describes.
     pub doc: &'static str,
     /// The key of that word.
@@ -437,7 +445,7 @@ pub struct Laws<T: 'static> {
 }
 
 /// One of several laws.
-pub struct Law<T: 'static> {
+pub(crate) struct Law<T: 'static> {
     pub name: &'static str,
     /// What the word itself says, where tables may leave it out.
     pub word: Option<&'static str>,

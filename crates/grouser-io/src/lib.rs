@@ -17,7 +17,7 @@
 //! own. An error is a [`DocumentError`], with the line and the column.
 //!
 //! Units and degrees are converted here and nowhere else. A number of a document (its key, unit, range, meaning and
-//! place in the value) is one row of a table in [`describe`]; a result (its name, unit, meaning and origin) is one
+//! place in the value) is one row of a table; a result (its name, unit, meaning and origin) is one
 //! entry of [`columns`].
 //!
 //! Most users take the crate `grouser`, where all of this is the module `document`.
@@ -36,11 +36,11 @@ mod cell;
 mod check;
 pub mod columns;
 mod data_set;
-pub mod describe;
+mod describe;
 mod document;
 pub mod error;
 pub mod escape;
-pub mod field;
+mod field;
 pub mod file;
 mod gravity;
 mod json_schema;
@@ -55,14 +55,15 @@ mod rows;
 mod samples;
 mod schema;
 mod source;
+mod stated;
 pub mod statistics;
 pub mod table;
 mod text;
-pub mod tree;
-pub mod uncertain_soil;
+mod tree;
+mod uncertain_soil;
 pub mod uncertainty;
 pub mod unit;
-pub mod values;
+mod values;
 pub mod varied;
 
 pub use check::nearest;
@@ -81,7 +82,8 @@ pub use read::{
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
-pub use tree::Companion;
-pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
+pub use tree::{Companion, Entry, Node, Origin};
+pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncertainty};
 pub use unit::{UNITS, Unit, unit_of};
+pub use values::{Described, Misfit};
 pub use varied::scenario_with;

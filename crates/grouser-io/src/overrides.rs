@@ -220,7 +220,7 @@ impl Overrides {
     }
 
     /// Puts the values for one kind of document into its tree.
-    pub fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
+    pub(crate) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
         self.put(kind, tree, |one| !one.is_within_a_list())
     }
 
@@ -259,7 +259,7 @@ impl Overrides {
     }
 
     /// What was set in a document whose `source` speaks for its values.
-    pub fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
+    pub(crate) fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
         let changes = move |one: &&Override| one.kind == kind && one.changes_a_source;
         self.all.iter().filter(changes).map(|one| {
             let written = &one.value.origin;

@@ -73,6 +73,9 @@ pub fn kind_of_source(source: &Source) -> Result<Kind, DocumentError> {
 }
 
 /// Where a document has a key, with the tables it stands in.
+///
+/// # Errors
+/// [`DocumentError`] if the document cannot be read or is not TOML.
 pub fn place_of(source: &Source, key: &str) -> Result<Place, DocumentError> {
     let tree = text::parse(&source.read()?)?;
     Ok(Place::of(tree.origin_of(key)))
@@ -100,11 +103,18 @@ fn read<V: Described>(
 
 /// A document that was found, checked and completed, but not yet understood.
 pub struct Written {
+    /// Its values, each with the place where it was written.
     pub tree: Node,
+    /// The document with every named part in its place and every default filled in.
     pub document: Document,
+    /// What was assumed, each with the name of the document that states it.
     pub assumptions: Vec<String>,
 }
 
+/// Finds a document, reads it with the parts that it names, checks it and fills in its defaults.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
 pub fn written(
     kind: Kind,
     source: &Source,

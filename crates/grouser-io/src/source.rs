@@ -73,7 +73,7 @@ impl Source {
     }
 
     /// [`find`](Self::find), with relative paths from a folder.
-    pub fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+    pub(crate) fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
         if let Some(preset) = presets::preset(kind, name) {
             return Ok(Self::Preset(preset));
         }
@@ -93,7 +93,7 @@ impl Source {
         Err(DocumentError::whole(escape::line(name).into_owned(), problem).with_hint(hint))
     }
 
-    pub fn read(&self) -> Result<Arc<Text>, DocumentError> {
+    pub(crate) fn read(&self) -> Result<Arc<Text>, DocumentError> {
         let mut beside = Vec::new();
         let (label, content, folder) = match self {
             Self::Preset(preset) => {

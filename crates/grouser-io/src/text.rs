@@ -17,7 +17,7 @@ const DEEPEST: usize = 16;
 ///
 /// The parser gives up at 80 brackets and at 80 dots, which together can nest a few thousand
 /// tables: little enough for any stack. Our own limit is far below.
-pub fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
+pub(crate) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
     let document = DeTable::parse(&text.content).map_err(|error| {
         let span = error.span().unwrap_or(0..0);

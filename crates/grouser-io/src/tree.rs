@@ -12,7 +12,7 @@ use serde_json::Value as Json;
 
 /// A text that values come from.
 #[derive(Debug, Default)]
-pub struct Text {
+pub(crate) struct Text {
     /// Its name in messages.
     pub label: String,
     /// What it says.
@@ -27,7 +27,7 @@ pub struct Text {
 
 impl Text {
     /// The bytes of the line around a byte, without its end.
-    pub fn line_around(&self, byte: usize) -> Range<usize> {
+    pub(crate) fn line_around(&self, byte: usize) -> Range<usize> {
         let mut byte = byte.min(self.content.len());
         while !self.content.is_char_boundary(byte) {
             byte -= 1;
@@ -41,20 +41,21 @@ impl Text {
 /// Where a key or a value was written.
 #[derive(Clone, Debug)]
 pub struct Origin {
-    pub text: Arc<Text>,
-    pub span: Range<usize>,
+    pub(crate) text: Arc<Text>,
+    pub(crate) span: Range<usize>,
 }
 
 /// A value and where it was written.
 #[derive(Clone, Debug)]
 pub struct Node {
-    pub value: Value,
+    pub(crate) value: Value,
+    /// Where it was written.
     pub origin: Origin,
 }
 
 /// A value as TOML knows it.
 #[derive(Clone, Debug)]
-pub enum Value {
+pub(crate) enum Value {
     String(String),
     Integer(i64),
     Float(f64),
@@ -67,19 +68,22 @@ pub enum Value {
 /// A key of a table with its value.
 #[derive(Clone, Debug)]
 pub struct Entry {
-    pub key: String,
+    pub(crate) key: String,
+    /// Where the key was written.
     pub key_origin: Origin,
+    /// Its value.
     pub node: Node,
 }
 
 impl Node {
     /// A table's entry of a name.
+    #[must_use]
     pub fn entry(&self, key: &str) -> Option<&Entry> {
         self.entries().iter().find(|entry| entry.key == key)
     }
 
     /// The same, to be changed.
-    pub fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
+    pub(crate) fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
         match &mut self.value {
             Value::Table(entries) => entries.iter_mut().find(|entry| entry.key == key),
             _ => None,
@@ -87,7 +91,7 @@ impl Node {
     }
 
     /// A table's entries; none of anything else.
-    pub fn entries(&self) -> &[Entry] {
+    pub(crate) fn entries(&self) -> &[Entry] {
         match &self.value {
             Value::Table(entries) => entries,
             _ => &[],
@@ -97,6 +101,7 @@ impl Node {
     /// Where a key further down was written, or the nearest table above it that was.
     ///
     /// * `path`: keys and, for lists, indices, joined by dots
+    #[must_use]
     pub fn origin_of(&self, path: &str) -> &Origin {
         let mut origin = &self.origin;
         let mut node = self;
@@ -121,7 +126,7 @@ impl Node {
     }
 
     /// The tree without its origins.
-    pub fn to_json(&self) -> Json {
+    pub(crate) fn to_json(&self) -> Json {
         match &self.value {
             Value::String(string) | Value::Date(string) => Json::from(string.as_str()),
             Value::Integer(integer) => Json::from(*integer),
@@ -135,7 +140,7 @@ impl Node {
     }
 
     /// The value in a few words, as messages quote it.
-    pub fn describe(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         /// Characters of a string that a message quotes.
         const QUOTED: usize = 40;
         match &self.value {

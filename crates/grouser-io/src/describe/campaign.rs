@@ -6,12 +6,13 @@ use super::super::field::{
     words,
 };
 use super::super::kind::Kind;
+use super::super::stated::Stated;
 use super::about::{assumed, gravity, model, notes, purpose, schema};
 use super::scenario::{self, SCENARIO};
 use super::soil::{self, SOIL};
 use super::uncertainty::{
     CORRELATIONS, CORRELATIONS_DOC, FILE_DOC, INLINE, PARAMETERS, PARAMETERS_DOC, SAMPLES_DOC,
-    Stated, put_file,
+    put_file,
 };
 use super::wheel::{self, WHEEL};
 use grouser_core::contact::Theory;
@@ -26,7 +27,7 @@ const LARGEST_SEED: u64 = (1 << 53) - 1;
 /// Seconds of work for a traverse, a fraction of one for an attitude; some hundred kilobytes.
 const SHARD_RUNS: u64 = 1024;
 
-pub static CAMPAIGN: Table<Settings> = Table {
+pub(crate) static CAMPAIGN: Table<Settings> = Table {
     doc: "Many runs of one study, over numbers that are not known exactly.",
     fields: &[
         schema("campaign/1"),
@@ -135,7 +136,7 @@ pub static CAMPAIGN: Table<Settings> = Table {
 };
 
 /// A stand before its numbers are put in.
-pub const BLANK_STAND: Stand = Stand {
+pub(crate) const BLANK_STAND: Stand = Stand {
     soil: soil::BLANK,
     wheel: wheel::BLANK,
     theory: Theory::Ishigami,
@@ -145,7 +146,7 @@ pub const BLANK_STAND: Stand = Stand {
     slip_angle: 0.0,
 };
 
-pub static STAND: Table<Stand> = Table {
+pub(crate) static STAND: Table<Stand> = Table {
     doc: "A wheel on a test stand.",
     fields: &[
         part(

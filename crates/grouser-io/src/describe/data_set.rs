@@ -12,7 +12,7 @@ pub(crate) struct Common {
     pub(crate) gravity: f64,
 }
 
-pub static DATA_SET: Table<Common> = Table {
+pub(crate) static DATA_SET: Table<Common> = Table {
     doc: "A file of measured wheel tests, and the wheels and soils in it.",
     fields: &[
         schema("data-set/1"),

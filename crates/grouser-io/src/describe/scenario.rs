@@ -19,7 +19,7 @@ use grouser_core::vehicle::drive::SlipTarget;
 use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
 /// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
-pub const FASTEST: f64 = 10.0;
+pub(crate) const FASTEST: f64 = 10.0;
 
 /// Allowed speeds of a rim, ω r_s [m/s].
 pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
@@ -36,10 +36,11 @@ const PAPERS_DURATION: f64 = 20.0;
 const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
 
 /// A rover by its parts.
-pub static ROVER_OF_PARTS: At<Rover, RoverParts> = At { inner: &ROVER, at: Rover::parts_mut };
+pub(crate) static ROVER_OF_PARTS: At<Rover, RoverParts> =
+    At { inner: &ROVER, at: Rover::parts_mut };
 
 /// A scenario before its numbers are put in.
-pub fn blank() -> Scenario {
+pub(crate) fn blank() -> Scenario {
     Scenario {
         rover: Rover::draft(rover::BLANK),
         site: Site::plane(soil::BLANK, 0.0, 0.0),
@@ -53,7 +54,7 @@ pub fn blank() -> Scenario {
     }
 }
 
-pub static SCENARIO: Table<Scenario> = Table {
+pub(crate) static SCENARIO: Table<Scenario> = Table {
     doc: "One run of one rover on one plane of soil.",
     fields: &[
         schema("scenario/1"),

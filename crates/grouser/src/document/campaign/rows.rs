@@ -1,15 +1,13 @@
 //! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
 
-use super::super::Document;
 use super::super::columns::heading::{Held, held};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
 use super::super::table::{Cell, ColumnKind};
-use super::super::tree::Node;
-use super::super::values::Misfit;
 use super::super::varied::{Key, Numbers, Varied};
+use super::super::{Document, Misfit, Node};
 use super::table::{Column, Role};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
