@@ -1,7 +1,6 @@
 //! The settings of a campaign's document.
 
-use super::describe::uncertainty::Stated;
-use super::describe::{soil, wheel};
+use super::stated::Stated;
 use grouser_core::contact::Theory;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
@@ -10,12 +9,17 @@ use grouser_core::wheel::Wheel;
 /// The settings of a campaign.
 #[derive(Clone, Debug)]
 pub struct Settings {
+    /// What every run computes.
     pub study: Study,
     /// How many runs; with `sensitivity`, how many points.
     pub runs: u64,
+    /// Seed of all random numbers.
     pub seed: u64,
+    /// Runs that are computed and written together.
     pub shard_runs: u64,
+    /// How the samples are spread.
     pub sampling: Sampling,
+    /// Whether the runs are laid out for Sobol indices.
     pub sensitivity: bool,
     /// Whether the soil's own uncertainty is sampled, too.
     pub soil_uncertainty: bool,
@@ -23,12 +27,13 @@ pub struct Settings {
     pub uncertain: Stated,
     /// The base that is varied: a scenario, or a stand.
     pub scenario: Option<Box<Scenario>>,
+    /// The test stand that is varied, in a study of wheel tests.
     pub stand: Option<Stand>,
 }
 
 impl Settings {
     /// Before the document's are put in.
-    pub const BLANK: Self = Self {
+    pub(crate) const BLANK: Self = Self {
         study: Study::Traverse,
         runs: 0,
         seed: 0,
@@ -81,8 +86,11 @@ impl Study {
 /// A wheel on a test stand.
 #[derive(Clone, Debug)]
 pub struct Stand {
+    /// Soil on the stand.
     pub soil: Soil,
+    /// Wheel under test.
     pub wheel: Wheel,
+    /// Wheel–soil model.
     pub theory: Theory,
     /// *g* [m/s²].
     pub gravity: f64,
@@ -92,17 +100,4 @@ pub struct Stand {
     pub slip_ratio: f64,
     /// *β* [rad].
     pub slip_angle: f64,
-}
-
-impl Stand {
-    /// Before its numbers are put in.
-    pub const BLANK: Self = Self {
-        soil: soil::BLANK,
-        wheel: wheel::BLANK,
-        theory: Theory::Ishigami,
-        gravity: 0.0,
-        load: 0.0,
-        slip_ratio: 0.0,
-        slip_angle: 0.0,
-    };
 }

@@ -5,10 +5,10 @@
 
 use serde_json::Value as Json;
 
-use super::Kind;
-use super::error::{DocumentError, Problem, number};
+use super::error::{DocumentError, Problem};
+use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, words};
-use super::text::{Entry, Node, Origin, Value};
+use super::tree::{Entry, Node, Origin, Value, number};
 
 /// That a tree is a document of its kind.
 ///

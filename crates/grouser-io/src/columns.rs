@@ -10,7 +10,7 @@ pub mod wheel;
 
 use serde::ser::SerializeMap;
 
-use super::table::{Cell, ColumnKind};
+use super::cell::{Cell, ColumnKind};
 use super::unit::{DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, S, UNITS, Unit, W};
 use crate::statistics::{Band, Probability};
 
@@ -106,6 +106,8 @@ pub const STATUS: &str = "status";
 /// Status of a row that has its results.
 pub const OK: &str = "ok";
 
+/// A quantity of this name, which ends with its unit.
+#[must_use]
 pub const fn quantity(name: &'static str, unit: Unit) -> Quantity {
     Quantity { name, unit }
 }
@@ -151,34 +153,42 @@ impl Quantity {
         Column { name: self.name, unit: self.unit, doc, value }
     }
 
+    /// A column of this quantity that every row has.
     pub const fn number<R>(self, doc: &'static str, of: fn(&R) -> f64) -> Column<R> {
         self.column(doc, Value::Number(of))
     }
 
+    /// A column of settings, written as they were given: 15°, not 14.999999999999998°.
     pub const fn given<R>(self, doc: &'static str, of: fn(&R) -> Option<f64>) -> Column<R> {
         self.column(doc, Value::Given(of))
     }
 
+    /// A column of this quantity that some rows do not have.
     pub const fn maybe<R>(self, doc: &'static str, of: fn(&R) -> Option<f64>) -> Column<R> {
         self.column(doc, Value::Maybe(of))
     }
 
+    /// A column of readings of a test stand, rounded to a ten-thousandth of the unit.
     pub const fn reading<R>(self, doc: &'static str, of: fn(&R) -> Option<f64>) -> Column<R> {
         self.column(doc, Value::Reading(of))
     }
 
+    /// Three columns: the 2.5 %, 50 % and 97.5 % quantiles of this quantity over samples.
     pub const fn band<R>(self, doc: &'static str, of: fn(&R) -> Option<Band>) -> Column<R> {
         self.column(doc, Value::Band(of))
     }
 
+    /// Two columns: the measured and the predicted value.
     pub const fn measured<R>(self, doc: &'static str, of: fn(&R) -> [Option<f64>; 2]) -> Column<R> {
         self.column(doc, Value::Measured(of))
     }
 
+    /// Three columns: the measured value, its standard deviation, and the predicted value.
     pub const fn compared<R>(self, doc: &'static str, of: fn(&R) -> [Option<f64>; 3]) -> Column<R> {
         self.column(doc, Value::Compared(of))
     }
 
+    /// Three columns: a probability and the ends of its 95 % confidence interval.
     pub const fn probability<R>(
         self,
         doc: &'static str,
@@ -275,7 +285,7 @@ impl<R> Column<R> {
     }
 
     /// What a row has under one of the [`names`](Self::names); nothing if there is no row.
-    pub fn cell(&self, row: Option<&R>, end: usize) -> Cell {
+    pub(crate) fn cell(&self, row: Option<&R>, end: usize) -> Cell {
         let Some(row) = row else { return Cell::none(self.kind()) };
         let unit = self.unit;
         let float = |value: Option<f64>| Cell::Float(value.map(|value| unit.from_si(value)));
@@ -297,6 +307,9 @@ impl<R> Column<R> {
     }
 
     /// Writes a row's value as an entry of an object of JSON, or several.
+    ///
+    /// # Errors
+    /// The serializer's.
     pub fn write<M: SerializeMap>(&self, map: &mut M, row: &R) -> Result<(), M::Error> {
         if self.ends() == 1 {
             return map.serialize_entry(self.name, &self.cell(Some(row), 0));

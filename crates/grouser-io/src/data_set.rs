@@ -2,15 +2,16 @@
 
 use serde::Deserialize;
 
-use super::describe::data_set::DATA_SET;
+use super::describe::data_set::{Common, DATA_SET};
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
+use super::kind::Kind;
+use super::loaded::Loaded;
 use super::measurements::Condition;
-use super::read::{
-    LoadedDataSet, LoadedSoil, LoadedWheel, Written, blame_name, read_soil, read_wheel, written,
-};
-use super::text::{Node, Value};
-use super::{Kind, Loaded, Overrides, Source};
+use super::overrides::Overrides;
+use super::read::{LoadedSoil, LoadedWheel, Written, blame_name, read_soil, read_wheel, written};
+use super::source::Source;
+use super::tree::{Node, Value};
 
 /// A file of measured wheel tests, and the wheels and soils in it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,6 +23,9 @@ pub struct DataSet {
     /// Its parts, each with one wheel.
     pub cases: Vec<DataSetCase>,
 }
+
+/// A data set that was read.
+pub type LoadedDataSet = Loaded<DataSet>;
 
 /// A part as the document names it.
 #[derive(Deserialize)]
@@ -46,10 +50,18 @@ pub struct DataSetCase {
     pub soils: Vec<(String, LoadedSoil)>,
 }
 
-pub(super) fn read(source: &Source, overrides: &Overrides) -> Result<LoadedDataSet, DocumentError> {
+/// Reads a data set with the wheels and soils that it names; the measurements themselves are read
+/// by [`measurements::read`].
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_data_set(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedDataSet, DocumentError> {
     let Written { tree, document, assumptions } = written(Kind::DataSet, source, overrides)?;
-    let mut value = DataSet::default();
-    DATA_SET.put(&mut value, document.keys());
+    let mut common = Common::default();
+    DATA_SET.put(&mut common, document.keys());
     let nodes = match tree.entry("case").map(|entry| &entry.node.value) {
         Some(Value::List(nodes)) => nodes.as_slice(),
         _ => &[],
@@ -57,7 +69,8 @@ pub(super) fn read(source: &Source, overrides: &Overrides) -> Result<LoadedDataS
     let sections = document.get("case").cloned().unwrap_or_default();
     let sections: Vec<CaseSection> = serde_json::from_value(sections).unwrap_or_default();
     let cases = sections.iter().zip(nodes).map(|(case, node)| case.read(node));
-    value.cases = cases.collect::<Result<_, _>>()?;
+    let Common { file, gravity } = common;
+    let value = DataSet { file, gravity, cases: cases.collect::<Result<_, _>>()? };
     Ok(Loaded { document, value, uncertain: None, assumptions, companions: Vec::new() })
 }
 

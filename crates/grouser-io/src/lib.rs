@@ -17,7 +17,7 @@
 //! own. An error is a [`DocumentError`], with the line and the column.
 //!
 //! Units and degrees are converted here and nowhere else. A number of a document (its key, unit, range, meaning and
-//! place in the value) is one row of a table in [`describe`]; a result (its name, unit, meaning and origin) is one
+//! place in the value) is one row of a table; a result (its name, unit, meaning and origin) is one
 //! entry of [`columns`].
 //!
 //! Most users take the crate `grouser`, where all of this is the module `document`.
@@ -32,14 +32,18 @@
 //! ```
 
 pub mod campaign;
+mod cell;
 mod check;
 pub mod columns;
 mod data_set;
-pub mod describe;
+mod describe;
+mod document;
 pub mod error;
 pub mod escape;
-pub mod field;
+mod field;
 pub mod file;
+mod gravity;
+mod json_schema;
 mod kind;
 mod loaded;
 pub mod measurements;
@@ -47,60 +51,39 @@ mod notes;
 mod overrides;
 mod presets;
 mod read;
+mod rows;
 mod samples;
 mod schema;
 mod source;
+mod stated;
 pub mod statistics;
 pub mod table;
-pub mod text;
-pub mod uncertain_soil;
+mod text;
+mod tree;
+mod uncertain_soil;
 pub mod uncertainty;
 pub mod unit;
-pub mod values;
+mod values;
 pub mod varied;
 
-use std::ops::RangeInclusive;
-
-use grouser_core::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY};
-use serde::Serialize;
-
 pub use check::nearest;
-pub use data_set::{DataSet, DataSetCase};
+pub use data_set::{DataSet, DataSetCase, LoadedDataSet, read_data_set};
+pub use describe::scenario::RIM_SPEED_M_S;
+pub use document::{Document, to_toml};
 pub use error::{DocumentError, Place, Problem, Spot};
+pub use gravity::{GRAVITIES, gravity};
 pub use kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
-pub use loaded::{Companion, Document, Loaded, fnv_1a};
+pub use loaded::{Loaded, fnv_1a};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
 pub use read::{
-    LoadedDataSet, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source,
-    place_of, read_data_set, read_rover, read_scenario, read_soil, read_wheel, written,
+    LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source, place_of,
+    read_rover, read_scenario, read_soil, read_wheel, written,
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
-pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil};
+pub use tree::{Companion, Entry, Node, Origin};
+pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncertainty};
 pub use unit::{UNITS, Unit, unit_of};
+pub use values::{Described, Misfit};
 pub use varied::scenario_with;
-
-use describe::scenario::FASTEST;
-
-/// Allowed speeds of a rim, ω r_s [m/s].
-pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
-
-/// A document as TOML.
-///
-/// # Panics
-/// Never: documents have text keys and finite numbers only.
-#[must_use]
-pub fn to_toml<D: Serialize>(document: &D) -> String {
-    toml::to_string_pretty(document).expect("text keys and finite numbers")
-}
-
-/// Gravities by name, with their values [m/s²].
-pub const GRAVITIES: [(&str, f64); 3] =
-    [("earth", EARTH_GRAVITY), ("moon", MOON_GRAVITY), ("mars", MARS_GRAVITY)];
-
-/// A gravity [m/s²] by its name: `earth`, `moon` or `mars`.
-#[must_use]
-pub fn gravity(name: &str) -> Option<f64> {
-    GRAVITIES.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
-}

@@ -22,6 +22,7 @@ mod notes;
 mod row;
 mod source;
 pub mod table;
+mod taken;
 pub mod wheel_tests;
 
 use std::collections::HashMap;
@@ -35,9 +36,10 @@ pub use import::{Imported, Layout, Mapping, SlipDefinition, import};
 pub use limits::{Excess, Limits};
 pub use source::Source;
 
-use super::{escape, file};
-use notes::LeftOut;
-use row::{Header, Row, Taken};
+use super::escape;
+use super::file;
+use row::{Header, name_of};
+use taken::{LeftOut, Row, Taken};
 use wheel_tests::{Cell, Quantity, Trial, WheelTests};
 
 /// Which rows of a file are wanted.
@@ -114,12 +116,6 @@ pub fn read_texts(path: &Path, limits: Limits) -> Result<TextTable, MeasurementE
         rows.push((line, record.iter().map(|text| escape::plain(text).to_owned()).collect()));
     }
     Ok(TextTable { header, rows })
-}
-
-/// A column's name: without the mark that some programs begin a text with, and without the
-/// apostrophe that keeps a spreadsheet from computing it.
-fn name_of(cell: &str) -> String {
-    escape::plain(cell.trim_start_matches('\u{feff}')).to_owned()
 }
 
 /// Reads measurements from anywhere.

@@ -4,8 +4,9 @@ use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
 use super::kind::EACH;
-use super::text::{Entry, Node, Value};
-use super::{Kind, Overrides};
+use super::kind::Kind;
+use super::overrides::Overrides;
+use super::tree::{Entry, Node, Value};
 
 /// Calls a function with each document inside one.
 fn for_each_inside(

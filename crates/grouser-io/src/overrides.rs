@@ -3,10 +3,13 @@
 use std::sync::Arc;
 
 use super::check::{keys_at, nearest};
+use super::describe;
 use super::error::{DocumentError, Problem};
 use super::field::Names;
-use super::text::{Entry, Node, Origin, Text, Value, parse};
-use super::{Companion, Kind, describe};
+use super::kind::Kind;
+use super::text::parse;
+use super::tree::Companion;
+use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// Values that replace those of documents, applied in order before anything is checked.
 #[derive(Clone, Debug, Default)]
@@ -217,7 +220,7 @@ impl Overrides {
     }
 
     /// Puts the values for one kind of document into its tree.
-    pub fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
+    pub(crate) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
         self.put(kind, tree, |one| !one.is_within_a_list())
     }
 
@@ -255,8 +258,8 @@ impl Overrides {
         Ok(())
     }
 
-    /// The values set in a document that states its source.
-    pub fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
+    /// What was set in a document whose `source` speaks for its values.
+    pub(crate) fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
         let changes = move |one: &&Override| one.kind == kind && one.changes_a_source;
         self.all.iter().filter(changes).map(|one| {
             let written = &one.value.origin;

@@ -1,6 +1,6 @@
 //! The documents that come with the program: those of the crate's folder `data/`.
 
-use super::{Kind, Overrides, Source, written};
+use super::kind::Kind;
 
 /// A document that comes with the program.
 #[derive(Debug, PartialEq, Eq)]
@@ -30,20 +30,6 @@ pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
 
 /// Names of presets in earlier versions, and those of today.
 const FORMER_NAMES: [(&str, &str); 1] = [("campaign-attitude", "campaign-heading")];
-
-impl Preset {
-    /// The document's name and source.
-    ///
-    /// # Panics
-    /// Never: every preset is read by a test.
-    #[must_use]
-    pub fn title_and_source(&'static self) -> (String, String) {
-        let document = written(self.kind, &Source::Preset(self), &Overrides::none())
-            .expect("every preset is read by a test")
-            .document;
-        (document.name().to_owned(), document.source().to_owned())
-    }
-}
 
 macro_rules! preset {
     ($kind:ident, $folder:literal, $name:literal) => {

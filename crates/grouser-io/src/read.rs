@@ -5,16 +5,21 @@ use grouser_core::soil::Soil;
 use grouser_core::vehicle::Rover;
 use grouser_core::wheel::Wheel;
 
+use super::check;
 use super::describe;
+use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
 use super::field::Names;
 use super::kind::{EACH, Kind, Part};
-use super::loaded::{Document, Loaded};
+use super::loaded::Loaded;
+use super::notes;
 use super::overrides::Overrides;
+use super::presets::Preset;
 use super::source::Source;
-use super::text::{self, Entry, Node, Origin, Value};
+use super::text;
+use super::tree::{Entry, Node, Origin, Value};
+use super::uncertain_soil;
 use super::values::Described;
-use super::{DataSet, check, data_set, notes, uncertain_soil};
 
 /// A soil that was read.
 pub type LoadedSoil = Loaded<Soil>;
@@ -24,9 +29,6 @@ pub type LoadedWheel = Loaded<Wheel>;
 pub type LoadedRover = Loaded<Rover>;
 /// A scenario that was read.
 pub type LoadedScenario = Loaded<Scenario>;
-/// A data set that was read.
-pub type LoadedDataSet = Loaded<DataSet>;
-
 /// Reads a soil.
 ///
 /// # Errors
@@ -62,18 +64,6 @@ pub fn read_scenario(
     read(Kind::Scenario, source, overrides)
 }
 
-/// Reads a data set with the wheels and soils that it names; the measurements themselves are read
-/// by [`measurements::read`].
-///
-/// # Errors
-/// [`DocumentError`] for whatever is wrong first.
-pub fn read_data_set(
-    source: &Source,
-    overrides: &Overrides,
-) -> Result<LoadedDataSet, DocumentError> {
-    data_set::read(source, overrides)
-}
-
 /// The kind that a document says it is.
 ///
 /// # Errors
@@ -83,6 +73,9 @@ pub fn kind_of_source(source: &Source) -> Result<Kind, DocumentError> {
 }
 
 /// Where a document has a key, with the tables it stands in.
+///
+/// # Errors
+/// [`DocumentError`] if the document cannot be read or is not TOML.
 pub fn place_of(source: &Source, key: &str) -> Result<Place, DocumentError> {
     let tree = text::parse(&source.read()?)?;
     Ok(Place::of(tree.origin_of(key)))
@@ -110,11 +103,18 @@ fn read<V: Described>(
 
 /// A document that was found, checked and completed, but not yet understood.
 pub struct Written {
+    /// Its values, each with the place where it was written.
     pub tree: Node,
+    /// The document with every named part in its place and every default filled in.
     pub document: Document,
+    /// What was assumed, each with the name of the document that states it.
     pub assumptions: Vec<String>,
 }
 
+/// Finds a document, reads it with the parts that it names, checks it and fills in its defaults.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
 pub fn written(
     kind: Kind,
     source: &Source,
@@ -126,6 +126,20 @@ pub fn written(
     let document = Document::of(kind, &tree.to_json());
     let assumptions = notes::assumptions(kind, document.keys());
     Ok(Written { tree, document, assumptions })
+}
+
+impl Preset {
+    /// What the document calls itself, and where it says its values are from.
+    ///
+    /// # Panics
+    /// Never: every preset is read by a test.
+    #[must_use]
+    pub fn title_and_source(&'static self) -> (String, String) {
+        let document = written(self.kind, &Source::Preset(self), &Overrides::none())
+            .expect("every preset is read by a test")
+            .document;
+        (document.name().to_owned(), document.source().to_owned())
+    }
 }
 
 /// The checked tree of a document with all its parts.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::error::{DocumentError, Problem};
 use super::source::read_file;
-use super::text::{Origin, Text};
+use super::tree::{Origin, Text};
 
 /// A table of samples, with the spot of every cell.
 #[derive(Debug)]

@@ -5,9 +5,12 @@ use std::sync::Arc;
 
 use super::check::nearest;
 use super::error::{DocumentError, Problem};
+use super::escape;
+use super::file;
+use super::kind::Kind;
 use super::presets::{self, Preset};
-use super::text::Text;
-use super::{Companion, Kind, escape, file};
+use super::tree::Companion;
+use super::tree::Text;
 
 /// The source of a document.
 #[derive(Clone, Debug)]
@@ -70,7 +73,7 @@ impl Source {
     }
 
     /// [`find`](Self::find), with relative paths from a folder.
-    pub fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+    pub(crate) fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
         if let Some(preset) = presets::preset(kind, name) {
             return Ok(Self::Preset(preset));
         }
@@ -90,7 +93,7 @@ impl Source {
         Err(DocumentError::whole(escape::line(name).into_owned(), problem).with_hint(hint))
     }
 
-    pub fn read(&self) -> Result<Arc<Text>, DocumentError> {
+    pub(crate) fn read(&self) -> Result<Arc<Text>, DocumentError> {
         let mut beside = Vec::new();
         let (label, content, folder) = match self {
             Self::Preset(preset) => {

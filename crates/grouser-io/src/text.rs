@@ -1,81 +1,13 @@
-//! Texts and the values in them, each with the spot it came from.
-//!
-//! A run's values come from several texts: a scenario names a rover, the rover a wheel, the command
-//! line overrides a key. They are brought together in one tree of [`Node`]s, each of which knows
-//! its own text, so that whatever is found wrong later is reported where its author wrote it.
+//! Reading TOML into a tree whose values know where they were written.
 
 use std::ops::Range;
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use super::Companion;
-use super::error::{DocumentError, Problem, number};
-
-/// A text that values come from.
-#[derive(Debug, Default)]
-pub struct Text {
-    /// Its name in messages.
-    pub label: String,
-    /// What it says.
-    pub content: String,
-    /// Where its relative paths start.
-    pub folder: PathBuf,
-    /// Whether it is an argument: short, without lines, and quoted whole by its label.
-    pub is_argument: bool,
-    /// Files beside it that it may name, before those of its folder.
-    pub companions: Vec<Companion>,
-}
-
-impl Text {
-    /// The bytes of the line around a byte, without its end.
-    pub fn line_around(&self, byte: usize) -> Range<usize> {
-        let mut byte = byte.min(self.content.len());
-        while !self.content.is_char_boundary(byte) {
-            byte -= 1;
-        }
-        let start = self.content[..byte].rfind('\n').map_or(0, |at| at + 1);
-        let end = self.content[byte..].find('\n').map_or(self.content.len(), |at| byte + at);
-        start..end
-    }
-}
-
-/// Where a key or a value was written.
-#[derive(Clone, Debug)]
-pub struct Origin {
-    pub text: Arc<Text>,
-    pub span: Range<usize>,
-}
-
-/// A value and where it was written.
-#[derive(Clone, Debug)]
-pub struct Node {
-    pub value: Value,
-    pub origin: Origin,
-}
-
-/// A value as TOML knows it.
-#[derive(Clone, Debug)]
-pub enum Value {
-    String(String),
-    Integer(i64),
-    Float(f64),
-    Boolean(bool),
-    Date(String),
-    List(Vec<Node>),
-    Table(Vec<Entry>),
-}
-
-/// A key of a table with its value.
-#[derive(Clone, Debug)]
-pub struct Entry {
-    pub key: String,
-    pub key_origin: Origin,
-    pub node: Node,
-}
+use super::error::{DocumentError, Problem};
+use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// Tables and lists may be nested this deep. Ours are five deep: a mount's position in a rover
 /// in a scenario.
@@ -85,7 +17,7 @@ const DEEPEST: usize = 16;
 ///
 /// The parser gives up at 80 brackets and at 80 dots, which together can nest a few thousand
 /// tables: little enough for any stack. Our own limit is far below.
-pub fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
+pub(crate) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
     let document = DeTable::parse(&text.content).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
@@ -195,88 +127,6 @@ impl Reader<'_> {
 
 fn overflow(origin: &Origin, kind: &str) -> DocumentError {
     DocumentError::at(origin, Problem::Syntax(format!("{kind} number overflowed")))
-}
-
-impl Node {
-    /// A table's entry of a name.
-    pub fn entry(&self, key: &str) -> Option<&Entry> {
-        self.entries().iter().find(|entry| entry.key == key)
-    }
-
-    /// The same, to be changed.
-    pub fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
-        match &mut self.value {
-            Value::Table(entries) => entries.iter_mut().find(|entry| entry.key == key),
-            _ => None,
-        }
-    }
-
-    /// A table's entries; none of anything else.
-    pub fn entries(&self) -> &[Entry] {
-        match &self.value {
-            Value::Table(entries) => entries,
-            _ => &[],
-        }
-    }
-
-    /// Where a key further down was written, or the nearest table above it that was.
-    ///
-    /// * `path`: keys and, for lists, indices, joined by dots
-    pub fn origin_of(&self, path: &str) -> &Origin {
-        let mut origin = &self.origin;
-        let mut node = self;
-        for step in path.split('.') {
-            if let Some(entry) = node.entry(step) {
-                node = &entry.node;
-                origin = if matches!(node.value, Value::Table(_)) {
-                    &entry.key_origin
-                } else {
-                    &node.origin
-                };
-            } else if let (Value::List(nodes), Ok(index)) = (&node.value, step.parse::<usize>())
-                && let Some(child) = nodes.get(index)
-            {
-                node = child;
-                origin = &child.origin;
-            } else {
-                break;
-            }
-        }
-        origin
-    }
-
-    /// The tree without its origins.
-    pub fn to_json(&self) -> Json {
-        match &self.value {
-            Value::String(string) | Value::Date(string) => Json::from(string.as_str()),
-            Value::Integer(integer) => Json::from(*integer),
-            Value::Float(float) => Json::from(*float),
-            Value::Boolean(boolean) => Json::from(*boolean),
-            Value::List(nodes) => nodes.iter().map(Self::to_json).collect(),
-            Value::Table(entries) => {
-                entries.iter().map(|entry| (entry.key.clone(), entry.node.to_json())).collect()
-            }
-        }
-    }
-
-    /// The value in a few words, as messages quote it.
-    pub fn describe(&self) -> String {
-        /// Characters of a string that a message quotes.
-        const QUOTED: usize = 40;
-        match &self.value {
-            Value::String(string) if string.chars().count() > QUOTED => {
-                let start: String = string.chars().take(QUOTED).collect();
-                format!("the text \"{}…\"", start.escape_debug())
-            }
-            Value::String(string) => format!("the text \"{}\"", string.escape_debug()),
-            Value::Integer(integer) => format!("the integer {integer}"),
-            Value::Float(float) => format!("the number {}", number(*float)),
-            Value::Boolean(boolean) => format!("the truth value {boolean}"),
-            Value::Date(date) => format!("the date {date}"),
-            Value::List(_) => "a list".to_owned(),
-            Value::Table(_) => "a table".to_owned(),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -2,14 +2,17 @@
 //!
 //! A sample replaces numbers of the document and passes the same checks as the document itself.
 
-use super::describe::uncertainty::{Samples, Stated, UNCERTAINTY};
+use super::describe::uncertainty::UNCERTAINTY;
+use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
-use super::text::Node;
+use super::kind::Kind;
+use super::stated::{Samples, Stated};
+use super::tree::Companion;
+use super::tree::Node;
 use super::uncertainty::{Inputs, Statement};
 use super::values::Described;
 use super::varied::{Key, Varied};
-use super::{Companion, Document, Kind};
 use crate::statistics::{Distribution, NothingAccepted};
 use grouser_core::soil::Soil;
 
@@ -81,7 +84,7 @@ impl UncertainSoil {
 ///
 /// * `place`: the key of the soil, or nothing
 /// * `tree`: the soil's tree
-pub fn read(
+pub(crate) fn read(
     document: &mut Document,
     place: &str,
     tree: &Node,
@@ -90,8 +93,8 @@ pub fn read(
     let soil =
         if place.is_empty() { Some(document.clone()) } else { document.part(Kind::Soil, place) };
     let Some(soil) = soil else { return Ok(None) };
-    let Some(stated) = stated(&soil, tree)? else { return Ok(None) };
-    let base = Varied { value: Soil::of(&soil), document: numbers(&soil) };
+    let Some(stated) = stated_of(&soil, tree)? else { return Ok(None) };
+    let base = Varied { value: Soil::of(&soil), document: without_uncertainty(&soil) };
     let statement = Statement { stated: &stated, tree, table: "uncertainty.", prefix: "" };
     let Inputs { keys, parameters, samples, distribution, .. } = Inputs::read(&base, &[statement])?;
     let soils = UncertainSoil { base, keys, parameters, distribution };
@@ -112,7 +115,10 @@ pub fn read(
 /// The uncertainty that a soil states, if it has the table.
 ///
 /// * `tree`: the soil's tree
-pub fn stated(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentError> {
+///
+/// # Errors
+/// [`DocumentError`] if the table names neither parameters nor samples.
+pub fn stated_of(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentError> {
     let Some(given) = soil.get("uncertainty") else { return Ok(None) };
     let mut stated = Stated::default();
     UNCERTAINTY.put(&mut stated, given);
@@ -126,6 +132,7 @@ pub fn stated(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentEr
 }
 
 /// A soil without its uncertainty, whose numbers are not the soil's.
-pub fn numbers(soil: &Document) -> Document {
+#[must_use]
+pub fn without_uncertainty(soil: &Document) -> Document {
     soil.changed(|keys| drop(keys.shift_remove("uncertainty")))
 }

@@ -3,15 +3,16 @@
 //! A document names keys with distributions and correlations, or rows of samples; [`Stated`] is that as it is
 //! written. [`Inputs::read`] checks it against the numbers that it is about, and makes a [`Distribution`] of it.
 
-use super::describe::uncertainty::{Pair, Samples, Stated};
 use super::error::{DocumentError, Problem};
 use super::samples::SampleTable;
-use super::text::{Node, Origin};
+pub use super::stated::{Pair, Parameter, Samples, Stated};
+use super::tree::{Node, Origin};
 use super::varied::{Key, Numbers, meant};
 use crate::statistics::{Contradiction, Correlation, Distribution, Marginal};
 
 /// The uncertain numbers of one place.
 pub struct Statement<'a> {
+    /// What is stated there.
     pub stated: &'a Stated,
     /// The document in which it stands.
     pub tree: &'a Node,
@@ -28,6 +29,7 @@ pub struct Inputs {
     pub keys: Vec<Key>,
     /// How many of them are parameters.
     pub parameters: usize,
+    /// Whether some of them are correlated.
     pub is_correlated: bool,
     /// The table of samples, and what its keys begin with.
     pub samples: Option<(SampleTable, &'static str)>,
@@ -40,7 +42,11 @@ pub struct Inputs {
 const LEAST_INSIDE: f64 = 0.01;
 
 impl Inputs {
-    /// Collects and checks the statements on some numbers.
+    /// Brings together what is given of some numbers, and checks it.
+    ///
+    /// # Errors
+    /// [`DocumentError`] for keys that are no numbers, distributions outside their ranges, impossible correlations, and
+    /// samples that cannot be read.
     pub fn read(
         numbers: &dyn Numbers,
         statements: &[Statement<'_>],
@@ -81,6 +87,7 @@ impl Inputs {
     }
 
     /// The same, each parameter cut off at the ends of its key's range.
+    #[must_use]
     pub fn cut(mut self) -> Self {
         let ranges: Vec<_> = self.keys.iter().map(|key| key.range.clone()).collect();
         self.distribution = self.distribution.within(&ranges);

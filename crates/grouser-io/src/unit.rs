@@ -22,6 +22,7 @@ enum Scale {
 
 impl Unit {
     /// A unit that is SI already.
+    #[must_use]
     pub const fn si(symbol: &'static str) -> Self {
         Self { symbol, scale: Scale::Same }
     }
@@ -62,27 +63,49 @@ impl Unit {
     }
 }
 
+/// Kilopascals.
 pub const KPA: Unit = Unit::scaled("kPa", Scale::Kilo);
+/// Millimetres.
 pub const MM: Unit = Unit::scaled("mm", Scale::Milli);
+/// Degrees.
 pub const DEG: Unit = Unit::scaled("°", Scale::Degrees);
+/// Degrees per second.
 pub const DEG_S: Unit = Unit::scaled("°/s", Scale::Degrees);
+/// Kilograms per cubic metre.
 pub const KG_M3: Unit = Unit::si("kg/m³");
+/// Kilograms.
 pub const KG: Unit = Unit::si("kg");
+/// Kilogram square metres: a moment of inertia.
 pub const KG_M2: Unit = Unit::si("kg·m²");
+/// Metres.
 pub const M: Unit = Unit::si("m");
+/// Metres per metre.
 pub const M_PER_M: Unit = Unit::si("m/m");
+/// Metres per radian.
 pub const M_PER_RAD: Unit = Unit::si("m/rad");
+/// Metres per square radian.
 pub const M_PER_RAD2: Unit = Unit::si("m/rad²");
+/// Metres per second.
 pub const M_S: Unit = Unit::si("m/s");
+/// Millimetres per second.
 pub const MM_S: Unit = Unit::scaled("mm/s", Scale::Milli);
+/// Metres per second squared.
 pub const M_S2: Unit = Unit::si("m/s²");
+/// Radians per second.
 pub const RAD_S: Unit = Unit::si("rad/s");
+/// Seconds.
 pub const S: Unit = Unit::si("s");
+/// Seconds per metre.
 pub const S_M: Unit = Unit::si("s/m");
+/// Newtons.
 pub const N: Unit = Unit::si("N");
+/// Newton metres.
 pub const NM: Unit = Unit::si("N·m");
+/// Watts.
 pub const W: Unit = Unit::si("W");
+/// Joules.
 pub const J: Unit = Unit::si("J");
+/// Joules per metre.
 pub const J_PER_M: Unit = Unit::si("J/m");
 /// Of a number without a unit.
 pub const ONE: Unit = Unit::si("-");

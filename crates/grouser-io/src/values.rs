@@ -3,16 +3,16 @@
 
 use std::ops::RangeInclusive;
 
-use super::Document;
-use super::campaign::Stand;
-use super::describe::campaign::STAND;
+use super::campaign::{Settings, Stand};
+use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
 use super::describe::scenario::{ROVER_OF_PARTS, SCENARIO};
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
 use super::describe::wheel::WHEEL;
 use super::describe::{rover, scenario, soil, wheel};
+use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
-use super::text::Node;
+use super::tree::Node;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
@@ -46,6 +46,7 @@ impl Misfit {
     }
 
     /// What is wrong with the numbers of a value that was one.
+    #[must_use]
     pub fn of_numbers(self) -> ParameterError {
         match *self.problem {
             Problem::Unfit(error) => error,
@@ -54,7 +55,7 @@ impl Misfit {
     }
 
     /// The same where it was written.
-    pub fn of(self, tree: &Node) -> DocumentError {
+    pub(crate) fn of(self, tree: &Node) -> DocumentError {
         let node = tree.entry(self.part).map_or(tree, |entry| &entry.node);
         DocumentError::at(node.origin_of(&self.path), *self.problem).with_hint(self.hint)
     }
@@ -62,6 +63,7 @@ impl Misfit {
 
 /// A domain's value that a table describes.
 pub trait Described: Clone + 'static {
+    /// The rows of its documents.
     fn table() -> &'static dyn Inner<Self>;
 
     /// The value before its numbers are put in.
@@ -71,9 +73,13 @@ pub trait Described: Clone + 'static {
     fn follow(&mut self, _document: &Document) {}
 
     /// The value, all of it in force.
+    ///
+    /// # Errors
+    /// [`Misfit`] for values that do not go together.
     fn settled(self) -> Result<Self, Misfit>;
 
     /// What a document means, not yet [`settled`](Self::settled).
+    #[must_use]
     fn of(document: &Document) -> Self {
         let mut value = Self::blank();
         Self::table().put(&mut value, document.keys());
@@ -87,6 +93,9 @@ pub trait Described: Clone + 'static {
     }
 
     /// The same with other values of some keys, in the keys' units.
+    ///
+    /// # Errors
+    /// [`Misfit`] if the new values do not go together.
     fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Result<Self, Misfit> {
         let mut value = self.clone();
         for (path, number) in values {
@@ -250,7 +259,7 @@ impl Described for Scenario {
 /// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
 const MOST_SAMPLES: f64 = 1e6;
 
-pub fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
+pub(crate) fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterError> {
     let count = (duration / interval).ceil();
     if count <= MOST_SAMPLES {
         return Ok(());
@@ -259,13 +268,23 @@ pub fn check_sample_count(duration: f64, interval: f64) -> Result<(), ParameterE
     Err(ParameterError::new(name, count, "at most 1000000"))
 }
 
+impl Settings {
+    /// What a campaign's document says, with its numbers in SI units and radians.
+    #[must_use]
+    pub fn of(document: &Document) -> Self {
+        let mut settings = Self::BLANK;
+        CAMPAIGN.put(&mut settings, document.keys());
+        settings
+    }
+}
+
 impl Described for Stand {
     fn table() -> &'static dyn Inner<Self> {
         &STAND
     }
 
     fn blank() -> Self {
-        Self::BLANK
+        BLANK_STAND
     }
 
     fn follow(&mut self, document: &Document) {

@@ -5,17 +5,22 @@
 
 use std::ops::RangeInclusive;
 
+use super::check::nearest;
+use super::document::Document;
 use super::error::{DocumentError, Problem};
-use super::text::{Node, Origin};
+use super::kind::Kind;
+use super::schema::range;
+use super::tree::{Node, Origin};
 use super::values::{Described, Misfit};
-use super::{Document, Kind, nearest, range};
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 
 /// A value whose numbers are exchanged, and what its document says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied<V> {
+    /// The value, in SI units and radians.
     pub value: V,
+    /// Its document, in the units of the keys.
     pub document: Document,
 }
 
@@ -33,9 +38,15 @@ pub struct Key {
 /// Numbers that may be given other values.
 pub trait Numbers {
     /// The number under a key.
+    ///
+    /// # Errors
+    /// [`NoNumber`] if there is none.
     fn key(&self, path: &str) -> Result<Key, NoNumber>;
 
     /// That some keys may have these values together.
+    ///
+    /// # Errors
+    /// [`Misfit`] if they may not.
     fn check_with(&self, keys: &[Key], values: &[f64]) -> Result<(), Misfit>;
 }
 
@@ -43,12 +54,18 @@ impl<V: Described> Varied<V> {
     /// What a document means.
     ///
     /// * `tree`: where it was written
+    ///
+    /// # Errors
+    /// [`DocumentError`] for values that do not go together, with their place.
     pub fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
         let value = V::of(&document).settled().map_err(|misfit| misfit.of(tree))?;
         Ok(Self { value, document })
     }
 
     /// The value with others under some keys.
+    ///
+    /// # Errors
+    /// [`Misfit`] if the new values do not go together.
     pub fn with(&self, keys: &[Key], values: &[f64]) -> Result<V, Misfit> {
         self.value.with(keys.iter().map(|key| &*key.path).zip(values.iter().copied()))
     }
@@ -71,11 +88,11 @@ impl<V: Described> Numbers for Varied<V> {
 
 impl Key {
     /// A value that it must not have.
-    pub fn out_of_range(&self, value: f64) -> Problem {
+    pub(crate) fn out_of_range(&self, value: f64) -> Problem {
         Problem::OutOfRange { key: self.path.clone(), value, range: self.range_in_words() }
     }
 
-    pub fn range_in_words(&self) -> String {
+    pub(crate) fn range_in_words(&self) -> String {
         format!("{} to {}", self.range.start(), self.range.end())
     }
 }
@@ -93,7 +110,9 @@ pub fn scenario_with<'k>(
 
 /// A key without a number.
 pub struct NoNumber {
+    /// What is wrong.
     pub problem: Problem,
+    /// How it may be mended.
     pub hint: Option<String>,
 }
 
@@ -113,13 +132,13 @@ impl NoNumber {
         Self { problem: Problem::UnknownKey { key }, hint: Some(hint) }
     }
 
-    pub fn at(self, origin: &Origin) -> DocumentError {
+    pub(crate) fn at(self, origin: &Origin) -> DocumentError {
         DocumentError::at(origin, self.problem).with_hint(self.hint)
     }
 }
 
 /// What a misspelt key was meant to be, or all that it could have been.
-pub fn meant(name: &str, known: &[&str]) -> String {
+pub(crate) fn meant(name: &str, known: &[&str]) -> String {
     let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
     let same_end = known.iter().copied().find(|key| last(key) == last(name));
     match same_end.or_else(|| nearest(name, known.iter().copied())) {

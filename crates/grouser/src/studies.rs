@@ -27,4 +27,4 @@ pub mod validation;
 pub mod wheel_test;
 
 pub use grouser_io::measurements::wheel_tests as measurement;
-use grouser_io::statistics::{normal, random};
+use grouser_io::statistics::random;

@@ -4,8 +4,11 @@ use super::super::unit::{DEG, KPA, N, NM};
 use super::{Column, DRAWBAR_PULL, Quantity, SIDE_FORCE, SINKAGE, TORQUE, number, quantity};
 use grouser_core::contact::Settled;
 
+/// Force of the soil on a wheel, out of the ground.
 pub const NORMAL_FORCE: Quantity = quantity("normal_force_n", N);
+/// Angle from straight down at which the rim enters the soil.
 pub const ENTRY_ANGLE: Quantity = quantity("entry_angle_deg", DEG);
+/// Largest normal stress on the rim.
 pub const MAX_NORMAL_STRESS: Quantity = quantity("max_normal_stress_kpa", KPA);
 
 /// The results of a wheel; angles are from straight down, moments about the hub.

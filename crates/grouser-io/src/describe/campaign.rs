@@ -1,20 +1,21 @@
 //! `campaign/1`: many runs of one study, over numbers that are not known exactly.
 
-use super::super::Kind;
-use super::super::campaign::{Settings, Stand, Study};
+use super::super::campaign::{Sampling, Settings, Stand, Study};
 use super::super::field::{
     At, DEG, Fill, N, ONE, Shape, Table, field, flag, list, note, number, part, table, whole, word,
     words,
 };
+use super::super::kind::Kind;
+use super::super::stated::Stated;
+use super::about::{assumed, gravity, model, notes, purpose, schema};
 use super::scenario::{self, SCENARIO};
-use super::soil::SOIL;
+use super::soil::{self, SOIL};
 use super::uncertainty::{
     CORRELATIONS, CORRELATIONS_DOC, FILE_DOC, INLINE, PARAMETERS, PARAMETERS_DOC, SAMPLES_DOC,
-    Stated, put_file,
+    put_file,
 };
-use super::wheel::WHEEL;
-use super::{assumed, gravity, model, notes, purpose, schema};
-use crate::campaign::Sampling;
+use super::wheel::{self, WHEEL};
+use grouser_core::contact::Theory;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
@@ -26,7 +27,7 @@ const LARGEST_SEED: u64 = (1 << 53) - 1;
 /// Seconds of work for a traverse, a fraction of one for a heading offset; some hundred kilobytes.
 const SHARD_RUNS: u64 = 1024;
 
-pub static CAMPAIGN: Table<Settings> = Table {
+pub(crate) static CAMPAIGN: Table<Settings> = Table {
     doc: "Many runs of one study, over numbers that are not known exactly.",
     fields: &[
         schema("campaign/1"),
@@ -114,7 +115,7 @@ pub static CAMPAIGN: Table<Settings> = Table {
             "The stand that is varied, for `wheel-test`.",
             &At {
                 inner: &STAND,
-                at: |all: &mut Settings| -> &mut Stand { all.stand.get_or_insert(Stand::BLANK) },
+                at: |all: &mut Settings| -> &mut Stand { all.stand.get_or_insert(BLANK_STAND) },
             },
         )
         .optional(),
@@ -134,7 +135,18 @@ pub static CAMPAIGN: Table<Settings> = Table {
     ],
 };
 
-pub static STAND: Table<Stand> = Table {
+/// A stand before its numbers are put in.
+pub(crate) const BLANK_STAND: Stand = Stand {
+    soil: soil::BLANK,
+    wheel: wheel::BLANK,
+    theory: Theory::Ishigami,
+    gravity: 0.0,
+    load: 0.0,
+    slip_ratio: 0.0,
+    slip_angle: 0.0,
+};
+
+pub(crate) static STAND: Table<Stand> = Table {
     doc: "A wheel on a test stand.",
     fields: &[
         part(

@@ -1,10 +1,18 @@
 //! `data-set/1`: wheel, soils and gravity of a file of measurements.
 
-use super::super::data_set::DataSet;
 use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};
-use super::{NOT_STATED, gravity, name, notes, schema};
+use super::about::{NOT_STATED, gravity, name, notes, schema};
 
-pub static DATA_SET: Table<DataSet> = Table {
+/// What a data set says besides its parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Common {
+    /// The CSV file with its rows, from the folder of this document.
+    pub(crate) file: String,
+    /// Gravity where it was measured, *g* [m/s²].
+    pub(crate) gravity: f64,
+}
+
+pub(crate) static DATA_SET: Table<Common> = Table {
     doc: "A file of measured wheel tests, and the wheels and soils in it.",
     fields: &[
         schema("data-set/1"),
@@ -25,7 +33,7 @@ pub static DATA_SET: Table<DataSet> = Table {
     ],
 };
 
-static CASE: Table<DataSet> = Table {
+static CASE: Table<Common> = Table {
     doc: "A part of a data set: one wheel.",
     fields: &[
         note("name", "What people call it."),
@@ -38,7 +46,7 @@ static CASE: Table<DataSet> = Table {
     ],
 };
 
-const SOILS: Field<DataSet> = field(
+const SOILS: Field<Common> = field(
     "soils",
     "Soils of the predictions: presets, or paths. A soil that names its `model` is used with it, another\n\
      with every model.",

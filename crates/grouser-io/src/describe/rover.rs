@@ -1,25 +1,25 @@
 //! `rover/1`: a body and its wheels.
 
-use super::super::Kind;
 use super::super::field::{
     At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers, part,
     table, text,
 };
+use super::super::kind::Kind;
+use super::about::{assumed, name, notes, schema, source};
 use super::wheel::{self, WHEEL};
-use super::{assumed, name, notes, schema, source};
 use grouser_core::units::Vec3;
 use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, WheelUnit};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
 /// A rover before its numbers are put in.
-pub const BLANK: RoverParts = RoverParts {
+pub(crate) const BLANK: RoverParts = RoverParts {
     body: Body { mass: 0.0, inertia: NO_INERTIA },
     wheel_unit: WheelUnit { mass: 0.0, inertia: NO_INERTIA, wheel: wheel::BLANK },
     mounts: Vec::new(),
 };
 
-pub static ROVER: Table<RoverParts> = Table {
+pub(crate) static ROVER: Table<RoverParts> = Table {
     doc: "A body and three or more wheels, rigidly joined.",
     fields: &[
         schema("rover/1"),

@@ -1,14 +1,16 @@
 //! `scenario/1`: a run. Every key has a default, and together the defaults are the source paper's
 //! experiment on a slope of 10° without compensation.
 
+use std::ops::RangeInclusive;
+
 use super::super::field::{
     At, DEG, Field, Fill, Form, Inner, Law, Laws, M_S, ONE, S, Table, number, numbers, part,
     positive, table, word, words,
 };
-use super::super::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
+use super::super::kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
+use super::about::{assumed, gravity, model, notes, purpose, schema, source};
 use super::rover::{self, ROVER};
 use super::soil::{self, SOIL};
-use super::{assumed, gravity, model, notes, purpose, schema};
 use grouser_core::contact::Theory;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 use grouser_core::simulation::{Approach, Motion, Numerics, Scenario, Start};
@@ -16,8 +18,11 @@ use grouser_core::site::Site;
 use grouser_core::vehicle::drive::SlipTarget;
 use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
-/// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
-pub const FASTEST: f64 = 10.0;
+/// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
+pub(crate) const FASTEST: f64 = 10.0;
+
+/// Allowed speeds of a rim, ω r_s [m/s].
+pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 
 /// Source: [FourWheel], section 5.2: "each wheel speed is set at 6 cm/s" [m/s].
 const PAPERS_SPEED: f64 = 0.06;
@@ -31,10 +36,11 @@ const PAPERS_DURATION: f64 = 20.0;
 const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
 
 /// A rover by its parts.
-pub static ROVER_OF_PARTS: At<Rover, RoverParts> = At { inner: &ROVER, at: Rover::parts_mut };
+pub(crate) static ROVER_OF_PARTS: At<Rover, RoverParts> =
+    At { inner: &ROVER, at: Rover::parts_mut };
 
 /// A scenario before its numbers are put in.
-pub fn blank() -> Scenario {
+pub(crate) fn blank() -> Scenario {
     Scenario {
         rover: Rover::draft(rover::BLANK),
         site: Site::plane(soil::BLANK, 0.0, 0.0),
@@ -48,12 +54,12 @@ pub fn blank() -> Scenario {
     }
 }
 
-pub static SCENARIO: Table<Scenario> = Table {
+pub(crate) static SCENARIO: Table<Scenario> = Table {
     doc: "One run of one rover on one plane of soil.",
     fields: &[
         schema("scenario/1"),
         purpose(),
-        super::source().optional(),
+        source().optional(),
         notes(),
         assumed(),
         part(

@@ -4,67 +4,11 @@ use super::super::field::{
     Each, Field, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list, number,
     text,
 };
+use super::super::stated::{Pair, Parameter, Samples, Stated};
 use crate::statistics::Marginal;
 
-/// The uncertain numbers of a document.
-#[derive(Clone, Debug, Default)]
-pub struct Stated {
-    pub samples: Option<Samples>,
-    pub parameters: Vec<Parameter>,
-    pub correlations: Vec<Pair>,
-}
-
-/// The place of rows of samples.
-#[derive(Clone, Debug)]
-pub enum Samples {
-    /// In a CSV file, from the folder of the document.
-    File(String),
-    /// In the document.
-    Inline(String),
-}
-
-/// An uncertain number.
-#[derive(Clone, Debug)]
-pub struct Parameter {
-    /// Its key, with the tables it stands in.
-    pub key: String,
-    /// Its distribution; the mean is NaN where it is left out.
-    pub marginal: Marginal,
-}
-
-/// Two keys that are correlated.
-#[derive(Clone, Debug, Default)]
-pub struct Pair {
-    pub between: [String; 2],
-    pub value: f64,
-}
-
-impl Parameter {
-    /// Its mean, if its distribution has one.
-    fn mean_mut(&mut self) -> Option<&mut f64> {
-        match &mut self.marginal {
-            Marginal::Normal { mean, .. } | Marginal::Lognormal { mean, .. } => Some(mean),
-            Marginal::Uniform { .. } | Marginal::Triangular { .. } => None,
-        }
-    }
-
-    /// Whether its mean is left out.
-    pub fn has_no_mean(&self) -> bool {
-        self.clone().mean_mut().is_some_and(|mean| mean.is_nan())
-    }
-
-    /// Its distribution, about a value unless it has a mean of its own.
-    pub fn around(&self, value: f64) -> Marginal {
-        let mut whole = self.clone();
-        if let Some(mean) = whole.mean_mut().filter(|mean| mean.is_nan()) {
-            *mean = value;
-        }
-        whole.marginal
-    }
-}
-
 /// The `[uncertainty]` of a soil.
-pub static UNCERTAINTY: Table<Stated> = Table {
+pub(crate) static UNCERTAINTY: Table<Stated> = Table {
     doc: "How well the numbers of a soil are known: keys with distributions, or rows of samples.",
     fields: &[
         field("samples", SAMPLES_DOC, Shape::TextOr(FILE_DOC, put_file, &INLINE)).optional(),
@@ -75,16 +19,16 @@ pub static UNCERTAINTY: Table<Stated> = Table {
 
 // ---- Samples ----
 
-pub const SAMPLES_DOC: &str =
+pub(crate) const SAMPLES_DOC: &str =
     "Rows of numbers that belong together, such as a posterior's: each run takes one of them.";
-pub const FILE_DOC: &str =
+pub(crate) const FILE_DOC: &str =
     "A CSV file, from the folder of this document: columns are keys, rows are samples.";
 
-pub fn put_file(all: &mut Stated, name: &str) {
+pub(crate) fn put_file(all: &mut Stated, name: &str) {
     all.samples = Some(Samples::File(name.to_owned()));
 }
 
-pub static INLINE: Table<Stated> = Table {
+pub(crate) static INLINE: Table<Stated> = Table {
     doc: "The table itself.",
     fields: &[text(
         "csv",
@@ -96,10 +40,10 @@ pub static INLINE: Table<Stated> = Table {
 
 // ---- Distributions ----
 
-pub const PARAMETERS_DOC: &str =
+pub(crate) const PARAMETERS_DOC: &str =
     "The numbers that are not known exactly, each with its distribution.";
 
-pub const PARAMETERS: Each<Stated, Parameter> = Each {
+pub(crate) const PARAMETERS: Each<Stated, Parameter> = Each {
     inner: &OF_CAMPAIGN,
     list: |all| &mut all.parameters,
     blank: || Parameter { key: String::new(), marginal: NORMAL },
@@ -215,9 +159,10 @@ const fn anywhere(
 
 // ---- Correlations ----
 
-pub const CORRELATIONS_DOC: &str = "Correlations between them; pairs that are not named have none.";
+pub(crate) const CORRELATIONS_DOC: &str =
+    "Correlations between them; pairs that are not named have none.";
 
-pub static CORRELATIONS: Each<Stated, Pair> =
+pub(crate) static CORRELATIONS: Each<Stated, Pair> =
     Each { inner: &CORRELATION, list: |all| &mut all.correlations, blank: Pair::default };
 
 static CORRELATION: Table<Pair> = Table {

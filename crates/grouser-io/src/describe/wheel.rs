@@ -1,15 +1,15 @@
 //! `wheel/1`: the geometry of a wheel.
 
 use super::super::field::{At, M, Table, number, table, whole};
-use super::{assumed, name, notes, schema, source};
+use super::about::{assumed, name, notes, schema, source};
 use grouser_core::wheel::{Grousers, Wheel};
 
 /// A wheel before its numbers are put in.
-pub const BLANK: Wheel = Wheel { radius: 0.0, width: 0.0, grousers: None };
+pub(crate) const BLANK: Wheel = Wheel { radius: 0.0, width: 0.0, grousers: None };
 
 const NO_BARS: Grousers = Grousers { height: 0.0, count: 0 };
 
-pub static WHEEL: Table<Wheel> = Table {
+pub(crate) static WHEEL: Table<Wheel> = Table {
     doc: "A rigid wheel with a flat rim.",
     fields: &[
         schema("wheel/1"),

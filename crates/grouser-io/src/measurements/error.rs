@@ -3,13 +3,13 @@
 use std::fmt;
 use std::io;
 
-use super::super::error::number;
 use super::super::escape;
 use super::super::file::FileProblem;
+use super::super::tree::number;
 use super::limits::Excess;
 
 /// Characters of a cell that a message quotes.
-pub const QUOTED: usize = 60;
+pub(crate) const QUOTED: usize = 60;
 
 /// A measurement file that cannot be used: where, what, and how it may be mended.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,6 +164,7 @@ impl From<FileProblem> for MeasurementProblem {
 }
 
 impl MeasurementError {
+    /// An error that concerns a file as a whole.
     pub fn whole(file: &str, problem: MeasurementProblem) -> Self {
         let hint: Option<String> = match &problem {
             MeasurementProblem::SeveralWheels { labels } => labels.first().map(|label| {
@@ -175,10 +176,14 @@ impl MeasurementError {
         Self { file: file.into(), line: None, problem, hint, named_at: None }
     }
 
+    /// An error in a line of a file.
+    #[must_use]
     pub fn at(file: &str, line: u64, problem: MeasurementProblem) -> Self {
         Self { line: Some(line), ..Self::whole(file, problem) }
     }
 
+    /// The same with a hint.
+    #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
         self.hint = hint.into().map(String::into_boxed_str);
         self
@@ -187,6 +192,7 @@ impl MeasurementError {
     /// The same, of a file that a document names.
     ///
     /// * `place`: where it does
+    #[must_use]
     pub fn named_at(mut self, place: String) -> Self {
         self.named_at = Some(place.into_boxed_str());
         self
@@ -195,7 +201,7 @@ impl MeasurementError {
     /// A failure while reading.
     ///
     /// * `line`: where it was, for limits of a single row
-    pub fn io(file: &str, error: &io::Error, line: u64) -> Self {
+    pub(crate) fn io(file: &str, error: &io::Error, line: u64) -> Self {
         match error.get_ref().and_then(|error| error.downcast_ref::<Excess>()) {
             Some(excess @ Excess::Bytes { .. }) => {
                 Self::whole(file, MeasurementProblem::TooLarge(*excess))

@@ -9,7 +9,7 @@ use super::super::escape;
 use super::columns::{self, COLUMNS, Column, Meaning};
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
 use super::limits::Limits;
-use super::name_of;
+use super::row::name_of;
 use super::table::{LineEnds, Table, other_delimiter};
 
 /// How a column of ours is made from one of theirs.

@@ -1,38 +1,7 @@
 //! Notes on a measurement file that can be read: rows left out, values in unlikely units.
 
-use super::super::escape;
-use super::error::QUOTED;
-use super::row::Row;
+use super::taken::Row;
 use crate::measurements::wheel_tests::Quantity;
-
-/// Rows that do not count, by their own word.
-pub(super) struct LeftOut {
-    /// The first of them.
-    line: u64,
-    /// Its status.
-    pub(super) status: String,
-    /// How many there are.
-    count: usize,
-}
-
-impl LeftOut {
-    /// The first of them.
-    pub(super) fn first(line: u64, status: &str) -> Self {
-        Self { line, status: escape::short_line(status, QUOTED), count: 1 }
-    }
-
-    /// With one more.
-    pub(super) fn and_another(self) -> Self {
-        Self { count: self.count + 1, ..self }
-    }
-
-    /// What there is to say about them.
-    pub(super) fn note(&self) -> String {
-        let Self { line, status, count } = self;
-        let rows = if *count == 1 { "1 row is".to_owned() } else { format!("{count} rows are") };
-        format!("{rows} left out, for `status` is not `ok`; the first, line {line}: {status}")
-    }
-}
 
 /// Values that are possible, but look like those of another unit.
 pub(super) fn suspicions(rows: &[Row]) -> Vec<String> {

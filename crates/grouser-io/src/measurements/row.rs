@@ -8,9 +8,8 @@ use super::super::escape;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
-use super::name_of;
-use super::notes::LeftOut;
 use super::table::other_delimiter;
+use super::taken::{LeftOut, Row, Taken};
 use crate::measurements::wheel_tests::{PerQuantity, Quantity, Reading};
 use grouser_core::contact::Slip;
 use grouser_core::elementary::wide;
@@ -32,29 +31,6 @@ pub(super) struct Header<'a> {
     columns: Vec<Option<&'static Column>>,
     conditions: Vec<(usize, &'a Condition)>,
     side_force_opposes: bool,
-}
-
-/// What becomes of a row.
-pub(super) enum Taken {
-    /// It is read.
-    Row(Row),
-    /// It does not meet the conditions.
-    Unwanted,
-    /// Its status is not `ok`.
-    NotOk(LeftOut),
-}
-
-/// A row, in SI.
-pub(super) struct Row {
-    pub(super) line: u64,
-    pub(super) wheel: Option<String>,
-    /// What rows that repeat each other have in common.
-    pub(super) cell: String,
-    pub(super) slip: Slip,
-    pub(super) slip_angle: f64,
-    pub(super) rim_speed_setting: Option<f64>,
-    pub(super) load: f64,
-    pub(super) readings: PerQuantity<Option<Reading>>,
 }
 
 impl<'a> Header<'a> {
@@ -204,6 +180,12 @@ impl<'a> Header<'a> {
             _ => cells.row().map(Taken::Row),
         }
     }
+}
+
+/// A column's name: without the mark that some programs begin a text with, and without the
+/// apostrophe that keeps a spreadsheet from computing it.
+pub(super) fn name_of(cell: &str) -> String {
+    escape::plain(cell.trim_start_matches('\u{feff}')).to_owned()
 }
 
 fn tell_the_same(one: &Column, other: &Column) -> bool {

@@ -4,10 +4,12 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::super::check::nearest;
+use super::super::escape;
+use super::super::kind::Kind;
 use super::super::presets::{preset, presets};
-use super::super::{Kind, escape};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
-use super::{Choice, Limits, Measurements, read_bytes, read_from};
+use super::limits::Limits;
+use super::{Choice, Measurements, read_bytes, read_from};
 
 /// The source of the rows of measured wheel tests.
 #[derive(Clone, Debug, PartialEq, Eq)]

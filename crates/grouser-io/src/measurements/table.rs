@@ -25,6 +25,9 @@ impl<'a, R: Read> Table<'a, R> {
     }
 
     /// The names of the columns.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for a file that cannot be read, is empty, or is larger than its limits.
     pub fn header(&mut self) -> Result<StringRecord, MeasurementError> {
         let label = self.label;
         let found = self.reader.headers().cloned();
@@ -42,6 +45,9 @@ impl<'a, R: Read> Table<'a, R> {
     ///
     /// The library says where it stood before it passed empty lines and the `\n` of `\r\n`, which
     /// spreadsheets write. Here it is asked where it stands behind the row.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] with the line, for a row that cannot be read or is larger than its limits.
     pub fn next_row(&mut self, row: &mut StringRecord) -> Result<bool, MeasurementError> {
         let start = self.reader.position().clone();
         self.reader.get_mut().row_starts_at(start.byte());
@@ -92,7 +98,7 @@ pub struct LineEnds<R> {
 }
 
 impl<R> LineEnds<R> {
-    pub fn of(source: R, limits: Limits) -> Self {
+    pub(crate) fn of(source: R, limits: Limits) -> Self {
         Self {
             source,
             after_return: false,
@@ -158,6 +164,7 @@ impl<R: Read> Read for LineEnds<R> {
 
 /// What parts the fields of a header that was read as a single one: the character, and how
 /// `--delimiter` calls it.
+#[must_use]
 pub fn other_delimiter(header: &[String]) -> Option<(char, &'static str)> {
     let [only] = header else { return None };
     [(';', "';'"), ('\t', "tab")].into_iter().find(|(character, _)| only.contains(*character))

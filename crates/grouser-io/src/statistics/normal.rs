@@ -10,7 +10,7 @@ use grouser_core::elementary::wide::ln;
 /// ```
 ///
 /// with a Chebyshev series for g, computed with 50 digits.
-pub fn normal_share(score: f64) -> f64 {
+pub(crate) fn normal_share(score: f64) -> f64 {
     let beyond = share_beyond(score.abs());
     if score < 0.0 { beyond } else { 1.0 - beyond }
 }
@@ -71,7 +71,7 @@ const MOST_SCORE: f64 = 39.0;
 /// The standard normal number below which a share of all lies, to 1e-15 of itself: −∞ for 0 and ∞ for 1.
 ///
 /// Source: Wichura (1988), algorithm AS 241, PPND16.
-pub fn normal_score(share: f64) -> f64 {
+pub(crate) fn normal_score(share: f64) -> f64 {
     /// Half the width of the middle part [-].
     const MIDDLE: f64 = 0.425;
     /// The root of −ln share from which on the tail is another fit's.

@@ -7,6 +7,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::normal::normal_score;
 
 /// The generator of a stream.
+#[must_use]
 pub fn generator(seed: u64, stream: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(stream);
@@ -24,6 +25,7 @@ pub fn below(random: &mut ChaCha8Rng, count: usize) -> usize {
 }
 
 /// The whole part of a place in a list that is not negative; the last one for what is beyond.
+#[must_use]
 pub fn place_below(place: f64, length: usize) -> usize {
     // Saturating: what is beyond the largest number of all is beyond the list, too.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

@@ -24,9 +24,7 @@ pub use table::{Column, Role};
 
 use self::inputs::Prepared;
 use self::rows::Base;
-use super::describe::campaign::CAMPAIGN;
 use super::error::DocumentError;
-use super::field::Inner;
 use super::table::{Cell, Table};
 use super::{Document, Kind, Overrides, Source, Written, written};
 use crate::studies::ensemble::{Ensemble, outputs_while};
@@ -50,8 +48,7 @@ pub struct Campaign {
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign, DocumentError> {
     let Written { tree, document, assumptions } = written(Kind::Campaign, source, overrides)?;
-    let mut settings = Settings::BLANK;
-    CAMPAIGN.put(&mut settings, document.keys());
+    let settings = Settings::of(&document);
     let (base, prepared) = inputs::prepare(&document, &settings, &tree)?;
     Ok(Campaign {
         study: settings.study,

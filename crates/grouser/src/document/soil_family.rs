@@ -4,10 +4,8 @@ use std::ops::RangeInclusive;
 
 use serde_json::{Value as Json, json};
 
-use super::uncertain_soil::numbers;
-use super::values::{Described, Misfit};
 use super::varied::{Key, Numbers, Varied, meant_number};
-use super::{Document, Kind, range};
+use super::{Described, Document, Kind, Misfit, range, without_uncertainty};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -92,7 +90,7 @@ impl SoilFamily {
 
     /// * `starts`: of the first keys; the others start from the document's values
     fn starting(base: &Document, fitted: &[FitKey], starts: &[f64]) -> Result<Self, String> {
-        let document = numbers(base);
+        let document = without_uncertainty(base);
         let base = Varied { value: Soil::of(&document), document };
         let (mut keys, mut parameters) = (Vec::<Key>::new(), Vec::new());
         for (place, FitKey { path, bounds }) in fitted.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::super::values::Described;
+use super::super::Described;
 use super::super::{Document, FitKey, SAMPLES_FILE, SoilFamily};
 use super::{DiscrepancyRecord, ParameterRecord, SamplerRecord, Solved};
 use crate::soil::{PressureSinkage, Soil};

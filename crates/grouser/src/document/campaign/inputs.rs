@@ -2,19 +2,14 @@
 
 use serde_json::{Value as Json, json};
 
-use super::super::describe::uncertainty::Stated;
 use super::super::error::{DocumentError, Problem};
-use super::super::text::Node;
-use super::super::uncertain_soil;
-use super::super::uncertainty::{Inputs, Statement};
-use super::super::values::Misfit;
+use super::super::uncertainty::{Inputs, Stated, Statement};
 use super::super::varied::{Key, NoNumber, Numbers};
-use super::super::{Document, Kind};
-use super::Sampling;
+use super::super::{Document, Kind, Misfit, Node, stated_of};
 use super::rows::Base;
-use super::{Settings, Study};
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::{Ensemble, Matrix};
+use grouser_io::campaign::{Sampling, Settings, Study};
 
 /// The uncertain inputs, resolved.
 #[derive(Clone, Debug)]
@@ -113,7 +108,7 @@ fn of_soil<'t>(
     let soil = document.part(Kind::Soil, &format!("{place}.soil"));
     let entry = tree.entry(place).and_then(|base| base.node.entry("soil"));
     let (Some(soil), Some(entry)) = (soil, entry) else { return Ok(None) };
-    if let Some(stated) = uncertain_soil::stated(&soil, &entry.node)? {
+    if let Some(stated) = stated_of(&soil, &entry.node)? {
         return Ok(Some((stated, &entry.node)));
     }
     let problem = Problem::Conflict("the soil does not say how well it is known");

@@ -1,22 +1,20 @@
 //! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
 
-use super::super::Document;
 use super::super::columns::heading::{Held, held};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
 use super::super::table::{Cell, ColumnKind};
-use super::super::text::Node;
-use super::super::values::Misfit;
 use super::super::varied::{Key, Numbers, Varied};
+use super::super::{Document, Misfit, Node};
 use super::table::{Column, Role};
-use super::{Stand, Study};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
 use crate::vehicle::DriveLaw;
+use grouser_io::campaign::{Stand, Study};
 
 /// The base that a campaign varies.
 #[derive(Clone, Debug)]

@@ -2,10 +2,9 @@
 
 use super::super::measurements::Measurements;
 use super::super::table::Table;
-use super::super::unit::{M_S, ONE};
 use super::{
     Column, DRAWBAR_PULL, LOAD, OK, Quantity, RIM_SPEED_SETTING, SIDE_FORCE, SINKAGE, SLIP_ANGLE,
-    SLIP_RATIO, STATUS, TORQUE, TOTAL_SLIP, quantity, text, whole,
+    SLIP_RATIO, STATUS, TORQUE, TOTAL_SLIP, text, whole,
 };
 use crate::contact::{SettleError, Settled};
 use crate::studies::measurement::{Quantity as Measured, Trial};

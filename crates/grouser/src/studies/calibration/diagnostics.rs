@@ -231,14 +231,6 @@ fn moments(numbers: &[f64]) -> (f64, f64) {
     (mean, squares / (count - 1.0).max(1.0))
 }
 
-/// A share of a count, its whole part.
-///
-/// * `share`: 0 to 1
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Clamped; the whole part is asked for.
-pub(super) fn share_of(count: usize, share: f64) -> usize {
-    (count as f64 * share.clamp(0.0, 1.0)) as usize
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::ensemble::normal_numbers;

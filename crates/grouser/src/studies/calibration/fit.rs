@@ -343,8 +343,8 @@ fn prior_residual(coordinate: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::diagnostics::share_of;
     use super::super::parameter::position_of;
+    use super::super::posterior::share_of;
     use super::*;
 
     /// Low discrepancy: the first points of the plane's sequence leave no empty quarter of a

@@ -11,7 +11,6 @@ use std::ops::ControlFlow;
 use nalgebra::{Cholesky, DVector};
 use rayon::prelude::*;
 
-use super::diagnostics::share_of;
 use super::fit::Fit;
 use super::{Calibration, CalibrationError, ensemble};
 
@@ -263,6 +262,14 @@ impl PosteriorState {
         let proposed: u64 = self.ensembles.iter().map(|ensemble| ensemble.proposed).sum();
         accepted as f64 / proposed.max(1) as f64
     }
+}
+
+/// A share of a count, its whole part.
+///
+/// * `share`: 0 to 1
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Clamped; the whole part is asked for.
+pub(super) fn share_of(count: usize, share: f64) -> usize {
+    (count as f64 * share.clamp(0.0, 1.0)) as usize
 }
 
 /// The places of an ensemble: step by step, walker by walker.

@@ -1,0 +1,169 @@
+//! Terms of the model `small-wheel`.
+
+use super::super::super::field::{At, DEG, Fill, ONE, Table, number, table};
+use grouser_core::soil::Extended;
+use grouser_core::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
+
+const DEFAULTS: Fill = Fill::Keys(&[]);
+const OFF: Extended = Extended::OFF;
+
+pub(super) static EXTENDED: Table<Extended> = Table {
+    doc: "What a small wheel's soil does beyond the classical law. Each key is off by default.",
+    fields: &[
+        table(
+            "sinkage",
+            "How a moving wheel sinks deeper than a plate.",
+            &At { inner: &SINKAGE_GROWTH, at: |terms: &mut Extended| &mut terms.sinkage },
+        )
+        .otherwise(DEFAULTS),
+        table(
+            "exit",
+            "How the exit moves with the motion.",
+            &At { inner: &EXIT_SHIFT, at: |terms: &mut Extended| &mut terms.exit },
+        )
+        .otherwise(DEFAULTS),
+        table("interface", "Friction between wheel and soil.", &INTERFACE)
+            .otherwise(DEFAULTS)
+            .formerly("rim"),
+        table(
+            "side_wall",
+            "The soil's load on the side wall of the wheel.",
+            &At { inner: &FLANK, at: |terms: &mut Extended| &mut terms.flank },
+        )
+        .otherwise(DEFAULTS)
+        .formerly("flank"),
+        table(
+            "mounds",
+            "Soil pushed by the width of the rim.",
+            &At { inner: &HEAP, at: |terms: &mut Extended| &mut terms.heap },
+        )
+        .otherwise(DEFAULTS)
+        .formerly("heap"),
+    ],
+};
+
+static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
+    doc: "Sinkage growth ζ: the moving wheel meets at depth z what a plate meets at z/ζ.",
+    fields: &[
+        number(
+            "with_slip_angle",
+            ONE,
+            0.0..=10.0,
+            "Growth per sin β/(cos β + 0.3)",
+            |growth: &mut SinkageGrowth| Some(&mut growth.with_slip_angle),
+        )
+        .or(OFF.sinkage.with_slip_angle),
+        number(
+            "with_slip",
+            ONE,
+            0.0..=20.0,
+            "Growth with the slip by total speed, S/(1 − bend S)",
+            |growth: &mut SinkageGrowth| Some(&mut growth.with_slip),
+        )
+        .or(OFF.sinkage.with_slip),
+        number(
+            "bend",
+            ONE,
+            -10.0..=0.95,
+            "How that growth bends: above 0 it speeds up with slip, below 0 it slows down",
+            |growth: &mut SinkageGrowth| Some(&mut growth.bend),
+        )
+        .or(OFF.sinkage.bend),
+        number(
+            "locked",
+            ONE,
+            0.0..=20.0,
+            "Growth of a locked wheel",
+            |growth: &mut SinkageGrowth| Some(&mut growth.locked),
+        )
+        .or(OFF.sinkage.locked),
+        number(
+            "sharpness",
+            ONE,
+            1.0..=20.0,
+            "How much the larger of two growths hides the smaller; at 1 they add up",
+            |growth: &mut SinkageGrowth| Some(&mut growth.sharpness),
+        )
+        .or(OFF.sinkage.sharpness),
+    ],
+};
+
+static EXIT_SHIFT: Table<ExitShift> = Table {
+    doc: "What is added to the wheel sinkage ratio λ; it stays within 0 and 1.",
+    fields: &[
+        number(
+            "with_slip",
+            ONE,
+            -2.0..=2.0,
+            "Growth with the slip by total speed, while driving",
+            |shift: &mut ExitShift| Some(&mut shift.with_slip),
+        )
+        .or(OFF.exit.with_slip),
+        number(
+            "with_slip_angle",
+            ONE,
+            -2.0..=2.0,
+            "Growth with |sin β|",
+            |shift: &mut ExitShift| Some(&mut shift.with_slip_angle),
+        )
+        .or(OFF.exit.with_slip_angle),
+    ],
+};
+
+static INTERFACE: Table<Extended> = Table {
+    doc: "Friction between wheel and soil.",
+    fields: &[number(
+        "friction_angle_deg",
+        DEG,
+        1.0..=60.0,
+        "Friction angle of the wheel-soil interface, δ, where below the soil's own",
+        |terms: &mut Extended| Some(terms.rim_friction_angle.get_or_insert(0.0)),
+    )
+    .optional()],
+};
+
+static FLANK: Table<Flank> = Table {
+    doc: "The soil's load on the side wall of the wheel.",
+    fields: &[
+        number(
+            "pressure_factor",
+            ONE,
+            0.0..=20.0,
+            "Factor on the passive pressure, for the bow wave at the wall and for its ends",
+            |flank: &mut Flank| Some(&mut flank.pressure_factor),
+        )
+        .or(OFF.flank.pressure_factor),
+        number(
+            "fading",
+            ONE,
+            0.0..=10.0,
+            "How fast the load fades with slip or skid: e^(−fading |S|)",
+            |flank: &mut Flank| Some(&mut flank.fading),
+        )
+        .or(OFF.flank.fading),
+        number(
+            "friction",
+            ONE,
+            0.0..=1.0,
+            "Coefficient of friction of the side face, μ_f",
+            |flank: &mut Flank| Some(&mut flank.friction),
+        )
+        .or(OFF.flank.friction),
+    ],
+};
+
+static HEAP: Table<Heap> = Table {
+    doc: "Soil pushed by the width of the rim, as factors on b R_b(h).",
+    fields: &[
+        number("bow_wave", ONE, 0.0..=20.0, "In front of a wheel that skids", |heap: &mut Heap| {
+            Some(&mut heap.front)
+        })
+        .or(OFF.heap.front)
+        .formerly("front"),
+        number("rear_mound", ONE, 0.0..=20.0, "Behind a wheel that spins", |heap: &mut Heap| {
+            Some(&mut heap.behind)
+        })
+        .or(OFF.heap.behind)
+        .formerly("behind"),
+    ],
+};

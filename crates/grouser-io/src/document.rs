@@ -1,0 +1,168 @@
+//! A document after it was read: its keys in their own words and units, completed and checked.
+
+use serde::Serialize;
+use serde_json::{Map, Value as Json};
+
+use super::describe;
+use super::kind::Kind;
+use grouser_core::contact::Theory;
+
+/// What a document says, in its own units: every named part in its place, every default filled in, keys
+/// in the order of its kind. Serialised it is the document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Document {
+    keys: Json,
+    #[serde(skip)]
+    kind: Kind,
+}
+
+impl Document {
+    /// The document of a kind that says something checked.
+    #[must_use]
+    pub fn of(kind: Kind, given: &Json) -> Self {
+        let keys = describe::rows(kind).complete(given);
+        Self { keys, kind }
+    }
+
+    /// The same with other keys, in their places.
+    #[must_use]
+    pub fn changed(&self, change: impl FnOnce(&mut Map<String, Json>)) -> Self {
+        let mut keys = self.keys.clone();
+        if let Json::Object(keys) = &mut keys {
+            change(keys);
+        }
+        Self::of(self.kind, &keys)
+    }
+
+    /// The same with other values of some keys.
+    #[must_use]
+    pub fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Self {
+        let mut changed = self.clone();
+        for (path, value) in values {
+            let pointer = format!("/{}", path.replace('.', "/"));
+            if let Some(number) = changed.keys.pointer_mut(&pointer) {
+                *number = Json::from(value);
+            }
+        }
+        changed
+    }
+
+    /// All that it says.
+    pub(crate) fn keys(&self) -> &Json {
+        &self.keys
+    }
+
+    /// What kind of document it is.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// The document inside it at a dotted path.
+    #[must_use]
+    pub fn part(&self, kind: Kind, path: &str) -> Option<Self> {
+        self.get(path).map(|given| Self::of(kind, given))
+    }
+
+    /// A table of it on its own.
+    #[must_use]
+    pub fn table(&self, key: &str) -> Self {
+        Self { keys: self.keys.get(key).cloned().unwrap_or_default(), kind: self.kind }
+    }
+
+    /// What stands under a dotted key, entries of lists by their place. Keys may have the names of
+    /// earlier versions.
+    #[must_use]
+    pub fn get(&self, path: &str) -> Option<&Json> {
+        let under = |path: &str| {
+            path.split('.').try_fold(&self.keys, |given, step| match given {
+                Json::Array(all) => all.get(step.parse::<usize>().ok()?),
+                given => given.get(step),
+            })
+        };
+        under(path).or_else(|| under(&self.todays_key(path)))
+    }
+
+    /// A dotted key by the names of today.
+    pub(crate) fn todays_key(&self, path: &str) -> String {
+        let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
+        describe::rows(self.kind).rename_path(&mut steps, Some(&self.keys));
+        steps.join(".")
+    }
+
+    /// The text under a dotted key.
+    #[must_use]
+    pub fn text(&self, path: &str) -> Option<&str> {
+        self.get(path)?.as_str()
+    }
+
+    /// The number under a dotted key, in the unit of the key. Counts are no numbers here.
+    #[must_use]
+    pub fn number(&self, path: &str) -> Option<f64> {
+        self.get(path).filter(|given| given.is_f64())?.as_f64()
+    }
+
+    /// What people call it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.text("name").unwrap_or_default()
+    }
+
+    /// Where it says its values come from.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        self.text("source").unwrap_or_default()
+    }
+
+    /// The theory that a soil was made for, or a scenario asks for, if it says one.
+    #[must_use]
+    pub fn theory(&self) -> Option<Theory> {
+        self.theory_at("model")
+    }
+
+    pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
+        let name = self.text(path)?;
+        Theory::ALL.into_iter().find(|theory| theory.name() == name)
+    }
+
+    /// The document as TOML.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        to_toml(self)
+    }
+
+    /// The dotted keys of all its numbers, entries of lists by their place.
+    pub(crate) fn number_keys(&self) -> Vec<String> {
+        number_keys(&self.keys)
+    }
+}
+
+fn number_keys(given: &Json) -> Vec<String> {
+    let mut children: Vec<(String, &Json)> = match given {
+        Json::Object(keys) => keys.iter().map(|(key, given)| (key.clone(), given)).collect(),
+        Json::Array(all) => {
+            all.iter().enumerate().map(|(place, given)| (place.to_string(), given)).collect()
+        }
+        _ => Vec::new(),
+    };
+    if given.is_object() {
+        children.sort_by(|one, other| one.0.cmp(&other.0));
+    }
+    let keys = children.into_iter().flat_map(|(key, given)| {
+        if given.is_f64() {
+            return vec![key];
+        }
+        number_keys(given).into_iter().map(|inner| format!("{key}.{inner}")).collect()
+    });
+    keys.collect()
+}
+
+/// A document as TOML.
+///
+/// # Panics
+/// Never: documents have text keys and finite numbers only.
+#[must_use]
+pub fn to_toml<D: Serialize>(document: &D) -> String {
+    toml::to_string_pretty(document).expect("text keys and finite numbers")
+}

@@ -1,0 +1,322 @@
+//! What tables do with a document: complete it, rename its keys, put its numbers into the domain's value, and reach
+//! a number of that under a key.
+
+use serde_json::Value as Json;
+
+use super::field::{
+    At, Beside, Each, Field, Inner, Law, Laws, Names, Numbers, Presence, Reached, Rows, Shape,
+    Table, Text, Texts, Whole,
+};
+use super::json_schema;
+use super::tree::{Node, Value};
+
+impl<T> Field<T> {
+    fn put(&self, value: &mut T, given: &Json) {
+        match (&self.shape, given) {
+            (Shape::Text(Text { put, .. }) | Shape::TextOr(_, put, _), Json::String(given)) => {
+                put(value, given);
+            }
+            (Shape::Texts(Texts { put, .. }), Json::Array(all)) => {
+                for (place, given) in all.iter().filter_map(Json::as_str).enumerate() {
+                    put(value, place, given);
+                }
+            }
+            (Shape::Flag(put), Json::Bool(given)) => put(value, *given),
+            (Shape::Whole(Whole { put, .. }), given) => put(value, given.as_u64().unwrap_or(0)),
+            (Shape::Words(words), Json::String(given)) => {
+                if let Some(word) = words.iter().find(|word| word.name == given) {
+                    (word.put)(value);
+                }
+            }
+            (Shape::Number(..), given) => self.set(value, "", given),
+            (Shape::Numbers(Numbers { begin, .. }), given) => {
+                let Some(all) = given.as_array() else { return self.set(value, "", given) };
+                begin(value, Some(all.len()));
+                for (place, given) in all.iter().enumerate() {
+                    self.set(value, &place.to_string(), given);
+                }
+            }
+            (
+                Shape::Inner(inner)
+                | Shape::List(inner, _)
+                | Shape::Part(_, inner)
+                | Shape::TextOr(_, _, inner),
+                given,
+            ) => inner.put(value, given),
+            _ => {}
+        }
+    }
+
+    /// Former names inside what the key takes. Documents inside documents are renamed as they are read.
+    fn rename(&self, node: &mut Node, to: Names) {
+        match (&self.shape, &mut node.value) {
+            (Shape::Words(words), Value::String(given)) if to == Names::Today => {
+                if let Some(word) = words.iter().find(|word| word.formerly == Some(given)) {
+                    word.name.clone_into(given);
+                }
+            }
+            (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {
+                inner.rename(node, to);
+            }
+            (Shape::List(inner, _), Value::List(nodes)) => {
+                for node in nodes {
+                    inner.rename(node, to);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn rename_path(&self, path: &mut [String], given: Option<&Json>) {
+        match (&self.shape, path) {
+            (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner), path) => {
+                inner.rename_path(path, given);
+            }
+            // Entries of one list have one law, or no former names.
+            (Shape::List(inner, _), [_, path @ ..]) => inner.rename_path(path, None),
+            _ => {}
+        }
+    }
+
+    fn set(&self, value: &mut T, path: &str, given: &Json) {
+        if let (Some(reached), Some(given)) = (self.reach(value, path), given.as_f64()) {
+            reached.set(given);
+        }
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        match &self.shape {
+            Shape::Number(number, reach) if path.is_empty() => {
+                Some(Reached { value: reach(value)?, number: *number })
+            }
+            Shape::Numbers(Numbers { number, begin, reach, .. }) => {
+                let place = if path.is_empty() { 0 } else { path.parse().ok()? };
+                reach(value, place)?;
+                if path.is_empty() {
+                    // One number under the list's own key stands for all of them.
+                    begin(value, None);
+                }
+                Some(Reached { value: reach(value, place)?, number: *number })
+            }
+            Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
+                inner.reach(value, path)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl<T> Table<T> {
+    /// The row of a key, by its name of today or its former one.
+    fn field(&self, key: &str) -> Option<&Field<T>> {
+        let by_name = self.fields.iter().find(|field| field.key == key);
+        by_name.or_else(|| self.fields.iter().find(|field| field.formerly == Some(key)))
+    }
+}
+
+impl<T> Rows for Table<T> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        json_schema::of_table(self, None, defs)
+    }
+
+    fn complete(&self, given: &Json) -> Json {
+        let is_empty = |given: &Json| match given {
+            Json::String(text) => text.is_empty(),
+            Json::Array(all) => all.is_empty(),
+            _ => false,
+        };
+        let keys = self.fields.iter().filter_map(|field| {
+            let given = match given.get(field.key) {
+                Some(given) => field.complete(given),
+                None => Self::implied(field)?,
+            };
+            let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&given);
+            (!is_left_out).then(|| (field.key.to_owned(), given))
+        });
+        keys.collect()
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        let named = |field: &Field<T>| match to {
+            Names::Today => field.key,
+            Names::Former => field.formerly.unwrap_or(field.key),
+        };
+        // A key under both its names stays unknown by the former one, and is reported so.
+        let is_there = |field: &&Field<T>| table.entry(named(field)).is_some();
+        let there: Vec<_> = self.fields.iter().filter(is_there).map(named).collect();
+        let Value::Table(entries) = &mut table.value else { return };
+        for entry in entries {
+            let Some(field) = self.field(&entry.key) else { continue };
+            let name = named(field);
+            if entry.key == name || !there.contains(&name) {
+                name.clone_into(&mut entry.key);
+                field.rename(&mut entry.node, to);
+            }
+        }
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        let Some((key, rest)) = path.split_first_mut() else { return };
+        if let Some(field) = self.field(key) {
+            field.key.clone_into(key);
+            field.rename_path(rest, table.and_then(|table| table.get(field.key)));
+        }
+    }
+}
+
+impl<T> Inner<T> for Table<T> {
+    fn put(&self, value: &mut T, given: &Json) {
+        for field in self.fields {
+            if let Some(given) = given.get(field.key) {
+                field.put(value, given);
+            }
+        }
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let (key, rest) = path.split_once('.').unwrap_or((path, ""));
+        self.field(key)?.reach(value, rest)
+    }
+}
+
+// ---- Tables of one type in values of another ----
+
+impl<T, P> Rows for At<T, P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.inner.schema(defs)
+    }
+
+    fn complete(&self, given: &Json) -> Json {
+        self.inner.complete(given)
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.inner.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.inner.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for At<T, P> {
+    fn put(&self, value: &mut T, given: &Json) {
+        self.inner.put((self.at)(value), given);
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        self.inner.reach((self.at)(value), path)
+    }
+}
+
+impl<T, P> Rows for Each<T, P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.inner.schema(defs)
+    }
+
+    fn complete(&self, given: &Json) -> Json {
+        self.inner.complete(given)
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.inner.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.inner.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for Each<T, P> {
+    fn put(&self, value: &mut T, given: &Json) {
+        let all = given.as_array().into_iter().flatten().map(|given| {
+            let mut entry = (self.blank)();
+            self.inner.put(&mut entry, given);
+            entry
+        });
+        *(self.list)(value) = all.collect();
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let (place, rest) = path.split_once('.')?;
+        self.inner.reach((self.list)(value).get_mut(place.parse::<usize>().ok()?)?, rest)
+    }
+}
+
+impl<P> Rows for Beside<P> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        self.0.schema(defs)
+    }
+
+    fn complete(&self, given: &Json) -> Json {
+        self.0.complete(given)
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        self.0.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        self.0.rename_path(path, table);
+    }
+}
+
+impl<T, P> Inner<T> for Beside<P> {
+    fn put(&self, _: &mut T, _: &Json) {}
+
+    fn reach<'t>(&self, _: &'t mut T, _: &str) -> Option<Reached<'t>> {
+        None
+    }
+}
+
+// ---- Laws ----
+
+impl<T> Laws<T> {
+    fn named(&self, given: &Json) -> &'static Law<T> {
+        self.by_word(given.get(self.key))
+    }
+
+    fn by_word(&self, word: Option<&Json>) -> &'static Law<T> {
+        let name = word.and_then(Json::as_str);
+        self.all.iter().find(|law| Some(law.name) == name).unwrap_or(&self.all[0])
+    }
+}
+
+impl<T> Rows for Laws<T> {
+    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
+        json_schema::of_laws(self, defs)
+    }
+
+    fn complete(&self, given: &Json) -> Json {
+        let law = self.named(given);
+        let word = (self.key.to_owned(), Json::from(law.name));
+        let Json::Object(mut keys) = law.table.complete(given) else { return Json::Null };
+        keys.shift_insert(if self.is_written_last { keys.len() } else { 0 }, word.0, word.1);
+        Json::Object(keys)
+    }
+
+    fn rename(&self, table: &mut Node, to: Names) {
+        let word = table.entry(self.key).map(|entry| entry.node.to_json());
+        self.by_word(word.as_ref()).table.rename(table, to);
+    }
+
+    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
+        // Without the table nothing says which law it is, and laws may share a former name.
+        let Some(table) = table else { return };
+        self.named(table).table.rename_path(path, Some(table));
+    }
+}
+
+impl<T> Inner<T> for Laws<T> {
+    fn put(&self, value: &mut T, given: &Json) {
+        let law = self.named(given);
+        (law.choose)(value);
+        law.table.put(value, given);
+    }
+
+    fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
+        let mut tables = self.all.iter().map(|law| &law.table);
+        let found = tables.find(|table| table.reach(value, path).is_some())?;
+        found.reach(value, path)
+    }
+}
