@@ -170,6 +170,25 @@ impl CardStudy {
     /// The card. Draws are shared among threads and keep their order: the result is the same for
     /// any number of threads.
     ///
+    /// Go or no-go on 5°, 10° and 20°, where nothing is known of the soil's uncertainty?
+    ///
+    /// ```
+    /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::attitude::AttitudeStudy;
+    /// use grouser::studies::card::{CardStudy, Rule, Verdict};
+    /// use grouser::units::deg;
+    ///
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+    /// let attitude = AttitudeStudy::of(&scenario);
+    /// let study = CardStudy { attitude, rim_speed: 0.06, rule: Rule::DEFAULT };
+    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
+    /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
+    /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::NoGo]);
+    /// let level = card.rows[1].level.expect("10° can be crossed");
+    /// assert_eq!(format!("{:.2} W", level.power), "0.40 W");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// * `soils`: one for each draw; none where no uncertainty is stated
     /// * `slopes`: [rad], rising
     /// * `done`: called after each draw, from any thread
