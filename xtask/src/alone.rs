@@ -63,7 +63,7 @@ fn environment(
     kept
 }
 
-/// Where rustup keeps its toolchains if it is not told.
+/// The default folder of rustup's toolchains.
 fn rustup_beside_home() -> PathBuf {
     std::env::home_dir().unwrap_or_default().join(".rustup")
 }

@@ -1,4 +1,4 @@
-//! Everything that is checked, in one run: every step is taken, and the end shows all failures.
+//! Runs all checks: every step is taken, and the end shows all failures.
 
 use std::fs;
 use std::io::{BufRead, BufReader};

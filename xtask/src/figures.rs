@@ -1,4 +1,4 @@
-//! Keeps what the documents show equal to what the program makes.
+//! Keeps output and figures in the documents equal to those of the program.
 
 use std::collections::HashMap;
 use std::ffi::OsStr;

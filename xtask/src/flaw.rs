@@ -1,4 +1,4 @@
-//! What is wrong in a text of the repository.
+//! A fault in a text of the repository.
 
 /// Something wrong in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]

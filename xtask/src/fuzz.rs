@@ -30,7 +30,7 @@ use verdict::Limits;
 const USUAL: u64 = 3_000;
 /// Cases of a full run.
 const FULL: u64 = 60_000;
-/// Faults after which a run ends: more of them tell no more.
+/// Faults after which a run ends.
 const ENOUGH: usize = 20;
 
 /// What is to be tried.

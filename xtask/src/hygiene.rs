@@ -1,4 +1,4 @@
-//! What must not stand in the repository: hosts that nobody agreed on, and paths of one machine.
+//! Finds texts that must not be in the repository: hosts that are not allowed, and paths of one machine.
 
 use crate::flaw::Flaw;
 

@@ -122,7 +122,7 @@ fn instructions(program: &PathBuf, key: &str, times: u32) -> Result<(u64, u64)> 
     Ok((count, printed.trim().parse()?))
 }
 
-/// What valgrind and the program said.
+/// The output of valgrind and of the program.
 fn under_valgrind(program: &PathBuf, arguments: &[&str]) -> Result<(String, String)> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
@@ -131,11 +131,11 @@ fn under_valgrind(program: &PathBuf, arguments: &[&str]) -> Result<(String, Stri
         .stdin(Stdio::null())
         .output()
         .context("valgrind did not start")?;
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
     if !output.status.success() {
-        bail!("under valgrind the program failed:\n{said}");
+        bail!("under valgrind the program failed:\n{message}");
     }
-    Ok((said, String::from_utf8_lossy(&output.stdout).into_owned()))
+    Ok((message, String::from_utf8_lossy(&output.stdout).into_owned()))
 }
 
 #[cfg(test)]

@@ -36,15 +36,15 @@ use anyhow::{Result, bail};
 const USAGE: &str = "\
 cargo xtask CHORE
 
-  ci [--full]         everything that is checked; --full runs the slow tests too
+  ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   schema [--check]    write schema/*.json from the program, or only compare
-  figures [--check]   write what the program makes inside the Markdown files, or only compare
+  figures [--check]   write the program's output into the Markdown files, or only compare
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
-  packages [--full]   try what is published, without publishing it; --full builds it from that alone
+  packages [--full]   check the packages without publishing them; --full builds from them alone
   python [--lowest]   build the Python package's wheel and test it in an environment of its own;
                       --lowest with the lowest versions of all that it requires
   site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is

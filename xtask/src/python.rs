@@ -87,10 +87,10 @@ pub(crate) fn write_times() -> Result<()> {
     command.arg(workspace::build_work()?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
-    let (path, told) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
+    let (path, times) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
     let text = fs::read_to_string(&path).context(PERFORMANCE)?;
-    let text = markers::with_content_by(&text, TIMES, &told).context(PERFORMANCE)?;
-    print!("{told}");
+    let text = markers::with_content_by(&text, TIMES, &times).context(PERFORMANCE)?;
+    print!("{times}");
     fs::write(&path, text).context(PERFORMANCE)
 }
 
@@ -198,7 +198,7 @@ fn wheel() -> Result<PathBuf> {
     Ok(WHEEL.get_or_init(|| wheel).clone())
 }
 
-/// Tells MuJoCo, and what reads its variable, that nothing can be drawn.
+/// The setting by which MuJoCo draws nothing.
 pub(crate) const WITHOUT_RENDERER: [(&str, &str); 1] = [("MUJOCO_GL", "disable")];
 
 /// Runs pytest in the package's folder, shows what it says, and counts.

@@ -22,28 +22,29 @@ pub(crate) fn check() -> Result<bool> {
         .stderr(Stdio::piped())
         .output()
         .context("cargo did not start")?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let broken = broken_links(&said);
+    let report = String::from_utf8_lossy(&output.stderr);
+    let broken = broken_links(&report);
     if output.status.success() {
         println!("{}", broken.join("\n\n"));
     } else {
-        println!("{}", without_mistaken_links(&said).join("\n\n"));
+        println!("{}", without_mistaken_links(&report).join("\n\n"));
     }
     println!("{} broken links", broken.len());
     Ok(output.status.success() && broken.is_empty())
 }
 
 /// The reports of rustdoc on links that lead nowhere.
-fn broken_links(said: &str) -> Vec<&str> {
-    without_mistaken_links(said)
+fn broken_links(report: &str) -> Vec<&str> {
+    without_mistaken_links(report)
         .into_iter()
         .filter(|report| report.contains("unresolved link to `"))
         .collect()
 }
 
-/// What rustdoc said, report by report, without those on units and sources.
-fn without_mistaken_links(said: &str) -> Vec<&str> {
-    said.split("\n\n")
+/// The output of rustdoc, report by report, without those on units and sources.
+fn without_mistaken_links(report: &str) -> Vec<&str> {
+    report
+        .split("\n\n")
         .filter(|report| {
             let link = report.split("unresolved link to `").nth(1);
             let target = link.and_then(|rest| rest.split('`').next());
@@ -56,7 +57,7 @@ fn without_mistaken_links(said: &str) -> Vec<&str> {
 mod tests {
     use super::*;
 
-    const SAID: &str = "\
+    const REPORT: &str = "\
  Documenting grouser
 warning: unresolved link to `m`
   --> a.rs:1:1
@@ -69,9 +70,9 @@ error: something else
 
     #[test]
     fn units_are_no_links_and_the_rest_is_reported() {
-        let broken = broken_links(SAID);
+        let broken = broken_links(REPORT);
         assert_eq!(broken.len(), 1);
         assert!(broken[0].contains("Soil::chek"));
-        assert_eq!(without_mistaken_links(SAID).len(), 2);
+        assert_eq!(without_mistaken_links(REPORT).len(), 2);
     }
 }

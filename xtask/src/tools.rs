@@ -1,4 +1,4 @@
-//! What the checks need besides the toolchain, and where it comes from.
+//! Tools that the checks need besides the toolchain, and how to install them.
 //!
 //! The machine belongs to the person who runs the checks: packages of the system are installed only where the
 //! environment variable `CI` says that it is a machine of continuous integration. Elsewhere a check that
@@ -138,7 +138,9 @@ mod tests {
 
     #[test]
     fn a_missing_tool_says_what_is_skipped_and_how_to_get_it() {
-        let said = VALGRIND.missing();
-        assert!(said.contains("instructions are skipped") && said.contains("install valgrind"));
+        let message = VALGRIND.missing();
+        assert!(
+            message.contains("instructions are skipped") && message.contains("install valgrind")
+        );
     }
 }

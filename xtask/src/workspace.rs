@@ -92,22 +92,22 @@ pub(crate) fn target() -> PathBuf {
 
 /// Runs the program at the root and returns what it prints.
 pub(crate) fn output_of(program: &Path, arguments: &[String]) -> Result<String> {
-    let said = || format!("`grouser {}`", arguments.join(" "));
+    let command = || format!("`grouser {}`", arguments.join(" "));
     let output = Command::new(program)
         .args(arguments)
         .current_dir(root())
         .stdin(Stdio::null())
         .env("NO_COLOR", "1")
         .output()
-        .with_context(|| format!("{} did not start", said()))?;
+        .with_context(|| format!("{} did not start", command()))?;
     ensure!(
         output.status.success(),
         "{} ended with {}: {}",
-        said(),
+        command(),
         output.status,
         lossy(&output.stderr).trim_end()
     );
-    String::from_utf8(output.stdout).with_context(|| format!("{} printed no text", said()))
+    String::from_utf8(output.stdout).with_context(|| format!("{} printed no text", command()))
 }
 
 fn lossy(bytes: &[u8]) -> String {

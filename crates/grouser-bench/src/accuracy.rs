@@ -1,8 +1,8 @@
-//! How near the units of work come to the same things computed with much more effort.
+//! Accuracy of the units of work, against the same results computed with much more effort.
 
 use grouser::contact::{Ishigami, WheelForces, WheelSoilModel as _, settle};
 use grouser::simulation::{Integrator, Run, Scenario};
-use grouser::studies::attitude::{Attitude, AttitudeStudy};
+use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::vehicle::dynamics;
 use grouser::vehicle::reaction::forces_of;
 
@@ -19,12 +19,12 @@ pub struct Accuracy {
     pub traverse_dynamic: f64,
     /// Of the end of a quasi-steady traverse against the same [m].
     pub traverse_quasi_steady: f64,
-    /// Of the balance along the slope on the attitude curve, over the weight [-].
-    pub attitude_curve: f64,
+    /// Of the equilibrium of forces on the curve of heading offsets, over the weight [-].
+    pub heading_curve: f64,
 }
 
 impl Accuracy {
-    /// Measures it.
+    /// Measures the errors.
     ///
     /// # Panics
     /// If a fixture cannot be computed: it always could.
@@ -41,7 +41,7 @@ impl Accuracy {
             settle: carried(fixtures),
             traverse_dynamic: miss(scenario),
             traverse_quasi_steady: miss(&fixtures.quasi_steady()),
-            attitude_curve: imbalance(scenario),
+            heading_curve: imbalance(scenario),
         }
     }
 }
@@ -81,14 +81,14 @@ fn end(scenario: &Scenario) -> (f64, f64) {
 }
 
 fn imbalance(scenario: &Scenario) -> f64 {
-    let curve = AttitudeStudy::of(scenario).curve().expect("it has one");
+    let curve = HeadingStudy::of(scenario).curve().expect("it has one");
     let weight = scenario.rover.mass() * scenario.site.gravity;
-    let miss = |attitude: Attitude| {
-        let forces = forces_of(&attitude.wheels);
+    let miss = |heading: HeadingOffset| {
+        let forces = forces_of(&heading.wheels);
         let (force, _) = dynamics::soil_resultant(&scenario.rover, &forces, scenario.own_moments);
-        let pull = weight * attitude.slope.sin();
-        let (forward, left) = (pull * attitude.yaw.sin(), pull * attitude.yaw.cos());
+        let pull = weight * heading.slope.sin();
+        let (forward, left) = (pull * heading.yaw.sin(), pull * heading.yaw.cos());
         (force.x - forward).hypot(force.y - left) / weight
     };
-    curve.attitudes().into_iter().map(miss).fold(0.0, f64::max)
+    curve.headings().into_iter().map(miss).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! What Python asks for in arrays, made ready once: the work that its calls are measured against.
+//! The work behind Python's calls on arrays, prepared once, to measure the calls' overhead against.
 
 use grouser::contact::{Contact, Slip, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
@@ -55,7 +55,7 @@ impl Arrays {
     pub fn compute(&self) -> usize {
         match self {
             Self::Wheels(wheels) => {
-                // The theory of a scenario that names none.
+                // The model of a scenario that names none.
                 let model = grouser::contact::Theory::default().model();
                 let one = |(contact, load): &(Contact, f64)| settle(model, contact, *load);
                 let settled: Vec<_> = wheels.par_iter().with_min_len(SHARE).map(one).collect();

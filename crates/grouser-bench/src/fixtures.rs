@@ -1,4 +1,4 @@
-//! What the units of work work on.
+//! Inputs of the units of work.
 
 use grouser::contact::{Contact, Slip, Theory};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};

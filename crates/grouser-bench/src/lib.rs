@@ -1,4 +1,4 @@
-//! Units of work by which Grouser's speed is told, each with the accuracy that it reaches.
+//! Benchmarks: units of work that measure Grouser's speed, each with the accuracy that it reaches.
 //!
 //! One home for what `grouser bench` measures, `cargo bench` compares and the count of instructions
 //! watches. Everything is fixed: the same wheels, rovers and soils at every call, so that two

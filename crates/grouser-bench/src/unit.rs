@@ -3,14 +3,14 @@
 use grouser::contact::{settle, settle_many};
 use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Run, Scenario};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
 use grouser::vehicle::reaction::Ground;
 use rayon::prelude::*;
 
 use crate::fixtures::Fixtures;
 
-/// A unit of work, by the key under which its time is told.
+/// A unit of work, by the key of its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// The reaction on one wheel at a sinkage, one after the other.
@@ -25,15 +25,15 @@ pub enum Unit {
     RoverRates,
     /// A traverse of 20 s, all accelerations integrated.
     TraverseDynamic,
-    /// The same with velocities in balance.
+    /// The same as a sequence of steady states.
     TraverseQuasiSteady,
-    /// The attitude on 25 slopes up to the steepest.
-    AttitudeCurve,
+    /// The heading offset on 25 slopes up to the steepest.
+    HeadingCurve,
     /// Quasi-steady traverses of 20 s on varied soil, on all cores.
     Campaign,
 }
 
-/// What was done.
+/// The result of a unit of work.
 #[derive(Clone, Copy, Debug)]
 pub struct Done {
     /// How often the unit was done.
@@ -52,7 +52,7 @@ impl Unit {
         Self::RoverRates,
         Self::TraverseDynamic,
         Self::TraverseQuasiSteady,
-        Self::AttitudeCurve,
+        Self::HeadingCurve,
         Self::Campaign,
     ];
 
@@ -67,7 +67,7 @@ impl Unit {
             Self::RoverRates => "rover_rhs_us",
             Self::TraverseDynamic => "traverse_dynamic_ms",
             Self::TraverseQuasiSteady => "traverse_quasi_steady_ms",
-            Self::AttitudeCurve => "attitude_curve_ms",
+            Self::HeadingCurve => "attitude_curve_ms",
             Self::Campaign => "campaign_traverses_per_s",
         }
     }
@@ -88,7 +88,7 @@ impl Fixtures {
             Unit::RoverRates => self.rover_rates(),
             Unit::TraverseDynamic => traverse(&self.scenario),
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
-            Unit::AttitudeCurve => self.attitude_curve(),
+            Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
     }
@@ -143,8 +143,8 @@ impl Fixtures {
         Done { count: TIMES, checksum: sum }
     }
 
-    fn attitude_curve(&self) -> Done {
-        let curve = AttitudeStudy::of(&self.scenario).curve().expect("it has one");
+    fn heading_curve(&self) -> Done {
+        let curve = HeadingStudy::of(&self.scenario).curve().expect("it has one");
         let (steepest, _) = curve.limit().expect("it can move");
         let slopes = (1..=25).map(|step| steepest * f64::from(step) / 25.0);
         Done {

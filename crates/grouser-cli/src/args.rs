@@ -1,4 +1,4 @@
-//! What can be asked on the command line.
+//! The arguments of the command line.
 
 mod campaign;
 mod card;
@@ -16,12 +16,14 @@ use crate::output::Format;
 
 pub(crate) use campaign::{
     CampaignArgs, CampaignCommand, CampaignCostArgs, CampaignDigestArgs, CampaignMergeArgs,
-    CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorWord,
+    CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
-pub(crate) use card::{CardArgs, SideWord};
+pub(crate) use card::{CardArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
-pub(crate) use measurements::{CalibrateArgs, ImportArgs, PlateLawWord, SlipWord, ValidateArgs};
+pub(crate) use measurements::{
+    CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
+};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 
@@ -87,7 +89,7 @@ pub(crate) struct ReproduceArgs {
     pub(crate) force: bool,
 }
 
-/// Where results go, and in which form.
+/// Destination and format of the results.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
     /// Form of what is printed.
@@ -101,7 +103,7 @@ pub(crate) struct OutputArgs {
     pub(crate) force: bool,
 }
 
-/// What most commands can change about their documents.
+/// Overrides that most commands take.
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
@@ -139,7 +141,7 @@ pub(crate) enum TableOrJson {
 
 #[derive(Debug, Args)]
 pub(crate) struct BenchArgs {
-    /// How long to measure, in all [s]: the longer, the less other work on the machine counts.
+    /// Time to measure, in all [s]: the longer, the smaller the effect of other work on the machine.
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
     pub(crate) seconds: f64,
     /// Form of what is printed.

@@ -16,10 +16,10 @@ use kuva::render::render::render_multiple;
 
 use crate::output::rows::four_digits;
 
-/// A chart: axes and what is drawn on them.
+/// A chart: axes and series.
 #[derive(Clone, Debug)]
 pub(crate) struct Chart {
-    /// What the chart shows.
+    /// The chart's title.
     pub(crate) title: String,
     /// Horizontal quantity and unit.
     pub(crate) x_label: String,

@@ -1,14 +1,14 @@
-//! What each command does.
+//! The commands, each in a module of its own.
 
-pub(crate) mod attitude;
-mod attitude_band;
-pub(crate) mod attitude_map;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod campaign;
 pub(crate) mod card;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod heading;
+mod heading_band;
+pub(crate) mod heading_map;
 pub(crate) mod import;
 pub(crate) mod presets;
 pub(crate) mod reproduce;

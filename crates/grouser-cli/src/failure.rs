@@ -1,4 +1,4 @@
-//! How the program fails: a message for the person, an exit code for the script.
+//! Failures of the program: a message for people, an exit code for scripts.
 
 use std::path::Path;
 
@@ -6,24 +6,24 @@ use grouser::document::escape;
 
 use crate::interrupt;
 
-/// Why a command did not do what it was asked to.
+/// A command failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// The command line or a document is wrong: exit code 2.
     #[error("{0}")]
     Usage(String),
-    /// The same, and the parser of the command line has said so already.
+    /// The same, reported already by the parser of the command line.
     #[error("the command line is wrong")]
-    UsageToldAlready,
+    UsageReported,
     /// A computation failed: exit code 1.
     #[error("{0}")]
     Run(String),
     /// The disk, its permissions or the terminal failed: exit code 1.
     #[error("{what}: {source}")]
     Environment {
-        /// What could not be done, with the file or folder.
+        /// The failed operation, with the file or folder.
         what: String,
-        /// What the system said.
+        /// The system's error.
         source: std::io::Error,
     },
     /// Some of many runs failed; all else is done: exit code 3.
@@ -32,9 +32,9 @@ pub(crate) enum Failure {
     /// Ctrl-C, and all is in its place: exit code 130.
     #[error("{0}")]
     Interrupted(String),
-    /// Another program did the work, said what there is to say, and ended with this exit code.
+    /// A child process did the work, reported its failure, and ended with this exit code.
     #[error("the program that did the work failed")]
-    ToldByOther(u8),
+    ReportedByChild(u8),
     /// The reader of our output has gone: no message, exit code 0.
     #[error("the reader of the output has gone")]
     ReaderGone,
@@ -46,10 +46,10 @@ impl Failure {
         match self {
             Self::ReaderGone => 0,
             Self::Run(_) | Self::Environment { .. } => 1,
-            Self::Usage(_) | Self::UsageToldAlready => 2,
+            Self::Usage(_) | Self::UsageReported => 2,
             Self::Partly(_) => 3,
             Self::Interrupted(_) => interrupt::INTERRUPTED,
-            Self::ToldByOther(code) => *code,
+            Self::ReportedByChild(code) => *code,
         }
     }
 
@@ -62,9 +62,9 @@ impl Failure {
         }
     }
 
-    /// Whether a message is still due.
-    pub(crate) fn is_to_be_told(&self) -> bool {
-        !matches!(self, Self::ReaderGone | Self::UsageToldAlready | Self::ToldByOther(_))
+    /// Whether a message must still be printed.
+    pub(crate) fn needs_message(&self) -> bool {
+        !matches!(self, Self::ReaderGone | Self::UsageReported | Self::ReportedByChild(_))
     }
 
     /// A failed operation on a file or folder, such as `cannot write`.

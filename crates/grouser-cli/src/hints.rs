@@ -1,4 +1,4 @@
-//! What the library's hints mean on the command line: it names keys, columns and conditions, and here
+//! The library's hints as flags of the command line: it names keys, columns and conditions, and here
 //! stand the flags and commands that set them.
 
 use grouser::document::Kind;

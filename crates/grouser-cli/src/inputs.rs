@@ -1,4 +1,4 @@
-//! From flags to documents: each flag stands for a key, and is checked as that key is.
+//! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
 use std::ops::RangeInclusive;
 
@@ -89,16 +89,16 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
-/// The scenario whose rover, soil and balance an attitude study takes; its slope is not used.
-pub(crate) fn attitude(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
+/// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
+pub(crate) fn heading(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
     let scenario = args.scenario.as_deref();
     let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
     balanced("heading", scenario, rover, soil, &args.setting, &args.balance)
 }
 
-/// The scenarios of an attitude map, one for each soil.
-pub(crate) fn attitude_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
+/// The scenarios of a heading map, one for each soil.
+pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;
     check_numbers("--course-deg", &args.course_deg, &study::COURSE_DEG)?;
@@ -121,7 +121,7 @@ fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
     check_numbers("--slope-deg", slopes, &range)
 }
 
-/// A scenario for its rover, soil and balance alone.
+/// A scenario for its rover, soil and load transfer alone.
 fn balanced(
     command: &str,
     scenario: Option<&str>,
@@ -148,7 +148,7 @@ fn balanced(
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
-/// The soils that an attitude study's soil may be.
+/// The uncertain soil of a scenario; without one, a usage error.
 pub(crate) fn uncertain_soil<'s>(
     args: &HeadingArgs,
     scenario: &'s LoadedScenario,
@@ -159,24 +159,24 @@ pub(crate) fn uncertain_soil<'s>(
         return Err(Failure::Usage(format!(
             "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
              hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
-             docs/guide/uncertainty.md tells how"
+             docs/guide/uncertainty.md explains how"
         )));
     };
     refuse_sampled_keys(&args.setting, uncertain)?;
     Ok(uncertain)
 }
 
-/// What the samples say in every draw cannot be set by hand.
+/// Refuses settings of keys that the samples give a value.
 fn refuse_sampled_keys(setting: &SettingArgs, uncertain: &UncertainSoil) -> Result<(), Failure> {
     let keys: Vec<&str> = uncertain.sampled_keys().collect();
     if !keys.is_empty() {
-        let hint = "the samples give this key a value in every draw";
+        let hint = "every sample gives this key its own value";
         Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
     }
     Ok(())
 }
 
-/// What a card is made from.
+/// The inputs of a card.
 pub(crate) struct CardInputs {
     pub(crate) scenario: LoadedScenario,
     /// Rim speed [m/s].
@@ -218,7 +218,7 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
     Ok(number)
 }
 
-/// Wheel, soil, gravity and theory of a wheel on a test stand.
+/// Wheel, soil, gravity and model of a test stand.
 pub(crate) struct StandInputs {
     pub(crate) soil: document::LoadedSoil,
     pub(crate) wheel: document::LoadedWheel,
@@ -276,7 +276,7 @@ pub(crate) fn stand(
     overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
-    // Gravity and theory are keys of scenarios: read them as such, to check them as such.
+    // Gravity and model are keys of scenarios: read them as such, to check them as such.
     let mut scenario = Overrides::none();
     scenario_settings(
         &mut scenario,

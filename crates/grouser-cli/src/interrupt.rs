@@ -8,9 +8,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Held while there are files that are not in their place.
 static MOVING_FILES: Mutex<()> = Mutex::new(());
 
-/// Whether a command looks after Ctrl-C itself.
-static IS_LOOKED_AFTER: AtomicBool = AtomicBool::new(false);
-/// Whether such a command is to come to its end.
+/// Whether a command handles Ctrl-C itself.
+static IS_HANDLED: AtomicBool = AtomicBool::new(false);
+/// Whether such a command is asked to stop.
 static STOP: AtomicBool = AtomicBool::new(false);
 
 /// The exit code of an interrupted program: 128 and the number of SIGINT.
@@ -19,11 +19,11 @@ pub(crate) const INTERRUPTED: u8 = 130;
 /// From now on, Ctrl-C ends the program as soon as no files are being moved.
 pub(crate) fn exit_on_ctrl_c() {
     let handler = || {
-        if IS_LOOKED_AFTER.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
+        if IS_HANDLED.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
             return;
         }
-        let _files_are_whole = not_now();
-        // Whoever cannot hear it still gets the exit code.
+        let _files_are_whole = defer_ctrl_c();
+        // Without a reader of messages there is still the exit code.
         let _ = writeln!(std::io::stderr(), "interrupted");
         std::process::exit(INTERRUPTED.into());
     };
@@ -33,17 +33,17 @@ pub(crate) fn exit_on_ctrl_c() {
 
 /// From now on, the first Ctrl-C only [asks](is_asked_to_stop) to stop; the second one ends the
 /// program as ever.
-pub(crate) fn look_after() {
-    IS_LOOKED_AFTER.store(true, Ordering::Relaxed);
+pub(crate) fn handle_ctrl_c() {
+    IS_HANDLED.store(true, Ordering::Relaxed);
 }
 
-/// Whether whoever looks after Ctrl-C is to come to an end.
+/// Whether a command that handles Ctrl-C itself is asked to stop.
 pub(crate) fn is_asked_to_stop() -> bool {
     STOP.load(Ordering::Relaxed)
 }
 
-/// As long as the result lives, Ctrl-C waits.
-pub(crate) fn not_now() -> MutexGuard<'static, ()> {
+/// Defers Ctrl-C as long as the result lives.
+pub(crate) fn defer_ctrl_c() -> MutexGuard<'static, ()> {
     MOVING_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -1,7 +1,7 @@
-//! The program `grouser`: words from the command line to the library, results back into words.
+//! The program `grouser`: a command-line interface to the library.
 //!
-//! It computes no physics. [`args`] is what can be asked, [`commands`] what is done about it,
-//! [`output`] how it is said, [`report`] the page that `reproduce` writes.
+//! It computes no physics. [`args`] has the arguments, [`commands`] the commands, [`output`] prints and writes
+//! results, [`report`] makes the page of `reproduce`.
 
 mod args;
 mod chart;
@@ -42,10 +42,10 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Reproduce(args) => commands::reproduce::run(args),
         Command::Traverse(args) => commands::traverse::run(args),
         Command::WheelTest(args) => commands::wheel_test::run(args),
-        Command::Heading(args) => commands::attitude::run("heading", args),
-        Command::HeadingMap(args) => commands::attitude_map::run("heading-map", args),
-        Command::Attitude(args) => commands::attitude::run("attitude", args),
-        Command::AttitudeMap(args) => commands::attitude_map::run("attitude-map", args),
+        Command::Heading(args) => commands::heading::run("heading", args),
+        Command::HeadingMap(args) => commands::heading_map::run("heading-map", args),
+        Command::Attitude(args) => commands::heading::run("attitude", args),
+        Command::AttitudeMap(args) => commands::heading_map::run("attitude-map", args),
         Command::Card(args) => commands::card::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),

@@ -1,5 +1,4 @@
-//! What the program says: results to the standard output, talk to the standard error, files to a
-//! folder.
+//! Output: results to the standard output, messages to the standard error, files to a folder.
 
 pub(crate) mod file;
 pub(crate) mod folder;
@@ -37,8 +36,8 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
         .map_err(failed_to_print)
 }
 
-/// What the parser of the command line has to say: help and version to the standard output, what
-/// is wrong to the standard error.
+/// Prints the answer of the parser of the command line: help and version to the standard output, errors to
+/// the standard error.
 pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
     // It quotes arguments as they are. One that steers a terminal costs the answer its colours.
     let plain = answer.render().to_string();
@@ -47,22 +46,18 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
         _ => answer.print(),
     };
     let printed = printed.and_then(|()| stdout().flush());
-    if answer.use_stderr() {
-        Err(Failure::UsageToldAlready)
-    } else {
-        printed.map_err(failed_to_print)
-    }
+    if answer.use_stderr() { Err(Failure::UsageReported) } else { printed.map_err(failed_to_print) }
 }
 
-/// Says something beside the results, to the standard error.
-pub(crate) fn tell(text: &str) {
-    // Whoever cannot hear it still gets the results.
+/// Prints a message beside the results, to the standard error.
+pub(crate) fn message(text: &str) {
+    // Without a reader of messages there are still the results.
     let _ = writeln!(stderr(), "{}", escape::visible(text));
 }
 
-/// Says what went wrong, to whoever still listens.
+/// Prints the message of a failure to the standard error.
 pub(crate) fn report(failure: &Failure) {
-    if failure.is_to_be_told() {
+    if failure.needs_message() {
         let message = hints::with_flags(&failure.to_string());
         let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&message));
     }

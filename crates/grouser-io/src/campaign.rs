@@ -1,4 +1,4 @@
-//! What a campaign's document says, and what its numbers go into.
+//! The settings of a campaign's document.
 
 use super::describe::uncertainty::Stated;
 use super::describe::{soil, wheel};
@@ -7,7 +7,7 @@ use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
 
-/// What a campaign is to do.
+/// The settings of a campaign.
 #[derive(Clone, Debug)]
 pub struct Settings {
     pub study: Study,
@@ -17,11 +17,11 @@ pub struct Settings {
     pub shard_runs: u64,
     pub sampling: Sampling,
     pub sensitivity: bool,
-    /// Whether the soil's own uncertainty is drawn from, too.
+    /// Whether the soil's own uncertainty is sampled, too.
     pub soil_uncertainty: bool,
-    /// What is drawn from, beside that.
+    /// The other uncertain inputs.
     pub uncertain: Stated,
-    /// What is varied: a scenario, or a stand.
+    /// The base that is varied: a scenario, or a stand.
     pub scenario: Option<Box<Scenario>>,
     pub stand: Option<Stand>,
 }
@@ -61,7 +61,7 @@ pub enum Study {
     /// A run of the scenario, and where it ends.
     Traverse,
     /// The heading offset that holds the contour of the scenario's slope.
-    Attitude,
+    Heading,
     /// A wheel on a test stand.
     WheelTest,
 }
@@ -72,7 +72,7 @@ impl Study {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Traverse => "traverse",
-            Self::Attitude => "heading",
+            Self::Heading => "heading",
             Self::WheelTest => "wheel-test",
         }
     }

@@ -1,8 +1,7 @@
 //! Checks a tree of values against the schema of its kind, before anything is made of it.
 //!
-//! The checks that a JSON Schema can say are all here: which keys there are, their types, words,
-//! ranges and lengths. What only all values together can show is checked where the domain's values
-//! are made.
+//! All checks of a JSON Schema are here: keys, their types, keywords, ranges and lengths. Contradictions between
+//! values are checked where the domain's values are made.
 
 use serde_json::Value as Json;
 
@@ -42,7 +41,7 @@ fn table_at<'s>(
     checker.choose(schema, node, "", &node.origin).ok()
 }
 
-/// The word that was probably meant.
+/// The keyword that was probably meant.
 #[must_use]
 pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
     /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;

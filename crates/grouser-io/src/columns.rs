@@ -1,5 +1,5 @@
-//! The columns of results: what a result is called, its unit, what it is and where it comes from stands in one
-//! [`Column`] and nowhere else.
+//! The columns of results: name, unit, description and source of a result are declared in one [`Column`] and
+//! nowhere else.
 //!
 //! A column leads to a number in SI; its unit makes of that what leaves. Tables on a terminal, CSV, JSON,
 //! Parquet, Arrow and the arrays of Python are made from these columns, by way of a [`Table`](super::table::Table)
@@ -142,7 +142,7 @@ impl Quantity {
         INTERVAL.map(|end| format!("{}{end}", self.name))
     }
 
-    /// The name of what was measured, beside what is predicted.
+    /// The name of the measured value beside the predicted one.
     #[must_use]
     pub fn measurement(self) -> String {
         format!("measured_{}", self.name)
@@ -155,9 +155,9 @@ impl Quantity {
         format!("{stem}_std{end}")
     }
 
-    /// What people call it: `drawbar pull`.
+    /// The name in words: `drawbar pull`.
     #[must_use]
-    pub fn words(self) -> String {
+    pub fn label(self) -> String {
         self.stem().replace('_', " ")
     }
 

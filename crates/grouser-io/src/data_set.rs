@@ -1,5 +1,4 @@
-//! `data-set/1`: what a file of measurements was measured with, so that theories can be judged by
-//! it without being told.
+//! `data-set/1`: wheel, soils and gravity of a file of measurements, so that models can be compared with it.
 
 use serde::Deserialize;
 
@@ -53,7 +52,7 @@ struct CaseSection {
 /// A part of a data set, with its documents read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataSetCase {
-    /// What people call it.
+    /// Its name.
     pub name: String,
     /// Which rows of the file belong to it.
     pub conditions: Vec<Condition>,

@@ -10,13 +10,13 @@ pub mod wheel;
 
 use super::Kind;
 use super::field::{
-    Field, Fill, M_S2, Reach, Rows, Shape, Word, day, field, note, nothing, number, texts, word,
+    Field, Fill, Keyword, M_S2, Reach, Rows, Shape, day, field, note, nothing, number, texts, word,
     words,
 };
 use grouser_core::contact::Theory;
 use grouser_core::units::EARTH_GRAVITY;
 
-/// What a kind of document may say.
+/// The table of a kind of document.
 pub fn rows(kind: Kind) -> &'static dyn Rows {
     match kind {
         Kind::Soil => &soil::SOIL,
@@ -30,28 +30,28 @@ pub fn rows(kind: Kind) -> &'static dyn Rows {
 
 /// Which kind of document it is, and of which version.
 const fn schema<T>(tag: &'static str) -> Field<T> {
-    field("schema", "Kind and version of this document.", Shape::Tag).otherwise(Fill::Word(tag))
+    field("schema", "Kind and version of this document.", Shape::Tag).otherwise(Fill::Keyword(tag))
 }
 
-/// What people call it.
+/// The document's name.
 const fn name<T>() -> Field<T> {
     note("name", "What people call it.").otherwise(UNNAMED)
 }
 
-/// What a run is there to show.
+/// The purpose of a run.
 const fn purpose<T>() -> Field<T> {
     note("name", "What it is there to show.").otherwise(UNNAMED)
 }
 
-const UNNAMED: Fill = Fill::Word("unnamed");
+const UNNAMED: Fill = Fill::Keyword("unnamed");
 
 /// Where the values come from.
 const fn source<T>() -> Field<T> {
     note("source", "Where the values come from.").otherwise(NOT_STATED)
 }
 
-/// What a document says of its own source when it says nothing.
-const NOT_STATED: Fill = Fill::Word("not stated");
+/// The source of a document that states none.
+const NOT_STATED: Fill = Fill::Keyword("not stated");
 
 /// Anything else.
 const fn notes<T>() -> Field<T> {
@@ -79,7 +79,7 @@ const fn model<T>(doc: &'static str) -> Field<T> {
 struct Theories<T>(std::marker::PhantomData<T>);
 
 impl<T: 'static> Theories<T> {
-    const WORDS: &'static [Word<T>] = &[
+    const WORDS: &'static [Keyword<T>] = &[
         word(Theory::Ishigami.name(), "Stresses along the arc (Ishigami et al. 2007).", nothing),
         word(Theory::Bekker.name(), "Bekker's closed form.", nothing),
         word(
@@ -92,7 +92,7 @@ impl<T: 'static> Theories<T> {
     ];
 }
 
-/// Gravity, that of Earth if nothing is said.
+/// Gravity; without the key, that of Earth.
 const fn gravity<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
     number("gravity_m_s2", M_S2, 0.01..=30.0, doc, reach).or(EARTH_GRAVITY)
 }

@@ -1,5 +1,4 @@
-//! What can be wrong with a document, said so that its author can mend it: where it stands, what
-//! it says, what it may say, and a hint.
+//! Errors of documents, with place, value, allowed values and a hint.
 
 use std::fmt;
 use std::io;
@@ -57,7 +56,7 @@ struct Excerpt {
     mark_width: usize,
 }
 
-/// What is wrong.
+/// The fault of a document.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Problem {
     /// Neither a preset nor a file.
@@ -191,7 +190,7 @@ pub enum Problem {
     #[error("{0}")]
     Unfit(#[from] ParameterError),
     /// Something that cannot be uncertain.
-    #[error("`{key}` is no number of {whole}, only numbers can be uncertain")]
+    #[error("`{key}` is not a number of {whole}, only numbers can be uncertain")]
     NotANumber {
         /// The key.
         key: String,
@@ -214,7 +213,7 @@ pub enum Problem {
     #[error("the uncertainty reaches too far: {0}")]
     NoDraws(#[from] NothingAccepted),
     /// A distribution far from its key's range.
-    #[error("less than 1 % of the draws of `{key}` would be in its range, {range}")]
+    #[error("less than 1 % of the samples of `{key}` would be in its range, {range}")]
     OutsideRange {
         /// The key.
         key: String,
@@ -277,7 +276,7 @@ impl DocumentError {
         self
     }
 
-    /// The same, told where another document names the one that is wrong.
+    /// The same, with the place where another document names the wrong one.
     pub fn seen_from(mut self, origin: &Origin) -> Self {
         self.parts.place = Place::of(origin);
         self
@@ -297,7 +296,7 @@ impl DocumentError {
         self
     }
 
-    /// The same, told as an argument's, such as `--soil moon`, if that names nothing there is.
+    /// The same, as an argument's, such as `--soil moon`, if that names nothing there is.
     #[must_use]
     pub fn in_argument(mut self, argument: String) -> Self {
         if matches!(self.problem(), Problem::NoSuchPresetOrFile { .. }) {
@@ -306,7 +305,7 @@ impl DocumentError {
         self
     }
 
-    /// Where the trouble is.
+    /// The place of the fault.
     #[must_use]
     pub fn place(&self) -> &Place {
         &self.parts.place
@@ -324,7 +323,7 @@ impl DocumentError {
         &self.parts.problem
     }
 
-    /// How it may be mended.
+    /// A hint to correct it.
     #[must_use]
     pub fn hint(&self) -> Option<&str> {
         self.parts.hint.as_deref()

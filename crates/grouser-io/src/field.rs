@@ -1,5 +1,5 @@
-//! The rows that declare what a document may say: a number, with its key, its unit, its range, what it is
-//! and where it goes in the domain's value, stands in one row of a [`Table`] and nowhere else.
+//! The rows that declare the keys of documents: key, unit, range, description and domain field of a number are
+//! declared in one row of a [`Table`] and nowhere else.
 //!
 //! Reading, checks, messages, JSON Schema, conversion to SI, `--set`, the keys of campaigns and
 //! calibrations are made from these rows. The tables themselves are in [`describe`](super::describe).
@@ -14,7 +14,7 @@ pub use super::unit::{
     DEG, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N, OF_KEY, ONE, S, Unit,
 };
 
-/// What a document, or a table in it, may say: keys in the order in which they are written.
+/// The keys of a document, or of a table in it, in the order in which they are written.
 ///
 /// `T` is the domain's value that the numbers go to.
 pub struct Table<T: 'static> {
@@ -51,12 +51,12 @@ pub enum Fill {
     Number(f64),
     Whole(u64),
     Flag(bool),
-    Word(&'static str),
+    Keyword(&'static str),
     /// A table with these keys, and what they imply.
     Keys(&'static [(&'static str, Fill)]),
 }
 
-/// What a key takes, and where that goes.
+/// The type of a key's value, and its domain field.
 pub enum Shape<T: 'static> {
     /// Kind and version of a document.
     Tag,
@@ -64,8 +64,8 @@ pub enum Shape<T: 'static> {
     Texts(Texts<T>),
     Flag(fn(&mut T, bool)),
     Whole(Whole<T>),
-    /// One of some words.
-    Words(&'static [Word<T>]),
+    /// One of some keywords.
+    Words(&'static [Keyword<T>]),
     Number(Number, Reach<T>),
     Numbers(Numbers<T>),
     /// A table.
@@ -113,8 +113,8 @@ pub struct Whole<T: 'static> {
     put: fn(&mut T, u64),
 }
 
-/// A word of a closed set, and what it makes of the value.
-pub struct Word<T: 'static> {
+/// A keyword of a closed set, and its effect on the domain's value.
+pub struct Keyword<T: 'static> {
     pub name: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
@@ -149,7 +149,7 @@ pub enum Names {
     Former,
 }
 
-/// What a document, or a table in it, may say, whatever value its numbers go to.
+/// The keys of a document, or of a table in it, whatever the type of the domain's value.
 pub trait Rows: Sync {
     /// Its JSON Schema.
     ///
@@ -157,7 +157,7 @@ pub trait Rows: Sync {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json;
 
     /// The same in the table's order, with all that it leaves out; of one that was checked.
-    fn complete(&self, said: &Json) -> Json;
+    fn complete(&self, given: &Json) -> Json;
 
     /// Changes keys and keywords of earlier versions to those of today, or keys of today to theirs.
     fn rename(&self, table: &mut Node, to: Names);
@@ -170,8 +170,8 @@ pub trait Rows: Sync {
 
 /// Rows whose numbers go to a value of one type.
 pub trait Inner<T>: Rows {
-    /// Puts what a complete table says into the value.
-    fn put(&self, value: &mut T, said: &Json);
+    /// Puts the values of a complete table into the domain's value.
+    fn put(&self, value: &mut T, given: &Json);
 
     /// A number of the value under a dotted key, entries of lists by their place.
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>>;
@@ -247,7 +247,7 @@ pub const fn whole<T>(
     field(key, doc, Shape::Whole(Whole { least, most, format, put }))
 }
 
-/// Whether something is so; it is not, if nothing is said.
+/// A flag; false without the key.
 pub const fn flag<T>(key: &'static str, doc: &'static str, put: fn(&mut T, bool)) -> Field<T> {
     field(key, doc, Shape::Flag(put)).otherwise(Fill::Flag(false))
 }
@@ -280,17 +280,21 @@ pub const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
     field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
 }
 
-/// One of some words.
-pub const fn words<T>(key: &'static str, doc: &'static str, words: &'static [Word<T>]) -> Field<T> {
+/// One of some keywords.
+pub const fn words<T>(
+    key: &'static str,
+    doc: &'static str,
+    words: &'static [Keyword<T>],
+) -> Field<T> {
     field(key, doc, Shape::Words(words))
 }
 
-/// A word, and what it makes of the value.
-pub const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Word<T> {
-    Word { name, formerly: None, doc, put }
+/// A keyword, and its effect on the domain's value.
+pub const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Keyword<T> {
+    Keyword { name, formerly: None, doc, put }
 }
 
-impl<T> Word<T> {
+impl<T> Keyword<T> {
     /// The same, which had another name in earlier versions.
     pub const fn formerly(mut self, name: &'static str) -> Self {
         self.formerly = Some(name);
@@ -361,45 +365,45 @@ impl<T> Field<T> {
         self.otherwise(Fill::Number(number))
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        let float = |said: &Json| said.as_f64().map_or(Json::Null, Json::from);
-        match (&self.shape, said) {
+    fn complete(&self, given: &Json) -> Json {
+        let float = |given: &Json| given.as_f64().map_or(Json::Null, Json::from);
+        match (&self.shape, given) {
             (Shape::Numbers(_), Json::Array(all)) => all.iter().map(float).collect(),
-            (Shape::Number(..) | Shape::Numbers(_), said) => float(said),
+            (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
-                all.iter().map(|said| each.complete(said)).collect()
+                all.iter().map(|given| each.complete(given)).collect()
             }
             (
                 Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner),
                 Json::Object(_),
-            ) => inner.complete(said),
-            _ => said.clone(),
+            ) => inner.complete(given),
+            _ => given.clone(),
         }
     }
 
-    fn put(&self, value: &mut T, said: &Json) {
-        match (&self.shape, said) {
-            (Shape::Text(Text { put, .. }) | Shape::TextOr(_, put, _), Json::String(said)) => {
-                put(value, said);
+    fn put(&self, value: &mut T, given: &Json) {
+        match (&self.shape, given) {
+            (Shape::Text(Text { put, .. }) | Shape::TextOr(_, put, _), Json::String(given)) => {
+                put(value, given);
             }
             (Shape::Texts(Texts { put, .. }), Json::Array(all)) => {
-                for (place, said) in all.iter().filter_map(Json::as_str).enumerate() {
-                    put(value, place, said);
+                for (place, given) in all.iter().filter_map(Json::as_str).enumerate() {
+                    put(value, place, given);
                 }
             }
-            (Shape::Flag(put), Json::Bool(said)) => put(value, *said),
-            (Shape::Whole(Whole { put, .. }), said) => put(value, said.as_u64().unwrap_or(0)),
-            (Shape::Words(words), Json::String(said)) => {
-                if let Some(word) = words.iter().find(|word| word.name == said) {
+            (Shape::Flag(put), Json::Bool(given)) => put(value, *given),
+            (Shape::Whole(Whole { put, .. }), given) => put(value, given.as_u64().unwrap_or(0)),
+            (Shape::Words(words), Json::String(given)) => {
+                if let Some(word) = words.iter().find(|word| word.name == given) {
                     (word.put)(value);
                 }
             }
-            (Shape::Number(..), said) => self.set(value, "", said),
-            (Shape::Numbers(Numbers { begin, .. }), said) => {
-                let Some(all) = said.as_array() else { return self.set(value, "", said) };
+            (Shape::Number(..), given) => self.set(value, "", given),
+            (Shape::Numbers(Numbers { begin, .. }), given) => {
+                let Some(all) = given.as_array() else { return self.set(value, "", given) };
                 begin(value, Some(all.len()));
-                for (place, said) in all.iter().enumerate() {
-                    self.set(value, &place.to_string(), said);
+                for (place, given) in all.iter().enumerate() {
+                    self.set(value, &place.to_string(), given);
                 }
             }
             (
@@ -407,8 +411,8 @@ impl<T> Field<T> {
                 | Shape::List(inner, _)
                 | Shape::Part(_, inner)
                 | Shape::TextOr(_, _, inner),
-                said,
-            ) => inner.put(value, said),
+                given,
+            ) => inner.put(value, given),
             _ => {}
         }
     }
@@ -416,9 +420,9 @@ impl<T> Field<T> {
     /// Former names inside what the key takes. Documents inside documents are renamed as they are read.
     fn rename(&self, node: &mut Node, to: Names) {
         match (&self.shape, &mut node.value) {
-            (Shape::Words(words), Value::String(said)) if to == Names::Today => {
-                if let Some(word) = words.iter().find(|word| word.formerly == Some(said)) {
-                    word.name.clone_into(said);
+            (Shape::Words(words), Value::String(given)) if to == Names::Today => {
+                if let Some(word) = words.iter().find(|word| word.formerly == Some(given)) {
+                    word.name.clone_into(given);
                 }
             }
             (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {
@@ -433,10 +437,10 @@ impl<T> Field<T> {
         }
     }
 
-    fn rename_path(&self, path: &mut [String], said: Option<&Json>) {
+    fn rename_path(&self, path: &mut [String], given: Option<&Json>) {
         match (&self.shape, path) {
             (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner), path) => {
-                inner.rename_path(path, said);
+                inner.rename_path(path, given);
             }
             // Entries of one list have one law, or no former names.
             (Shape::List(inner, _), [_, path @ ..]) => inner.rename_path(path, None),
@@ -444,9 +448,9 @@ impl<T> Field<T> {
         }
     }
 
-    fn set(&self, value: &mut T, path: &str, said: &Json) {
-        if let (Some(reached), Some(said)) = (self.reach(value, path), said.as_f64()) {
-            reached.set(said);
+    fn set(&self, value: &mut T, path: &str, given: &Json) {
+        if let (Some(reached), Some(given)) = (self.reach(value, path), given.as_f64()) {
+            reached.set(given);
         }
     }
 
@@ -478,7 +482,7 @@ impl Fill {
             Self::Number(number) => Json::from(number),
             Self::Whole(number) => Json::from(number),
             Self::Flag(flag) => Json::from(flag),
-            Self::Word(word) => Json::from(word),
+            Self::Keyword(word) => Json::from(word),
             Self::Keys(keys) => {
                 keys.iter().map(|(key, fill)| ((*key).to_owned(), fill.to_json())).collect()
             }
@@ -507,19 +511,19 @@ impl<T> Rows for Table<T> {
         super::schema::of_table(self, None, defs)
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        let is_empty = |said: &Json| match said {
+    fn complete(&self, given: &Json) -> Json {
+        let is_empty = |given: &Json| match given {
             Json::String(text) => text.is_empty(),
             Json::Array(all) => all.is_empty(),
             _ => false,
         };
         let keys = self.fields.iter().filter_map(|field| {
-            let said = match said.get(field.key) {
-                Some(said) => field.complete(said),
+            let given = match given.get(field.key) {
+                Some(given) => field.complete(given),
                 None => Self::implied(field)?,
             };
-            let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&said);
-            (!is_left_out).then(|| (field.key.to_owned(), said))
+            let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&given);
+            (!is_left_out).then(|| (field.key.to_owned(), given))
         });
         keys.collect()
     }
@@ -553,10 +557,10 @@ impl<T> Rows for Table<T> {
 }
 
 impl<T> Inner<T> for Table<T> {
-    fn put(&self, value: &mut T, said: &Json) {
+    fn put(&self, value: &mut T, given: &Json) {
         for field in self.fields {
-            if let Some(said) = said.get(field.key) {
-                field.put(value, said);
+            if let Some(given) = given.get(field.key) {
+                field.put(value, given);
             }
         }
     }
@@ -580,8 +584,8 @@ impl<T, P> Rows for At<T, P> {
         self.inner.schema(defs)
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        self.inner.complete(said)
+    fn complete(&self, given: &Json) -> Json {
+        self.inner.complete(given)
     }
 
     fn rename(&self, table: &mut Node, to: Names) {
@@ -594,8 +598,8 @@ impl<T, P> Rows for At<T, P> {
 }
 
 impl<T, P> Inner<T> for At<T, P> {
-    fn put(&self, value: &mut T, said: &Json) {
-        self.inner.put((self.at)(value), said);
+    fn put(&self, value: &mut T, given: &Json) {
+        self.inner.put((self.at)(value), given);
     }
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {
@@ -615,8 +619,8 @@ impl<T, P> Rows for Each<T, P> {
         self.inner.schema(defs)
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        self.inner.complete(said)
+    fn complete(&self, given: &Json) -> Json {
+        self.inner.complete(given)
     }
 
     fn rename(&self, table: &mut Node, to: Names) {
@@ -629,10 +633,10 @@ impl<T, P> Rows for Each<T, P> {
 }
 
 impl<T, P> Inner<T> for Each<T, P> {
-    fn put(&self, value: &mut T, said: &Json) {
-        let all = said.as_array().into_iter().flatten().map(|said| {
+    fn put(&self, value: &mut T, given: &Json) {
+        let all = given.as_array().into_iter().flatten().map(|given| {
             let mut entry = (self.blank)();
-            self.inner.put(&mut entry, said);
+            self.inner.put(&mut entry, given);
             entry
         });
         *(self.list)(value) = all.collect();
@@ -652,8 +656,8 @@ impl<P> Rows for Beside<P> {
         self.0.schema(defs)
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        self.0.complete(said)
+    fn complete(&self, given: &Json) -> Json {
+        self.0.complete(given)
     }
 
     fn rename(&self, table: &mut Node, to: Names) {
@@ -675,23 +679,23 @@ impl<T, P> Inner<T> for Beside<P> {
 
 // ---- Laws ----
 
-/// A table whose keys depend on a word in it.
+/// A table whose keys depend on a keyword in it.
 pub struct Laws<T: 'static> {
     /// What it describes.
     pub doc: &'static str,
-    /// The key of that word.
+    /// The key of that keyword.
     pub key: &'static str,
     pub all: &'static [Law<T>],
-    /// Whether a table without the word follows the first law.
+    /// Whether a table without the keyword follows the first law.
     pub may_be_left_out: bool,
-    /// Whether a resolved document has the word after the law's keys.
+    /// Whether a resolved document has the keyword after the law's keys.
     pub is_written_last: bool,
 }
 
 /// One of several laws.
 pub struct Law<T: 'static> {
     pub name: &'static str,
-    /// What the word itself says, where tables may leave it out.
+    /// Description of the keyword itself, where tables may leave it out.
     pub word: Option<&'static str>,
     /// Makes the value follow the law, with numbers that wait to be put in.
     pub choose: fn(&mut T),
@@ -699,8 +703,8 @@ pub struct Law<T: 'static> {
 }
 
 impl<T> Laws<T> {
-    fn named(&self, said: &Json) -> &'static Law<T> {
-        self.by_word(said.get(self.key))
+    fn named(&self, given: &Json) -> &'static Law<T> {
+        self.by_word(given.get(self.key))
     }
 
     fn by_word(&self, word: Option<&Json>) -> &'static Law<T> {
@@ -714,10 +718,10 @@ impl<T> Rows for Laws<T> {
         super::schema::of_laws(self, defs)
     }
 
-    fn complete(&self, said: &Json) -> Json {
-        let law = self.named(said);
+    fn complete(&self, given: &Json) -> Json {
+        let law = self.named(given);
         let word = (self.key.to_owned(), Json::from(law.name));
-        let Json::Object(mut keys) = law.table.complete(said) else { return Json::Null };
+        let Json::Object(mut keys) = law.table.complete(given) else { return Json::Null };
         keys.shift_insert(if self.is_written_last { keys.len() } else { 0 }, word.0, word.1);
         Json::Object(keys)
     }
@@ -735,10 +739,10 @@ impl<T> Rows for Laws<T> {
 }
 
 impl<T> Inner<T> for Laws<T> {
-    fn put(&self, value: &mut T, said: &Json) {
-        let law = self.named(said);
+    fn put(&self, value: &mut T, given: &Json) {
+        let law = self.named(given);
         (law.choose)(value);
-        law.table.put(value, said);
+        law.table.put(value, given);
     }
 
     fn reach<'t>(&self, value: &'t mut T, path: &str) -> Option<Reached<'t>> {

@@ -1,4 +1,4 @@
-//! Files that people name, read to a limit: none is waited for, and none fills the memory.
+//! Reads files up to a limit of size, without waiting for devices or pipes.
 //!
 //! A regular file is read, and a pipe that the caller was given already: the standard input as
 //! `/dev/stdin`, and another descriptor as `/dev/fd/N`, which is what a shell makes of `<(command)`.
@@ -8,7 +8,7 @@ use std::fs::{self, File, FileType, Metadata};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-/// Why a file cannot be read.
+/// A file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileProblem {
     /// A path that leads nowhere.
@@ -90,7 +90,7 @@ fn open(path: &Path) -> Result<File, FileProblem> {
     Ok(file)
 }
 
-/// That there is something to read.
+/// Checks that there is something to read.
 ///
 /// * `is_given`: whether it was open already, so that a pipe has somebody who writes
 fn check(metadata: &Metadata, is_given: bool) -> Result<(), FileProblem> {

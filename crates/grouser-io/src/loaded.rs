@@ -1,4 +1,4 @@
-//! A document that was read: what it says in its own words and units, and what that means.
+//! A document that was read: its keys in their own units, and the domain's value in SI.
 
 use serde::Serialize;
 use serde_json::{Map, Value as Json};
@@ -7,7 +7,7 @@ use super::describe;
 use super::{Kind, UncertainSoil};
 use grouser_core::contact::Theory;
 
-/// What a document says, in its own units: every named part in its place, every default filled in, keys
+/// The keys of a document in their own units: every named part in its place, every default filled in, keys
 /// in the order of its kind. Serialised it is the document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
@@ -17,7 +17,7 @@ pub struct Document {
     kind: Kind,
 }
 
-/// A document that was read: what it says, and what that means.
+/// A document that was read: its keys, and the domain's value.
 ///
 /// How wide is the wheel of HAKUTO, and what is assumed about it?
 ///
@@ -63,7 +63,7 @@ impl<V> Loaded<V> {
     }
 
     /// A number by which the resolved document, with its companions, is known again: FNV-1a (Fowler,
-    /// Noll, Vo) of 64 bits. It tells documents apart that differ by chance, not by intent.
+    /// Noll, Vo) of 64 bits. It distinguishes documents that differ by chance, not by intent.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let toml = self.to_toml();
@@ -73,9 +73,9 @@ impl<V> Loaded<V> {
 }
 
 impl Document {
-    /// The document of a kind that says something checked.
-    pub fn of(kind: Kind, said: &Json) -> Self {
-        let keys = describe::rows(kind).complete(said);
+    /// The document of a kind with checked keys.
+    pub fn of(kind: Kind, given: &Json) -> Self {
+        let keys = describe::rows(kind).complete(given);
         Self { keys, kind }
     }
 
@@ -100,7 +100,7 @@ impl Document {
         changed
     }
 
-    /// All that it says.
+    /// All keys.
     pub fn keys(&self) -> &Json {
         &self.keys
     }
@@ -111,7 +111,7 @@ impl Document {
 
     /// The document inside it at a dotted path.
     pub fn part(&self, kind: Kind, path: &str) -> Option<Self> {
-        self.get(path).map(|said| Self::of(kind, said))
+        self.get(path).map(|given| Self::of(kind, given))
     }
 
     /// A table of it on its own.
@@ -124,9 +124,9 @@ impl Document {
     #[must_use]
     pub fn get(&self, path: &str) -> Option<&Json> {
         let under = |path: &str| {
-            path.split('.').try_fold(&self.keys, |said, step| match said {
+            path.split('.').try_fold(&self.keys, |given, step| match given {
                 Json::Array(all) => all.get(step.parse::<usize>().ok()?),
-                said => said.get(step),
+                given => given.get(step),
             })
         };
         under(path).or_else(|| under(&self.todays_key(path)))
@@ -148,22 +148,22 @@ impl Document {
     /// The number under a dotted key, in the unit of the key. Counts are no numbers here.
     #[must_use]
     pub fn number(&self, path: &str) -> Option<f64> {
-        self.get(path).filter(|said| said.is_f64())?.as_f64()
+        self.get(path).filter(|given| given.is_f64())?.as_f64()
     }
 
-    /// What people call it.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         self.text("name").unwrap_or_default()
     }
 
-    /// Where it says its values come from.
+    /// The stated source of its values.
     #[must_use]
     pub fn source(&self) -> &str {
         self.text("source").unwrap_or_default()
     }
 
-    /// The theory that a soil was made for, or a scenario asks for, if it says one.
+    /// The wheel–soil model that a soil was made for, or a scenario asks for, if stated.
     #[must_use]
     pub fn theory(&self) -> Option<Theory> {
         self.theory_at("model")
@@ -186,22 +186,22 @@ impl Document {
     }
 }
 
-fn number_keys(said: &Json) -> Vec<String> {
-    let mut children: Vec<(String, &Json)> = match said {
-        Json::Object(keys) => keys.iter().map(|(key, said)| (key.clone(), said)).collect(),
+fn number_keys(given: &Json) -> Vec<String> {
+    let mut children: Vec<(String, &Json)> = match given {
+        Json::Object(keys) => keys.iter().map(|(key, given)| (key.clone(), given)).collect(),
         Json::Array(all) => {
-            all.iter().enumerate().map(|(place, said)| (place.to_string(), said)).collect()
+            all.iter().enumerate().map(|(place, given)| (place.to_string(), given)).collect()
         }
         _ => Vec::new(),
     };
-    if said.is_object() {
+    if given.is_object() {
         children.sort_by(|one, other| one.0.cmp(&other.0));
     }
-    let keys = children.into_iter().flat_map(|(key, said)| {
-        if said.is_f64() {
+    let keys = children.into_iter().flat_map(|(key, given)| {
+        if given.is_f64() {
             return vec![key];
         }
-        number_keys(said).into_iter().map(|inner| format!("{key}.{inner}")).collect()
+        number_keys(given).into_iter().map(|inner| format!("{key}.{inner}")).collect()
     });
     keys.collect()
 }

@@ -1,4 +1,4 @@
-//! Measured wheel tests from CSV: columns, units, slip definitions and signs end here.
+//! Reads measured wheel tests from CSV, and converts their columns, units, slip definitions and signs.
 //!
 //! A file has a header and a row for each trial. [`columns`] lists what the columns may be called
 //! and what they mean; those it does not know are left aside and named in

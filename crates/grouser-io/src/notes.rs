@@ -1,4 +1,4 @@
-//! What a document says of itself besides numbers: its day, and what was assumed.
+//! The date and the assumptions of a document.
 
 use serde_json::Value as Json;
 
@@ -44,24 +44,24 @@ fn change_each_inside(tree: &mut Node, path: &[&str], change: &mut impl FnMut(&m
 }
 
 /// What stands at a path, or at all of them.
-fn all_at<'j>(said: &'j Json, path: &[&str]) -> Vec<&'j Json> {
+fn all_at<'j>(given: &'j Json, path: &[&str]) -> Vec<&'j Json> {
     match path {
-        [] => vec![said],
+        [] => vec![given],
         [EACH, rest @ ..] => {
-            said.as_array().into_iter().flatten().flat_map(|said| all_at(said, rest)).collect()
+            given.as_array().into_iter().flatten().flat_map(|given| all_at(given, rest)).collect()
         }
-        [key, rest @ ..] => said.get(key).map_or(Vec::new(), |said| all_at(said, rest)),
+        [key, rest @ ..] => given.get(key).map_or(Vec::new(), |given| all_at(given, rest)),
     }
 }
 
-/// That days are days, in the document and in all inside it.
+/// Checks dates, in the document and in all inside it.
 pub(crate) fn check_days(kind: Kind, tree: &Node) -> Result<(), DocumentError> {
     let date = tree.entry("date").map(|entry| &entry.node);
     if let Some(Node { value: Value::String(date), origin }) = date
         && kind == Kind::Soil
         && !is_day(date)
     {
-        let problem = Problem::Conflict("`date` is no day: it is written as \"2026-11-20\"");
+        let problem = Problem::Conflict("`date` is not a day: it is written as \"2026-11-20\"");
         return Err(DocumentError::at(origin, problem));
     }
     kind.parts().iter().try_for_each(|part| {
@@ -90,7 +90,7 @@ fn is_day(text: &str) -> bool {
     (1..=days).contains(&day)
 }
 
-/// Adds what was assumed without the author of a document saying so, to it and to all inside it.
+/// Adds assumptions that the author of a document did not state, to it and to all inside it.
 pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
     for part in kind.parts() {
         let none = Overrides::none();
@@ -142,16 +142,16 @@ fn put(tree: &mut Node, assumed: &[String]) {
     }
 }
 
-/// Everything assumed, by a document and then by those inside it, each with its name before it.
-pub(crate) fn assumptions(kind: Kind, said: &Json) -> Vec<String> {
-    let text = |key: &str| said.get(key).and_then(Json::as_str).unwrap_or_default();
+/// All assumptions, of a document and then by those inside it, each with its name before it.
+pub(crate) fn assumptions(kind: Kind, given: &Json) -> Vec<String> {
+    let text = |key: &str| given.get(key).and_then(Json::as_str).unwrap_or_default();
     let (name, source) = (text("name"), text("source"));
     let says_so = source.starts_with("assumed").then(|| format!("{kind} {name}: {source}"));
-    let own = said.get("assumed").and_then(Json::as_array).into_iter().flatten();
+    let own = given.get("assumed").and_then(Json::as_array).into_iter().flatten();
     let own = own.filter_map(Json::as_str).map(|one| format!("{kind} {name}: {one}"));
     let mut all: Vec<String> = says_so.into_iter().chain(own).collect();
     for part in kind.parts() {
-        let inside = all_at(said, part.path);
+        let inside = all_at(given, part.path);
         all.extend(inside.into_iter().flat_map(|inside| assumptions(part.kind, inside)));
     }
     all

@@ -1,4 +1,4 @@
-//! Single values set from outside, on the command line: `--set soil.cohesion_kpa=0.5`.
+//! Overrides of single values from outside the documents: `soil.cohesion_kpa=0.5`.
 
 use std::sync::Arc;
 
@@ -268,7 +268,7 @@ impl Overrides {
         Ok(())
     }
 
-    /// What was set in a document whose `source` speaks for its values.
+    /// The values set in a document that states its source.
     pub fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
         let changes = move |one: &&Override| one.kind == kind && one.changes_a_source;
         self.all.iter().filter(changes).map(|one| {

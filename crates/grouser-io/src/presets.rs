@@ -5,7 +5,7 @@ use super::{Kind, Overrides, Source, written};
 /// A document that comes with the program.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// What it describes.
+    /// The kind of document.
     pub kind: Kind,
     /// The name it is called by: that of its file.
     pub name: &'static str,
@@ -43,7 +43,7 @@ pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
 const FORMER_NAMES: [(&str, &str); 1] = [("campaign-attitude", "campaign-heading")];
 
 impl Preset {
-    /// What the document calls itself, and where it says its values are from.
+    /// The document's name and source.
     ///
     /// # Panics
     /// Never: every preset is read by a test.

@@ -124,7 +124,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             json!({ "type": "integer", "format": format, "minimum": least, "maximum": most })
         }
         Shape::Words(words) => {
-            let word = |word: &super::field::Word<T>| json!({ "type": "string", "const": word.name, "description": word.doc });
+            let word = |word: &super::field::Keyword<T>| json!({ "type": "string", "const": word.name, "description": word.doc });
             json!({ "oneOf": words.iter().map(word).collect::<Vec<_>>() })
         }
         Shape::Number(number, _) => of_number(number),

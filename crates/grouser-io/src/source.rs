@@ -1,4 +1,4 @@
-//! Where a document comes from: a preset, a file, or a text in memory.
+//! The source of a document: a preset, a file, or a text in memory.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use super::presets::{self, Preset};
 use super::text::Text;
 use super::{Companion, Kind, escape, file};
 
-/// Where a document comes from.
+/// The source of a document.
 ///
 /// What is the cohesion of a soil that is written as TOML, in a file or in memory?
 ///
@@ -75,7 +75,7 @@ impl Source {
         Self::Text { label: label.into(), content: content.into(), companions }
     }
 
-    /// The scenario that says nothing: every value is the default of its key.
+    /// The empty scenario: every value is the default of its key.
     #[must_use]
     pub fn default_scenario() -> Self {
         Self::text("the default scenario", "schema = \"scenario/1\"\nname = \"traverse\"\n")

@@ -1,11 +1,11 @@
-//! Results as a table: columns with a name each, and as many values. Whatever leaves the library as rows
-//! leaves from here: on a terminal, as CSV, JSON, Parquet, Arrow or arrays.
+//! Results as a table of named columns. Every output of rows is written from it: terminal, CSV, JSON, Parquet,
+//! Arrow and arrays.
 
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 use super::columns::Column;
 
-/// What stands in a column.
+/// The kind of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// Numbers.
@@ -16,7 +16,7 @@ pub enum ColumnKind {
     Text,
 }
 
-/// What a row has at one place.
+/// The value of a row in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// A number.

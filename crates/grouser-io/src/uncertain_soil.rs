@@ -1,6 +1,6 @@
-//! The soils that a document's numbers may be, as its `[uncertainty]` says.
+//! Samples soils from the `[uncertainty]` of a document.
 //!
-//! A sample puts numbers in the document's place of them and passes the same checks as the document itself.
+//! A sample replaces numbers of the document and passes the same checks as the document itself.
 
 use super::describe::uncertainty::{Samples, Stated, UNCERTAINTY};
 use super::error::{DocumentError, Problem};
@@ -13,7 +13,7 @@ use super::{Companion, Document, Kind};
 use crate::statistics::{Distribution, NothingAccepted};
 use grouser_core::soil::Soil;
 
-/// The soils that a document's numbers may be.
+/// A soil with uncertain numbers.
 ///
 /// Between which friction angles are 95 % of the sands that `toyoura-uncertain` may be?
 ///
@@ -44,7 +44,7 @@ pub const SAMPLES_FILE: &str = "soil-samples.csv";
 
 impl UncertainSoil {
     /// Soil number `index`, which depends on the seed and that number alone. Samples outside the
-    /// range of a key, or that are no soil together, are drawn again.
+    /// range of a key, or that are no valid soil together, are drawn again.
     ///
     /// # Errors
     /// [`NothingAccepted`] if that does not end.
@@ -84,7 +84,7 @@ impl UncertainSoil {
             let range = |key: &Key| format!("`{}` {}", key.path, key.range_in_words());
             let ranges: Vec<String> = self.keys.iter().map(range).collect();
             let hint =
-                format!("a draw has to lie within the ranges of its keys: {}", ranges.join(", "));
+                format!("a sample has to lie within the ranges of its keys: {}", ranges.join(", "));
             DocumentError::at(tree.origin_of("uncertainty"), Problem::NoDraws(error))
                 .with_hint(hint)
         })
@@ -124,13 +124,13 @@ pub fn read(
     Ok(Some(soils))
 }
 
-/// What a soil says of its own uncertainty, which is something if it has the table.
+/// The uncertainty that a soil states, if it has the table.
 ///
 /// * `tree`: the soil's tree
 pub fn stated(soil: &Document, tree: &Node) -> Result<Option<Stated>, DocumentError> {
-    let Some(said) = soil.get("uncertainty") else { return Ok(None) };
+    let Some(given) = soil.get("uncertainty") else { return Ok(None) };
     let mut stated = Stated::default();
-    UNCERTAINTY.put(&mut stated, said);
+    UNCERTAINTY.put(&mut stated, given);
     if stated.samples.is_some() || !stated.parameters.is_empty() {
         return Ok(Some(stated));
     }

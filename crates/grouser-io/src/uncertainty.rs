@@ -1,4 +1,4 @@
-//! What a document says of numbers that are not known exactly: one reading for soils and campaigns.
+//! Reads the uncertain numbers of soils and campaigns.
 //!
 //! A document names keys with distributions and correlations, or rows of samples; [`Stated`] is that as it is
 //! written. [`Inputs::read`] checks it against the numbers that it is about, and makes a [`Distribution`] of it.
@@ -10,7 +10,7 @@ use super::text::{Node, Origin};
 use super::varied::{Key, Numbers, meant};
 use crate::statistics::{Contradiction, Correlation, Distribution, Marginal};
 
-/// A place in which numbers are said to be uncertain.
+/// The uncertain numbers of one place.
 pub struct Statement<'a> {
     pub stated: &'a Stated,
     /// The document in which it stands.
@@ -21,7 +21,7 @@ pub struct Statement<'a> {
     pub prefix: &'static str,
 }
 
-/// What is uncertain, checked.
+/// The uncertain numbers, checked.
 #[derive(Debug)]
 pub struct Inputs {
     /// Those of the parameters, then those of the samples.
@@ -40,7 +40,7 @@ pub struct Inputs {
 const LEAST_INSIDE: f64 = 0.01;
 
 impl Inputs {
-    /// Brings together what is said of some numbers, and checks it.
+    /// Collects and checks the statements on some numbers.
     pub fn read(
         numbers: &dyn Numbers,
         statements: &[Statement<'_>],

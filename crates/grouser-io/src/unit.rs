@@ -1,5 +1,4 @@
-//! Units that names end with, and the way between them and SI: of the numbers that documents have, and of the
-//! results that leave.
+//! Units at the end of names, and their conversion to and from SI, for documents and results.
 
 /// A unit outside the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

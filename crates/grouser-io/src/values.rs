@@ -1,5 +1,5 @@
 //! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
-//! the checks of what only several values together can show.
+//! the checks of values against each other.
 
 use std::ops::RangeInclusive;
 
@@ -19,7 +19,7 @@ use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use grouser_core::vehicle::{Mount, Rover};
 use grouser_core::wheel::Wheel;
 
-/// Values that are fine one by one, but not together.
+/// Values that are valid one by one, but not together.
 #[derive(Debug)]
 pub struct Misfit {
     /// The key of the document, inside this one, that they stand in; nothing for this one itself.
@@ -132,7 +132,7 @@ fn share_angle_limit(shear: &mut Shear) {
     }
 }
 
-/// That n stays in its range at every slip: it is linear, so its ends tell.
+/// That n stays in its range at every slip: it is linear, so its ends suffice.
 fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
     let (PressureSinkage::Reece { exponent, .. } | PressureSinkage::Bekker { exponent, .. }) = law;
     for slip_ratio in [-1.0, 1.0] {
@@ -151,7 +151,7 @@ fn check_exit(exit: Exit) -> Result<(), ParameterError> {
         let slip_ratio = f64::from(percent) / 100.0;
         let ratio = exit.ratio(slip_ratio);
         if ratio > LARGEST_EXIT_RATIO {
-            let name = format!("the exit-angle ratio at a slip ratio of {slip_ratio}");
+            let name = format!("the wheel sinkage ratio at a slip ratio of {slip_ratio}");
             return Err(ParameterError::new(name, ratio, "0 to 1.5"));
         }
     }
@@ -190,7 +190,7 @@ impl Described for Rover {
     }
 }
 
-/// That every wheel can be told from the others: columns and messages name them.
+/// Checks that the wheels' names differ: columns and messages use them.
 fn check_names(rover: &Rover) -> Result<(), Misfit> {
     let mounts = &rover.parts().mounts;
     for (index, mount) in mounts.iter().enumerate() {

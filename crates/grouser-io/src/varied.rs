@@ -1,4 +1,4 @@
-//! Numbers of a document under their keys: what they may be, and the domain's value with others in their place.
+//! Numbers of a document by their keys: their ranges, and the domain's value with other numbers in their place.
 //!
 //! Campaigns, calibrations, uncertain soils and rollouts all give keys other values here, by the rows of the
 //! document's table and without a document for each.
@@ -91,7 +91,7 @@ pub fn scenario_with<'k>(
     scenario.with(numbers).map_err(Misfit::of_numbers)
 }
 
-/// Why there is no number under a key.
+/// A key without a number.
 pub struct NoNumber {
     pub problem: Problem,
     pub hint: Option<String>,

@@ -7,7 +7,7 @@ use ttf_parser::{GlyphId, OutlineBuilder};
 pub enum Face {
     /// For reading.
     Regular,
-    /// For what has to be seen first.
+    /// For emphasis.
     Bold,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! A [`Sheet`] holds shapes and lines of text. Its letters are outlines of a font that comes along
 //! (DejaVu Sans Condensed), so that the page looks the same on a machine without fonts, and the same page has the
-//! same bytes; text can still be searched and copied from SVG and PDF. There are no colours: what
-//! has to be told apart is told apart by words, lines and hatching.
+//! same bytes; text can still be searched and copied from SVG and PDF. There are no colours:
+//! words, lines and hatching distinguish.
 //!
 //! ```
 //! use grouser_page::{Face, Sheet, Text};

@@ -1,4 +1,4 @@
-//! What is on the page.
+//! The shapes and texts of a page.
 
 use crate::font::{Face, width};
 
@@ -201,7 +201,7 @@ impl Sheet {
         Self { title: title.to_owned(), width, height, items: Vec::new() }
     }
 
-    /// What the page is called.
+    /// The title of the page.
     #[must_use]
     pub fn title(&self) -> &str {
         &self.title

@@ -1,9 +1,9 @@
-"""Holds a level line on slopes of unknown soil: a baseline, beside a constant command.
+"""Holds the contour line on slopes of unknown soil: a baseline, compared with a constant command.
 
     python level_line.py [EPISODES]
 
-A rover that drives straight on drifts downhill. The yaw uphill that makes up for it depends on the
-slope and on the soil, and the rover is told neither: the integral of its offset finds it.
+A rover that drives straight on drifts downhill. The heading offset that compensates for it depends
+on the slope and the soil, and the controller observes neither: the integral of its offset finds it.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ Floats = NDArray[np.float64]
 #: From observations, a row for each rover, to actions.
 Controller = Callable[[Floats], Floats]
 
-#: Rims at this share of the fastest speed: 6 cm/s, as in the source paper's experiments.
+#: Rim speed as a share of the fastest: 6 cm/s, as in the source paper's experiments.
 DRIVE = 0.6
-#: Wanted yaw for an offset [°/m], and for its integral [°/(m s)].
+#: Desired yaw per offset [°/m], and per integral of the offset [°/(m s)].
 YAW_PER_OFFSET = 120.0
 YAW_PER_INTEGRAL = 6.0
-#: The most that is wanted of either [°]: steeper than any level attitude on these slopes.
+#: Limit of the desired yaw and of its integral part [°]: beyond any heading offset on these slopes.
 MOST_YAW = 25.0
-#: Turn for a yaw that is not as wanted [1/°].
+#: Turn per error of the yaw [1/°].
 TURN_PER_YAW = 0.04
 
 
@@ -39,7 +39,7 @@ def straight_on(observations: Floats) -> Floats:
 
 
 class LevelLine:
-    """A PI controller of the offset wants a yaw, a P controller of the yaw turns the rover to it."""
+    """A PI controller of the offset sets the desired yaw, a P controller turns the rover to it."""
 
     def __init__(self, dt_s: float = 0.5) -> None:
         self.dt_s = dt_s
@@ -49,18 +49,18 @@ class LevelLine:
         y_m, yaw_deg = observations[:, 0], observations[:, 1]
         if len(self.integral) != len(y_m):
             self.integral = np.zeros(len(y_m))
-        # A wanted yaw at its limit must not let the integral grow on.
+        # The integral must not grow while the desired yaw is at its limit.
         most = MOST_YAW / YAW_PER_INTEGRAL
         self.integral = np.clip(self.integral + y_m * self.dt_s, -most, most)
-        wanted = -(YAW_PER_OFFSET * y_m + YAW_PER_INTEGRAL * self.integral)
-        error = np.clip(wanted, -MOST_YAW, MOST_YAW) - yaw_deg
+        desired = -(YAW_PER_OFFSET * y_m + YAW_PER_INTEGRAL * self.integral)
+        error = np.clip(desired, -MOST_YAW, MOST_YAW) - yaw_deg
         return np.stack([np.full(len(y_m), DRIVE), TURN_PER_YAW * error], axis=1).clip(-1.0, 1.0)
 
 
 def rms_offsets(
     controller: Controller, episodes: int, *, seed: int = 0, **settings: Any
 ) -> tuple[Floats, NDArray[np.bool_]]:
-    """Root mean square offset from the line [m] of each episode, and which ended before their time."""
+    """Root mean square offset from the line [m] of each episode, and which episodes ended early."""
     envs = gymnasium.make_vec("grouser/LevelTraverse-v0", num_envs=episodes, **settings)
     observations, _ = envs.reset(seed=seed)
     squares, steps = np.zeros(episodes), np.zeros(episodes)

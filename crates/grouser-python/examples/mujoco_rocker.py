@@ -25,14 +25,14 @@ from grouser.mujoco import SoilContact
 
 Floats = NDArray[np.float64]
 
-#: The ground: half its length and width, and the most that it may rise [m]; points along each side.
+#: The ground: half its length and width, and the largest rise [m]; points along each side.
 HALF, RISE, POINTS = 3.0, 1.6, 301
 SLOPE_DEG = 10.0
 #: The wheel: HAKUTO's, with its grousers.
 WHEEL = gr.Wheel("hakuto")
 RADIUS = WHEEL.radius_m + WHEEL.grousers["height_m"]
 SPEED_M_S = 0.08
-#: Where it starts, and the contour that it crosses the slope on [m].
+#: The start, and the contour on which it crosses the slope [m].
 START, LEVEL_Y = (-1.6, -1.9), -0.1
 #: The four wheels: side (1 is left), end (1 is front).
 CORNERS = {
@@ -154,7 +154,7 @@ def model_xml() -> str:
 
 @dataclass
 class Run:
-    """What happened, a row for each sample."""
+    """Records of the drive, a row for each time."""
 
     time_s: list[float] = field(default_factory=list)
     position_m: list[Floats] = field(default_factory=list)
@@ -178,7 +178,7 @@ class Traverse:
         self._place()
 
     def _place(self) -> None:
-        """Onto the ground, nose uphill, and then down into it."""
+        """Places the rover on the ground, nose uphill, and lets it sink in."""
         up = np.radians(SLOPE_DEG)
         turned = np.zeros(4)
         mujoco.mju_mulQuat(turned, _turn([0, 0, 1], np.pi / 2), _turn([0, 1, 0], -up))
@@ -188,12 +188,12 @@ class Traverse:
 
     @property
     def yaw(self) -> float:
-        """The way the body points, over the map [rad]; π/2 is uphill."""
+        """Heading of the body in the horizontal plane [rad]; π/2 is uphill."""
         forward = self.data.body("rover").xmat.reshape(3, 3)[:, 0]
         return float(np.arctan2(forward[1], forward[0]))
 
     def drive(self) -> None:
-        """Steers up the slope and then along a contour, and gives each wheel the speed of its place."""
+        """Steers up the slope and then along a contour; each wheel has the speed of its position."""
         x, y = self.data.body("rover").xpos[:2]
         # A point ahead: first up the slope, then along the contour.
         reach = 0.6
@@ -213,7 +213,7 @@ class Traverse:
             self.data.actuator(f"{name}-motor").ctrl[0] = speed / RADIUS
 
     def run(self, duration_s: float, seen: Any = None) -> Run:
-        """Drives; `seen` is called with the time and the run at every sample, ten a second."""
+        """Drives; `seen` is called with the time and the run at every record, ten a second."""
         run = Run()
         every = round(0.1 / self.model.opt.timestep)
         for sample in range(round(duration_s * 10)):
@@ -252,7 +252,7 @@ class Painter:
         azimuth: float,
         elevation: float,
     ) -> NDArray[np.uint8]:
-        """The rover and the way it came, seen from a place."""
+        """The rover and its track, seen from a point."""
         camera = mujoco.MjvCamera()
         camera.lookat[:], camera.distance = lookat, distance
         camera.azimuth, camera.elevation = azimuth, elevation
@@ -262,7 +262,7 @@ class Painter:
         return image
 
     def _tracks(self, run: Run) -> None:
-        """Flat dark boxes where the wheels went; the soil itself knows no ruts."""
+        """Flat dark boxes in the tracks of the wheels; the soil itself has no ruts."""
         scene = self._renderer.scene
         tracks = np.array(run.tracks_m)
         for wheel in range(tracks.shape[1]):
@@ -276,7 +276,7 @@ class Painter:
                 if length < 1e-6:
                     continue
                 middle = 0.5 * (before + after)
-                # Flat on the ground: across the way, and level with the ground there.
+                # Flat on the ground: across the track, and parallel to the ground.
                 aside = 0.02 * np.array([-way[1], way[0], 0.0]) / length
                 left, right = middle + aside, middle - aside
                 aside[2] = 0.5 * float(height(left[0], left[1]) - height(right[0], right[1]))

@@ -1,4 +1,4 @@
-//! Columns of a result as an Arrow stream, in the C interface that tables of all kinds read.
+//! Columns of a result as an Arrow stream, by Arrow's C interface.
 
 use std::collections::HashMap;
 use std::ffi::CStr;
@@ -15,13 +15,13 @@ use pyo3::types::PyCapsule;
 
 use crate::errors;
 
-/// What consumers of the interface look for. Source: Arrow, *The Arrow PyCapsule Interface*.
+/// The name of the capsule in the interface. Source: Arrow, *The Arrow PyCapsule Interface*.
 const STREAM: &CStr = c"arrow_array_stream";
 
 /// A column as it comes from Python: one of the kinds that results have.
 #[derive(FromPyObject)]
 pub(crate) enum Column<'py> {
-    /// Numbers; NaN stands for none.
+    /// Numbers; NaN is a missing one.
     Numbers(PyReadonlyArray1<'py, f64>),
     /// Whole numbers.
     Integers(PyReadonlyArray1<'py, i64>),

@@ -1,4 +1,4 @@
-//! Calibration: the soil that measurements speak for, and how surely.
+//! Calibration: soil parameters, with confidence intervals, from wheel or plate tests.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -20,13 +20,13 @@ use crate::columns::columns;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::{Cancelled, listening};
-use crate::validation::{conditions_of, in_words, validation_to_python};
-use crate::wheels::theory_and_gravity;
+use crate::validation::{conditions_of, record_to_python, validation_to_python};
+use crate::wheels::model_and_gravity;
 
 /// A key to fit: its path in the soil's document, and bounds.
 type Key = (String, Option<(f64, f64)>);
 
-/// Hears of a signal, and keeps what should be known of the fits.
+/// Stops the search on a signal, and keeps the notes on the fits.
 struct Listener {
     cancelled: Cancelled,
     notes: Mutex<Vec<String>>,
@@ -108,7 +108,7 @@ impl Failure {
     }
 }
 
-/// The posterior's sampling; none if least squares will do.
+/// How the posterior is sampled; `None` for least squares alone.
 fn sampling_of(seed: u64, steps: Option<u64>) -> PyResult<Option<Sampling>> {
     match steps {
         Some(steps) if !STEPS.contains(&steps) => {
@@ -132,7 +132,7 @@ fn keys_of(keys: Vec<Key>) -> Result<Vec<FitKey>, Failure> {
 ///
 /// * `aim`: target, how many runs to propose, loads [N], slip ratios, slip angles [°]
 #[pyfunction]
-#[allow(clippy::too_many_arguments, reason = "words, as they come from Python")]
+#[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
 pub(crate) fn calibrate_wheel_tests<'py>(
     py: Python<'py>,
@@ -150,7 +150,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
-    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    let (theory, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.document.clone(), wheel.wheel()?.value);
     let sampling = sampling_of(seed, steps)?;
     let (target, propose, load_n, slip_ratio, slip_angle_deg) = aim;
@@ -180,7 +180,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     let notes = [measured.notes.clone(), notes].concat();
     let dict = solved_to_python(py, &found.solved, &found.soil, &family, notes)?;
     dict.set_item("validation", validation_to_python(py, &measured, &found.validation)?)?;
-    let groups = found.left_out.iter().map(|group: &GroupRecord| in_words(py, group));
+    let groups = found.left_out.iter().map(|group: &GroupRecord| record_to_python(py, group));
     dict.set_item("cross_validation", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
     dict.set_item("target", target)?;
     dict.set_item("proposals", columns(py, &found.proposals)?)?;
@@ -189,7 +189,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
 
 /// Fits a pressure-sinkage law to plate tests.
 #[pyfunction]
-#[allow(clippy::too_many_arguments, reason = "words, as they come from Python")]
+#[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
 pub(crate) fn calibrate_plate_tests<'py>(
     py: Python<'py>,
     data: PathBuf,
@@ -226,7 +226,7 @@ fn name_of(path: &std::path::Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// What every calibration says.
+/// The results that every calibration has.
 fn solved_to_python<'py>(
     py: Python<'py>,
     solved: &Solved,
@@ -239,8 +239,11 @@ fn solved_to_python<'py>(
     let dict = PyDict::new(py);
     dict.set_item("parameters", columns(py, &solved.records)?)?;
     dict.set_item("discrepancies", columns(py, &solved.discrepancies)?)?;
-    dict.set_item("cannot_tell_apart", &solved.questions)?;
-    dict.set_item("sampler", solved.sampler.as_ref().map(|it| in_words(py, it)).transpose()?)?;
+    dict.set_item("cannot_tell_apart", &solved.unidentifiable)?;
+    dict.set_item(
+        "sampler",
+        solved.sampler.as_ref().map(|it| record_to_python(py, it)).transpose()?,
+    )?;
     dict.set_item("outcome", solved.outcome())?;
     dict.set_item("notes", notes)?;
     let searches = &solution.fit.searches;

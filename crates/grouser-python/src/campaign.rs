@@ -1,7 +1,7 @@
-//! Campaigns: shards as bytes, and the folder that takes them in.
+//! Campaigns: the bytes of a shard, and the folder that collects them.
 //!
-//! Who computes which shard where is for `grouser/campaign` to say: a worker gets a study as a text and
-//! a number, and gives back the bytes of a Parquet file.
+//! The Python package `grouser.campaign` decides which worker computes which shard: a worker gets a study as
+//! a text and a shard's number, and returns the bytes of a Parquet file.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
 
-/// A campaign that was read, and what its folder knows it by.
+/// A campaign that was read, and the study that identifies it in its folder.
 pub(crate) struct LoadedCampaign {
     campaign: Arc<Campaign>,
     study: Study,
@@ -41,8 +41,7 @@ impl LoadedCampaign {
     }
 }
 
-/// A campaign as the program is asked for it: a file or preset, and settings such as
-/// `campaign.runs=100`.
+/// Reads a campaign as the program does: a file or preset, and settings such as `campaign.runs=100`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
 pub(crate) fn find_campaign(study: &str, settings: Vec<String>) -> PyResult<Document> {
@@ -54,7 +53,7 @@ pub(crate) fn find_campaign(study: &str, settings: Vec<String>) -> PyResult<Docu
     read.map_err(|error| errors::of_document(&error, &[]))
 }
 
-/// What is fixed by the study: numbers of runs and shards, columns, and what names it.
+/// Facts that the study determines: numbers of runs and shards, columns, and its hash.
 #[pyfunction]
 pub(crate) fn campaign_facts<'py>(
     py: Python<'py>,
@@ -124,7 +123,7 @@ pub(crate) fn campaign_row<'py>(
     Ok(dict)
 }
 
-/// That bytes are those of a shard, to the last bit.
+/// Checks that bytes are those of a shard, to the last bit.
 #[pyfunction]
 pub(crate) fn check_shard(
     py: Python<'_>,
@@ -149,7 +148,7 @@ pub(crate) fn campaign_manifest(campaign: &Document, part: Option<(u64, u64)>) -
     Ok(Manifest::new(&campaign.campaign()?.study, part_of(part)?).to_text())
 }
 
-/// The file of a manifest that was changed here: with the hash that is right for it now.
+/// The file of a changed manifest, with its new hash of itself.
 ///
 /// * `manifest`: as JSON
 #[pyfunction]
@@ -159,13 +158,13 @@ pub(crate) fn seal_manifest(manifest: &str) -> PyResult<String> {
     Ok(manifest.to_text())
 }
 
-/// Which keys of two resolved studies differ, in words.
+/// A sentence on the keys in which two resolved studies differ.
 #[pyfunction]
 pub(crate) fn study_difference(theirs: &str, ours: &str) -> String {
     grouser_store::difference(theirs, ours)
 }
 
-/// The manifest of a folder or URL, whose hash of itself is right: what shards are held against.
+/// The manifest of a folder or URL, whose hash of itself was checked: shards are checked against it.
 #[pyclass(module = "grouser._core", frozen)]
 pub(crate) struct CampaignManifest {
     manifest: Manifest,
@@ -173,7 +172,7 @@ pub(crate) struct CampaignManifest {
 
 #[pymethods]
 impl CampaignManifest {
-    /// * `file`: what messages call it
+    /// * `file`: its name in messages
     #[new]
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn new(data: &[u8], file: PathBuf) -> PyResult<Self> {
@@ -181,7 +180,7 @@ impl CampaignManifest {
         Ok(Self { manifest: manifest.map_err(|error| errors::of_store(&error))? })
     }
 
-    /// That a resolved study is the one whose runs are here.
+    /// Checks that a resolved study is the one whose runs are here.
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn check_study(&self, study: &[u8], file: PathBuf) -> PyResult<()> {
         if grouser_store::sha256(study) == self.manifest.study_sha256 {
@@ -190,9 +189,9 @@ impl CampaignManifest {
         Err(errors::of_store(&StoreError::StudyChanged(file)))
     }
 
-    /// That it says of a campaign what this version would.
+    /// Checks that the manifest has what this version would write for a campaign.
     ///
-    /// * `file`: what messages call it
+    /// * `file`: its name in messages
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn check_campaign(&self, campaign: &Document, file: PathBuf) -> PyResult<()> {
         let study = &campaign.campaign()?.study;
@@ -227,7 +226,7 @@ impl CampaignManifest {
     /// Columns of a shard that is as it was written: numbers as arrays, with NaN where there is none; texts as
     /// lists.
     ///
-    /// * `file`: what messages call it
+    /// * `file`: its name in messages
     #[allow(clippy::needless_pass_by_value, reason = "how lists and paths come from Python")]
     fn read<'py>(
         &self,
@@ -260,7 +259,7 @@ fn columns_of(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
                 let values = values.into_iter().map(|value| value.unwrap_or(f64::NAN));
                 dict.set_item(name, PyArray1::from_iter(py, values))?;
             }
-            // Runs and points are numbered; none is without its number.
+            // Runs and points are numbered; each has a number.
             Values::Whole(values) => {
                 let values =
                     values.into_iter().map(|value| value.unwrap_or_default().cast_signed());
@@ -327,19 +326,19 @@ impl CampaignFolder {
         Ok((folder.runs_done(), folder.runs()))
     }
 
-    /// Takes in a shard.
+    /// Adds a shard.
     fn accept(&mut self, py: Python<'_>, shard: u64, data: &[u8]) -> PyResult<()> {
         let folder = self.open_mut()?;
         py.detach(|| folder.accept(shard, data)).map_err(|error| errors::of_store(&error))
     }
 
-    /// Takes in a shard that a worker has put in its place.
+    /// Counts a shard that a worker has written to its place.
     fn adopt(&mut self, py: Python<'_>, shard: u64) -> PyResult<()> {
         let folder = self.open_mut()?;
         py.detach(|| folder.adopt(shard)).map_err(|error| errors::of_store(&error))
     }
 
-    /// Writes down what was done.
+    /// Writes the session to the manifest.
     fn pause(&mut self, py: Python<'_>) -> PyResult<()> {
         let folder = self.open_mut()?;
         py.detach(|| folder.pause()).map_err(|error| errors::of_store(&error))
@@ -352,7 +351,7 @@ impl CampaignFolder {
         Ok((finished.digest, finished.shards, finished.bytes))
     }
 
-    /// Lets others have the folder.
+    /// Unlocks the folder.
     fn close(&mut self) {
         self.folder = None;
     }
@@ -387,7 +386,7 @@ pub(crate) fn merge_campaign(
     Ok((merged.digest, merged.shards, merged.bytes))
 }
 
-// ---- What the runs say together ----
+// ---- Statistics over the runs ----
 
 /// How often statuses and outcomes are among the independent samples.
 ///
@@ -407,27 +406,27 @@ pub(crate) fn campaign_frequencies<'py>(
     let mut start = 0;
     for (first, end) in runs {
         let stop = start + usize::try_from(end - first)?;
-        let words = |words: &[Option<String>]| -> Vec<Option<String>> {
-            words.get(start..stop).map(<[_]>::to_vec).unwrap_or_default()
+        let part = |texts: &[Option<String>]| -> Vec<Option<String>> {
+            texts.get(start..stop).map(<[_]>::to_vec).unwrap_or_default()
         };
-        frequencies.add(campaign, first..end, &words(&statuses), &words(&outcomes));
+        frequencies.add(campaign, first..end, &part(&statuses), &part(&outcomes));
         start = stop;
     }
     let dict = PyDict::new(py);
     dict.set_item("samples", frequencies.samples)?;
     for (name, counts) in [("status", &frequencies.statuses), ("outcome", &frequencies.outcomes)] {
-        let words = PyDict::new(py);
+        let shares = PyDict::new(py);
         for (word, count) in counts {
             let Some(probability) = frequencies.probability(*count) else { continue };
             let (low, high) = probability.interval();
-            words.set_item(word, (*count, probability.estimate(), low, high))?;
+            shares.set_item(word, (*count, probability.estimate(), low, high))?;
         }
-        dict.set_item(name, words)?;
+        dict.set_item(name, shares)?;
     }
     Ok(dict)
 }
 
-/// What runs say of quantities: a dictionary for each.
+/// Statistics of quantities over runs: a dictionary for each.
 ///
 /// * `runs`: first and one after the last, in order
 /// * `columns`: values of these runs, NaN where there is none

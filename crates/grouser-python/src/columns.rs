@@ -24,7 +24,7 @@ pub(crate) fn wheel_row(settled: &Settled) -> [f64; WHEEL.len()] {
     WHEEL.each_ref().map(|column| column.number(settled))
 }
 
-/// The same where there are none: NaN, Python's word for none.
+/// The same for a wheel without results: NaN.
 pub(crate) const NO_WHEEL: [f64; WHEEL.len()] = [f64::NAN; WHEEL.len()];
 
 /// The unit that a name ends with, by the library's table; `None` for a ratio, a count or a text.
@@ -43,9 +43,9 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("wheel", declared(&WHEEL))?;
     dict.set_item("wheel_sample", declared(&WHEEL_RECORD))?;
     dict.set_item("sample", declared(&RECORD))?;
-    dict.set_item("attitude", declared(&held()))?;
-    dict.set_item("attitude_band", declared(&BAND))?;
-    dict.set_item("attitude_band_limit", declared(&BAND_LIMIT))?;
+    dict.set_item("heading", declared(&held()))?;
+    dict.set_item("heading_band", declared(&BAND))?;
+    dict.set_item("heading_band_limit", declared(&BAND_LIMIT))?;
     dict.set_item("stand", declared(&TRIALS))?;
     Ok(dict)
 }

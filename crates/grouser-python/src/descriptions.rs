@@ -16,7 +16,7 @@ use crate::campaign::LoadedCampaign;
 use crate::values::Change;
 use crate::{errors, values};
 
-/// A document that was read: what it says, and what that means.
+/// A document that was read: its keys, and the library's value made of them.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct Document {
     read: Read,
@@ -46,8 +46,8 @@ impl Read {
 }
 
 impl Document {
-    /// What the document says.
-    fn said(&self) -> &document::Document {
+    /// The keys and values of the document.
+    fn resolved(&self) -> &document::Document {
         match &self.read {
             Read::Soil(it) => &it.document,
             Read::Wheel(it) => &it.document,
@@ -60,7 +60,7 @@ impl Document {
     /// The document as a table.
     pub(crate) fn table(&self) -> Table {
         // A document that was read has text keys and finite numbers only.
-        Table::try_from(self.said()).unwrap_or_default()
+        Table::try_from(self.resolved()).unwrap_or_default()
     }
 
     /// Files that the document names.
@@ -154,13 +154,13 @@ impl Document {
 
     /// The resolved document as TOML.
     fn to_toml(&self) -> String {
-        self.said().to_toml()
+        self.resolved().to_toml()
     }
 
     /// The resolved document as a dictionary of its own.
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let said = serde_json::to_value(self.said()).unwrap_or_default();
-        values::to_python(py, &said)
+        let items = serde_json::to_value(self.resolved()).unwrap_or_default();
+        values::to_python(py, &items)
     }
 }
 
@@ -256,11 +256,11 @@ fn kind_of(name: &str) -> PyResult<Kind> {
 /// The presets of a kind: name, title and source of each.
 #[pyfunction]
 pub(crate) fn presets(kind: &str) -> PyResult<Vec<(&'static str, String, String)>> {
-    let told = |preset: &'static document::Preset| {
+    let described = |preset: &'static document::Preset| {
         let (title, source) = preset.title_and_source();
         (preset.name, title, source)
     };
-    Ok(document::presets(kind_of(kind)?).map(told).collect())
+    Ok(document::presets(kind_of(kind)?).map(described).collect())
 }
 
 /// A dictionary as TOML.

@@ -26,7 +26,7 @@ mod classes {
     import_exception!(grouser._errors, CampaignDiskError);
 }
 
-/// What a document's problem says of a value.
+/// The value in a document's problem.
 struct Facts {
     key: Option<String>,
     value: Option<f64>,
@@ -35,7 +35,7 @@ struct Facts {
 
 /// A document that cannot be used.
 ///
-/// * `arguments`: what messages call the caller's own arguments; what is wrong with those is a
+/// * `arguments`: the names of the caller's own arguments in messages; an error in those is a
 ///   `ParameterError`
 pub(crate) fn of_document(error: &DocumentError, arguments: &[String]) -> PyErr {
     let place = error.place();
@@ -120,12 +120,12 @@ pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
     }
 }
 
-/// A parameter that nothing can have.
+/// An invalid parameter.
 pub(crate) fn of_parameter(error: &ParameterError) -> PyErr {
     parameter(error.to_string(), &error.name, Some(error.value), error.expected)
 }
 
-/// An argument that is not what it must be.
+/// An invalid argument.
 pub(crate) fn parameter(
     message: String,
     name: &str,
@@ -145,7 +145,7 @@ pub(crate) fn of_simulation(error: &RunError) -> PyErr {
     }
 }
 
-/// A calibration without an answer: measurements and keys that do not go together are the caller's.
+/// A calibration that failed; keys that the measurements cannot determine are a `ParameterError`.
 pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
     let (message, expected) = (error.to_string(), "keys that the measurements can tell");
     match error {
@@ -167,7 +167,7 @@ pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
     }
 }
 
-/// Theories that cannot be ranked.
+/// Wheel–soil models that cannot be ranked.
 pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
     let (message, none) = (error.to_string(), None::<String>);
     match error {
@@ -214,7 +214,7 @@ pub(crate) fn of_store(error: &StoreError) -> PyErr {
     }
 }
 
-/// A value of a type that no document has.
+/// A value of a type that documents do not have.
 pub(crate) fn wrong_type(key: &str, found: &Bound<'_, PyAny>) -> PyErr {
     let kind = found.get_type().name().map_or_else(|_| "?".to_owned(), |name| name.to_string());
     PyTypeError::new_err(format!(

@@ -1,4 +1,4 @@
-//! Long work with an ear for Ctrl-C: Python hears its signals in its own thread only.
+//! Long computations that Ctrl-C interrupts: Python handles its signals in its main thread only.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 
 use crate::threads;
 
-/// How often Python is asked for signals: a Ctrl-C is heard at once, as people feel it.
+/// How often Python is asked for signals: short enough that Ctrl-C seems to act at once.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Whether nobody waits for some work any more.
+/// Whether a computation is no longer waited for.
 #[derive(Clone, Default)]
 pub(crate) struct Cancelled(Arc<AtomicBool>);
 
@@ -24,18 +24,17 @@ impl Cancelled {
     }
 }
 
-/// Does work in a thread of its own, without Python's lock; what it shares among threads goes to
-/// those of [`threads`]. On a signal that Python makes an
-/// exception of, such as Ctrl-C, that exception is returned; the work is told, and what it is in the
-/// middle of is left to end by itself.
+/// Computes in a thread of its own, without Python's lock; parallel parts run on the threads of
+/// [`threads`]. On a signal that Python turns into an exception, such as Ctrl-C, that exception is
+/// returned. `work` is then cancelled: it finishes the part it is computing, and its result is dropped.
 pub(crate) fn listening<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Cancelled) -> T + Send + 'static,
 ) -> PyResult<T> {
     let cancelled = Cancelled::default();
     let (sender, receiver) = channel();
-    let (told, pool) = (cancelled.clone(), threads::pool(py)?);
-    thread::spawn(move || drop(sender.send(pool.install(|| work(&told)))));
+    let (flag, pool) = (cancelled.clone(), threads::pool(py)?);
+    thread::spawn(move || drop(sender.send(pool.install(|| work(&flag)))));
     let mut waiting = receiver;
     loop {
         let (answer, again) = py.detach(move || (waiting.recv_timeout(PATIENCE), waiting));

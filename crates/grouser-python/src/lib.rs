@@ -1,12 +1,12 @@
-//! The native half of the Python package `grouser`: words and arrays in, the library's answers out.
+//! The native half of the Python package `grouser`: documents and arrays in, the library's results out.
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), leads rovers step by step
+//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
 //! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
-//! campaigns ([`campaign`]), lends the reaction to other engines ([`time_step`], and the [`ground`] under their wheels) and hands tables on
-//! ([`arrow`]), without Python's lock, with threads that a forked process has too ([`threads`]), and
-//! with an ear for Ctrl-C ([`interrupt`]). Nothing here computes physics, and nothing below knows of
-//! Python.
+//! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
+//! [`ground`] under their wheels) and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
+//! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
+//! library knows nothing of Python.
 
 mod arrow;
 mod calibration;
@@ -52,7 +52,7 @@ mod _core {
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
-    use super::studies::{attitude, attitude_band, attitude_map, simulate, simulated_wheel_test};
+    use super::studies::{heading, heading_band, heading_map, simulate, simulated_wheel_test};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]

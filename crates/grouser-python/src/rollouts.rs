@@ -20,7 +20,7 @@ use crate::wheels::{check, column};
 
 /// Many runs, which share what is the same for them.
 pub(crate) struct Runs {
-    /// The scenarios, and whether each names its theory itself.
+    /// The scenarios, and whether each names its wheel–soil model itself.
     bases: Vec<(Scenario, bool)>,
     base_of: Option<Vec<usize>>,
     soils: Vec<(Soil, Option<Theory>)>,
@@ -30,9 +30,17 @@ pub(crate) struct Runs {
     count: usize,
 }
 
-/// The keys of scenarios that may vary; an argument has the name of the key without its tables.
-const KEYS: [&str; 5] =
-    ["slope_deg", "start.yaw_deg", "drive.speed_m_s", "gravity_m_s2", "duration_s"];
+/// What may vary: the argument, the scenario's key that it sets, and the key that has its range.
+///
+/// `drive.speed_m_s`, a former key, is the speed of any drive: of the rims at constant speed, over the
+/// ground under Eq. 18.
+const KEYS: [[&str; 3]; 5] = [
+    ["slope_deg", "slope_deg", "slope_deg"],
+    ["yaw_deg", "start.yaw_deg", "start.yaw_deg"],
+    ["rim_speed_m_s", "drive.speed_m_s", "drive.rim_speed_m_s"],
+    ["gravity_m_s2", "gravity_m_s2", "gravity_m_s2"],
+    ["duration_s", "duration_s", "duration_s"],
+];
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -74,18 +82,18 @@ impl Runs {
     /// The scenario of a run.
     fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
         let of = |index: &Option<Vec<usize>>| index.as_ref().map_or(0, |index| index[place]);
-        let (base, names_its_theory) = &self.bases[of(&self.base_of)];
+        let (base, names_its_model) = &self.bases[of(&self.base_of)];
         let mut scenario = base.clone();
         if let Some((soil, theory)) = self.soils.get(of(&self.soil_of)) {
             scenario.site.terrain.soil = *soil;
-            if !names_its_theory {
+            if !names_its_model {
                 scenario.theory = theory.unwrap_or_default();
             }
         }
         scenario_with(&scenario, self.varied.iter().map(|(key, values)| (*key, values[place])))
     }
 
-    /// The first run that cannot be, with its place.
+    /// The first run whose numbers are invalid, with its place.
     fn first_misfit(&self) -> Option<(usize, ParameterError)> {
         let places = (0..self.count).into_par_iter().with_min_len(256);
         places.find_map_first(|place| self.scenario(place).err().map(|error| (place, error)))
@@ -106,12 +114,11 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
 
 fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
     let mut all = Vec::new();
-    for key in KEYS {
-        let name = key.rsplit('.').next().unwrap_or(key);
+    for [name, key, ranged] in KEYS {
         let Some(values) = dict.get_item(name)? else { continue };
         let values: PyReadonlyArray1<'_, f64> = values.extract()?;
         let values = values.as_slice()?.to_vec();
-        check(name, &values, &range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX))?;
+        check(name, &values, &range(Kind::Scenario, ranged).unwrap_or(f64::MIN..=f64::MAX))?;
         if values.len() != count {
             let message = format!("{name} has {} values for {count} runs", values.len());
             return Err(errors::parameter(message, name, None, "a value for each run"));
@@ -121,7 +128,7 @@ fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static s
     Ok(all)
 }
 
-/// The numbers of a sample.
+/// The numbers of a record.
 type Row = [f64; RECORD.len()];
 
 /// What is kept of a run.
@@ -129,7 +136,7 @@ struct End {
     outcome: &'static str,
     reason: Option<String>,
     last: Row,
-    /// All samples, where they are wanted.
+    /// All records, where they are wanted.
     samples: Vec<Row>,
 }
 
@@ -157,7 +164,7 @@ impl End {
 ///
 /// * `soils`: in the place of the scenarios' own; none, to leave those
 /// * `varied`: an array of `count` numbers for each key that varies
-/// * `keep`: whether all samples are kept, beside the ends
+/// * `keep`: whether all records are kept, beside the ends
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
@@ -204,8 +211,8 @@ fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'
         let samples = PyDict::new(py);
         for (place, name) in RECORD.iter().map(|it| it.name).enumerate() {
             let row = |end: &End| {
-                let told = end.samples.iter().map(|row| row[place]);
-                told.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()
+                let column = end.samples.iter().map(|row| row[place]);
+                column.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()
             };
             let rows: Vec<Vec<f64>> = ends.iter().map(row).collect();
             samples.set_item(name, PyArray2::from_vec2(py, &rows)?)?;

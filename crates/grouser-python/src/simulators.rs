@@ -1,4 +1,4 @@
-//! Rovers led step by step: any number at once, on all cores, each with the bits it has alone.
+//! Step-by-step simulation of any number of rovers, on all cores; each has the same results as alone.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -17,15 +17,15 @@ use crate::studies::{wheel_names, wheel_sample_columns};
 use crate::threads;
 use crate::wheels::check;
 
-/// Rovers between two looks for signals: a small part of a second.
+/// Rovers between two checks for signals: they take a small part of a second.
 const BATCH: usize = 64;
 
 /// The longest step [s]: that of the longest run.
 const LONGEST_STEP: f64 = grouser::simulation::scenario::LONGEST_DURATION;
 
-/// One rover: what it starts from, and where it is.
+/// One rover: its scenario, and its run so far.
 #[derive(Clone)]
-struct Led {
+struct Stepped {
     nominal: Scenario,
     soils: Option<UncertainSoil>,
     rover: Run,
@@ -40,7 +40,7 @@ struct Fresh {
     yaw_deg: Option<f64>,
 }
 
-impl Led {
+impl Stepped {
     fn new(loaded: &LoadedScenario) -> Result<Self, RunError> {
         let nominal = loaded.value.clone();
         let soils = loaded.uncertain.clone();
@@ -51,7 +51,7 @@ impl Led {
     fn reset(&mut self, fresh: Fresh) -> Result<(), RunError> {
         let mut scenario = self.nominal.clone();
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
-            // That draws can be had was found out when the document was read.
+            // Reading the document has checked that samples can be drawn.
             if let Ok(soil) = soils.draw(seed, 0) {
                 scenario.site.terrain.soil = soil;
             }
@@ -89,7 +89,7 @@ impl Led {
 /// Rovers with one number of wheels.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct Simulators {
-    rovers: Mutex<Vec<Led>>,
+    rovers: Mutex<Vec<Stepped>>,
     wheels: Vec<String>,
     /// ω = v/r_s of each wheel of each rover: r_s [m].
     radii: Vec<Vec<f64>>,
@@ -109,7 +109,7 @@ impl Simulators {
         }
         let radii = loaded.iter().map(|one| one.value.rover.mounts().iter());
         let radii = radii.map(|each| each.map(Mount::shearing_radius).collect()).collect();
-        let rovers = loaded.into_iter().map(Led::new).collect::<Result<_, _>>();
+        let rovers = loaded.into_iter().map(Stepped::new).collect::<Result<_, _>>();
         let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
         Ok(Self { rovers, wheels, radii })
     }
@@ -133,7 +133,7 @@ impl Simulators {
 
     /// Starts some of the rovers anew.
     ///
-    /// * `seeds`: of the soil's draw; the nominal soil without
+    /// * `seeds`: of the sampled soils; without one, the nominal soil
     #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
     fn reset(
         &self,
@@ -162,7 +162,7 @@ impl Simulators {
         self.each(py, |rover, place| fresh[place].map_or(Ok(()), |fresh| rover.reset(fresh)))
     }
 
-    /// Turns wheels for a while. What cannot be computed is told as a failure of its rover.
+    /// Turns wheels for some time. A motion that cannot be computed is a failure of that rover alone.
     ///
     /// * `commands`: of each rover and wheel; wheel speeds [rad/s], or rim speeds [m/s]
     /// * `active`: which rovers go on
@@ -206,7 +206,7 @@ impl Simulators {
     /// A row for each rover with the columns of a trajectory.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<Vec<f64>> = py.detach(|| {
-            let row = |led: &Led| RECORD.iter().map(|it| it.number(led.rover.now())).collect();
+            let row = |led: &Stepped| RECORD.iter().map(|it| it.number(led.rover.now())).collect();
             self.lock().iter().map(row).collect()
         });
         Ok(PyArray2::from_vec2(py, &rows)?)
@@ -216,8 +216,8 @@ impl Simulators {
     /// over or sunk.
     fn wheel_samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let wheels = 0..self.wheels.len();
-        let matrix = |get: &dyn Fn(&WheelRecord) -> f64, rovers: &[Led]| {
-            let row = |led: &Led| {
+        let matrix = |get: &dyn Fn(&WheelRecord) -> f64, rovers: &[Stepped]| {
+            let row = |led: &Stepped| {
                 let now = &led.rover.now().wheels;
                 wheels.clone().map(|k| now.get(k).map_or(f64::NAN, get)).collect()
             };
@@ -231,44 +231,49 @@ impl Simulators {
     }
 
     /// Outcome and message of each rover, `None` while it is under way; and how it was computed.
-    #[allow(clippy::type_complexity, reason = "three words of each rover")]
-    fn words(&self, py: Python<'_>) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
-        let words = |led: &Led| (led.outcome(), led.message(), led.rover.state().method().name());
-        py.detach(|| self.lock().iter().map(words).collect())
+    #[allow(clippy::type_complexity, reason = "three texts of each rover")]
+    fn statuses(
+        &self,
+        py: Python<'_>,
+    ) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
+        let status =
+            |led: &Stepped| (led.outcome(), led.message(), led.rover.state().method().name());
+        py.detach(|| self.lock().iter().map(status).collect())
     }
 }
 
 impl Simulators {
-    /// The rovers, to one thread at a time; only without Python's lock, which who holds them may
-    /// wait for.
-    fn lock(&self) -> MutexGuard<'_, Vec<Led>> {
+    /// The rovers, for one thread at a time. Call it without Python's lock: the thread that holds the
+    /// rovers may wait for that.
+    fn lock(&self) -> MutexGuard<'_, Vec<Stepped>> {
         self.rovers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Does something to every rover, on all cores and with an ear for Ctrl-C, at which those that
-    /// had not their turn yet are left as they are. The first error in their order is told.
+    /// Applies `act` to every rover, on all cores. On Ctrl-C the remaining rovers stay as they are. Returns
+    /// the first error in the order of the rovers.
     fn each(
         &self,
         py: Python<'_>,
-        act: impl Fn(&mut Led, usize) -> Result<(), RunError> + Sync,
+        act: impl Fn(&mut Stepped, usize) -> Result<(), RunError> + Sync,
     ) -> PyResult<()> {
-        let mut told = Ok(());
+        let mut result = Ok(());
         let mut start = 0;
         while start < self.radii.len() {
             let pool = threads::pool(py)?;
             let done: Vec<_> = py.detach(|| {
-                // Locked out here: a thread of the pool that waits for others takes up their work.
+                // Locked before the pool runs: a thread of the pool that waits for others starts other
+                // work, which must not ask for the same lock.
                 let mut rovers = self.lock();
                 let batch = rovers.iter_mut().enumerate().skip(start).take(BATCH);
-                let batch: Vec<(usize, &mut Led)> = batch.collect();
-                let act = |(place, led): (usize, &mut Led)| act(led, place);
+                let batch: Vec<(usize, &mut Stepped)> = batch.collect();
+                let act = |(place, led): (usize, &mut Stepped)| act(led, place);
                 pool.install(|| batch.into_par_iter().map(act).collect())
             });
-            told = told.and(done.into_iter().collect::<Result<(), RunError>>());
+            result = result.and(done.into_iter().collect::<Result<(), RunError>>());
             py.check_signals()?;
             start += BATCH;
         }
-        told.map_err(|error| errors::of_simulation(&error))
+        result.map_err(|error| errors::of_simulation(&error))
     }
 }
 

@@ -1,11 +1,11 @@
-//! Runs and studies: each in a thread of its own, so that Ctrl-C is heard.
+//! Runs and studies, each in a thread of its own so that Ctrl-C interrupts it.
 
 use std::ops::RangeInclusive;
 
 use grouser::document::columns::run::{ENERGY_ERROR, RECORD, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
-    self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE, heading,
+    self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
 };
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
@@ -13,9 +13,9 @@ use grouser::document::table::Table;
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
-use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::attitude_band::AttitudeBand;
-use grouser::studies::attitude_map::AttitudeMap;
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_band::HeadingBand;
+use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
@@ -27,8 +27,8 @@ use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::validation::in_words;
-use crate::wheels::{check, column, theory_and_gravity};
+use crate::validation::record_to_python;
+use crate::wheels::{check, column, model_and_gravity};
 
 /// A run from its start to its end.
 #[pyfunction]
@@ -47,7 +47,7 @@ pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
     scenario.rover.mounts().iter().map(|mount| mount.name.clone()).collect()
 }
 
-/// A trajectory: words, columns over time, and columns over time and wheel.
+/// A trajectory: outcome and messages, columns over time, and columns over time and wheel.
 fn to_python<'py>(
     py: Python<'py>,
     run: &Trajectory,
@@ -69,7 +69,7 @@ fn to_python<'py>(
     Ok(dict)
 }
 
-/// Arrays of a row for each sample and a column for each wheel; NaN where a rover has just tipped
+/// Arrays of a row for each record and a column for each wheel; NaN where a rover has just tipped
 /// over or sunk.
 fn each_wheel<'py>(
     py: Python<'py>,
@@ -102,10 +102,11 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
-/// The level attitude on each slope, the steepest slope, and what ends the curve there.
+/// The heading offset that holds the contour on each slope, the steepest slope, and what ends the curve
+/// there.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-pub(crate) fn attitude<'py>(
+pub(crate) fn heading<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
@@ -113,28 +114,31 @@ pub(crate) fn attitude<'py>(
     let slopes = slopes(&slope_deg)?;
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
-        let curve = AttitudeStudy::of(&scenario).curve()?;
-        Ok((heading::table(&curve, &scenario.rover, &slopes), heading::steepest(&curve)))
+        let curve = HeadingStudy::of(&scenario).curve()?;
+        Ok((
+            columns::heading::table(&curve, &scenario.rover, &slopes),
+            columns::heading::steepest(&curve),
+        ))
     })?;
     let (table, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
-    let reason = limit.texts(heading::LIMIT_REASON)[0].clone().unwrap_or_default();
+    let reason = limit.texts(columns::heading::LIMIT_REASON)[0].clone().unwrap_or_default();
     Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason))
 }
 
-/// The attitude over slope, course and soil: a row for each, slopes fastest, then courses.
+/// The heading offset over slope, course and soil: a row for each, slopes fastest, then courses.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-pub(crate) fn attitude_map<'py>(
+pub(crate) fn heading_map<'py>(
     py: Python<'py>,
     scenarios: Vec<PyRef<'py, Document>>,
     slope_deg: PyReadonlyArray1<'py, f64>,
     course_deg: PyReadonlyArray1<'py, f64>,
-    speed_m_s: f64,
+    rim_speed_m_s: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let slopes = slopes(&slope_deg)?;
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
     let courses = in_si(COURSE, course_deg.as_slice()?);
-    check("speed_m_s", &[speed_m_s], &MAP_SPEED_M_S)?;
+    check("rim_speed_m_s", &[rim_speed_m_s], &MAP_SPEED_M_S)?;
     let all = scenarios.iter().map(|scenario| scenario.scenario());
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let soil_name = |scenario: &&document::LoadedScenario| {
@@ -145,18 +149,18 @@ pub(crate) fn attitude_map<'py>(
         let message = "there is no soil".to_owned();
         return Err(errors::parameter(message, "soil", None, "at least one soil"));
     };
-    let studies: Vec<_> = all.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
+    let studies: Vec<_> = all.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
     let table = listening(py, move |cancelled| {
-        let nothing = AttitudeMap { slopes: Vec::new(), rows: Vec::new() };
-        let mut table = heading::map_table(&nothing, &[], &rover, speed_m_s);
+        let nothing = HeadingMap { slopes: Vec::new(), rows: Vec::new() };
+        let mut table = columns::heading::map_table(&nothing, &[], &rover, rim_speed_m_s);
         for (study, name) in studies.iter().zip(&names) {
             for courses in courses.chunks(COURSES) {
                 if cancelled.is_set() {
                     return Ok(table);
                 }
-                let map = AttitudeMap::of(std::slice::from_ref(study), courses, &slopes)?;
+                let map = HeadingMap::of(std::slice::from_ref(study), courses, &slopes)?;
                 let name = std::slice::from_ref(name);
-                table.append(heading::map_table(&map, name, &rover, speed_m_s));
+                table.append(columns::heading::map_table(&map, name, &rover, rim_speed_m_s));
             }
         }
         Ok(table)
@@ -164,10 +168,11 @@ pub(crate) fn attitude_map<'py>(
     table_to_python(py, table.map_err(|error: ParameterError| errors::of_parameter(&error))?)
 }
 
-/// What the draws of the soil's uncertainty say on each slope, and of the steepest slope.
+/// Statistics over samples of an uncertain soil: of the heading offset on each slope, and of the steepest
+/// slope.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-pub(crate) fn attitude_band<'py>(
+pub(crate) fn heading_band<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
@@ -182,31 +187,31 @@ pub(crate) fn attitude_band<'py>(
         let expected = "a soil with an `uncertainty`, such as toyoura-uncertain";
         return Err(errors::parameter(message, "uncertainty", None, expected));
     };
-    let study = AttitudeStudy::of(&scenario.value);
+    let study = HeadingStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
         let soils = uncertain.draws(seed, samples).map_err(|error| {
-            Problem::Draws(format!("the soil's uncertainty reaches too far: {error}"))
+            Problem::Sampling(format!("the soil's uncertainty reaches too far: {error}"))
         })?;
         let go_on = || !cancelled.is_set();
-        AttitudeBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
+        HeadingBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
     })?;
     let band = found.map_err(|problem| match problem {
-        Problem::Draws(message) => {
+        Problem::Sampling(message) => {
             errors::parameter(message, "uncertainty", None, "smaller standard deviations")
         }
         Problem::Parameter(error) => errors::of_parameter(&error),
     })?;
-    let table = Table::of(&heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
-    let limit = band.as_ref().map(heading::band_limit);
-    Ok((table_to_python(py, table)?, in_words(py, &limit.as_ref().map(|it| it.row(0)))?))
+    let table = Table::of(&columns::heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
+    let limit = band.as_ref().map(columns::heading::band_limit);
+    Ok((table_to_python(py, table)?, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
-/// Draws that may be asked for.
+/// How many samples of a soil may be asked for.
 const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
 
 /// Why there is no band.
 enum Problem {
-    Draws(String),
+    Sampling(String),
     Parameter(ParameterError),
 }
 
@@ -229,7 +234,7 @@ pub(crate) fn simulated_wheel_test<'py>(
     noise: [f64; 3],
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    let (theory, gravity) = model_and_gravity(soil, setting)?;
     check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
     check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
     check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
@@ -260,7 +265,7 @@ pub(crate) fn simulated_wheel_test<'py>(
     table_to_python(py, listening(py, move |_| columns::stand::table(&test.run()))?)
 }
 
-/// Courses of a map between two looks for signals: a part of a second.
+/// Courses of a map between two checks for signals: they take a part of a second.
 const COURSES: usize = 64;
 
 /// Slopes in their range [rad].

@@ -1,8 +1,8 @@
 //! The threads that all calls share: those of this process.
 //!
 //! A process that was forked has the memory of its parent, and of its threads only the one that
-//! forked. Whatever counts on a pool of before then waits for threads that there are not, for ever;
-//! and `multiprocessing` forks by default on Linux, up to Python 3.13. So the pool belongs to the
+//! forked. Code that uses the parent's pool would wait for ever for threads that do not exist; and
+//! `multiprocessing` forks by default on Linux, up to Python 3.13. So the pool belongs to the
 //! process that made it, and another process makes its own. All work that is shared among threads
 //! passes through here; nothing uses the pool that rayon keeps for a whole program.
 
@@ -42,7 +42,7 @@ pub(crate) fn pool(_under_pythons_lock: Python<'_>) -> PyResult<Arc<ThreadPool>>
     Ok(pool)
 }
 
-/// Does work without Python's lock, so that whatever it shares among threads goes to this process's.
+/// Computes without Python's lock; parallel parts run on the threads of this process.
 ///
 /// # Errors
 /// As [`pool`].

@@ -13,9 +13,9 @@ use pyo3::prelude::*;
 use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
-use crate::wheels::theory_and_gravity;
+use crate::wheels::model_and_gravity;
 
-/// Wheels and the soils under them, ready to be asked at every step.
+/// Wheels and the soils under them, whose reaction is computed at every step.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct SteppingWheels {
     wheels: Vec<(Wheel, Soil, Theory)>,
@@ -30,7 +30,7 @@ type Answer<'py> = (Bound<'py, PyArray2<f64>>, f64);
 #[pymethods]
 impl SteppingWheels {
     /// * `soils`, `wheels`: one for each wheel
-    /// * `setting`: a scenario that gives gravity, and a theory where it names one
+    /// * `setting`: a scenario that gives gravity, and a wheel–soil model where it names one
     #[new]
     #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
     fn new(
@@ -51,7 +51,7 @@ impl SteppingWheels {
             }
         }
         let made = soils.iter().zip(&wheels).map(|(soil, wheel)| {
-            let (theory, _) = theory_and_gravity(soil, setting)?;
+            let (theory, _) = model_and_gravity(soil, setting)?;
             Ok((wheel.wheel()?.value, soil.soil()?.value, theory))
         });
         Ok(Self {
@@ -79,7 +79,8 @@ impl SteppingWheels {
     ///
     /// * `sinkage`: at its start [m]
     /// * `free`: velocities at its end without the soil [m/s], four for each wheel
-    /// * `mobility`: a row for each velocity, a column for each of six forces a wheel
+    /// * `inverse_mass`: the effective inverse mass J M⁻¹ Jᵀ (Delassus matrix): a row for each velocity, a column
+    ///   for each of six forces a wheel
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     fn reaction<'py>(
         &self,
@@ -87,14 +88,14 @@ impl SteppingWheels {
         duration_s: f64,
         sinkage: PyReadonlyArray1<'py, f64>,
         free: PyReadonlyArray1<'py, f64>,
-        mobility: PyReadonlyArray2<'py, f64>,
+        inverse_mass: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Answer<'py>> {
-        let (sinkages, free, mobility) =
-            (sinkage.as_slice()?, free.as_slice()?, mobility.as_slice()?);
+        let (sinkages, free, inverse_mass) =
+            (sinkage.as_slice()?, free.as_slice()?, inverse_mass.as_slice()?);
         let count = self.wheels.len();
         let (rows, columns) = (MOTIONS * count, FORCES * count);
-        let lengths = [sinkages.len(), free.len(), mobility.len()];
-        let all = sinkages.iter().chain(free).chain(mobility);
+        let lengths = [sinkages.len(), free.len(), inverse_mass.len()];
+        let all = sinkages.iter().chain(free).chain(inverse_mass);
         if lengths != [count, rows, rows * columns] || !all.copied().all(f64::is_finite) {
             let message = "the motion of the wheels is not finite, or not theirs".to_owned();
             return Err(errors::parameter(message, "data", None, "a motion of the model"));
@@ -104,7 +105,7 @@ impl SteppingWheels {
             gravity: self.gravity,
             damping: self.damping,
             rest_speed: self.rest_speed,
-            inverse_mass: &DMatrix::from_row_slice(rows, columns, mobility),
+            inverse_mass: &DMatrix::from_row_slice(rows, columns, inverse_mass),
             free: &DVector::from_column_slice(free),
         };
         let wheels = self.wheels.iter().zip(sinkages);

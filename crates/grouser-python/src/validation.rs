@@ -1,4 +1,4 @@
-//! A theory beside measured wheel tests.
+//! Errors of a wheel–soil model against measured wheel tests.
 
 use std::path::PathBuf;
 
@@ -14,10 +14,10 @@ use serde::Serialize;
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
-use crate::wheels::theory_and_gravity;
+use crate::wheels::model_and_gravity;
 use crate::{errors, values};
 
-/// Predicts every trial of a file and judges the means of its cells.
+/// Predicts every trial of a file and compares the means of its cells with the measured ones.
 ///
 /// * `wheel_label`: which rows of a file with several wheels; the program takes the wheel's name
 #[pyfunction]
@@ -34,7 +34,7 @@ pub(crate) fn validate<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
-    let (theory, gravity) = theory_and_gravity(soil, setting)?;
+    let (theory, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
     let file = data.display().to_string();
     let found = listening(py, move |_| {
@@ -62,7 +62,7 @@ pub(crate) fn validation_to_python<'py>(
     measured: &Measurements,
     validation: &Validation,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let group = |group: &_| in_words(py, &GroupRecord::from(group));
+    let group = |group: &_| record_to_python(py, &GroupRecord::from(group));
     let groups = validation.groups.iter().map(group);
     let dict = PyDict::new(py);
     dict.set_item("groups", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
@@ -75,18 +75,18 @@ pub(crate) fn validation_to_python<'py>(
     Ok(dict)
 }
 
-/// Every theory on every data set of a folder, or of the program, best first: a record for each.
+/// Every wheel–soil model on every data set of a folder, or of the program, best first: a record for each.
 #[pyfunction]
 #[pyo3(signature = (folder))]
 pub(crate) fn validate_all(py: Python<'_>, folder: Option<PathBuf>) -> PyResult<Bound<'_, PyList>> {
     let ranked = listening(py, move |_| rank_all(folder.as_deref(), Limits::default()))?;
     let ranked = ranked.map_err(|error| errors::of_ranking(&error))?;
-    let records = ranked.iter().map(|one| in_words(py, one));
+    let records = ranked.iter().map(|one| record_to_python(py, one));
     PyList::new(py, records.collect::<PyResult<Vec<_>>>()?)
 }
 
 /// A record as a dictionary.
-pub(crate) fn in_words<'py>(
+pub(crate) fn record_to_python<'py>(
     py: Python<'py>,
     record: &impl Serialize,
 ) -> PyResult<Bound<'py, PyAny>> {

@@ -58,7 +58,7 @@ fn convert(
         return Ok(Value::Float(value.extract()?));
     }
     if value.is_instance_of::<PyInt>() {
-        // What is beyond 64 bits is beyond every range, and said so as a number.
+        // A number beyond 64 bits is beyond every range: as a float it gets that message.
         let integer = value.extract::<i64>().map(Value::Integer);
         return integer.or_else(|_| Ok(Value::Float(value.extract().unwrap_or(f64::INFINITY))));
     }
@@ -88,7 +88,7 @@ fn other(
     }
     if value.hasattr("tolist")? {
         let plain = value.call_method0("tolist")?;
-        // What stays as it is would come here for ever.
+        // A value whose `tolist` returns another such value would recurse for ever.
         return if plain.hasattr("tolist")? {
             Err(errors::wrong_type(key, value))
         } else {
@@ -113,8 +113,8 @@ fn described<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, Docum
     }
 }
 
-/// The changes that a mapping asks for: what is in a table changes single keys of it; laws first, so
-/// that keys which only a new law knows find it there.
+/// The changes in a mapping: a table changes single keys of the table; laws come first, so that keys of
+/// a new law find it there.
 pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     let mut all = Vec::new();
     for (name, value) in mapping {

@@ -17,7 +17,7 @@ use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::{errors, threads};
 
-/// Wheels between two looks for signals, to begin with: a part of a second for the slowest theory.
+/// Wheels between two checks for signals, to begin with: a part of a second for the slowest model.
 const FIRST_BATCH: usize = 64;
 /// As many at most: their rows stay in the processor's memory.
 const LARGEST_BATCH: usize = 1 << 13;
@@ -45,10 +45,10 @@ struct Inputs<'a> {
 }
 
 impl Stand {
-    /// * `setting`: a scenario that gives gravity, and a theory where it names one
+    /// * `setting`: a scenario that gives gravity, and a wheel–soil model where it names one
     fn new(soils: &[PyRef<'_, Document>], wheel: &Document, setting: &Document) -> PyResult<Self> {
         let soils = soils.iter().map(|soil| {
-            let (theory, _) = theory_and_gravity(soil, setting)?;
+            let (theory, _) = model_and_gravity(soil, setting)?;
             Ok((soil.soil()?.value, theory))
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
@@ -66,7 +66,7 @@ impl Stand {
 }
 
 impl Inputs<'_> {
-    /// That all arrays are of one length and in their ranges.
+    /// Checks that all arrays are of one length and in their ranges.
     fn check(&self, soils: usize, name: &str, pressed: &RangeInclusive<f64>) -> PyResult<()> {
         let count = self.pressed.len();
         let lengths = [self.slip_ratios.len(), self.slip_angles_deg.len()];
@@ -86,7 +86,7 @@ impl Inputs<'_> {
     }
 }
 
-/// That numbers are in their range; the first that is not is told by its place.
+/// Checks that numbers are in their range; the error names the first that is not, by its place.
 pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> PyResult<()> {
     let Some(place) = values.iter().position(|value| !range.contains(value)) else {
         return Ok(());
@@ -98,8 +98,8 @@ pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> 
     Err(errors::parameter(message, name, Some(value), expected))
 }
 
-/// The theory that a setting names, or else the soil's own; and the setting's gravity [m/s²].
-pub(crate) fn theory_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
+/// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].
+pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
     let setting = setting.scenario()?;
     let named = setting.document.theory().is_some().then_some(setting.value.theory);
     let theory = named.or_else(|| soil.soil().ok()?.document.theory()).unwrap_or_default();
@@ -115,7 +115,7 @@ fn row(results: &[f64; WHEEL.len()], last: f64) -> Row {
     row
 }
 
-/// Evaluates every wheel in order, batch by batch, into an array of a row for each result.
+/// Evaluates every wheel in order, batch by batch, into an array with a row for each result.
 fn evaluate(
     py: Python<'_>,
     count: usize,
@@ -226,7 +226,7 @@ pub(crate) fn wheel_forces<'py>(
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("given_sinkage_mm")))
 }
 
-/// The library's words for wheels that the soil does not carry.
+/// The library's messages for wheels that the soil does not carry.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn not_carried(
@@ -234,11 +234,11 @@ pub(crate) fn not_carried(
     capacity_n: PyReadonlyArray1<'_, f64>,
 ) -> PyResult<Vec<String>> {
     let pairs = load_n.as_slice()?.iter().zip(capacity_n.as_slice()?);
-    let words = |(load, capacity): (&f64, &f64)| SettleError::SunkToAxle {
+    let error = |(load, capacity): (&f64, &f64)| SettleError::SunkToAxle {
         load: *load,
         capacity: *capacity,
     };
-    Ok(pairs.map(words).map(|error| error.to_string()).collect())
+    Ok(pairs.map(error).map(|error| error.to_string()).collect())
 }
 
 /// Numbers as a column.

@@ -60,7 +60,7 @@ class Killer:
         self.lost = now.lost
         if self.killed or now.shards_done < self._after:
             return
-        # None if nobody happens to compute: then after the next shard.
+        # None while no worker computes: then after the next shard.
         for pid in self._pids():
             os.kill(pid, signal.SIGKILL)
             self.killed.append(pid)

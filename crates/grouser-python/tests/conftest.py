@@ -12,7 +12,7 @@ from typing import Any
 import matplotlib
 import pytest
 
-# Whoever runs this in the background may have it ignore Ctrl-C, and children would inherit that.
+# A shell may start this in the background with Ctrl-C ignored, and children would inherit that.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 matplotlib.use("Agg")
@@ -26,8 +26,8 @@ class Program:
 
     def __call__(self, *arguments: str) -> dict[str, Any]:
         command = [*self.command, *arguments, "--format", "json"]
-        told = subprocess.run(command, capture_output=True, text=True, check=True)
-        answer: dict[str, Any] = json.loads(told.stdout)
+        finished = subprocess.run(command, capture_output=True, text=True, check=True)
+        answer: dict[str, Any] = json.loads(finished.stdout)
         return answer
 
 

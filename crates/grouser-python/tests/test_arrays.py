@@ -23,7 +23,7 @@ def settle(**inputs: Any) -> gr.Settled:
 
 
 def command(values: Any) -> Any:
-    return gr.SimulatorBatch([gr.Scenario()] * 3).step(values, 0.1)
+    return gr.RunBatch([gr.Scenario()] * 3).step(values, 0.1)
 
 
 #: Where arrays enter, each with the argument that has one.
@@ -31,10 +31,10 @@ ENTRIES: dict[str, Callable[[Any], Any]] = {
     "load_n": lambda it: settle(load_n=it),
     "sinkage_mm": lambda it: gr.wheel_forces("toyoura", "hakuto", sinkage_mm=it, slip_ratio=0.1),
     "slope_deg": lambda it: gr.rollout(slope_deg=it, duration_s=0.1),
-    "yaw_deg": lambda it: gr.SimulatorBatch([gr.Scenario()] * 3).reset(yaw_deg=it),
+    "yaw_deg": lambda it: gr.RunBatch([gr.Scenario()] * 3).reset(yaw_deg=it),
     "commands": lambda it: command(it / 100.0),
-    "slope_deg of attitude": lambda it: gr.attitude(slope_deg=it),
-    "course_deg": lambda it: gr.attitude_map(course_deg=it, slope_deg=[5.0]),
+    "slope_deg of heading": lambda it: gr.heading(slope_deg=it),
+    "course_deg": lambda it: gr.heading_map(course_deg=it, slope_deg=[5.0]),
     "slip_angle_deg": lambda it: gr.wheel_test(load_n=17, slip_ratio=0.1, slip_angle_deg=it),
     "candidate_slip_ratio": lambda it: gr.calibrate(
         "none.csv", "toyoura", "hakuto", fit="cohesion_kpa", candidate_slip_ratio=it
@@ -55,7 +55,7 @@ def test_what_is_masked_is_found_in_lists_too() -> None:
             settle(load_n=values)
     with pytest.raises(gr.ParameterError, match="masked"):
         settle(gravity_m_s2=np.ma.masked)
-    batch = gr.SimulatorBatch([gr.Scenario()] * 3)
+    batch = gr.RunBatch([gr.Scenario()] * 3)
     with pytest.raises(gr.ParameterError, match="mask has 1 masked entry"):
         batch.reset(mask=np.ma.array([True, True, False], mask=[False, True, False]))
 
@@ -74,7 +74,7 @@ def test_data_arrays_over_one_dimension_are_their_values() -> None:
     found = settle(load_n=LOADS, slip_ratio=ratios)
     plain = settle(load_n=LOADS.values, slip_ratio=ratios.values)
     assert found.drawbar_pull_n.tobytes() == plain.drawbar_pull_n.tobytes()
-    assert gr.attitude(slope_deg=LOADS).yaw_deg.shape == (3,)
+    assert gr.heading(slope_deg=LOADS).yaw_deg.shape == (3,)
     both = xarray.broadcast(LOADS, xarray.DataArray([0.1, 0.2], dims="ratio"))
     assert settle(load_n=both[0], slip_ratio=both[1]).shape == (3, 2)
 

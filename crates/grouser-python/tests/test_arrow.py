@@ -17,18 +17,18 @@ READINGS = DATA / "simulated-wheel-test" / "toyoura-20n.csv"
 
 
 def results() -> list[Any]:
-    """One of each, with what can be missing: a wheel that sinks, a slope without attitude, a run
+    """One of each, with what can be missing: a wheel that sinks, a slope without a heading offset, a run
     that ends before its time."""
     return [
         gr.simulate(duration_s=1.0),
         gr.simulate(slope_deg=40.0),
         gr.rollout([gr.Scenario(duration_s=0.5), gr.Scenario(slope_deg=40.0)]),
         gr.rollout(slope_deg=[[5.0], [6.0]], yaw_deg=[0.0, 1.0], duration_s=0.5),
-        gr.attitude(slope_deg=[5.0, 30.0]),
-        gr.attitude_map(soil=["toyoura", "lunar-nominal"], slope_deg=[0, 30], course_deg=[0, 20]),
+        gr.heading(slope_deg=[5.0, 30.0]),
+        gr.heading_map(soil=["toyoura", "lunar-nominal"], slope_deg=[0, 30], course_deg=[0, 20]),
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2]),
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2], trials=2),
-        gr.attitude(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], uncertainty=True, samples=5),
+        gr.heading(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], uncertainty=True, samples=5),
         gr.calibrate(READINGS, "toyoura", "hakuto", fit="shear.longitudinal_m", point_fit=True),
         gr.settle("toyoura", "hakuto", load_n=[[10.0], [1e5]], slip_ratio=[0.1, 0.2, 0.3]),
         gr.wheel_forces("toyoura", "hakuto", sinkage_mm=10.0, slip_ratio=0.2),
@@ -57,12 +57,12 @@ def test_units_stand_in_the_fields_metadata() -> None:
     fit = gr.calibrate(READINGS, "toyoura", "hakuto", fit="cohesion_kpa", point_fit=True).to_arrow()
     assert fit.schema.field("fit").metadata is None, "its unit is the key's"
     assert fit.schema.field("narrowing").metadata == {b"units": b"1"}
-    texts = gr.attitude(slope_deg=[5.0]).to_arrow().schema.field("status")
+    texts = gr.heading(slope_deg=[5.0]).to_arrow().schema.field("status")
     assert texts.type == pyarrow.string() and texts.metadata is None
 
 
 def test_a_stream_can_be_left_unread() -> None:
-    """A capsule that nobody opens frees what it holds; one that was read is empty."""
+    """A capsule that is never read frees its content; one that was read is empty."""
     result = gr.settle("toyoura", "hakuto", load_n=np.full(1000, 10.0), slip_ratio=0.1)
     for _ in range(50):
         result.__arrow_c_stream__()
@@ -72,4 +72,4 @@ def test_a_stream_can_be_left_unread() -> None:
 
 def test_an_empty_result_is_an_empty_table() -> None:
     assert gr.rollout([]).to_arrow().num_rows == 0
-    assert gr.attitude(slope_deg=[]).to_arrow().column_names[0] == "slope_deg"
+    assert gr.heading(slope_deg=[]).to_arrow().column_names[0] == "slope_deg"

@@ -167,8 +167,8 @@ def test_workers_that_never_finish_anything_are_given_up(tmp_path: Path) -> None
         f"study = gr.Campaign.from_toml({campaigns.study().to_toml()!r})\n"
         f"gr.campaign.run(study, out={str(tmp_path / 'script')!r}, executor='processes', workers=1)\n"
     )
-    told = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
-    assert told.returncode == 1 and "below `if __name__ == '__main__':`" in told.stderr
+    finished = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+    assert finished.returncode == 1 and "below `if __name__ == '__main__':`" in finished.stderr
 
 
 def test_an_interrupted_campaign_goes_on(whole: gr.campaign.Results, tmp_path: Path) -> None:
@@ -185,11 +185,11 @@ def test_an_interrupted_campaign_goes_on(whole: gr.campaign.Results, tmp_path: P
     assert not part.is_finished and part.digest is None and len(part) == 12
     with pytest.raises(gr.CampaignError, match="9 of its shards are missing"):
         part.summarise()
-    told: list[gr.campaign.Progress] = []
-    found = gr.campaign.run(campaigns.study(), out=tmp_path, progress=told.append)
-    assert found.digest == whole.digest and len(told) == campaigns.SHARDS - 3
-    assert told[-1].runs_done == told[-1].runs == 45
-    # Finished: there is nothing to do, and nobody is asked to.
+    reports: list[gr.campaign.Progress] = []
+    found = gr.campaign.run(campaigns.study(), out=tmp_path, progress=reports.append)
+    assert found.digest == whole.digest and len(reports) == campaigns.SHARDS - 3
+    assert reports[-1].runs_done == reports[-1].runs == 45
+    # Finished: there is nothing to do, and no worker is started.
     again = gr.campaign.run(campaigns.study(), out=tmp_path, executor="dask", scheduler="nowhere")
     assert again.digest == whole.digest
     assert [session["shards"] for session in again.manifest["sessions"]] == [3, 9]
@@ -262,9 +262,9 @@ def test_parts_are_brought_together(whole: gr.campaign.Results, tmp_path: Path) 
 
 def test_runs_can_be_had_alone(whole: gr.campaign.Results) -> None:
     for run in (0, 7, 44):
-        anew, stored = whole.rerun(run), whole.row(run)
-        assert list(anew) == list(stored) == list(whole.columns)
-        for name, value in anew.items():
+        again, stored = whole.rerun(run), whole.row(run)
+        assert list(again) == list(stored) == list(whole.columns)
+        for name, value in again.items():
             assert value == stored[name] or value is None and np.isnan(stored[name])
     with pytest.raises(gr.ParameterError, match="there is no run 45"):
         whole.rerun(45)
@@ -290,22 +290,22 @@ def test_runs_without_an_answer_are_rows(tmp_path: Path) -> None:
     sunk = status == "soil cannot carry the load"
     assert 0 < sunk.sum() < 100
     assert np.array_equal(np.isnan(sinkage), sunk)
-    said = found.summarise(["sinkage_mm"])
-    assert said.status["soil cannot carry the load"].count == sunk.sum()
-    assert said.quantities["sinkage_mm"].missing == sunk.sum()
+    summary = found.summarise(["sinkage_mm"])
+    assert summary.status["soil cannot carry the load"].count == sunk.sum()
+    assert summary.quantities["sinkage_mm"].missing == sunk.sum()
 
 
-def test_what_runs_say_together_is_known(tmp_path: Path) -> None:
-    """Settled, a wheel bears its load: the law of the one is that of the other."""
+def test_statistics_of_known_runs(tmp_path: Path) -> None:
+    """The normal force of a settled wheel is its load, and has the distribution of the load."""
     study = campaigns.wheel_study(runs=4096, shard_runs=1024, sampling="latin-hypercube")
     found = gr.campaign.run(study, out=tmp_path)
-    said = found.summarise(["normal_force_n"]).quantities["normal_force_n"]
-    assert said.count == 4096 and said.mean_low <= 17.0 <= said.mean_high
+    summary = found.summarise(["normal_force_n"]).quantities["normal_force_n"]
+    assert summary.count == 4096 and summary.mean_low <= 17.0 <= summary.mean_high
     # The normal law's 2.5 %, 50 % and 97.5 %.
     for share, score in [(0.025, -1.959964), (0.5, 0.0), (0.975, 1.959964)]:
-        _, low, high = said.quantiles[share]
+        _, low, high = summary.quantiles[share]
         assert low is not None and high is not None and low <= 17.0 + score <= high
-    assert said.convergence[0]["runs"] == 16 and said.convergence[-1]["runs"] == 4096
+    assert summary.convergence[0]["runs"] == 16 and summary.convergence[-1]["runs"] == 4096
 
 
 def test_sensitivities_are_those_of_the_inputs(tmp_path: Path) -> None:
@@ -342,12 +342,12 @@ def test_program_and_python_find_the_same(program: Program, tmp_path: Path) -> N
 def test_the_program_hands_over_to_processes(program: Program, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(campaigns.study().to_toml())
-    told = subprocess.run(
+    finished = subprocess.run(
         [*program.command, "campaign", "run", str(path), "--out", str(tmp_path / "out"),
          "--executor", "processes", "--threads", "2", "--set", "campaign.seed=5", "--format", "json"],
         capture_output=True, text=True, check=True, env={**os.environ, "GROUSER_PYTHON": sys.executable},
     )  # fmt: skip
-    last = json.loads(told.stdout.splitlines()[-1])
+    last = json.loads(finished.stdout.splitlines()[-1])
     here = gr.campaign.run(campaigns.study(seed=5), out=tmp_path / "here")
     assert last["schema"] == "grouser.campaign.run.v1" and last["digest"] == here.digest
     assert last["statuses"] == {"ok": 45} and last["inputs"]["seed"] == 5
@@ -356,8 +356,8 @@ def test_the_program_hands_over_to_processes(program: Program, tmp_path: Path) -
 def test_the_module_says_what_is_wrong(tmp_path: Path) -> None:
     def ended(*words: str) -> tuple[int, str]:
         command = [sys.executable, "-m", "grouser.campaign", "run", *words]
-        told = subprocess.run(command, capture_output=True, text=True)
-        return told.returncode, told.stderr
+        finished = subprocess.run(command, capture_output=True, text=True)
+        return finished.returncode, finished.stderr
 
     out = ["--out", str(tmp_path / "out")]
     code, error = ended("nowhere.toml", *out)

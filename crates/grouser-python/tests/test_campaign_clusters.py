@@ -57,13 +57,13 @@ def test_dask_finds_the_same(cluster: Any, digest: str, tmp_path: Path) -> None:
 def test_dask_by_its_address(cluster: Any, digest: str, tmp_path: Path) -> None:
     study = tmp_path / "study.toml"
     study.write_text(campaigns.study().to_toml())
-    told = subprocess.run(
+    finished = subprocess.run(
         [sys.executable, "-m", "grouser.campaign", "run", str(study), "--out", str(tmp_path / "out"),
          "--executor", "dask", "--scheduler", cluster.scheduler_address, "--format", "json"],
         capture_output=True, text=True,
     )  # fmt: skip
-    assert told.returncode == 0, told.stderr
-    assert json.loads(told.stdout.splitlines()[-1])["digest"] == digest
+    assert finished.returncode == 0, finished.stderr
+    assert json.loads(finished.stdout.splitlines()[-1])["digest"] == digest
 
 
 def test_dask_with_a_killed_worker(cluster: Any, digest: str, tmp_path: Path) -> None:

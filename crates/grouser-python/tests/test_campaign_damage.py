@@ -27,14 +27,14 @@ def answers(folder: Path) -> tuple[Any, ...]:
 def test_flipped_bits_are_refused_or_change_nothing(tmp_path: Path) -> None:
     """A thousand single bits, spread by a seed over manifest, study and shards."""
     gr.campaign.run(campaigns.wheel_study(runs=12, shard_runs=4), out=tmp_path)
-    before, draw = answers(tmp_path), random.Random(4711)
+    before, generator = answers(tmp_path), random.Random(4711)
     files = [tmp_path / "manifest.json", tmp_path / "study.toml"]
     files += sorted((tmp_path / "runs").iterdir())
     refused = 0
     for flip in range(1000):
         file = files[flip % len(files)]
         good = file.read_bytes()
-        bad, bit = bytearray(good), draw.randrange(8 * len(good))
+        bad, bit = bytearray(good), generator.randrange(8 * len(good))
         bad[bit // 8] ^= 1 << (bit % 8)
         file.write_bytes(bad)
         try:
@@ -72,11 +72,11 @@ def test_exchanged_and_strange_shards_are_refused(tmp_path: Path) -> None:
     second.write_bytes(data[1])
     first.unlink()
     first.symlink_to("/dev/zero")
-    with pytest.raises(gr.CampaignError, match="no regular file"):
+    with pytest.raises(gr.CampaignError, match="not a regular file"):
         gr.campaign.results(tmp_path).count()
     first.unlink()
     os.mkfifo(first)
-    with pytest.raises(gr.CampaignError, match="no regular file"):
+    with pytest.raises(gr.CampaignError, match="not a regular file"):
         gr.campaign.results(tmp_path).to_arrow()
     # Going on puts the shard in its place.
     assert gr.campaign.run(campaigns.wheel_study(), out=tmp_path).count()[0] == {"ok": 100}

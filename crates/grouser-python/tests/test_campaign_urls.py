@@ -58,10 +58,10 @@ def test_a_url_is_gone_on_with(url: str, tmp_path: Path) -> None:
     cut = files.cat_file(f"{path}/runs/part-000001.parquet")
     files.pipe_file(f"{path}/runs/part-000001.parquet", cut[:-100])
     files.pipe_file(f"{path}/runs/.part-000005.parquet.partial-77", b"half")
-    told: list[gr.campaign.Progress] = []
-    found = gr.campaign.run(study, out=url, progress=told.append)
+    reports: list[gr.campaign.Progress] = []
+    found = gr.campaign.run(study, out=url, progress=reports.append)
     # Six that were missing, and the damaged one.
-    assert len(told) == 7
+    assert len(reports) == 7
     assert found.digest == gr.campaign.run(study, out=tmp_path / "folder").digest
     assert len(files.ls(f"{path}/runs", detail=False)) == 10
     with pytest.raises(gr.CampaignError, match="seed is 1 there, 9 here"):

@@ -19,14 +19,14 @@ RESULTS = [
     (gr.WheelForces, "wheel", {"slip_ratio", "slip_angle_deg"}),
     (gr.Trajectory, "sample", {"energy_error_j"}),
     (gr.Rollout, "sample", set()),
-    (gr.Attitudes, "attitude", {"slope_deg", "limit_slope_deg"}),
-    (gr.AttitudeMap, "attitude", {"course_deg", "slope_deg", "limit_slope_deg"}),
-    (gr.AttitudeBand, "attitude_band", {name for name, _, _ in COLUMNS["attitude_band_limit"]}),
+    (gr.Headings, "heading", {"slope_deg", "limit_slope_deg"}),
+    (gr.HeadingMap, "heading", {"course_deg", "slope_deg", "limit_slope_deg"}),
+    (gr.HeadingBand, "heading_band", {name for name, _, _ in COLUMNS["heading_band_limit"]}),
     (gr.SimulatedWheelTest, "stand", set()),
 ]
 
 #: Columns that are no attributes: of a wheel's rim speed there is none, runs are a dimension.
-LEFT_OUT = {(gr.Attitudes, "power_w"), (gr.SimulatedWheelTest, "trial")}
+LEFT_OUT = {(gr.Headings, "power_w"), (gr.SimulatedWheelTest, "trial")}
 
 
 def docs_of(result: type) -> dict[str, str]:
@@ -81,7 +81,7 @@ def test_docs_have_the_sentence_and_the_unit_of_the_column(
 
 
 def test_what_each_wheel_has_is_named() -> None:
-    """A trajectory's arrays for each wheel are a dictionary, whose names its docstring tells."""
+    """A trajectory's arrays for each wheel are a dictionary, whose names its docstring lists."""
     doc = gr.Trajectory.__doc__ or ""
     assert all(f"``{name}``" in doc for name in _tables.COLUMNS["wheel_sample"])
     run = gr.simulate(duration_s=0.2)

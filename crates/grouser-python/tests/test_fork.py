@@ -26,8 +26,8 @@ CALLS = {
     "settle": "gr.settle('toyoura', 'hakuto', load_n=np.linspace(5, 30, 2000), slip_ratio=0.2)"
     ".sinkage_mm.tobytes()",
     "rollout": "gr.rollout(slope_deg=np.linspace(0, 15, 12), duration_s=1.0).y_m.tobytes()",
-    "step by step": "gr.SimulatorBatch([gr.Scenario()] * 70).step(0.6, 0.2).tobytes()",
-    "attitude map": "gr.attitude_map(course_deg=[0, 15], slope_deg=[5, 10]).yaw_deg.tobytes()",
+    "step by step": "gr.RunBatch([gr.Scenario()] * 70).step(0.6, 0.2).tobytes()",
+    "heading map": "gr.heading_map(course_deg=[0, 15], slope_deg=[5, 10]).yaw_deg.tobytes()",
     "campaign": "campaign()",
 }
 

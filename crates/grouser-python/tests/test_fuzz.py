@@ -96,20 +96,20 @@ def result_or_ours(call: Callable[..., Any], *arguments: Any, **keywords: Any) -
 
 @settings(max_examples=150, deadline=None)
 @given(slope=anything, course=anything, speed=anything, soil=things)
-def test_attitude_map(slope: Any, course: Any, speed: Any, soil: Any) -> None:
-    result_or_ours(gr.attitude_map, slope_deg=slope, course_deg=course, speed_m_s=speed)
-    result_or_ours(gr.attitude_map, soil=soil, slope_deg=[5.0], course_deg=[0.0])
+def test_heading_map(slope: Any, course: Any, speed: Any, soil: Any) -> None:
+    result_or_ours(gr.heading_map, slope_deg=slope, course_deg=course, rim_speed_m_s=speed)
+    result_or_ours(gr.heading_map, soil=soil, slope_deg=[5.0], course_deg=[0.0])
 
 
 @settings(max_examples=150, deadline=None)
 @given(slope=anything, samples=anything, seed=anything, soil=things)
-def test_attitude(slope: Any, samples: Any, seed: Any, soil: Any) -> None:
-    result_or_ours(gr.attitude, slope_deg=slope)
-    result_or_ours(gr.attitude, soil=soil, slope_deg=5.0)
+def test_heading(slope: Any, samples: Any, seed: Any, soil: Any) -> None:
+    result_or_ours(gr.heading, slope_deg=slope)
+    result_or_ours(gr.heading, soil=soil, slope_deg=5.0)
     if not (isinstance(samples, int) and samples > 20):
         uncertain = {"soil": "toyoura-uncertain", "slope_deg": 5.0, "uncertainty": True}
-        result_or_ours(gr.attitude, samples=samples, seed=2, **uncertain)
-        result_or_ours(gr.attitude, samples=2, seed=seed, **uncertain)
+        result_or_ours(gr.heading, samples=samples, seed=2, **uncertain)
+        result_or_ours(gr.heading, samples=2, seed=seed, **uncertain)
 
 
 @settings(max_examples=150, deadline=None)
@@ -130,7 +130,7 @@ def test_rollout(
 ) -> None:
     run = gr.Scenario(**short)
     result_or_ours(gr.rollout, run, slope_deg=slope, yaw_deg=yaw, trajectories=keep)
-    result_or_ours(gr.rollout, run, soil=soil, speed_m_s=speed, gravity_m_s2=gravity)
+    result_or_ours(gr.rollout, run, soil=soil, rim_speed_m_s=speed, gravity_m_s2=gravity)
     result_or_ours(gr.rollout, scenarios, duration_s=0.1)
     result_or_ours(gr.rollout, run, duration_s=[0.1, -1.0, speed])
 

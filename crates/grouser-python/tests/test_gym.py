@@ -182,7 +182,7 @@ def test_what_a_scenario_leaves_open_is_as_usual() -> None:
 
 
 @pytest.mark.parametrize(
-    ("settings", "said"),
+    ("settings", "message"),
     [
         (
             {"scenario": {"soil": "dry-sand"}, "soil": "toyoura"},
@@ -192,25 +192,25 @@ def test_what_a_scenario_leaves_open_is_as_usual() -> None:
             {"scenario": {"slope_deg": 8.0}, "slope_deg": (5.0, 6.0)},
             r"slope_deg is given twice: \(5.0, 6.0\) as an argument, 8.0 by",
         ),
-        ({"scenario": {"drive": {"law": "eq18"}}}, "has drive, which does not count"),
-        ({"scenario": {"duration_s": 5.0}}, "has duration_s, which does not count"),
-        ({"scenario": {"start": {"yaw_deg": 5.0}}}, "has start.yaw_deg, which does not count"),
+        ({"scenario": {"drive": {"law": "eq18"}}}, "has drive, which is not used"),
+        ({"scenario": {"duration_s": 5.0}}, "has duration_s, which is not used"),
+        ({"scenario": {"start": {"yaw_deg": 5.0}}}, "has start.yaw_deg, which is not used"),
     ],
 )
-def test_what_a_scenario_contradicts_is_refused(settings: dict[str, Any], said: str) -> None:
+def test_what_a_scenario_contradicts_is_refused(settings: dict[str, Any], message: str) -> None:
     for make in (gymnasium.make, gymnasium.make_vec):
-        with pytest.raises(gr.ParameterError, match=said):
+        with pytest.raises(gr.ParameterError, match=message):
             make(LEVEL, **settings)
 
 
 def test_options_of_a_reset_take_the_place_of_draws() -> None:
     env = gymnasium.make(LEVEL)
-    drawn, drawn_info = env.reset(seed=9)
+    sampled, sampled_info = env.reset(seed=9)
     found, info = env.reset(seed=9, options={"yaw_deg": 4.0})
-    assert found[1] == pytest.approx(4.0, abs=1e-12) != drawn[1]
-    assert info["slope_deg"] == drawn_info["slope_deg"]
+    assert found[1] == pytest.approx(4.0, abs=1e-12) != sampled[1]
+    assert info["slope_deg"] == sampled_info["slope_deg"]
     found, info = env.reset(seed=9, options={"slope_deg": 12.5})
-    assert info["slope_deg"] == 12.5 and found[1] == drawn[1]
+    assert info["slope_deg"] == 12.5 and found[1] == sampled[1]
     # Wheels start with the slip that their soil gives them.
     action, seen = np.array([0.6, 0.0]), {}
     for seed, soil_seed in ((1, 7), (2, 7), (1, 8), (1, None)):
@@ -231,7 +231,7 @@ def test_options_of_many_are_one_value_or_one_each() -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         ({"slop_deg": 5.0}, "no option 'slop_deg'; it has slope_deg, yaw_deg, soil_seed"),
         ({"slope_deg": 70.0}, "slope_deg is 70.*, it must be from 0 to 60"),
@@ -239,10 +239,10 @@ def test_options_of_many_are_one_value_or_one_each() -> None:
         ({"soil_seed": 1.5}, "soil_seed is of type float"),
     ],
 )
-def test_options_that_there_are_not_are_refused(options: dict[str, Any], said: str) -> None:
+def test_unknown_options_are_refused(options: dict[str, Any], message: str) -> None:
     single, several = gymnasium.make(LEVEL), gymnasium.make_vec(LEVEL, num_envs=2)
     for env in (single, several):
-        with pytest.raises(gr.ParameterError, match=said):
+        with pytest.raises(gr.ParameterError, match=message):
             env.reset(seed=1, options=options)
 
 
@@ -275,11 +275,11 @@ def test_a_missing_gymnasium_is_told_with_what_to_install() -> None:
             print(error)
     """
     command = [sys.executable, "-c", textwrap.dedent(script)]
-    told = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    assert "pip install grouser[gym]" in told
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert "pip install grouser[gym]" in printed
     script = "import sys, grouser; print('gymnasium' in sys.modules)"
-    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
-    assert told.strip() == "False"
+    printed = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout
+    assert printed.strip() == "False"
 
 
 def example() -> Any:

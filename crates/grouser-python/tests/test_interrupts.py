@@ -13,12 +13,12 @@ import pytest
 CALLS = {
     "simulate": ("", "gr.simulate(duration_s=86400, drive={'law': 'eq18'}, sample_interval_s=0.1)"),
     "rollout": ("", "gr.rollout(duration_s=np.full(20_000, 2000.0))"),
-    "attitude": ("", "gr.attitude(slope_deg=np.linspace(0, 20, 5_000_000))"),
-    "attitude, uncertain": (
+    "heading": ("", "gr.heading(slope_deg=np.linspace(0, 20, 5_000_000))"),
+    "heading, uncertain": (
         "",
-        "gr.attitude(soil='toyoura-uncertain', slope_deg=10, uncertainty=True, samples=100_000)",
+        "gr.heading(soil='toyoura-uncertain', slope_deg=10, uncertainty=True, samples=100_000)",
     ),
-    "attitude_map": ("", "gr.attitude_map(course_deg=np.linspace(-60, 60, 200_000))"),
+    "heading_map": ("", "gr.heading_map(course_deg=np.linspace(-60, 60, 200_000))"),
     "settle": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(4_000_000, 17.0), slip_ratio=0.2, model='rft')"),
     "calibrate": (
         "gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.3, 0.5], trials=3).to_pandas()"

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 import grouser as gr
 
-# Without a display MuJoCo draws through EGL; it asks once, when it is imported.
+# Without a display MuJoCo renders through EGL; it chooses once, when it is imported.
 if sys.platform == "linux" and not os.environ.get("DISPLAY"):
     os.environ.setdefault("MUJOCO_GL", "egl" if find_library("EGL") else "disable")
 
@@ -75,13 +75,13 @@ def test_grouser_does_not_bring_mujoco() -> None:
 def test_without_mujoco_the_error_says_what_to_install() -> None:
     code = "import sys; sys.modules['mujoco'] = None; import grouser.mujoco"
     command = [sys.executable, "-c", code]
-    told = subprocess.run(command, check=False, capture_output=True, text=True)
-    assert told.returncode == 1
-    assert "ImportError: grouser.mujoco needs MuJoCo: pip install grouser[mujoco]" in told.stderr
+    finished = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert finished.returncode == 1
+    assert "ImportError: grouser.mujoco needs MuJoCo: pip install grouser[mujoco]" in finished.stderr
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"wheels": {"front": "hakuto"}}, "no body 'front'"),
         ({"wheels": {"body": "hakuto"}}, "'body' must turn on one hinge"),
@@ -89,17 +89,17 @@ def test_without_mujoco_the_error_says_what_to_install() -> None:
         ({"ground": "floor"}, "no geom 'floor'"),
         ({"ground": 1.0}, "ground is a float"),
         ({"soil": ["toyoura"]}, "1 soils for 4 wheels"),
-        ({"moments": "some"}, "moments is 'some'"),
+        ({"wheel_moments": "some"}, "wheel_moments is 'some'"),
         ({"model": "none"}, "model"),
         ({"sinkage_damping_s_m": -1.0}, "sinkage_damping_s_m is -1, it must be zero or more"),
         ({"rest_speed_m_s": 0.0}, "rest_speed_m_s is 0, it must be above zero"),
     ],
 )
-def test_what_cannot_be_says_what_can(changes: dict[str, Any], said: str) -> None:
+def test_errors_name_the_allowed_values(changes: dict[str, Any], message: str) -> None:
     model = mujoco.MjModel.from_xml_string(rover_xml("hakuto"))
     wheels = {mount["name"]: "hakuto" for mount in gr.Rover("hakuto").mount}
     options: dict[str, Any] = {"soil": "toyoura", "wheels": wheels, "ground": "ground", **changes}
-    with pytest.raises(gr.ParameterError, match=said):
+    with pytest.raises(gr.ParameterError, match=message):
         SoilContact(model, **options)
 
 
@@ -158,7 +158,7 @@ def test_a_wheel_as_large_as_its_geoms_is_accepted(geom: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("geom", "said"),
+    ("geom", "message"),
     [
         (
             'type="cylinder" size="0.15 0.025" euler="90 0 0"',
@@ -175,19 +175,19 @@ def test_a_wheel_as_large_as_its_geoms_is_accepted(geom: str) -> None:
         ('type="capsule" size="0.12 0.01" euler="90 0 0"', "radius of 0.12 m"),
     ],
 )
-def test_a_wheel_of_another_size_than_its_geoms_is_refused(geom: str, said: str) -> None:
+def test_a_wheel_of_another_size_than_its_geoms_is_refused(geom: str, message: str) -> None:
     model = sized(geom)
-    with pytest.raises(gr.ParameterError, match=f"geoms of 'wheel' have a {said}"):
+    with pytest.raises(gr.ParameterError, match=f"geoms of 'wheel' have a {message}"):
         on_soil(model)
     assert on_soil(model, check_sizes=False).names == ("wheel",)
 
 
 def test_a_mesh_of_another_size_is_refused() -> None:
-    for size, said in (
+    for size, message in (
         ({"radius_m": 0.2}, "radius of 0.2 m"),
         ({"width_m": 0.1}, "width of 0.1 m"),
     ):
-        with pytest.raises(gr.ParameterError, match=said):
+        with pytest.raises(gr.ParameterError, match=message):
             on_soil(sized('type="mesh" mesh="prism"', **size))
 
 
@@ -240,7 +240,7 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
         soil="toyoura",
         wheels={"wheel": "hakuto"},
         ground="ground",
-        moments="neglected",
+        wheel_moments="neglected",
         rest_speed_m_s=1e-6,
     )
     forward = 0.05
@@ -264,8 +264,8 @@ def test_a_wheel_on_a_stand_is_one_that_settles(slip_ratio: float, slip_angle_de
     jacobian = np.zeros((6, model.nv))
     mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], model.body("wheel").id)
     felt = jacobian.T @ data.xfrc_applied[model.body("wheel").id]
-    said = [found.drawbar_pull_n[0], found.side_force_n[0], found.normal_force_n[0]]
-    np.testing.assert_allclose(felt, [*said, -found.torque_nm[0]], rtol=1e-6)
+    reaction = [found.drawbar_pull_n[0], found.side_force_n[0], found.normal_force_n[0]]
+    np.testing.assert_allclose(felt, [*reaction, -found.torque_nm[0]], rtol=1e-6)
 
 
 def test_grounds_of_every_kind_agree_on_a_plane() -> None:
@@ -414,8 +414,8 @@ def test_it_agrees_with_our_own_rover_on_a_plane(slope_deg: float, yaw_deg: floa
         slope_deg=slope_deg,
         duration_s=duration,
         start={"yaw_deg": yaw_deg},
-        loads="quasi-static-torque",
-        moments="included",
+        load_transfer="quasi-static-torque",
+        wheel_moments="included",
         sample_interval_s=0.1,
     )
     slip = float(own.wheel["slip_ratio"][1:].mean())
@@ -438,7 +438,7 @@ def example() -> Any:
 
 
 def test_the_rocker_rover_climbs_and_crosses_a_slope(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On MuJoCo's longest usual step, from 1.1 m below the contour that it is told to cross on."""
+    """On MuJoCo's longest usual step, from 1.1 m below the contour that it should cross on."""
     rocker = example()
     monkeypatch.setattr(rocker, "START", (-1.6, rocker.LEVEL_Y - 1.1))
     traverse = rocker.Traverse(timestep_s=0.005)
@@ -456,9 +456,9 @@ def test_the_rocker_rover_climbs_and_crosses_a_slope(monkeypatch: pytest.MonkeyP
 
 
 def test_the_rover_is_seen_in_its_picture() -> None:
-    """Drawn for real; a machine without a renderer skips it, one with a broken renderer fails."""
+    """Rendered for real; a machine without a renderer skips it, one with a broken renderer fails."""
     if os.environ.get("MUJOCO_GL") == "disable":
-        pytest.skip("MuJoCo draws nothing here: MUJOCO_GL=disable, or no libegl1")
+        pytest.skip("MuJoCo renders nothing here: MUJOCO_GL=disable, or no libegl1")
     rocker = example()
     traverse = rocker.Traverse(timestep_s=0.005)
     run = traverse.run(0.5)
@@ -466,7 +466,7 @@ def test_the_rover_is_seen_in_its_picture() -> None:
         painter = rocker.Painter(traverse, 320, 200)
     except Exception as error:  # whatever the drivers raise
         pytest.fail(
-            f"MuJoCo cannot draw here ({error}): install libegl1 and set MUJOCO_GL=egl, "
+            f"MuJoCo cannot render here ({error}): install libegl1 and set MUJOCO_GL=egl, "
             "or libosmesa6 and MUJOCO_GL=osmesa"
         )
     lookat = tuple(traverse.data.body("rover").xpos)

@@ -16,8 +16,8 @@ DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
     """Bit for bit, with null where Python has NaN."""
-    told = np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
-    return np.asarray(column, dtype=np.float64).tobytes() == told.tobytes()
+    answer = np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
+    return np.asarray(column, dtype=np.float64).tobytes() == answer.tobytes()
 
 
 def test_wheel_test(program: Program) -> None:
@@ -37,10 +37,10 @@ def test_wheel_test(program: Program) -> None:
 
 
 def test_traverse(program: Program) -> None:
-    told = program("traverse", "--slope-deg", "12", "--yaw-deg", "3.5", "--duration-s", "5")
+    answer = program("traverse", "--slope-deg", "12", "--yaw-deg", "3.5", "--duration-s", "5")
     run = gr.simulate(name="traverse", slope_deg=12, start={"yaw_deg": 3.5}, duration_s=5)
-    assert run.outcome == told["outcome"] and run.energy_error_j == told["energy_error_j"]
-    samples = told["samples"]
+    assert run.outcome == answer["outcome"] and run.energy_error_j == answer["energy_error_j"]
+    samples = answer["samples"]
     for name in samples[0].keys() - {"wheels"}:
         assert same(getattr(run, name), samples, name), name
     for k, wheel in enumerate(run.wheel_names):
@@ -54,22 +54,22 @@ def test_traverse_of_a_file(program: Program, tmp_path: Any) -> None:
     path = tmp_path / "scenario.toml"
     run = gr.Scenario(soil=gr.Soil("lunar-nominal", cohesion_kpa=0.3), duration_s=3, slope_deg=7)
     path.write_text(run.to_toml())
-    told = program("traverse", str(path))
-    assert same(gr.simulate(run).y_m, told["samples"], "y_m")
+    answer = program("traverse", str(path))
+    assert same(gr.simulate(run).y_m, answer["samples"], "y_m")
 
 
-def test_attitude(program: Program) -> None:
-    told = program("attitude", "--slope-deg", "0:24:3")
-    level = gr.attitude(slope_deg=np.arange(0, 25, 3))
-    assert level.limit_slope_deg == told["limit_slope_deg"]
-    assert level.status.tolist() == [row["status"] for row in told["rows"]]
-    for name in told["rows"][0].keys() - {"status"}:
-        assert same(getattr(level, name), told["rows"], name), name
+def test_heading(program: Program) -> None:
+    answer = program("heading", "--slope-deg", "0:24:3")
+    level = gr.heading(slope_deg=np.arange(0, 25, 3))
+    assert level.limit_slope_deg == answer["limit_slope_deg"]
+    assert level.status.tolist() == [row["status"] for row in answer["rows"]]
+    for name in answer["rows"][0].keys() - {"status"}:
+        assert same(getattr(level, name), answer["rows"], name), name
 
 
-def test_attitude_map(program: Program) -> None:
-    rows = program("attitude-map", "--slope-deg", "0,10,30", "--course-deg", "-30,0,30")["rows"]
-    table = gr.attitude_map(slope_deg=[0, 10, 30], course_deg=[-30, 0, 30]).to_pandas()
+def test_heading_map(program: Program) -> None:
+    rows = program("heading-map", "--slope-deg", "0,10,30", "--course-deg", "-30,0,30")["rows"]
+    table = gr.heading_map(slope_deg=[0, 10, 30], course_deg=[-30, 0, 30]).to_pandas()
     assert table.status.tolist() == [row["status"] for row in rows]
     assert table.soil.tolist() == [row["soil"] for row in rows]
     for name in rows[0].keys() - {"status", "soil"}:
@@ -78,28 +78,28 @@ def test_attitude_map(program: Program) -> None:
 
 def test_validate(program: Program) -> None:
     data = str(DATA / "simulated-wheel-test" / "toyoura-20n.csv")
-    told = program("validate", "--data", data, "--soil", "toyoura", "--wheel", "hakuto")
+    answer = program("validate", "--data", data, "--soil", "toyoura", "--wheel", "hakuto")
     found = gr.validate(data, "toyoura", "hakuto")
-    assert found.overall == told["overall"] and found.driven == told["driven"]
-    assert list(found.groups) == told["rows"]
-    for name in told["cells"][0].keys() - {"motion"}:
-        assert same(found.cells[name], told["cells"], name), name
+    assert found.overall == answer["overall"] and found.driven == answer["driven"]
+    assert list(found.groups) == answer["rows"]
+    for name in answer["cells"][0].keys() - {"motion"}:
+        assert same(found.cells[name], answer["cells"], name), name
 
 
-def test_attitude_on_an_uncertain_soil(program: Program) -> None:
-    told = program(
-        "attitude", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
+def test_heading_on_an_uncertain_soil(program: Program) -> None:
+    answer = program(
+        "heading", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
         "--samples", "30", "--seed", "9",
     )  # fmt: skip
-    level = gr.attitude(
+    level = gr.heading(
         soil="toyoura-uncertain", slope_deg=[5, 15, 40], uncertainty=True, samples=30, seed=9
     )
     table = level.to_pandas()
-    for name in told["rows"][0].keys() - {"status", "draws"}:
-        assert same(table[name], told["rows"], name), name
+    for name in answer["rows"][0].keys() - {"status", "draws"}:
+        assert same(table[name], answer["rows"], name), name
     assert level.band is not None
     for name in ("limit_slope_deg_p2_5", "limit_slope_deg_p97_5", "draws_mobile", "draws"):
-        assert getattr(level.band, name) == told[name]
+        assert getattr(level.band, name) == answer[name]
 
 
 def test_simulated_stand(program: Program) -> None:
@@ -148,12 +148,12 @@ def test_ranking_on_the_data_sets_of_the_program(program: Program) -> None:
 
 def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
     wheel, where = "cmu-smooth", "slip_angle_deg=15"
-    told = program(
+    answer = program(
         "validate", "--data", "cmu-single-wheel", "--soil", "direct-90", "--wheel", wheel,
         "--where", where,
     )  # fmt: skip
     found = gr.validate("cmu-single-wheel", "direct-90", wheel, where=where)
-    assert found.overall == told["overall"]
+    assert found.overall == answer["overall"]
     with pytest.raises(gr.DocumentNotFoundError, match="did you mean `cmu-single-wheel`"):
         gr.validate("cmu-single-whel", "direct-90", wheel)
 

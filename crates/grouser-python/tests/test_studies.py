@@ -51,21 +51,21 @@ def test_what_varies_needs_no_scenario_of_its_own() -> None:
     soils = np.array(["toyoura", "cmu-direct90-smooth"], dtype=object)
     start = gr.Scenario(duration_s=2.0, drive={"law": "eq18"})
     ends = gr.rollout(
-        start, soil=soils, slope_deg=slopes, yaw_deg=yaws, speed_m_s=0.05,
+        start, soil=soils, slope_deg=slopes, yaw_deg=yaws, rim_speed_m_s=0.05,
         gravity_m_s2=gr.MOON_GRAVITY, duration_s=[1.0, 1.5], trajectories=True,
     )  # fmt: skip
-    assert ends.shape == (2, 2) and len(ends) == 4 and ends.samples is not None
-    assert ends.samples["y_m"].shape == (2, 2, 16)
+    assert ends.shape == (2, 2) and len(ends) == 4 and ends.records is not None
+    assert ends.records["y_m"].shape == (2, 2, 16)
     for i, j in np.ndindex(2, 2):
         alone = gr.simulate(
             start, soil=soils[j], slope_deg=slopes[i, 0], start={"yaw_deg": yaws[j]},
-            drive={"speed_m_s": 0.05}, gravity_m_s2=gr.MOON_GRAVITY, duration_s=[1.0, 1.5][j],
+            drive={"ground_speed_m_s": 0.05}, gravity_m_s2=gr.MOON_GRAVITY, duration_s=[1.0, 1.5][j],
         )  # fmt: skip
         count = len(alone.y_m)
         assert ends.outcome[i, j] == alone.outcome
         assert ends.y_m[i, j] == alone.y_m[-1] and ends.energy_j[i, j] == alone.energy_j[-1]
-        assert ends.samples["y_m"][i, j, :count].tolist() == alone.y_m.tolist()
-        assert np.isnan(ends.samples["y_m"][i, j, count:]).all()
+        assert ends.records["y_m"][i, j, :count].tolist() == alone.y_m.tolist()
+        assert np.isnan(ends.records["y_m"][i, j, count:]).all()
     data = ends.to_xarray(dims=["slope", "yaw"])
     assert data.sample_x_m.dims == ("slope", "yaw", "sample")
     assert gr.rollout().shape == () and gr.rollout(slope_deg=[]).shape == (0,)
@@ -87,7 +87,7 @@ def test_threads_share_a_scenario() -> None:
 
 def test_an_uncertain_soil_has_a_band() -> None:
     slopes = [5.0, 15.0, 40.0]
-    level = gr.attitude(
+    level = gr.heading(
         soil="toyoura-uncertain", slope_deg=slopes, uncertainty=True, samples=40, seed=3
     )
     band = level.band
@@ -100,12 +100,12 @@ def test_an_uncertain_soil_has_a_band() -> None:
     data = level.to_xarray()
     assert data.yaw_deg_p97_5.attrs["units"] == "°" and data.probability_level.attrs["units"] == "1"
     assert level.to_pandas().shape[0] == 3 and level.plot().get_legend_handles_labels()[1]
-    empty = gr.attitude(soil="toyoura-uncertain", slope_deg=[], uncertainty=True, samples=2)
+    empty = gr.heading(soil="toyoura-uncertain", slope_deg=[], uncertainty=True, samples=2)
     assert empty.band is not None and empty.band.yaw_deg_p50.shape == (0,)
 
 
 def test_a_simulated_stand_scatters_about_the_theory() -> None:
-    """The mean of 400 readings is within five standard errors of the theory."""
+    """The mean of 400 readings is within five standard errors of the model."""
     settings = {"load_n": [10, 20], "slip_ratio": [0.2, 0.4], "slip_angle_deg": [0, 15]}
     exact = gr.wheel_test(**settings)  # type: ignore[call-overload]
     test = gr.wheel_test(**settings, trials=400)  # type: ignore[call-overload]
@@ -118,10 +118,10 @@ def test_a_simulated_stand_scatters_about_the_theory() -> None:
     assert np.isnan(sunk.sinkage_mm).all() and "down to axle depth" in sunk.status[0, 0, 0, 0]
 
 
-def test_the_level_attitude_is_level() -> None:
-    """The attitude neglects the yaw moment left over, so the run turns a little: 1 mm in 20 s, as
+def test_the_heading_offset_holds_the_contour() -> None:
+    """The heading offset neglects the remaining yaw moment, so the run turns a little: 1 mm in 20 s, as
     the library's own example has it."""
-    level = gr.attitude(slope_deg=[10.0, 30.0])
+    level = gr.heading(slope_deg=[10.0, 30.0])
     assert level.status[0] == "ok" and "steepest slope" in level.status[1]
     assert np.isnan(level.yaw_deg).tolist() == [False, True]
     assert level.limit_slope_deg is not None and 20.0 < level.limit_slope_deg < 21.0
@@ -129,23 +129,23 @@ def test_the_level_attitude_is_level() -> None:
     assert abs(run.y_m[-1]) < 1e-3
 
 
-def test_an_attitude_map_has_the_level_attitudes_on_course_0() -> None:
+def test_a_heading_map_has_the_heading_offsets_on_course_0() -> None:
     slopes = [0.0, 10.0, 15.0]
-    maps = gr.attitude_map(
+    maps = gr.heading_map(
         soil=["toyoura", "lunar-nominal"], slope_deg=slopes, course_deg=[-20, 0, 20]
     )
     assert maps.yaw_deg.shape == (2, 3, 3) and maps.soil == ("Toyoura sand", "Lunar soil, nominal")
     for k, soil in enumerate(["toyoura", "lunar-nominal"]):
-        level = gr.attitude(soil=soil, slope_deg=slopes)
+        level = gr.heading(soil=soil, slope_deg=slopes)
         assert maps.yaw_deg[k, 1].tolist() == level.yaw_deg.tolist()
     data = maps.to_xarray()
     assert data.power_w.sel(course_deg=0.0, slope_deg=10.0).dims == ("soil",)
     assert maps.to_pandas().shape[0] == 18
 
 
-def test_no_slopes_no_attitudes() -> None:
-    assert gr.attitude(slope_deg=[]).yaw_deg.shape == (0,)
-    assert gr.attitude_map(slope_deg=[], course_deg=[0.0]).power_w.shape == (1, 1, 0)
+def test_no_slopes_no_heading_offsets() -> None:
+    assert gr.heading(slope_deg=[]).yaw_deg.shape == (0,)
+    assert gr.heading_map(slope_deg=[], course_deg=[0.0]).power_w.shape == (1, 1, 0)
 
 
 def test_a_wheel_test_is_every_load_with_every_angle_and_ratio() -> None:
@@ -162,8 +162,8 @@ def test_pictures_take_axes_and_return_them() -> None:
     results = [
         gr.simulate(duration_s=1.0),
         gr.rollout([gr.Scenario(duration_s=1.0)]),
-        gr.attitude(slope_deg=[5.0, 10.0]),
-        gr.attitude_map(slope_deg=[0, 10], course_deg=[0, 20]),
+        gr.heading(slope_deg=[5.0, 10.0]),
+        gr.heading_map(slope_deg=[0, 10], course_deg=[0, 20]),
         gr.wheel_test(load_n=10, slip_ratio=[0.0, 0.2]),
         gr.wheel_test(load_n=10, slip_ratio=[0.0, 0.2], trials=3),
         gr.rollout(slope_deg=[3.0, 5.0], duration_s=1.0, trajectories=True),
@@ -178,11 +178,11 @@ def test_pictures_take_axes_and_return_them() -> None:
 
 def test_what_cannot_be_asked_says_what_can() -> None:
     with pytest.raises(gr.ParameterError, match="slope_deg is 70"):
-        gr.attitude(slope_deg=[70.0])
+        gr.heading(slope_deg=[70.0])
     with pytest.raises(gr.ParameterError, match="one row"):
-        gr.attitude(slope_deg=[[1.0]])
+        gr.heading(slope_deg=[[1.0]])
     with pytest.raises(gr.ParameterError, match="course_deg"):
-        gr.attitude_map(course_deg=[91.0])
+        gr.heading_map(course_deg=[91.0])
     with pytest.raises(gr.ParameterError, match="scenario or several"):
         gr.rollout(3)  # type: ignore[arg-type]
     with pytest.raises(gr.ParameterError, match=r"slope_deg is 70 \(entry 1\)"):
@@ -192,9 +192,9 @@ def test_what_cannot_be_asked_says_what_can() -> None:
     with pytest.raises(gr.ParameterError, match=r"do not broadcast: slope_deg \(2,\)"):
         gr.rollout(slope_deg=[1.0, 2.0], yaw_deg=[1.0, 2.0, 3.0])
     with pytest.raises(gr.ParameterError, match="how well its values are known"):
-        gr.attitude(uncertainty=True)
+        gr.heading(uncertainty=True)
     with pytest.raises(gr.ParameterError, match="samples is 1, it must be"):
-        gr.attitude(soil="toyoura-uncertain", uncertainty=True, samples=1)
+        gr.heading(soil="toyoura-uncertain", uncertainty=True, samples=1)
     with pytest.raises(gr.ParameterError, match="trials is 0"):
         gr.wheel_test(load_n=10, slip_ratio=0.1, trials=0)
     with pytest.raises(gr.ParameterError, match="noise_mm"):

@@ -78,7 +78,7 @@ def test_a_soil_brings_its_theory_and_the_caller_may_choose_another() -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         ({"load_n": -1.0}, "load_n is -1, it must be from 0 to 100000"),
         ({"load_n": [1.0, np.nan]}, r"load_n is NaN \(entry 1\)"),
@@ -92,8 +92,8 @@ def test_a_soil_brings_its_theory_and_the_caller_may_choose_another() -> None:
         ({"gravity_m_s2": -1.0}, "gravity_m_s2"),
     ],
 )
-def test_what_cannot_be_asked_says_what_can(arguments: dict[str, Any], said: str) -> None:
-    with pytest.raises(gr.ParameterError, match=said):
+def test_errors_name_the_allowed_values(arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(gr.ParameterError, match=message):
         gr.settle("toyoura", "hakuto", **{"load_n": 17.0, "slip_ratio": 0.2, **arguments})
 
 

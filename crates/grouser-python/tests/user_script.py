@@ -32,11 +32,11 @@ def fitted(file: Path) -> gr.Soil:
     return found.soil
 
 
-def led(scenarios: list[gr.Scenario]) -> NDArray[np.float64]:
-    rover: gr.Simulator = gr.Simulator(scenarios[0], commands="speed_m_s")
+def stepped(scenarios: list[gr.Scenario]) -> NDArray[np.float64]:
+    rover: gr.Run = gr.Run(scenarios[0], commands="rim_speed_m_s")
     slip_ratio: NDArray[np.float64] = rover.wheel["slip_ratio"]
     state: NDArray[np.float64] = rover.step(0.06 + 0.0 * slip_ratio, 0.1)
-    many: gr.SimulatorBatch = gr.SimulatorBatch(scenarios)
+    many: gr.RunBatch = gr.RunBatch(scenarios)
     many.reset(seed=1)
     stuck: bool = rover.outcome == "immobilised"
     return state if stuck else many.step(np.full((len(many), 4), 0.5), 0.1)[0]
@@ -45,14 +45,14 @@ def led(scenarios: list[gr.Scenario]) -> NDArray[np.float64]:
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
-    level: gr.Attitudes = gr.attitude(slope_deg=[5.0, 10.0])
+    level: gr.Headings = gr.heading(slope_deg=[5.0, 10.0])
     ends: gr.Rollout = gr.rollout([gr.Scenario(site=site)], slope_deg=[[5.0], [10.0]])
     test: gr.SimulatedWheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4], trials=3)
     exact: gr.WheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4])
     print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
     try:
-        print(deepest([soil], 17.0), downhill_m(10.0), limit, ends.outcome[0], led([gr.Scenario()]))
+        print(deepest([soil], 17.0), downhill_m(10.0), limit, ends.outcome[0], stepped([gr.Scenario()]))
     except gr.ParameterError as error:
         print(error.name, error.value, error.expected)
 

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use grouser::document::table::Values;
 use grouser::document::{Kind, Overrides, Source, read_campaign, read_scenario};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser_store::{Folder, Study, shard_bytes};
 use rayon::prelude::*;
 
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .runs_of(shard)
             .map(|run| {
                 let values = campaign.ensemble().inputs(run).values;
-                let mut study = AttitudeStudy::of(&scenario);
+                let mut study = HeadingStudy::of(&scenario);
                 study.soil.friction_angle = values[0].to_radians();
                 study.soil.density = values[1];
                 study

@@ -1,21 +1,21 @@
-//! What can go wrong with a campaign's folder.
+//! Errors of a campaign's folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::shards::ShardSet;
 
-/// Why a folder cannot be written or read.
+/// A folder that cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
     /// The disk or its permissions.
     #[error("cannot {operation} {}: {source}", path.display())]
     Disk {
-        /// What was tried, such as `write`.
+        /// The operation, such as `write`.
         operation: &'static str,
-        /// On what.
+        /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// A file stands where the folder has to be.
@@ -27,7 +27,7 @@ pub enum StoreError {
         .0.display()
     )]
     Locked(PathBuf),
-    /// There is something in the folder that no campaign left there.
+    /// The folder has files that no campaign wrote.
     #[error(
         "the folder {} is not empty, and holds no campaign: {found} is in it\nhint: choose another folder",
         folder.display()
@@ -143,7 +143,7 @@ pub enum StoreError {
         /// Another one.
         second: PathBuf,
     },
-    /// The bytes of a finished campaign are no more what they were.
+    /// The bytes of a finished campaign have changed.
     #[error(
         "{}: its digest was {recorded}, now it is {found}\nhint: some shard was computed anew with other numbers; run the campaign in a new folder",
         folder.display()
@@ -172,7 +172,7 @@ pub enum StoreError {
     Parquet(#[from] parquet::errors::ParquetError),
 }
 
-/// What is wrong with a shard.
+/// The fault of a shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ShardFault {
     /// It ends too early, or bits of it have changed.
@@ -181,7 +181,7 @@ pub enum ShardFault {
     /// It is not there, or no longer.
     #[error("there is no such file")]
     Absent,
-    /// A link to a device, a pipe, a folder: something that is not to be read to its end.
+    /// A link to a device, a pipe or a folder, which is not read.
     #[error("it is no regular file")]
     NotRegular,
     /// No shard of so many rows and columns is that long.

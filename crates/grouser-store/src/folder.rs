@@ -61,7 +61,7 @@ impl Folder {
         Self::open_watched(path, study, part, &mut |_, _| {})
     }
 
-    /// The same, telling how many of the shards that are there are checked, and of how many.
+    /// The same, with progress: how many of the present shards are checked, and of how many.
     ///
     /// # Errors
     /// As [`open`](Self::open).
@@ -110,7 +110,7 @@ impl Folder {
         Ok(())
     }
 
-    /// What is wrong with the file of a shard, if anything.
+    /// The fault of a shard's file, if it has one.
     fn check_shard(&self, shard: u64) -> Result<Result<(), ShardFault>, StoreError> {
         let file = self.path.join(RUNS).join(shard::file_name(shard));
         let identity = self.study.identity(shard);
@@ -162,7 +162,7 @@ impl Folder {
         &self.manifest
     }
 
-    /// Takes in a shard, whoever computed it. One that is there already stays as it is.
+    /// Takes in a shard, from any program. One that is there already stays as it is.
     ///
     /// # Errors
     /// [`StoreError::Shard`] if the bytes are not those of a shard that belongs here, or
@@ -200,7 +200,7 @@ impl Folder {
         Ok(())
     }
 
-    /// Notes that a shard is there.
+    /// Records that a shard is there.
     fn count(&mut self, shard: u64) {
         self.missing.remove(shard);
         if let Some(session) = self.manifest.sessions.last_mut() {

@@ -1,4 +1,4 @@
-//! The manifest: which campaign a folder has, how far it is, when it was computed.
+//! The manifest: the campaign of a folder, its progress, and when it was computed.
 //!
 //! Its last value is the SHA-256 of the file itself, computed with zeros in that place, as in a shard.
 
@@ -30,17 +30,17 @@ const MOST_BYTES: u64 = 1 << 26;
 /// The most runs of a shard, as in the range of the document's `shard_runs`.
 const MOST_SHARD_RUNS: u64 = 1_000_000;
 
-/// What a folder says of itself.
+/// The manifest of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Manifest {
     schema: String,
     /// The program's version.
     pub version: String,
-    /// What the study calls itself.
+    /// The study's name.
     pub name: String,
     /// SHA-256 of the resolved study, `study.toml`.
     pub study_sha256: String,
-    /// What the draws were drawn from.
+    /// Seed of the samples.
     pub seed: u64,
     /// Runs of the whole campaign.
     pub runs: u64,
@@ -85,7 +85,7 @@ pub struct Session {
     pub shards: u64,
 }
 
-/// What a column has.
+/// The description of a column.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ColumnRecord {
     /// As documents and results name it.
@@ -194,9 +194,11 @@ impl Manifest {
             problem: problem.to_owned(),
         };
         let Some(place) = hash_place(bytes) else {
-            let told: Result<serde_json::Value, _> = serde_json::from_slice(bytes);
-            return Err(match told {
-                Ok(told) if told["schema"] == OLD_SCHEMA => StoreError::OldManifest(file.into()),
+            let parsed: Result<serde_json::Value, _> = serde_json::from_slice(bytes);
+            return Err(match parsed {
+                Ok(parsed) if parsed["schema"] == OLD_SCHEMA => {
+                    StoreError::OldManifest(file.into())
+                }
                 _ => wrong("it was changed or damaged: it has no hash of itself"),
             });
         };

@@ -12,7 +12,7 @@ use crate::study::{Study, VERSION, difference};
 /// Copies the shards of several folders to one, which is then as if one program had computed all.
 /// Interrupted, it goes on where it stopped. Each shard is checked to the last bit on its way.
 ///
-/// * `copied`: told after every shard how many there are now, and of how many
+/// * `copied`: called after every shard with how many there are now, and of how many
 ///
 /// # Errors
 /// [`StoreError`] before anything is written if a folder has another study or version, is not

@@ -1,4 +1,4 @@
-//! Files that are whole, or not there.
+//! Writes files atomically, so that each is complete or missing.
 
 use std::fs::{self, File};
 use std::io::{Read as _, Write as _};
@@ -20,7 +20,7 @@ pub(crate) fn put(path: &Path, content: &[u8]) -> Result<(), StoreError> {
         .map_err(StoreError::at("write", path))
         .and_then(|()| fs::rename(&beside, path).map_err(StoreError::at("write", path)));
     if written.is_err() {
-        // Whatever is wrong with the disk, we said it already.
+        // The disk's error was reported already.
         let _ = fs::remove_file(&beside);
     }
     written?;

@@ -23,7 +23,7 @@ pub(crate) const MOST_STUDY_BYTES: u64 = 1 << 30;
 /// The results in a folder. Nothing is locked: a campaign may be writing there.
 ///
 /// Nothing that is read is taken on trust: the manifest carries a hash of itself and one of the study, a shard
-/// one of itself; and where all shards are there, the digest over them is held against the manifest's.
+/// one of itself; and where all shards are there, the digest over them is compared with the manifest's.
 #[derive(Clone, Debug)]
 pub struct Results {
     path: PathBuf,
@@ -72,7 +72,7 @@ impl Results {
         Err(StoreError::Manifest { file: self.path.join(crate::manifest::FILE), problem })
     }
 
-    /// What the folder says of itself.
+    /// The manifest.
     #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest

@@ -1,8 +1,8 @@
 //! A shard's rows as the bytes of a Parquet file, and back.
 //!
 //! The bytes depend on the study, the shard's number and its rows alone: one group of rows, fixed
-//! settings, no times, no compression (drawn numbers have nothing to compress, and what repeats goes
-//! into a dictionary). The footer tells study, version, number, columns with their units, and the
+//! settings, no times, no compression (sampled numbers have nothing to compress, and what repeats goes
+//! into a dictionary). The footer has study, version, number, columns with their units, and the
 //! SHA-256 of the whole file, computed with zeros in that place.
 
 use std::collections::HashSet;
@@ -256,7 +256,7 @@ impl Checked {
             (COLUMNS_KEY, &json!(identity.columns).to_string(), "set of columns"),
         ];
         for (key, value, what) in expected {
-            if told(about, key) != Some(value) {
+            if metadata(about, key) != Some(value) {
                 return Err(ShardFault::Foreign(what));
             }
         }
@@ -264,7 +264,7 @@ impl Checked {
         if found != expected {
             return Err(ShardFault::Rows { found, expected });
         }
-        // One group has all rows: whoever made something else made no shard.
+        // One group has all rows: any other file is no shard.
         let groups = reader.metadata().row_groups();
         let rows: u64 = groups.iter().map(|group| group.num_rows().cast_unsigned()).sum();
         if groups.len() > 1 || rows != expected {
@@ -304,7 +304,7 @@ fn check_hash(file: &[u8]) -> Result<(), ShardFault> {
     if hex(&found).as_bytes() == hash { Ok(()) } else { Err(ShardFault::Damaged) }
 }
 
-fn told<'m>(about: &'m FileMetaData, key: &str) -> Option<&'m str> {
+fn metadata<'m>(about: &'m FileMetaData, key: &str) -> Option<&'m str> {
     let pairs = about.key_value_metadata()?;
     pairs.iter().find(|pair| pair.key == key)?.value.as_deref()
 }

@@ -1,4 +1,4 @@
-//! What the store knows of a campaign.
+//! A campaign as the store sees it: columns, shards, version.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -96,7 +96,7 @@ pub(crate) fn hex(bytes: &[u8]) -> String {
 /// * `ours`: what is asked for
 #[must_use]
 pub fn difference(theirs: &str, ours: &str) -> String {
-    /// How many keys are told; more do not help to find the mistake.
+    /// How many keys are reported; more do not help to find the mistake.
     const SHOWN: usize = 3;
     let (theirs, ours) = (flat(theirs), flat(ours));
     let none = || "absent".to_owned();

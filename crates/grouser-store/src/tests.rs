@@ -1,4 +1,4 @@
-//! What a folder promises, with rows that nobody computed.
+//! Tests of a campaign's folder, with made-up rows.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! A moment as people and programs read it.
+//! Times as text in UTC (ISO 8601).
 
 use std::time::{SystemTime, UNIX_EPOCH};
 

@@ -11,7 +11,7 @@ use std::error::Error;
 
 use grouser::document::{Overrides, Source, read_scenario};
 use grouser::simulation::{Run, RunError, Scenario, Start};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser::units::deg;
 
 /// A slope, the heading offset that holds the contour on it, and where runs end.
@@ -38,7 +38,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 /// The default rover and soil on some slopes [°].
 pub(crate) fn rows(slopes_deg: &[f64]) -> Result<Vec<Row>, Box<dyn Error>> {
     let scenario = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-    let curve = AttitudeStudy::of(&scenario).curve()?;
+    let curve = HeadingStudy::of(&scenario).curve()?;
     let row = |&slope_deg: &f64| {
         let heading = curve.at(deg(slope_deg))?;
         Ok(Row {

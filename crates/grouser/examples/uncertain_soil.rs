@@ -10,8 +10,8 @@
 use std::error::Error;
 
 use grouser::document::{Overrides, Source, read_scenario};
-use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_band::{HeadingBand, SlopeBand};
 use grouser::units::deg;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
@@ -40,7 +40,7 @@ pub(crate) fn bands(samples: u32, slopes_deg: &[f64]) -> Result<Vec<SlopeBand>, 
     let uncertain = scenario.uncertain.ok_or("the soil says nothing of its uncertainty")?;
     let soils = uncertain.draws(SEED, samples)?;
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
-    let study = AttitudeStudy::of(&scenario.value);
-    let band = AttitudeBand::of(&study, &soils, &slopes, &|| true)?;
+    let study = HeadingStudy::of(&scenario.value);
+    let band = HeadingBand::of(&study, &soils, &slopes, &|| true)?;
     Ok(band.map_or_else(Vec::new, |band| band.slopes))
 }

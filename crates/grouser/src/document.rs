@@ -19,10 +19,10 @@ pub use grouser_io::*;
 pub use campaign::{Campaign, read_campaign};
 pub use soil_family::{FitKey, SoilFamily};
 
-/// Reads a document of whatever kind it says it is, only to see whether it can be used.
+/// Checks a document of any kind, named by its `schema`.
 ///
 /// # Errors
-/// [`DocumentError`] for whatever is wrong first.
+/// [`DocumentError`] for the first fault found.
 pub fn check(source: &Source) -> Result<Kind, DocumentError> {
     let kind = kind_of_source(source)?;
     let overrides = Overrides::none();

@@ -1,5 +1,5 @@
-//! Grouser predicts how a wheeled rover moves on loose soil: sinkage, slip, drift on slopes, the yaw
-//! that keeps a traverse level, and energy.
+//! Grouser predicts how a wheeled rover moves on loose soil: sinkage, slip, drift on slopes, the heading
+//! that holds the contour line, and energy.
 //!
 //! It grows from one paper, the dynamics simulator of HAKUTO's four-wheel micro rover, which the
 //! documentation calls [FourWheel].
@@ -8,10 +8,10 @@
 //!
 //! A module may use those below it, never those above:
 //!
-//! | layer | modules | what they are about |
+//! | layer | modules | contents |
 //! |---|---|---|
-//! | 5 I/O | [`document`] | documents with units in their names, presets, results in words |
-//! | 4 studies | [`studies`] | questions: a wheel test, the attitude, the paper's comparison |
+//! | 5 I/O | [`document`] | documents with units in their names, presets, results as tables |
+//! | 4 studies | [`studies`] | wheel tests, heading offsets, calibration, campaigns, the paper's comparison |
 //! | 3 simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | 2 vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | 1 contact | [`contact`] | what the soil does to one wheel |
@@ -24,12 +24,12 @@
 //!
 //! # An example
 //!
-//! Which way to point the HAKUTO rover on a slope of 10°, and does it then stay level?
+//! The heading that holds the HAKUTO rover on the contour of a 10° slope, and a run with it:
 //!
 //! ```
 //! use grouser::document::{self, Overrides, Source};
 //! use grouser::simulation::{Outcome, Run, Scenario, Start};
-//! use grouser::studies::attitude::AttitudeStudy;
+//! use grouser::studies::heading::HeadingStudy;
 //! use grouser::units::deg;
 //!
 //! // The default scenario: the paper's rover on Toyoura sand, on 10°, nose along the contour.
@@ -37,7 +37,7 @@
 //! let drift = Run::new(&scenario)?.to_end()?.last().state.position.y;
 //! assert!(drift < -0.09); // 9 cm downhill in 20 s
 //!
-//! let attitude = AttitudeStudy::of(&scenario).curve()?.at(scenario.site.terrain.slope)?;
+//! let attitude = HeadingStudy::of(&scenario).curve()?.at(scenario.site.terrain.slope)?;
 //! assert!((attitude.yaw - deg(5.04)).abs() < deg(0.01));
 //!
 //! let start = Start { yaw: attitude.yaw, ..scenario.start };

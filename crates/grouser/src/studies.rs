@@ -1,22 +1,26 @@
-//! Layer 4, studies: questions about a wheel or a rover, answered with the layers below.
+//! Layer 4, studies: computations for engineers, made of the wheel–soil models and runs of the layers below.
 //!
-//! [`wheel_test`] is the single-wheel test stand, [`attitude`] the yaw that keeps a traverse level,
-//! [`attitude_map`] the same for other courses and several soils, [`attitude_band`] where the soil is uncertain,
-//! [`card`] what an operator needs of all that, with go and no-go,
-//! [`measurement`] what a real stand reads, [`simulated_test`] makes such readings with a known
-//! truth, [`validation`] judges a theory by them, [`calibration`] finds the soil that they speak
-//! for, [`ensemble`] computes many cases over what is not known exactly and has their statistics, [`drive`] is what is
-//! kept of a traverse, [`comparison`] has the metrics by which the source paper judges a run, and
-//! [`reproduction`] runs the whole of the paper's study again.
+//! | study | computes |
+//! |---|---|
+//! | [`wheel_test`] | forces and sinkage on a single-wheel test stand |
+//! | [`heading`] | the heading offset that holds the contour on a slope |
+//! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and for an uncertain soil |
+//! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
+//! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
+//! | [`validation`] | the errors of a wheel–soil model against measurements |
+//! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
+//! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
+//! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
+//! | [`reproduction`] | the whole of the paper's study |
 
-pub mod attitude;
-pub mod attitude_band;
-pub mod attitude_map;
 pub mod calibration;
 pub mod card;
 pub mod comparison;
 pub mod drive;
 pub mod ensemble;
+pub mod heading;
+pub mod heading_band;
+pub mod heading_map;
 pub mod reproduction;
 pub mod simulated_test;
 pub mod validation;

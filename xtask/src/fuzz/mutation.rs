@@ -1,4 +1,4 @@
-//! How the input of a case is damaged.
+//! Mutations: damage to the input of a case.
 
 use fastrand::Rng;
 

@@ -1,4 +1,4 @@
-//! What is damaged: command lines with the files that they read.
+//! The inputs to damage: command lines with the files that they read.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use super::files_below;
 use super::verdict::{self, Limits};
 
-/// What an answer is held against.
+/// The checks of an answer.
 #[derive(Clone, Debug)]
 pub(super) enum Oracle {
     /// Nothing but that the program behaves.

@@ -1,4 +1,4 @@
-//! One run of the program under limits, and what is wrong with how it went.
+//! Runs the program under limits, and finds faults in its behaviour.
 
 use std::fmt;
 use std::fs::{self, File};

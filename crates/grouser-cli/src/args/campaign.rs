@@ -1,4 +1,4 @@
-//! What can be asked of a campaign.
+//! Arguments of `campaign`.
 
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(crate) enum CampaignCommand {
     Merge(CampaignMergeArgs),
     /// Statistics of all runs: quantiles, probabilities, convergence, sensitivities.
     Summarise(CampaignSummariseArgs),
-    /// The SHA-256 over all results.
+    /// Print the SHA-256 over all results.
     Digest(CampaignDigestArgs),
     /// Measure what studies cost: runs per core and second, bytes per run, and the cost of many runs.
     Cost(CampaignCostArgs),
@@ -48,10 +48,10 @@ pub(crate) struct CampaignRunArgs {
     /// Only part I of N of an array of jobs, counted from 1; `campaign merge` merges them.
     #[arg(long, value_name = "I/N", value_parser = parse_part)]
     pub(crate) shard: Option<Part>,
-    /// What computes: threads of this program, or the Python package with its processes, Dask or Ray.
+    /// Where runs are computed: threads of this program, or the Python package with its processes, Dask or Ray.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) executor: ExecutorWord,
-    /// Where the cluster's scheduler listens, for `dask` and `ray`.
+    pub(crate) executor: ExecutorChoice,
+    /// Address of the cluster's scheduler, for `dask` and `ray`.
     #[arg(long, value_name = "ADDRESS")]
     pub(crate) scheduler: Option<String>,
     /// Override a key of the study, such as `campaign.runs=100`; can be repeated.
@@ -62,9 +62,9 @@ pub(crate) struct CampaignRunArgs {
     pub(crate) format: TableOrJson,
 }
 
-/// What computes a campaign.
+/// Where a campaign is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ExecutorWord {
+pub(crate) enum ExecutorChoice {
     /// This program.
     #[default]
     Threads,
@@ -138,7 +138,7 @@ pub(crate) struct CampaignCostArgs {
     /// Number of runs to estimate the cost of.
     #[arg(long, value_name = "N", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) runs: u64,
-    /// How long to measure, in all [s].
+    /// Time to measure, in all [s].
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
     pub(crate) seconds: f64,
     /// Form of what is printed.

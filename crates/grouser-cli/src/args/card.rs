@@ -1,4 +1,4 @@
-//! What can be asked of an operator's card.
+//! Arguments of `card`.
 
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub(crate) struct CardArgs {
     /// The side of the rover that is uphill. On a rover that is its own mirror image it does not
     /// matter.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) uphill: SideWord,
+    pub(crate) uphill: SideChoice,
     /// Rim speed [m/s], for the power; without it the scenario's.
     #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true, alias = "speed-m-s")]
     pub(crate) rim_speed_m_s: Option<Numbers>,
@@ -65,7 +65,7 @@ pub(crate) struct CardArgs {
     pub(crate) force: bool,
 }
 
-/// When to go and when not to.
+/// Limits of go and no-go.
 #[derive(Debug, Args)]
 pub(crate) struct RuleArgs {
     /// Go: a contour traverse slips at most this much ...
@@ -87,7 +87,7 @@ pub(crate) struct RuleArgs {
 
 /// A side of the rover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SideWord {
+pub(crate) enum SideChoice {
     /// Uphill is on the left.
     #[default]
     Left,

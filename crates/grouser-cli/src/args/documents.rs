@@ -1,4 +1,4 @@
-//! What can be asked of documents.
+//! Arguments of commands on documents.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ pub(crate) struct PresetsArgs {
     pub(crate) name: Option<String>,
     /// Only presets of this kind.
     #[arg(long, value_enum)]
-    pub(crate) kind: Option<KindWord>,
+    pub(crate) kind: Option<KindChoice>,
     /// Form of the list.
     #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
     pub(crate) format: Format,
@@ -33,7 +33,7 @@ pub(crate) struct PresetsArgs {
 pub(crate) struct SchemaArgs {
     /// The kind of document; without it, the names of all kinds.
     #[arg(value_enum)]
-    pub(crate) kind: Option<KindWord>,
+    pub(crate) kind: Option<KindChoice>,
 }
 
 #[derive(Debug, Args)]
@@ -45,7 +45,7 @@ pub(crate) struct CompletionsArgs {
 
 /// A kind of document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum KindWord {
+pub(crate) enum KindChoice {
     Soil,
     Wheel,
     Rover,
@@ -54,15 +54,15 @@ pub(crate) enum KindWord {
     Campaign,
 }
 
-impl From<KindWord> for Kind {
-    fn from(word: KindWord) -> Self {
+impl From<KindChoice> for Kind {
+    fn from(word: KindChoice) -> Self {
         match word {
-            KindWord::Soil => Self::Soil,
-            KindWord::Wheel => Self::Wheel,
-            KindWord::Rover => Self::Rover,
-            KindWord::Scenario => Self::Scenario,
-            KindWord::DataSet => Self::DataSet,
-            KindWord::Campaign => Self::Campaign,
+            KindChoice::Soil => Self::Soil,
+            KindChoice::Wheel => Self::Wheel,
+            KindChoice::Rover => Self::Rover,
+            KindChoice::Scenario => Self::Scenario,
+            KindChoice::DataSet => Self::DataSet,
+            KindChoice::Campaign => Self::Campaign,
         }
     }
 }

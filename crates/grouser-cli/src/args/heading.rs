@@ -1,4 +1,4 @@
-//! What can be asked of heading offsets.
+//! Arguments of `heading` and `heading-map`.
 
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
@@ -33,8 +33,8 @@ pub(crate) struct HeadingArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = "A course is a direction of travel, counted from the contour and positive \
-                        uphill; course 0 is what `heading` asks. A row without an answer says \
-                        why in its status.")]
+                        uphill; course 0 is that of `heading`. A row without a result has the \
+                        reason in its status.")]
 pub(crate) struct HeadingMapArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.
@@ -63,7 +63,7 @@ pub(crate) struct HeadingMapArgs {
     pub(crate) output: OutputArgs,
 }
 
-/// Whether a soil's uncertainty is followed, and by how many samples.
+/// Sampling of an uncertain soil.
 #[derive(Debug, Args)]
 pub(crate) struct UncertaintyArgs {
     /// Sample soils from the soil's `[uncertainty]`, and add 95 % bands and the probability that a

@@ -1,4 +1,4 @@
-//! What can be asked of measured tests: comparing, calibrating, importing.
+//! Arguments of `validate`, `calibrate` and `import`.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use grouser::document::measurements::{Condition, Limits, Mapping};
 use super::{OutputArgs, SettingArgs};
 use crate::list::{self, Numbers};
 
-/// How much of a file of measurements is read.
+/// Limit on files of measurements.
 #[derive(Debug, Args)]
 pub(crate) struct ReadArgs {
     /// The most rows that are read of a file of measurements, and 256 bytes for each.
@@ -47,7 +47,7 @@ pub(crate) struct ValidateArgs {
     /// The wheel that was tested: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
     pub(crate) wheel: Option<String>,
-    /// The soil to judge: a preset or a file.
+    /// The soil of the predictions: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
     pub(crate) soil: Option<String>,
     /// Only rows where a column has one of some values, or none of them:
@@ -103,7 +103,7 @@ pub(crate) struct CalibrateArgs {
     pub(crate) plates: Option<PathBuf>,
     /// The law of the plates; without it the soil's own.
     #[arg(long, value_enum, requires = "plates")]
-    pub(crate) plate_law: Option<PlateLawWord>,
+    pub(crate) plate_law: Option<PlateLawChoice>,
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
@@ -124,7 +124,7 @@ pub(crate) struct CalibrateArgs {
         default_value = "drawbar_pull_n:slip_ratio=0.2"
     )]
     pub(crate) target: String,
-    /// How many runs to propose.
+    /// Number of runs to propose.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub(crate) propose: usize,
     /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
@@ -146,15 +146,15 @@ pub(crate) struct CalibrateArgs {
 
 /// A pressure-sinkage law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PlateLawWord {
+pub(crate) enum PlateLawChoice {
     /// p = (k_c/b + k_phi) z^n.
     Bekker,
     /// p = (c k_c + density g b k_phi) (z/b)^n.
     Reece,
 }
 
-impl PlateLawWord {
-    /// The word in documents.
+impl PlateLawChoice {
+    /// The keyword in documents.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Bekker => "bekker",
@@ -179,7 +179,7 @@ pub(crate) struct ImportArgs {
     pub(crate) columns: Vec<Mapping>,
     /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.
     #[arg(long, value_enum, default_value_t)]
-    pub(crate) slip_definition: SlipWord,
+    pub(crate) slip_definition: SlipChoice,
     /// The character between two fields, or `tab`.
     #[arg(long, value_name = "CHAR", default_value = ",")]
     pub(crate) delimiter: String,
@@ -201,7 +201,7 @@ pub(crate) struct ImportArgs {
 
 /// A definition of the slip ratio.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SlipWord {
+pub(crate) enum SlipChoice {
     /// (wr - v)/max(wr, v): Grouser's.
     #[default]
     Larger,

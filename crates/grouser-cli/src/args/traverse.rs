@@ -1,4 +1,4 @@
-//! What a traverse can be asked.
+//! Arguments of `traverse`.
 
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;

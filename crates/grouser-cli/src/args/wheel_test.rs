@@ -1,4 +1,4 @@
-//! What a wheel test can be asked.
+//! Arguments of `wheel-test`.
 
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
@@ -32,7 +32,7 @@ pub(crate) struct WheelTestArgs {
     pub(crate) output: OutputArgs,
 }
 
-/// A test stand that does not read exactly.
+/// A simulated test stand with noise.
 #[derive(Debug, Args)]
 pub(crate) struct StandArgs {
     /// Simulate a test stand: run each setting N times, with noise on what the stand reads.
@@ -65,7 +65,7 @@ pub(crate) struct StandArgs {
         allow_negative_numbers = true
     )]
     pub(crate) noise_nm: f64,
-    /// What the noise is drawn from: the same seed makes the same test.
+    /// Seed of the noise: the same seed gives the same test.
     #[arg(long, default_value_t = 1, requires = "trials")]
     pub(crate) seed: u64,
 }

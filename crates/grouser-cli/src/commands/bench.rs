@@ -15,14 +15,14 @@ use crate::output;
 use crate::output::Format;
 use crate::output::rows::{Rows, aligned, four_digits};
 
-/// What is told of a unit of work.
+/// The time of a unit of work, and its accuracy.
 struct Row {
     what: &'static str,
     key: &'static str,
     value: f64,
-    /// How it is said for people.
+    /// Its name for readers.
     unit: &'static str,
-    /// Its accuracy: key, value, and how it is said.
+    /// Its accuracy: key, value, and text.
     error: Option<(&'static str, f64, String)>,
 }
 
@@ -102,10 +102,10 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
             let error = of_way("traverse_quasi_steady_error_mm", accuracy.traverse_quasi_steady);
             ("traverse of 20 s, quasi-steady", 1e3, "ms", error)
         }
-        Unit::AttitudeCurve => {
-            let error = accuracy.attitude_curve;
-            let said = format!("{error:.1e} of the weight");
-            ("attitude on 25 slopes", 1e3, "ms", Some(("attitude_curve_error", error, said)))
+        Unit::HeadingCurve => {
+            let error = accuracy.heading_curve;
+            let shown = format!("{error:.1e} of the weight");
+            ("heading offset on 25 slopes", 1e3, "ms", Some(("attitude_curve_error", error, shown)))
         }
         Unit::Campaign => {
             let value = 1.0 / seconds;
@@ -116,7 +116,7 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
     Row { what, key: unit.key(), value: seconds * factor, unit: name, error }
 }
 
-/// From the start of the program to its first answer; none where it cannot start itself.
+/// Time from the start of the program to its first answer; missing where it cannot start itself.
 fn start_up() -> Option<Row> {
     const TIMES: usize = 10;
     let program = std::env::current_exe().ok()?;

@@ -1,4 +1,4 @@
-//! `grouser calibrate`: the soil that measurements speak for, and how surely.
+//! `grouser calibrate`: estimates soil parameters, with confidence intervals, from wheel or plate tests.
 
 mod checkpoint;
 mod next_runs;

@@ -1,4 +1,4 @@
-//! `grouser campaign`: many runs over what is not known exactly.
+//! `grouser campaign`: Monte Carlo campaigns, which sample uncertain inputs, run, and summarise.
 
 mod cost;
 mod digest;

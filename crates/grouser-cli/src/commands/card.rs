@@ -4,7 +4,7 @@ mod columns;
 mod layout;
 mod measured;
 mod row;
-mod words;
+mod texts;
 
 use std::path::Path;
 
@@ -14,14 +14,14 @@ use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
 use grouser::soil::Soil;
-use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy};
+use grouser::studies::heading::HeadingStudy;
 use grouser_page::{Sheet, markup};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, attitude_band};
-use crate::args::{CardArgs, SideWord};
+use super::{Answer, heading_band};
+use crate::args::{CardArgs, SideChoice};
 use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let rows = shown(&card::table(&card), &measured);
     let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
-        let sheet = layout::draw(&words::of(args, &inputs, &card), &rows, &measured);
+        let sheet = layout::draw(&texts::of(args, &inputs, &card), &rows, &measured);
         target.write(
             &Answers { args, inputs: &inputs, card: &card, rows: &rows, beside: &beside },
             &sheet,
@@ -64,9 +64,9 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     }
 }
 
-/// The drawn soils; none where no uncertainty is stated.
+/// The sampled soils; empty where no uncertainty is stated.
 fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
-    let draw = |uncertain| attitude_band::soils(uncertain, args.seed, args.samples);
+    let draw = |uncertain| heading_band::soils(uncertain, args.seed, args.samples);
     inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
 }
 
@@ -76,11 +76,11 @@ fn compute(
     soils: &[Soil],
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
-    let mut attitude = AttitudeStudy::of(&inputs.scenario.value);
-    if args.uphill == SideWord::Right {
-        attitude.rover = attitude.rover.mirrored();
+    let mut heading = HeadingStudy::of(&inputs.scenario.value);
+    if args.uphill == SideChoice::Right {
+        heading.rover = heading.rover.mirrored();
     }
-    let study = CardStudy { attitude, rim_speed: inputs.rim_speed, rule: inputs.rule };
+    let study = CardStudy { heading, rim_speed: inputs.rim_speed, rule: inputs.rule };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
@@ -139,7 +139,7 @@ fn answer<'a>(
     Answer::new("card", settings(args, inputs, card), results)
 }
 
-/// What the card was made from.
+/// The inputs of the card.
 fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     let document = &inputs.scenario.document;
     let mut settings = json!({
@@ -149,7 +149,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "model": inputs.scenario.value.theory.name(),
         "loads": document.get("loads"),
         "moments": document.get("moments"),
-        "uphill": if args.uphill == SideWord::Left { "left" } else { "right" },
+        "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },
         "speed_m_s": inputs.rim_speed,
         "rule": RuleRecord::from(&inputs.rule),
     });

@@ -1,4 +1,4 @@
-//! `grouser check FILE…`
+//! `grouser check FILE…`: checks documents.: checks documents.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! `grouser completions SHELL`
+//! `grouser completions SHELL`: prints a completion script.: prints a completion script.
 
 use clap::CommandFactory as _;
 

@@ -1,4 +1,4 @@
-//! `grouser import`: another laboratory's CSV as ours.
+//! `grouser import`: converts another laboratory's CSV file.
 
 use grouser::document::escape;
 use grouser::document::measurements::{
@@ -7,7 +7,7 @@ use grouser::document::measurements::{
 };
 use grouser::studies::measurement::Quantity;
 
-use crate::args::{ImportArgs, SlipWord};
+use crate::args::{ImportArgs, SlipChoice};
 use crate::failure::Failure;
 use crate::output::{self, file};
 
@@ -20,9 +20,9 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
         decimal_comma: args.decimal_comma,
         skipped_lines: args.skip_lines,
         slip: match args.slip_definition {
-            SlipWord::Larger => SlipDefinition::Larger,
-            SlipWord::Rim => SlipDefinition::Rim,
-            SlipWord::Hub => SlipDefinition::Hub,
+            SlipChoice::Larger => SlipDefinition::Larger,
+            SlipChoice::Rim => SlipDefinition::Rim,
+            SlipChoice::Hub => SlipDefinition::Hub,
         },
         limits: args.read.limits(),
     };
@@ -30,7 +30,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     let bytes = measurements::read_bytes(&args.file, layout.limits)?;
     let Imported { text, left_out } = import(&label, bytes.as_slice(), &args.columns, &layout)?;
     if !left_out.is_empty() {
-        output::tell(&format!("note: columns not taken: {}", left_out.join(", ")));
+        output::message(&format!("note: columns not taken: {}", left_out.join(", ")));
     }
     check(&label, &text, layout.limits)?;
     match &args.out {
@@ -52,17 +52,17 @@ fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
         Err(error) => return Err(of_import(&label, error)),
     };
     for note in &measured.notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
     let tests = &measured.tests;
     let counts = Quantity::ALL.map(|quantity| {
         let read = tests.trials.iter().filter(|trial| trial.readings[quantity].is_some());
-        (document_word(quantity), read.count())
+        (column_name(quantity), read.count())
     });
     let counts: Vec<String> =
         counts.iter().map(|(word, count)| format!("{word} {count}")).collect();
     let (trials, cells) = (tests.trials.len(), tests.cells.len());
-    output::tell(&format!("{trials} trials in {cells} cells; readings: {}", counts.join(", ")));
+    output::message(&format!("{trials} trials in {cells} cells; readings: {}", counts.join(", ")));
     Ok(())
 }
 
@@ -76,7 +76,7 @@ fn of_import(label: &str, error: MeasurementError) -> Failure {
     }
 }
 
-fn document_word(quantity: Quantity) -> &'static str {
+fn column_name(quantity: Quantity) -> &'static str {
     grouser::document::columns::fit::column_of(quantity).name
 }
 
@@ -85,7 +85,7 @@ fn delimiter(text: &str) -> Result<u8, Failure> {
         ("tab", _) => Ok(b'\t'),
         (_, [byte]) => Ok(*byte),
         _ => Err(Failure::Usage(format!(
-            "--delimiter {text}: it must be one character, such as ';', or the word tab"
+            "--delimiter {text}: it must be one character, such as ';', or tab"
         ))),
     }
 }

@@ -1,4 +1,4 @@
-//! `grouser presets [NAME]`
+//! `grouser presets [NAME]`: lists presets, or prints one.: lists presets, or prints one.
 
 use grouser::document::{self, Kind, Preset};
 use serde::Serialize;
@@ -50,12 +50,12 @@ fn print_preset(
         }
         [preset] => output::print(preset.text),
         [..] => {
-            // Whoever asks for a rover's name means the rover; its wheel has the same name.
+            // A name that a rover and its wheel share means the rover.
             let whole = named.iter().max_by_key(|preset| preset.kind == Kind::Rover);
             let others = named.iter().filter(|preset| Some(preset) != whole.as_ref());
             for other in others {
                 let kind = other.kind;
-                output::tell(&format!("note: there is also a {kind} `{name}`: --kind {kind}"));
+                output::message(&format!("note: there is also a {kind} `{name}`: --kind {kind}"));
             }
             whole.map_or(Ok(()), |preset| output::print(preset.text))
         }

@@ -1,4 +1,4 @@
-//! `grouser reproduce`: the paper's study, to a report one can open.
+//! `grouser reproduce`: runs the paper's study and writes its report.
 
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ const REPORT: &str = "report.html";
 
 /// Load in the paper's single-wheel test [N]: "about 20N", its section 4.1.
 const WHEEL_LOAD: f64 = 20.0;
-/// K_x at slip angle 0 [m]: Table 3; a value that would explain the paper's attitude on 20°; and
+/// K_x at slip angle 0 [m]: Table 3; a value that would explain the paper's *attitude* on 20°; and
 /// what its section 4.2 prints after tuning.
 const LONGITUDINAL_MODULI: [f64; 3] = [0.036, 0.030, 0.3];
 
@@ -56,13 +56,13 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     folder.finish()?;
     output::print(&format!(
         "{}\n{}\n\nreport: {}\n",
-        tables::attitudes(&study).to_text(),
+        tables::headings(&study).to_text(),
         tables::limit_sentence(&study),
         escape::path(&target.join(REPORT))
     ))
 }
 
-/// The default folder may be replaced if it is an earlier report; another only if told to.
+/// Opens the output folder: the default one may be replaced if it is an earlier report, another one only with `--force`.
 fn open_folder(args: &ReproduceArgs) -> Result<(PathBuf, OutputFolder), Failure> {
     let (target, old_files) = match &args.out {
         Some(out) if args.force => (out.clone(), OldFiles::Replace),
@@ -109,14 +109,14 @@ fn write_report(
 ) -> Result<(), Failure> {
     let rover = &scenario.value.rover;
     let all_tables = [
-        tables::attitudes(study),
+        tables::headings(study),
         tables::table_4(study),
         tables::yaw_loss(study),
         tables::drift(study),
     ];
     let mut page = Page::new("Across a slope on loose soil");
     opening(&mut page, study);
-    let [attitudes, table_4, yaw_loss, drift] = &all_tables;
+    let [headings, table_4, yaw_loss, drift] = &all_tables;
     let mut drawn = figures::all(study, rover).into_iter();
     let mut draw = |page: &mut Page, folder: &mut OutputFolder| -> Result<(), Failure> {
         let Some(figure) = drawn.next() else { return Ok(()) };
@@ -127,8 +127,8 @@ fn write_report(
         Ok(())
     };
 
-    page.heading("Which way to point the rover");
-    page.table(attitudes);
+    page.heading("The heading that holds the contour");
+    page.table(headings);
     page.paragraph(&tables::limit_sentence(study));
     draw(&mut page, folder)?;
     page.heading("What the compensation saves");
@@ -170,12 +170,12 @@ fn opening(page: &mut Page, study: &Reproduction) {
         "A four-wheel rover that crosses a slope of loose sand slides downhill as it drives. \
          Pointed uphill by the right angle it stays on the contour instead. Which angle is right \
          depends on the soil, the wheels and the slope; this page computes it for the HAKUTO rover \
-         on Toyoura sand, and holds it against the experiment of the paper that the theory is from.",
+         on Toyoura sand, and compares it with the experiment of the paper that the model comes from.",
     );
     let answers = study.slopes.iter().filter_map(|runs| {
-        let attitude = runs.attitude.as_ref().ok()?;
+        let heading = runs.heading.as_ref().ok()?;
         let slope = runs.measured.slope.to_degrees().round();
-        Some(format!("{:.1}° on {slope}°", attitude.yaw.to_degrees()))
+        Some(format!("{:.1}° on {slope}°", heading.yaw.to_degrees()))
     });
     let answers: Vec<String> = answers.collect();
     page.answer(&format!(
@@ -195,8 +195,8 @@ fn comparison(page: &mut Page, table_4: &Table, yaw_loss: &Table) {
     );
     page.table(yaw_loss);
     page.paragraph(
-        "The paper's model keeps its yaw, the measured rover loses some. Shared by the weight \
-         alone (quasi-static), the loads follow the wheel forces and the yaw moments cancel. With \
+        "The paper's model keeps its yaw, the measured rover loses some. With load transfer by the \
+         weight alone (quasi-static) the loads follow the wheel forces and the yaw moments cancel. With \
          the torque of the wheels in the pitch balance (quasi-static-torque) the rear wheels carry \
          more and hold the slope better, and the nose falls downhill: the right sign, and on some \
          slopes about the size, of what was measured. The length of the measured runs is not printed.",
@@ -208,8 +208,8 @@ fn closing(page: &mut Page, scenario: &LoadedScenario) {
     page.list(&scenario.assumptions);
     page.paragraph(
         "Besides these: the slope is plane and the sand homogeneous; wheels are rigid and settle \
-         at once; loads are shared by weight and slope (quasi-static), without the wheels' torque \
-         unless said so; the wheels' own overturning and aligning moments are neglected; rear \
+         at once; load transfer is quasi-static, by weight and slope, without the wheels' torque \
+         unless stated; the wheels' own overturning and aligning moments are neglected; rear \
          wheels meet sand as fresh as the front ones do.",
     );
     page.heading("How the numbers were made");
@@ -221,9 +221,9 @@ fn closing(page: &mut Page, scenario: &LoadedScenario) {
         env!("CARGO_PKG_VERSION")
     ));
     page.code(
-        "grouser attitude --slope-deg 5,10,15,20\n\
+        "grouser heading --slope-deg 5,10,15,20\n\
          grouser traverse --slope-deg 10 --yaw-deg 0\n\
-         grouser traverse --slope-deg 10 --yaw-deg 5.51 --loads quasi-static-torque\n\
+         grouser traverse --slope-deg 10 --yaw-deg 5.51 --load-transfer quasi-static-torque\n\
          grouser wheel-test --load-n 20 --slip-ratio 0:1:0.02 --set soil.shear.longitudinal_m=0.03",
     );
     page.paragraph("The scenario in full:");

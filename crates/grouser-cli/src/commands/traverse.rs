@@ -1,4 +1,4 @@
-//! `grouser traverse`
+//! `grouser traverse`: drives a rover across a slope.: drives a rover across a slope.
 
 use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{X, Y, YAW};
@@ -48,16 +48,16 @@ fn tell_end(run: &Trajectory) {
     if run.outcome != Outcome::Completed {
         let (outcome, time) = (run.outcome.name(), four_digits(run.last().time));
         let reason = reason(run);
-        output::tell(&format!("note: {outcome} after {time} s{reason}"));
+        output::message(&format!("note: {outcome} after {time} s{reason}"));
     }
 }
 
-/// Why a run ended as it did, after a colon, on one line whatever its wheels are called.
+/// The reason of an outcome, after a colon, on one line.
 fn reason(run: &Trajectory) -> String {
     run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
 }
 
-/// Some of the samples with the mean of their wheels, and what became of the rover.
+/// Some of the records with the means of their wheels, and the outcome.
 fn table(run: &Trajectory) -> String {
     let samples = run::brief(run, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();

@@ -1,4 +1,4 @@
-//! `grouser validate`: a theory beside measured wheel tests, or every theory beside all of them.
+//! `grouser validate`: errors of a wheel–soil model against measured wheel tests, or a ranking of all models.
 
 pub(crate) mod figures;
 mod page;
@@ -42,7 +42,7 @@ struct Results<'a> {
     notes: &'a [String],
 }
 
-/// One theory with one soil on one file.
+/// One model with one soil on one file.
 fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let stand = inputs::stand(soil, wheel, &args.setting)?;
@@ -53,7 +53,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     };
     let measured = measurements::Source::find(data)?.read(&choice)?;
     for note in &measured.notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
     let validation = judge(&measured, &stand);
     let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();

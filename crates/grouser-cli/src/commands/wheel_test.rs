@@ -1,4 +1,4 @@
-//! `grouser wheel-test`
+//! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.: forces and sinkage of one wheel on a test stand.
 
 use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::table::Table;
@@ -47,7 +47,15 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
         None => {
             let table = columns::wheel_test::table(&test.run());
             let brief = columns::wheel_test::brief();
-            tell(args, folder, &inputs, settings, &table, &brief, &chart(&table, Style::Line))
+            output_results(
+                args,
+                folder,
+                &inputs,
+                settings,
+                &table,
+                &brief,
+                &chart(&table, Style::Line),
+            )
         }
         Some(trials) => {
             settings["simulated_stand"] = json!({
@@ -59,7 +67,15 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
             });
             let table = columns::stand::table(&on_a_stand(test, &args.stand, trials).run());
             let brief = columns::stand::brief();
-            tell(args, folder, &inputs, settings, &table, &brief, &chart(&table, Style::Dots))
+            output_results(
+                args,
+                folder,
+                &inputs,
+                settings,
+                &table,
+                &brief,
+                &chart(&table, Style::Dots),
+            )
         }
     }
 }
@@ -79,7 +95,7 @@ struct Results<'a> {
     rows: &'a Table,
 }
 
-fn tell(
+fn output_results(
     args: &WheelTestArgs,
     folder: Option<OutputFolder>,
     inputs: &StandInputs,

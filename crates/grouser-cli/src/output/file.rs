@@ -1,4 +1,4 @@
-//! A single output file: written beside and renamed, never over an old one unless told to.
+//! A single output file: written beside and renamed; an old one is replaced only on request.
 
 #[cfg(unix)]
 use std::fs::Permissions;
@@ -47,7 +47,7 @@ pub(super) fn check_ordinary(out: &Path) -> Result<(), Failure> {
 /// Writes beside and renames, so that the file is whole or not there. It has the permissions of the
 /// file that it replaces, or those of any new file.
 pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
-    let _not_now = interrupt::not_now();
+    let _deferred = interrupt::defer_ctrl_c();
     // A link stays one, and leads to the new file.
     let behind_link = out.is_symlink().then(|| out.canonicalize()).and_then(Result::ok);
     let out = behind_link.as_deref().unwrap_or(out);

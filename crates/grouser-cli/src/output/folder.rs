@@ -1,4 +1,4 @@
-//! An output folder: written beside and renamed, never over old files unless told to.
+//! An output folder: written beside and renamed; old files are replaced only on request.
 
 use std::fs;
 use std::io::Write as _;
@@ -85,7 +85,7 @@ impl OutputFolder {
 
     /// Writes all files and moves them to their place.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let _not_now = interrupt::not_now();
+        let _deferred = interrupt::defer_ctrl_c();
         let staging = temporary_folder(&self.base)?;
         let staged = staging.path().join(&self.missing);
         for (name, content) in &self.files {
@@ -159,7 +159,7 @@ fn temporary_folder(base: &Path) -> Result<TempDir, Failure> {
 
 /// A folder that cannot be written to is found before anything is computed.
 fn check_writable(folder: &Path) -> Result<(), Failure> {
-    let _not_now = interrupt::not_now();
+    let _deferred = interrupt::defer_ctrl_c();
     temporary_folder(folder).map(drop)
 }
 

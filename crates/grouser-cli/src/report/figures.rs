@@ -16,7 +16,7 @@ use crate::output::rows::Rows;
 pub(crate) struct Figure {
     /// Name of its files, without ending.
     pub(crate) file: &'static str,
-    /// What it shows and what to see in it.
+    /// The text below the drawing.
     pub(crate) caption: String,
     /// The drawing.
     pub(crate) chart: Chart,
@@ -46,7 +46,7 @@ impl Figure {
 /// All figures, in the order of the report.
 pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
     vec![
-        attitude(study),
+        heading(study),
         traverses(study),
         wheel_curves(study),
         by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
@@ -64,9 +64,9 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
     ]
 }
 
-/// Fig. 10: attitude over slope.
-pub(crate) fn attitude(study: &Reproduction) -> Figure {
-    let curve = study.attitudes.attitudes();
+/// Fig. 10: heading offset over slope.
+pub(crate) fn heading(study: &Reproduction) -> Figure {
+    let curve = study.headings.headings();
     let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
         let measured = study.slopes.iter().map(|runs| &runs.measured);
@@ -76,12 +76,12 @@ pub(crate) fn attitude(study: &Reproduction) -> Figure {
     };
     Figure {
         file: "fig10-attitude",
-        caption: "Fig. 10 of the paper: the yaw that keeps a traverse level, over the slope. The \
-                  curve ends where turning further uphill costs more thrust than it gains. The \
+        caption: "Fig. 10 of the paper: the heading offset that holds the contour, there called \
+                  attitude, over the slope. The curve ends where turning further uphill costs more thrust than it gains. The \
                   measured runs lose yaw from start to end; on 20° they were started high on purpose."
             .into(),
         chart: Chart {
-            title: "Attitude for a level traverse".into(),
+            title: "Heading offset that holds the contour".into(),
             x_label: "slope [°]".into(),
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
@@ -112,15 +112,15 @@ fn traverses(study: &Reproduction) -> Figure {
             path(uncompensated),
         ));
         if let Some(run) = compensated {
-            let name = format!("{slope}°, at the attitude");
+            let name = format!("{slope}°, with heading offset");
             series.push(Series::new(name, Style::Dashed, colour, path(run)));
         }
     }
     Figure {
         file: "fig9-traverses",
         caption: "Fig. 9 of the paper: paths on the slope, x along the contour and y uphill (note \
-                  the scales). Nose level, the rover drifts downhill; started at its attitude it \
-                  stays on the contour, and pays with slip and distance."
+                  the scales). With its nose along the contour the rover drifts downhill; started \
+                  with its heading offset it stays on the contour, and pays with slip and distance."
             .into(),
         chart: Chart {
             title: "Traverses without and with compensation".into(),
@@ -200,7 +200,7 @@ fn sinkage_by_load(study: &Reproduction) -> Figure {
     Figure {
         file: "sinkage-over-slip",
         caption: "Sinkage of one wheel over slip at slip angle 0, under several loads. Measured \
-                  wheels sink faster with slip than this theory lets them."
+                  wheels sink faster with slip than in this model."
             .into(),
         chart: Chart {
             title: "Single-wheel test: sinkage".into(),
@@ -263,8 +263,8 @@ fn slip_along_run(study: &Reproduction, rover: &Rover) -> Figure {
     Figure {
         file: "slip-along-run",
         caption: format!(
-            "Slip ratio of each wheel in the first moments of a run from rest on {}, at the \
-             attitude. The wheels turn from the first instant; slip settles within a tenth of a \
+            "Slip ratio of each wheel in the first moments of a run from rest on {}, with \
+             the heading offset. The wheels turn from the first instant; slip settles within a tenth of a \
              second and stays for the rest of the run.",
             start_up_slope(study)
         ),
@@ -281,7 +281,7 @@ fn sinkage_along_run(study: &Reproduction, rover: &Rover) -> Figure {
     Figure {
         file: "sinkage-along-run",
         caption: "Sinkage of each wheel in the same run: the downhill wheels carry more and sink \
-                  deeper; the classical theory lets sinkage follow slip at once."
+                  deeper; in the classical model sinkage follows slip at once."
             .into(),
         chart: Chart {
             title: "Sinkage along a run from rest".into(),

@@ -1,4 +1,4 @@
-//! The tables of the report: our attitudes and runs beside the paper's model and measurements.
+//! The tables of the report: our heading offsets and runs beside the paper's model and measurements.
 
 use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
@@ -9,7 +9,7 @@ use crate::output::rows::{Rows, aligned, rounded_down};
 
 /// A table: words for people, keys for files.
 pub(crate) struct Table {
-    /// What it shows, in a line.
+    /// A line above the table.
     pub(crate) caption: &'static str,
     /// Name of its CSV file, without ending.
     pub(crate) file: &'static str,
@@ -65,22 +65,22 @@ fn row_of(value: Value) -> Map<String, Value> {
     }
 }
 
-/// The yaw that keeps a traverse level: ours, the paper's model's, and the measured starts.
-pub(crate) fn attitudes(study: &Reproduction) -> Table {
+/// The heading offset that holds the contour: ours, that of the paper's model, and the measured starts.
+pub(crate) fn headings(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
-        let attitude = runs.attitude.as_ref().ok();
+        let heading = runs.heading.as_ref().ok();
         row_of(json!({
             (SLOPE.name): printed(runs.measured.slope),
-            (YAW.name): attitude.map(|a| YAW.unit.from_si(a.yaw)),
-            (SLIP_RATIO.name): attitude.map(|a| a.slip_ratio),
-            (SINKAGE.name): attitude.map(|a| SINKAGE.unit.from_si(a.mean_sinkage())),
+            (YAW.name): heading.map(|a| YAW.unit.from_si(a.yaw)),
+            (SLIP_RATIO.name): heading.map(|a| a.slip_ratio),
+            (SINKAGE.name): heading.map(|a| SINKAGE.unit.from_si(a.mean_sinkage())),
             "paper_model_yaw_deg": printed(runs.measured.model_yaw),
             "measured_initial_yaw_deg": printed(runs.measured.initial_yaw),
             "measured_final_yaw_deg": printed(runs.measured.final_yaw),
         }))
     };
     Table {
-        caption: "Yaw that keeps a traverse level, in degrees",
+        caption: "Heading offset that holds the contour (the paper's attitude), in degrees",
         file: "attitudes",
         columns: vec![
             column(SLOPE.name, "slope", 0),
@@ -99,7 +99,7 @@ pub(crate) fn attitudes(study: &Reproduction) -> Table {
 pub(crate) fn table_4(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let MeasuredTraverse { slope, model_yaw, initial_yaw, final_yaw, .. } = runs.measured;
-        let ours = runs.attitude.as_ref().ok().map(|attitude| attitude.yaw);
+        let ours = runs.heading.as_ref().ok().map(|heading| heading.yaw);
         let percent = |measured: f64, predicted: f64| 100.0 * yaw_error(measured, predicted);
         let run = Levelness::of(&runs.from_measured_yaw);
         row_of(json!({
@@ -117,7 +117,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
         }))
     };
     Table {
-        caption: "Table 4 of the paper, beside the same errors against Grouser's attitude",
+        caption: "Table 4 of the paper, beside the same errors against Grouser's heading offset",
         file: "table4",
         columns: vec![
             column(SLOPE.name, "slope [°]", 0),
@@ -134,7 +134,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
     }
 }
 
-/// Yaw lost during the runs: measured, and with two ways of sharing the weight.
+/// Yaw lost during the runs: measured, and with two laws of load transfer.
 pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let loss = |run| YAW.unit.from_si(Levelness::of(run).yaw_loss);
@@ -151,8 +151,8 @@ pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
         columns: vec![
             column(SLOPE.name, "slope", 0),
             column("measured_yaw_loss_deg", "measured", 2),
-            column("quasi_static_yaw_loss_deg", "loads quasi-static", 2),
-            column("quasi_static_torque_yaw_loss_deg", "loads quasi-static-torque", 2),
+            column("quasi_static_yaw_loss_deg", "load transfer quasi-static", 2),
+            column("quasi_static_torque_yaw_loss_deg", "load transfer quasi-static-torque", 2),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }
@@ -180,10 +180,10 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
             column(SLOPE.name, "slope [°]", 0),
             column("uncompensated_x_m", "x nose level [m]", 3),
             column("uncompensated_y_m", "y nose level [m]", 4),
-            column("compensated_x_m", "x at the attitude [m]", 3),
-            column("compensated_y_m", "y at the attitude [m]", 4),
+            column("compensated_x_m", "x with heading offset [m]", 3),
+            column("compensated_y_m", "y with heading offset [m]", 4),
             column("uncompensated_energy_j", "energy nose level [J]", 2),
-            column("compensated_energy_j", "energy at the attitude [J]", 2),
+            column("compensated_energy_j", "energy with heading offset [J]", 2),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }
@@ -191,9 +191,9 @@ pub(crate) fn drift(study: &Reproduction) -> Table {
 
 /// The limit slope in a sentence.
 pub(crate) fn limit_sentence(study: &Reproduction) -> String {
-    match study.attitudes.limit() {
+    match study.headings.limit() {
         Ok((slope, reason)) => format!(
-            "The steepest slope with a level attitude is {}°, {reason}.",
+            "The steepest slope on which a heading holds the contour is {}°, {reason}.",
             rounded_down(SLOPE.unit.from_si(slope))
         ),
         Err(error) => format!("{error}."),

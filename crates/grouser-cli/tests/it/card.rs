@@ -62,7 +62,7 @@ fn the_page_says_what_it_must() {
         "GO\n",
         "CAUTION",
         "NO-GO",
-        "at least 95 % of 40 drawn soils",
+        "at least 95 % of 40 sampled soils",
         "less than 80 %",
         "Date of the soil: not stated",
         "Gravity 9.807 m/s² (earth)",
@@ -71,7 +71,7 @@ fn the_page_says_what_it_must() {
         "Leaves out",
         "Assumed",
         "Uphill on the left or on the right",
-        "40 draws, seed 1",
+        "40 samples, seed 1",
         &format!("grouser {}", env!("CARGO_PKG_VERSION")),
     ] {
         assert!(all.contains(part), "{part} is missing in\n{all}");

@@ -141,7 +141,7 @@ fn a_slope_without_any_level_attitude_has_no_band() {
     assert!(row["yaw_deg_p50"].is_null() && row["slip_ratio_p2_5"].is_null(), "{row}");
     assert_eq!((number(&row["probability_level"]), number(&row["draws_level"])), (0.0, 0.0));
     assert!(number(&row["probability_level_high"]) > 0.2, "{row}");
-    assert!(row["status"].as_str().expect("a text").starts_with("no level attitude"));
+    assert!(row["status"].as_str().expect("a text").starts_with("no heading holds the contour"));
 }
 
 #[test]
@@ -466,7 +466,7 @@ fn charts_of_an_uncertain_soil_are_drawn() {
     let place = Place::new();
     let printed = place.results(&format!("{UNCERTAIN} --format csv --out band"));
     assert_eq!(printed, place.read("band/attitude.csv"));
-    for (file, words) in [("attitude", "95 % of the draws"), ("probability", "95 % interval")] {
+    for (file, words) in [("attitude", "95 % of the samples"), ("probability", "95 % interval")] {
         let svg = place.read(&format!("band/{file}.svg"));
         assert!(svg.contains(words) && svg.trim_end().ends_with("</svg>"), "{file}");
         assert!(!svg.contains("NaN"), "{file}");

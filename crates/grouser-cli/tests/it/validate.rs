@@ -149,7 +149,10 @@ fn a_validation_is_repeated_from_its_folder() {
         }
     }
     let html = place.read("run/validation.html");
-    assert!(html.contains("misses") && html.matches("<svg").count() == 8, "{html}");
+    assert!(
+        html.contains("Root mean square errors of the model") && html.matches("<svg").count() == 8,
+        "{html}"
+    );
     assert!(!html.contains("<script") && !html.contains(" src="));
     let files = std::fs::read_dir(place.file("run")).expect("a folder").count();
     assert_eq!(files, 8);

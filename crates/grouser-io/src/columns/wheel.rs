@@ -1,4 +1,4 @@
-//! What the soil does to a settled wheel: the results of a wheel, wherever they appear.
+//! The columns of a settled wheel: sinkage, forces, moments and angles.
 
 use super::super::unit::{DEG, KPA, N, NM};
 use super::{Column, DRAWBAR_PULL, Quantity, SIDE_FORCE, SINKAGE, TORQUE, number, quantity};

@@ -23,7 +23,7 @@ use grouser_core::wheel::Wheel;
 const MOST_RUNS: u64 = 1_000_000_000_000;
 /// The largest seed that JSON keeps exactly.
 const LARGEST_SEED: u64 = (1 << 53) - 1;
-/// Seconds of work for a traverse, a fraction of one for an attitude; some hundred kilobytes.
+/// Seconds of work for a traverse, a fraction of one for a heading offset; some hundred kilobytes.
 const SHARD_RUNS: u64 = 1024;
 
 pub static CAMPAIGN: Table<Settings> = Table {
@@ -42,9 +42,9 @@ pub static CAMPAIGN: Table<Settings> = Table {
                     all.study = Study::Traverse;
                 }),
                 word(
-                    Study::Attitude.name(),
+                    Study::Heading.name(),
                     "The heading offset that holds the contour of the scenario's slope.",
-                    |all: &mut Settings| all.study = Study::Attitude,
+                    |all: &mut Settings| all.study = Study::Heading,
                 )
                 .formerly("attitude"),
                 word(Study::WheelTest.name(), "A wheel on a test stand.", |all| {
@@ -59,7 +59,7 @@ pub static CAMPAIGN: Table<Settings> = Table {
             "How many runs; with `sensitivity`, how many points, each with two runs more than there are inputs.",
             |all, runs| all.runs = runs,
         ),
-        whole("seed", 0..=LARGEST_SEED, "uint64", "Which draws of all that there could be.", |all: &mut Settings, seed| {
+        whole("seed", 0..=LARGEST_SEED, "uint64", "Seed of the random numbers: the same seed, the same samples.", |all: &mut Settings, seed| {
             all.seed = seed;
         })
         .otherwise(Fill::Whole(1)),
@@ -73,12 +73,12 @@ pub static CAMPAIGN: Table<Settings> = Table {
         .otherwise(Fill::Whole(SHARD_RUNS)),
         words(
             "sampling",
-            "How the draws are spread.",
+            "How the samples are spread.",
             &[
-                word("monte-carlo", "Independent draws.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
+                word("monte-carlo", "Independent samples.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
                 word(
                     "latin-hypercube",
-                    "One draw in each of as many equal parts of every input's distribution as there are runs.",
+                    "One sample in each of as many equal parts of every input's distribution as there are runs.",
                     |all: &mut Settings| all.sampling = Sampling::LatinHypercube,
                 ),
                 word("sobol", "The Sobol sequence, scrambled.", |all: &mut Settings| {
@@ -86,21 +86,21 @@ pub static CAMPAIGN: Table<Settings> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("monte-carlo")),
+        .otherwise(Fill::Keyword("monte-carlo")),
         flag(
             "sensitivity",
-            "Whether the runs are laid out so that they tell Sobol indices.",
+            "Whether the runs are a design for Sobol indices.",
             |all, yes| all.sensitivity = yes,
         ),
         flag(
             "soil_uncertainty",
-            "Whether the soil's own `uncertainty` is drawn from, too.",
+            "Whether the soil's own `uncertainty` is sampled, too.",
             |all, yes| all.soil_uncertainty = yes,
         ),
         part(
             "scenario",
             Kind::Scenario,
-            "The run that is varied, for `traverse` and `attitude`: a preset's name, a path from this document's folder, or a scenario's keys.",
+            "The run that is varied, for `traverse` and `heading`: a preset's name, a path from this document's folder, or a scenario's keys.",
             &At {
                 inner: &SCENARIO,
                 at: |all: &mut Settings| -> &mut Scenario {
@@ -149,7 +149,7 @@ pub static STAND: Table<Stand> = Table {
             "The wheel: a preset's name, a path from this document's folder, or a wheel's keys.",
             &At { inner: &WHEEL, at: |stand: &mut Stand| -> &mut Wheel { &mut stand.wheel } },
         ),
-        model("The theory; without it the soil's own, or else `ishigami`."),
+        model("The wheel–soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |stand| Some(&mut stand.gravity)),
         number("load_n", N, 0.0..=1e5, "Load on the wheel, W", |stand| Some(&mut stand.load)),
         number("slip_ratio", ONE, -2.0..=2.0, "Slip ratio, s", |stand| Some(&mut stand.slip_ratio)),

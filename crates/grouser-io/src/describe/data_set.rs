@@ -1,4 +1,4 @@
-//! `data-set/1`: what a file of measurements was measured with.
+//! `data-set/1`: wheel, soils and gravity of a file of measurements.
 
 use super::super::data_set::DataSet;
 use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};
@@ -40,7 +40,7 @@ static CASE: Table<DataSet> = Table {
 
 const SOILS: Field<DataSet> = field(
     "soils",
-    "Soils to judge: presets, or paths. A soil that names its `model` is judged with it, another\n\
-     with every theory.",
+    "Soils of the predictions: presets, or paths. A soil that names its `model` is used with it, another\n\
+     with every model.",
     Shape::Texts(Texts { least: 1, most: None, put: |_, _, _| {} }),
 );

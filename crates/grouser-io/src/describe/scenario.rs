@@ -16,7 +16,7 @@ use grouser_core::site::Site;
 use grouser_core::vehicle::drive::SlipTarget;
 use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
-/// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
+/// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub const FASTEST: f64 = 10.0;
 
 /// Source: [FourWheel], section 5.2: "each wheel speed is set at 6 cm/s" [m/s].
@@ -65,14 +65,14 @@ pub static SCENARIO: Table<Scenario> = Table {
                 at: |run: &mut Scenario| &mut run.rover,
             },
         )
-        .otherwise(Fill::Word(DEFAULT_ROVER)),
+        .otherwise(Fill::Keyword(DEFAULT_ROVER)),
         part(
             "soil",
             Kind::Soil,
             "The soil: a preset's name, a path from this document's folder, or a soil's keys.",
             &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.terrain.soil },
         )
-        .otherwise(Fill::Word(DEFAULT_SOIL)),
+        .otherwise(Fill::Keyword(DEFAULT_SOIL)),
         model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
         gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
         number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
@@ -104,7 +104,7 @@ pub static SCENARIO: Table<Scenario> = Table {
                 word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
             ],
         )
-        .otherwise(Fill::Word("quasi-static"))
+        .otherwise(Fill::Keyword("quasi-static"))
         .formerly("loads"),
         words(
             "wheel_moments",
@@ -118,7 +118,7 @@ pub static SCENARIO: Table<Scenario> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("neglected"))
+        .otherwise(Fill::Keyword("neglected"))
         .formerly("moments"),
         words(
             "simulation",
@@ -134,7 +134,7 @@ pub static SCENARIO: Table<Scenario> = Table {
                 ),
             ],
         )
-        .otherwise(Fill::Word("dynamic")),
+        .otherwise(Fill::Keyword("dynamic")),
         table(
             "drive",
             "What turns the wheels.",
@@ -257,6 +257,6 @@ static START: Table<Start> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Word("rolling")),
+        .otherwise(Fill::Keyword("rolling")),
     ],
 };

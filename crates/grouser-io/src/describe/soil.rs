@@ -12,7 +12,7 @@ use grouser_core::soil::{
     StressPeak,
 };
 
-/// The largest exit-angle ratio that a soil may reach at any slip [-].
+/// The largest wheel sinkage ratio that a soil may reach at any slip [-].
 pub const LARGEST_EXIT_RATIO: f64 = 1.5;
 /// The smallest and the largest sinkage exponent that a soil may reach at any slip [-].
 pub const SMALLEST_EXPONENT: f64 = 0.3;
@@ -34,7 +34,7 @@ const QUADRATIC: ShearModulus = ShearModulus::Quadratic {
     angle_limit: 0.0,
 };
 
-/// A soil before its numbers are put in: without the terms of the theories that have some of their own.
+/// A soil before its numbers are put in: without the terms of single models.
 pub const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
@@ -57,7 +57,7 @@ pub static SOIL: Table<Soil> = Table {
         date(),
         notes(),
         assumed(),
-        model("The theory that the values were made for; without it, `ishigami`."),
+        model("The wheel–soil model that the values were made for; without it, `ishigami`."),
         number("cohesion_kpa", KPA, 0.0..=100.0, "Cohesion, c", |soil| Some(&mut soil.cohesion)),
         number("friction_angle_deg", DEG, 5.0..=60.0, "Angle of internal friction, φ", |soil| {
             Some(&mut soil.friction_angle)
@@ -91,7 +91,7 @@ pub static SOIL: Table<Soil> = Table {
             "How soil pushed aside loads the side wall; without it, law = \"sine\".",
             &At { inner: &BULLDOZING, at: |soil: &mut Soil| &mut soil.bulldozing },
         )
-        .otherwise(Fill::Keys(&[("law", Fill::Word("sine"))])),
+        .otherwise(Fill::Keys(&[("law", Fill::Keyword("sine"))])),
         table(
             "small_wheel",
             "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
@@ -354,7 +354,7 @@ fn per_radian_squared(modulus: &mut ShearModulus) -> Option<&mut f64> {
 // ---- Where the wheel leaves the soil, and what it pushes aside ----
 
 static EXIT: Laws<Exit> = Laws {
-    doc: "Exit-angle ratio λ: the share of the sinkage that the soil recovers behind the wheel.",
+    doc: "Wheel sinkage ratio λ: the share of the sinkage that the soil recovers behind the wheel.",
     key: "law",
     may_be_left_out: true,
     is_written_last: false,
@@ -369,7 +369,7 @@ static EXIT: Laws<Exit> = Laws {
                     "ratio",
                     ONE,
                     0.0..=LARGEST_EXIT_RATIO,
-                    "Exit-angle ratio, λ",
+                    "Wheel sinkage ratio, λ",
                     |law| match law {
                         Exit::Ratio(ratio) => Some(ratio),
                         Exit::QuadraticInSlip { .. } => None,
@@ -421,7 +421,7 @@ static EXIT: Laws<Exit> = Laws {
 };
 
 static BULLDOZING: Table<Bulldozing> = Table {
-    doc: "How soil pushed aside loads the flank.",
+    doc: "How soil pushed aside loads the side wall.",
     fields: &[words(
         "law",
         "How that force depends on the slip angle.",
@@ -440,7 +440,7 @@ static BULLDOZING: Table<Bulldozing> = Table {
     )],
 };
 
-// ---- What single theories ask for ----
+// ---- Terms of single models ----
 
 const DEFAULTS: Fill = Fill::Keys(&[]);
 const OFF: Extended = Extended::OFF;
@@ -527,7 +527,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
 };
 
 static EXIT_SHIFT: Table<ExitShift> = Table {
-    doc: "What is added to the exit-angle ratio λ; it stays within 0 and 1.",
+    doc: "Terms added to the wheel sinkage ratio λ, which stays within 0 and 1.",
     fields: &[
         number(
             "with_slip",
@@ -607,7 +607,7 @@ static HEAP: Table<Heap> = Table {
 };
 
 static RFT: Table<Rft> = Table {
-    doc: "What resistive force theory asks of a soil beside its density and friction angle.",
+    doc: "Parameters of resistive force theory beside density and friction angle.",
     fields: &[
         number(
             "scale",

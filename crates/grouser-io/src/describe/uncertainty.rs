@@ -1,4 +1,4 @@
-//! How well numbers are known: one language for soils and campaigns.
+//! Uncertainty of numbers: the same keys for soils and campaigns.
 
 use super::super::field::{
     Each, Field, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list, number,
@@ -6,7 +6,7 @@ use super::super::field::{
 };
 use crate::statistics::Marginal;
 
-/// What a document says is uncertain.
+/// The uncertain numbers of a document.
 #[derive(Clone, Debug, Default)]
 pub struct Stated {
     pub samples: Option<Samples>,
@@ -14,7 +14,7 @@ pub struct Stated {
     pub correlations: Vec<Pair>,
 }
 
-/// Where rows of samples are.
+/// The place of rows of samples.
 #[derive(Clone, Debug)]
 pub enum Samples {
     /// In a CSV file, from the folder of the document.
@@ -23,7 +23,7 @@ pub enum Samples {
     Inline(String),
 }
 
-/// A number that is not known exactly.
+/// An uncertain number.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// Its key, with the tables it stands in.

@@ -11,7 +11,7 @@ use super::super::columns::{
 use super::super::unit::{M, M_S, MM, MM_S, N, NM, ONE, Unit};
 use crate::measurements::wheel_tests::Quantity;
 
-/// What a column tells.
+/// The meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     /// Grouser's slip ratio, by the speed along the wheel.
@@ -38,7 +38,7 @@ pub enum Meaning {
     Scatter(Quantity),
     /// Which wheel.
     Wheel,
-    /// Which repeat: not used, for rows are told apart already.
+    /// The number of the repeat: not used.
     Trial,
     /// Which rows repeat each other.
     Cell,
@@ -53,7 +53,7 @@ pub enum Meaning {
 pub struct Column {
     /// Its name in the header.
     pub name: &'static str,
-    /// What it tells.
+    /// Its meaning.
     pub meaning: Meaning,
     /// Its unit.
     pub unit: Unit,

@@ -1,4 +1,4 @@
-//! Which rows are wanted: `slip_angle_deg=0,15`, `wheel!=grouser`.
+//! Conditions that select rows: `slip_angle_deg=0,15`, `wheel!=grouser`.
 
 use std::fmt;
 

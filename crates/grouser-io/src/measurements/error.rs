@@ -1,4 +1,4 @@
-//! What can be wrong with a measurement file.
+//! Errors of measurement files.
 
 use std::fmt;
 use std::io;
@@ -71,8 +71,8 @@ pub enum MeasurementProblem {
     /// Two columns of one name.
     #[error("the column `{0}` is there twice")]
     RepeatedColumn(String),
-    /// Two columns that tell the same.
-    #[error("the columns `{0}` and `{1}` tell the same")]
+    /// Two columns with the same meaning.
+    #[error("the columns `{0}` and `{1}` have the same meaning")]
     CompetingColumns(String, String),
     /// A column that must be there.
     #[error("{what} is missing: no column {expected}")]
@@ -141,7 +141,7 @@ pub enum MeasurementProblem {
         /// Its value.
         other_value: f64,
     },
-    /// Rows of several wheels, and no telling which is meant.
+    /// Rows of several wheels, without a choice.
     #[error("has rows of several wheels: {}", labels.join(", "))]
     SeveralWheels {
         /// Their names in the file.

@@ -1,4 +1,4 @@
-//! From other people's CSV to our columns: names, units, signs and definitions of slip.
+//! Converts CSV files of other laboratories: names, units, signs and definitions of slip.
 
 use std::io::Read;
 
@@ -144,7 +144,7 @@ fn dimension(column: &Column) -> Dimension {
 impl Mapping {
     /// Reads `ours=theirs`, `ours=theirs:unit` or, with the other sign, `ours=-theirs:unit`.
     ///
-    /// Without a unit their column is in the unit that our column's name tells.
+    /// Without a unit their column is in the unit of our column's name.
     ///
     /// # Errors
     /// A sentence: not written so, no such column of ours, a unit of something else.
@@ -157,8 +157,8 @@ impl Mapping {
             let names = COLUMNS.iter().map(|column| column.name);
             let all: Vec<&str> = names.clone().collect();
             nearest(ours, names).map_or_else(
-                || format!("`{ours}` is no column of ours; they are {}", all.join(", ")),
-                |name| format!("`{ours}` is no column of ours, did you mean `{name}`?"),
+                || format!("`{ours}` is not a column of measurements; they are {}", all.join(", ")),
+                |name| format!("`{ours}` is not a column of measurements, did you mean `{name}`?"),
             )
         })?;
         let (sign, theirs) = match theirs.trim().strip_prefix('-') {
@@ -188,7 +188,7 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
         if fitting.is_empty() {
             format!("`{}` is taken as it is and has no unit", column.name)
         } else {
-            format!("'{unit}' is no unit for `{}`; known: {}", column.name, fitting.join(", "))
+            format!("'{unit}' is not a unit for `{}`; known: {}", column.name, fitting.join(", "))
         }
     })
 }

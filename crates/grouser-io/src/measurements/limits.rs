@@ -1,4 +1,4 @@
-//! How much of a table is read, so that a file by mistake, or a pipe without end, fills no memory.
+//! Limits on the size of tables, so that neither a wrong file nor an endless pipe fills the memory.
 
 /// How many rows of a file are read, and from that how many bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! What is worth knowing about a measurement file that can be read.
+//! Notes on a measurement file that can be read: rows left out, values in unlikely units.
 
 use super::super::escape;
 use super::error::QUOTED;

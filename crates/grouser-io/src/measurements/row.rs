@@ -20,7 +20,7 @@ use grouser_core::units::Vec2;
 /// and the drift of a speed within a trial make a few thousandths, another definition makes more.
 const SLIP_TOLERANCE: f64 = 0.05;
 
-/// Two columns may tell the load if they differ by no more than this share [-]. Source: ours; a
+/// Two columns may have the load if they differ by no more than this share [-]. Source: ours; a
 /// settled wheel's normal force is its load to a millionth, a stand's differs by several percent.
 const LOAD_TOLERANCE: f64 = 0.01;
 
@@ -259,7 +259,7 @@ impl Cells<'_> {
         })
     }
 
-    /// That all columns of the load tell the same.
+    /// Checks that all columns of the load agree.
     fn check_loads(&self) -> Result<(), MeasurementError> {
         let mut loads = Vec::new();
         for (column, text) in self.texts(Meaning::Load) {
@@ -418,7 +418,7 @@ fn hint_of_unit(column: &Column) -> Option<String> {
         }
         Meaning::Load => Some("a load presses down and counts as positive, in newtons".to_owned()),
         Meaning::Reading(_) | Meaning::TravelSpeed | Meaning::RimSpeed => {
-            Some("is it in the unit that the column's name tells?".to_owned())
+            Some("is it in the unit of the column's name?".to_owned())
         }
         _ => None,
     }

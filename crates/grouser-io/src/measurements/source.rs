@@ -1,4 +1,4 @@
-//! Where measured rows are: in a data set that comes with the program, or in a file.
+//! The source of measured rows: a data set that comes with the program, or a file.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use super::super::{Kind, escape};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::{Choice, Limits, Measurements, read_bytes, read_from};
 
-/// Where the rows of measured wheel tests are.
+/// The source of the rows of measured wheel tests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// A data set that comes with the program.

@@ -1,7 +1,7 @@
-//! Measured single-wheel tests: what was set, what was read, which trials repeat each other.
+//! Measured single-wheel tests: settings, readings, and the trials that repeat each other.
 //!
-//! Everything is in SI units and in Grouser's signs: other slip definitions, units and signs end
-//! in `document`.
+//! Everything is in SI units and in Grouser's signs: `document` converts other units, signs and slip
+//! definitions.
 
 use std::ops::{Index, IndexMut};
 
@@ -9,7 +9,7 @@ use grouser_core::contact::{Contact, SettleError, Settled, Slip, Theory, settle}
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
 
-/// What a test stand reads of a wheel.
+/// A quantity that a test stand reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Force along the wheel, *F_x* [N].
@@ -38,7 +38,7 @@ impl Quantity {
     }
 }
 
-/// Something for each [`Quantity`].
+/// A value for each [`Quantity`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PerQuantity<T> {
     /// Of the force along the wheel.
@@ -52,7 +52,7 @@ pub struct PerQuantity<T> {
 }
 
 impl<T> PerQuantity<T> {
-    /// What a function makes of each quantity.
+    /// The results of a function for each quantity.
     #[must_use]
     pub fn from_fn(make: impl Fn(Quantity) -> T) -> Self {
         Self {
@@ -100,16 +100,16 @@ pub struct Reading {
 /// One run of a wheel through the soil, averaged over its steady part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
-    /// How the rim moved against the soil.
+    /// Slip of the rim.
     pub slip: Slip,
     /// Load on the wheel, *W* [N].
     pub load: f64,
-    /// What was read; `None` where it was not.
+    /// The readings; `None` for quantities that were not measured.
     pub readings: PerQuantity<Option<Reading>>,
 }
 
 impl Trial {
-    /// What a theory makes of the trial, at its own load and motion.
+    /// Predicts the trial with a model, at its own load and motion.
     ///
     /// * `gravity`: *g* [m/s²]
     ///
@@ -159,7 +159,7 @@ impl Cell {
 pub struct WheelTests {
     /// The trials, in the order of their file.
     pub trials: Vec<Trial>,
-    /// Which of them repeat each other.
+    /// The trials that repeat each other.
     pub cells: Vec<Cell>,
 }
 

@@ -1,4 +1,4 @@
-//! Distributions of values that are not known exactly, whatever the values stand for.
+//! Probability distributions of uncertain values.
 
 use std::ops::RangeInclusive;
 
@@ -73,7 +73,7 @@ impl Marginal {
         }
     }
 
-    /// The share of draws below a value, *F(x)* [-], where draws differ.
+    /// The share of samples below a value, *F(x)* [-], where samples differ.
     fn share_below(&self, value: f64) -> f64 {
         let x = value;
         match *self {
@@ -101,7 +101,7 @@ impl Marginal {
         }
     }
 
-    /// The share of draws within a range [-].
+    /// The share of samples within a range [-].
     #[must_use]
     pub fn share_within(&self, range: &RangeInclusive<f64>) -> f64 {
         if self.is_certain() {
@@ -120,8 +120,7 @@ impl Marginal {
     }
 }
 
-/// A distribution cut off at the ends of a range: what is outside is spread over the inside in
-/// proportion.
+/// A distribution truncated at the ends of a range, and renormalised inside.
 ///
 /// ```text
 /// x = F⁻¹{F(low) + Φ(z) [F(high) − F(low)]}
@@ -133,7 +132,7 @@ struct Cut {
     marginal: Marginal,
     /// The ends of the range.
     range: (f64, f64),
-    /// The shares of draws below the range and above it [-].
+    /// The shares of samples below the range and above it [-].
     outside: (f64, f64),
 }
 
@@ -179,7 +178,7 @@ pub struct Correlation {
     pub value: f64,
 }
 
-/// Correlations that no values can have together: their matrix is not positive definite.
+/// Contradictory correlations: their matrix is not positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no values can have these correlations together: their matrix is not positive definite")]
 pub struct Contradiction;
@@ -202,25 +201,25 @@ enum Part {
     Samples(Vec<Vec<f64>>),
 }
 
-/// Draws of which none was accepted.
+/// No sample was accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{tries} tries of draw {index} gave nothing that can be used")]
+#[error("{tries} tries of sample {index} gave nothing that can be used")]
 pub struct NothingAccepted {
-    /// The draw's number.
+    /// The sample's number.
     pub index: u64,
-    /// How often it was tried.
+    /// The number of tries.
     pub tries: u32,
 }
 
-/// Tries for one draw. A distribution of which less than one in a hundred draws can be used is far
-/// from the one that was written down; then 1000 tries succeed in all but 4e-5 of the draws.
+/// Tries for one sample. A distribution of which less than one in a hundred samples can be used is far
+/// from the one that was written down; then 1000 tries succeed in all but 4e-5 of the samples.
 const MOST_TRIES: u32 = 1000;
 
 impl Distribution {
     /// Values with given marginals and correlations; pairs that are not named are uncorrelated.
     ///
     /// # Errors
-    /// [`Contradiction`] if no values can have these correlations.
+    /// [`Contradiction`] if the correlations contradict each other.
     ///
     /// # Panics
     /// If a correlation is between places that no value has.
@@ -246,7 +245,7 @@ impl Distribution {
     /// The same, each value's distribution cut off at the ends of its range. (Correlations are of
     /// the scores, and stay what they are; samples are not cut.)
     ///
-    /// * `ranges`: one for each value; each with some share of its value's draws inside
+    /// * `ranges`: one for each value; each with some share of its value's samples inside
     #[must_use]
     pub fn within(mut self, mut ranges: &[RangeInclusive<f64>]) -> Self {
         for part in &mut self.parts {
@@ -268,8 +267,8 @@ impl Distribution {
         self
     }
 
-    /// Rows of samples, such as those of a posterior; each draw is one of them, whichever were
-    /// drawn before.
+    /// Rows of samples, such as those of a posterior; each sample of the distribution is one of them, independent of
+    /// the others.
     ///
     /// # Panics
     /// If there are none.
@@ -279,8 +278,8 @@ impl Distribution {
         Self { parts: vec![Part::Samples(rows)] }
     }
 
-    /// Draw number `index`: what `accept` makes of the first values that it takes. What it refuses
-    /// is drawn again, so that the distribution is truncated to what it takes.
+    /// Sample number `index`: the result of `accept` for the first values that it accepts. Refused values
+    /// are sampled again, so that the distribution is truncated to the accepted values.
     ///
     /// # Errors
     /// [`NothingAccepted`] if it refuses a thousand in a row.
@@ -295,13 +294,13 @@ impl Distribution {
         drawn.ok_or(NothingAccepted { index, tries: MOST_TRIES })
     }
 
-    /// How many uniform numbers a draw is made of: one for each marginal, and one for rows of samples.
+    /// The number of uniform numbers of a sample: one for each marginal, and one for rows of samples.
     #[must_use]
     pub fn dimensions(&self) -> usize {
         self.parts.iter().map(Part::dimensions).sum()
     }
 
-    /// The values at a point of the unit cube: uniform points make draws of the distribution.
+    /// The values at a point of the unit cube: uniform points give samples of the distribution.
     ///
     /// * `point`: a number above 0 and below 1 for each of the [`dimensions`](Self::dimensions)
     #[must_use]

@@ -1,15 +1,14 @@
 """Predicts how a wheeled rover moves on loose soil.
 
-Descriptions say what there is (`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`); `settle` and
-`wheel_forces` ask what the soil does to wheels, on whole arrays; studies ask what a rover does
-(`simulate`, `rollout`, `attitude`, `attitude_map`) and what a test stand shows
-(`wheel_test`, `validate`, `calibrate`). A `Simulator` leads a rover step by step; ``grouser.gym``,
-imported by itself, has environments for Gymnasium.
-A `Campaign` puts what is not known exactly through a study, on one machine or on many
-(`grouser.campaign`).
+`Soil`, `Wheel`, `Rover`, `Site` and `Scenario` describe the inputs. `settle` and `wheel_forces`
+compute the forces of the soil on wheels, for whole arrays. `simulate`, `rollout`, `heading` and
+`heading_map` compute the motion of a rover, `wheel_test` simulates a wheel on a test stand, and
+`validate` and `calibrate` compare models with measurements. `Run` and ``grouser.gym``, which is
+imported by itself, are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte
+Carlo campaigns, on one machine or on many.
 
-Units stand in names: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are those of the
-project's dictionary, ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
+Names end with units: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are defined in
+``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
 points uphill, slip angles and side forces are positive to the left.
 
 Examples
@@ -23,10 +22,10 @@ Examples
 'completed'
 """
 
-from . import campaign
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
+from . import _former_names, campaign
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
-from ._attitude_band import AttitudeBand
-from ._attitudes import AttitudeMap, Attitudes, attitude, attitude_map
 from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
@@ -42,8 +41,10 @@ from ._errors import (
     ParameterError,
     SimulationError,
 )
+from ._heading_band import HeadingBand
+from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
-from ._simulator import Simulator, SimulatorBatch
+from ._runs import Run, RunBatch
 from ._studies import Trajectory, simulate
 from ._validation import Ranking, Validation, validate, validate_all
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
@@ -54,9 +55,6 @@ __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
-    "AttitudeBand",
-    "AttitudeMap",
-    "Attitudes",
     "Calibration",
     "CalibrationError",
     "Campaign",
@@ -68,16 +66,19 @@ __all__ = [
     "DocumentNotFoundError",
     "DocumentUnreadableError",
     "GrouserError",
+    "HeadingBand",
+    "HeadingMap",
+    "Headings",
     "ParameterError",
     "Ranking",
     "Rollout",
     "Rover",
+    "Run",
+    "RunBatch",
     "Scenario",
     "Settled",
     "SimulatedWheelTest",
     "SimulationError",
-    "Simulator",
-    "SimulatorBatch",
     "Site",
     "Soil",
     "Trajectory",
@@ -86,11 +87,11 @@ __all__ = [
     "WheelForces",
     "WheelTest",
     "__version__",
-    "attitude",
-    "attitude_map",
     "calibrate",
     "calibrate_plates",
     "campaign",
+    "heading",
+    "heading_map",
     "rollout",
     "settle",
     "simulate",
@@ -106,3 +107,10 @@ for _name in __all__:
     if hasattr(_thing, "__module__"):
         _thing.__module__ = __name__
 del _name, _thing
+
+# Type checkers see the present names only, and so find misspelt ones.
+if not _TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """A member by its name of version 0.1."""
+        return _former_names.in_package(name, globals())

@@ -1,4 +1,4 @@
-"""Numbers and arrays as they are given: the one place where they enter."""
+"""Numbers and arrays of callers, checked: every argument passes through here."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def line(name: str, values: ArrayLike) -> Floats:
 
 
 def mask(name: str, values: ArrayLike, count: int) -> NDArray[np.bool_]:
-    """A truth value for each of some things."""
+    """A truth value for each of ``count`` items."""
     _refuse_masked(name, values)
     array = np.asarray(values)
     if array.dtype != np.bool_ or array.shape != (count,):
@@ -98,7 +98,7 @@ def broadcast(
 
 
 def _real(name: str, values: ArrayLike) -> Floats:
-    """Real numbers; anything else says what was expected."""
+    """Real numbers; the error for anything else names the expected type."""
     _refuse_masked(name, values)
     try:
         array = np.asarray(values)
@@ -113,13 +113,13 @@ def _real(name: str, values: ArrayLike) -> Floats:
 
 
 def _refuse_masked(name: str, values: Any) -> None:
-    """What is masked has no value; NumPy's own conversion would take what lies under the mask."""
+    """A masked entry has no value; NumPy's own conversion would take the one under the mask."""
     count = _masked(values)
     if count:
         entries = "1 masked entry" if count == 1 else f"{count} masked entries"
         raise ParameterError(
             f"{name} has {entries}, it must be numbers throughout: leave them out with "
-            ".compressed(), or say what they are with .filled(value)",
+            ".compressed(), or set their values with .filled(value)",
             name,
             None,
             "an array without masked entries",
@@ -136,13 +136,13 @@ def _masked(values: Any) -> int:
 
 
 def _data_array(values: Any) -> Any:
-    """A DataArray of xarray, or None. If nobody has imported xarray, nobody has one."""
+    """A DataArray of xarray, or None. Without xarray imported, a value cannot be one."""
     xarray = sys.modules.get("xarray")
     return values if xarray is not None and isinstance(values, xarray.DataArray) else None
 
 
 def _dims(values: Any) -> tuple[str, ...]:
-    """The dimensions of a DataArray; of anything else none."""
+    """The dimensions of a DataArray; empty for anything else."""
     array = _data_array(values)
     return () if array is None else tuple(str(dim) for dim in array.dims)
 
@@ -152,7 +152,7 @@ def _listed(dims: tuple[str, ...]) -> str:
 
 
 def _refuse_other_index(inputs: Mapping[str, Any]) -> None:
-    """Whether all Series of pandas have the index of the first one."""
+    """Checks that all Series of pandas have the index of the first one."""
     series = {name: it for name, it in inputs.items() if hasattr(it, "iloc") and hasattr(it, "index")}
     for name, other in series.items():
         first_name, first = next(iter(series.items()))
@@ -167,7 +167,7 @@ def _refuse_other_index(inputs: Mapping[str, Any]) -> None:
 
 
 def _refuse_other_labels(inputs: Mapping[str, Any]) -> None:
-    """That labels agree: of DataArrays dimensions and coordinates, of Series the index."""
+    """Checks that labels agree: dimensions and coordinates of DataArrays, the index of Series."""
     _refuse_other_index(inputs)
     labelled = {name: it for name, it in inputs.items() if _dims(it)}
     if not labelled:

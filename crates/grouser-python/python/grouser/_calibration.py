@@ -1,4 +1,4 @@
-"""Which soil measurements speak for, and how surely."""
+"""Estimates soil parameters, with confidence intervals, from wheel or plate tests."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from . import _core, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
 from ._errors import ParameterError
-from ._studies import columns_of, soil_of
+from ._studies import soil_of
 from ._validation import Validation, validation_of
 from ._wheels import setting
 
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Keys to fit: names, or names with bounds (None for the usual ones).
+#: Keys to fit: names, or names with bounds (None for the default ones).
 Fit = Union[str, Sequence[str], Mapping[str, Union[tuple[float, float], None]]]
 
-#: Fields of a `Calibration` over keys.
-_PARAMETERS = (
+#: Fields of a `Calibration` over keys that have the name of their column.
+_SAME_NAMES = (
     "start",
     "lower",
     "upper",
@@ -40,16 +40,17 @@ _PARAMETERS = (
     "p97_5",
     "r_hat",
     "effective_samples",
-    "narrowing",
 )
-#: Those of them that are numbers without a unit.
+#: Columns over keys, each with its field.
+_PARAMETERS = {**{name: name for name in _SAME_NAMES}, "narrowing": "posterior_contraction"}
+#: Columns of numbers without a unit.
 _RATIOS = ("r_hat", "effective_samples", "narrowing")
 
 
 @dataclass(frozen=True, eq=False)
 class Calibration(_tables.Tabular):
-    """A soil fitted to measurements: arrays of shape (keys,) in each key's own unit. What was sampled
-    is NaN or None for a ``point_fit``."""
+    """A soil fitted to measurements: arrays of shape (keys,) in each key's own unit. With
+    ``point_fit`` fields of the posterior are NaN or None."""
 
     key: tuple[str, ...]
     """The fitted keys, as ``soil.pressure_sinkage.k_phi``."""
@@ -68,65 +69,69 @@ class Calibration(_tables.Tabular):
     std: Floats
     """Its standard deviation."""
     p2_5: Floats
-    """2.5 % of the samples lie below."""
+    """2.5 % quantile of the posterior."""
     p50: Floats
     """Median of the posterior."""
     p97_5: Floats
-    """2.5 % of the samples lie above."""
+    """97.5 % quantile of the posterior."""
     r_hat: Floats
-    """Agreement of the chains [-]: 1 is perfect."""
+    """Convergence diagnostic R-hat [-]: near 1 if the sampler has converged."""
     effective_samples: Floats
-    """Independent samples that would tell as much [-]."""
-    narrowing: Floats
-    """Standard deviation over the one before any data [-]: near 1 the data say nothing."""
+    """Effective sample size [-]: the number of independent samples with the same information."""
+    posterior_contraction: Floats
+    """Standard deviation of the posterior over that of the prior [-]: near 1 the data do not inform
+    the key. Tables call it ``narrowing``."""
     samples: Floats | None
-    """Samples of the posterior, shape (samples, keys): ensemble by ensemble, step by step, walker by
-    walker. Neighbours are of different walkers, so that whoever takes them for one chain finds them
-    independent, which they are not: `chains` has the order in time."""
+    """Posterior samples, shape (samples, keys): ensemble by ensemble, step by step, walker by
+    walker. Neighbours are of different walkers: taken as one chain they look independent, which
+    they are not. `chains` has the order of the steps."""
     correlations: Floats
     """Correlation of each key with each other [-], shape (keys, keys)."""
     discrepancies: Mapping[str, Any]
-    """How far the theory is from the measurements beyond the scatter of trials: columns ``channel``,
-    ``fit``, ``mean``, ``std`` over what was measured, in its unit."""
+    """Model discrepancy: standard deviation of the errors beyond the scatter of repeated trials.
+    Columns ``channel``, ``fit``, ``mean``, ``std`` over the measured quantities, in their units."""
     outcome: str
-    """``determined``; ``open``, if the data leave something open; ``not_mixed``, if the samples do not
-    suffice; ``not_settled``, if least squares did not come to its end."""
+    """``determined``; ``open`` if the problem is underdetermined: some keys are unidentifiable from
+    these data; ``not_mixed`` if the sampler has not converged; ``not_settled`` if least squares has
+    not converged."""
     message: str | None
-    """What that means here; None for ``determined``."""
-    cannot_tell_apart: tuple[str, ...]
-    """What the data leave open, a sentence for each."""
+    """The outcome explained; None for ``determined``."""
+    unidentifiable: tuple[str, ...]
+    """Keys and combinations of keys that the data do not determine, a sentence for each."""
     notes: tuple[str, ...]
-    """What was noticed in the file and of the search."""
+    """Remarks on the file and the search."""
     searches: int
-    """Searches of least squares, from different starts."""
+    """Number of least-squares searches, from different starts."""
     searches_that_agree: int
-    """Those that came as low as the best."""
+    """Number of searches that reached the same minimum as the best."""
     sampler: Mapping[str, Any] | None
-    """How the posterior was sampled: ``seed``, ``ensembles``, ``walkers``, ``steps``, ``acceptance``,
-    ``worst_r_hat``, ``least_effective_samples``."""
+    """Settings and diagnostics of the sampler: ``seed``, ``ensembles``, ``walkers``, ``steps``,
+    ``acceptance``, ``worst_r_hat``, ``least_effective_samples``."""
     soil: Soil
-    """The soil of the fit, with its samples as uncertainty: for `attitude` with ``uncertainty=True``."""
+    """The fitted soil, with the posterior samples as uncertainty: for `heading` with
+    ``uncertainty=True``."""
     validation: Validation | None = None
-    """The errors with the fit; None for plate tests."""
+    """Errors of the fitted model; None for plate tests."""
     cross_validation: tuple[Mapping[str, Any], ...] = ()
-    """With ``cross_validate=True`` the errors at each slip angle of the fit without it, groups as a
-    `Validation` has them."""
+    """With ``cross_validate=True``, errors at each slip angle of a fit without that angle, as
+    groups of a `Validation`."""
     target: str | None = None
-    """What the next runs are to make sure of."""
+    """The prediction whose uncertainty the proposed tests should reduce."""
     proposals: Mapping[str, Any] | None = None
-    """The runs to make next, the best first: columns ``load_n``, ``slip_ratio``, ``slip_angle_deg``,
-    and the standard deviations of the target ``std_before`` and ``std_after``."""
+    """The tests to run next, the best first: columns ``load_n``, ``slip_ratio``,
+    ``slip_angle_deg``, and the standard deviations of the target ``std_before`` and
+    ``std_after``."""
     curves: Mapping[str, Floats] | None = None
     """Of plate tests, columns over points: ``plate_width_mm``, ``sinkage_mm``,
     ``measured_pressure_kpa``, ``pressure_kpa``."""
 
     @property
     def chains(self) -> Floats | None:
-        """The same samples as the walkers went, shape (chains, steps, keys): a chain is one walker,
-        and ``sampler["walkers"]`` neighbouring chains are one ensemble. None for a ``point_fit``.
+        """The posterior samples by walker, shape (chains, steps, keys): a chain is one walker, and
+        ``sampler["walkers"]`` neighbouring chains are one ensemble. None for a ``point_fit``.
 
-        Their effective samples agree with `effective_samples`. Walkers of one ensemble lead each
-        other, ensembles do not: `r_hat` compares ensembles, whose samples are
+        Their effective samples agree with `effective_samples`. Walkers of one ensemble depend on
+        each other, ensembles do not: `r_hat` compares ensembles, whose samples are
         ``samples.reshape(sampler["ensembles"], -1, len(key))``. ``docs/guide/python.md`` does both
         with ArviZ.
         """
@@ -140,7 +145,7 @@ class Calibration(_tables.Tabular):
 
     @property
     def best(self) -> dict[str, float]:
-        """Least squares by key."""
+        """Least-squares values by key."""
         return dict(zip(self.key, self.fit.tolist()))
 
     def _table(self) -> dict[str, Any]:
@@ -158,9 +163,9 @@ class Calibration(_tables.Tabular):
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``key`` (with the ``unit`` that its name ends with; empty for a ratio, and for a
-        modulus whose unit goes with the sinkage exponent), with ``samples`` over ``sample`` and ``key``, and
-        ``chains`` over ``chain`` (with its ``ensemble``), ``draw`` and ``key``."""
+        """A dataset over ``key`` (with the ``unit`` that its name ends with; empty for a ratio, and
+        for a modulus whose unit goes with the sinkage exponent), with ``samples`` over ``sample``
+        and ``key``, and ``chains`` over ``chain`` (with its ``ensemble``), ``draw`` and ``key``."""
         data = _tables.dataset(("key",), self._parameters(), {"key": list(self.key)})
         for name in data.data_vars:
             if name not in _RATIOS:
@@ -178,10 +183,10 @@ class Calibration(_tables.Tabular):
         return data.assign_attrs(self._notes())
 
     def _parameters(self) -> dict[str, Any]:
-        return columns_of(self, _PARAMETERS)
+        return {name: getattr(self, field) for name, field in _PARAMETERS.items()}
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Draws a quantity predicted with the fit over its measurements, a dot for each cell; of plate
+        """Plots predictions of the fitted model over measurements, a dot for each cell; for plate
         tests pressure over sinkage, a line for each plate."""
         if self.validation is not None:
             return self.validation.plot(axes, name=name, **style)
@@ -202,12 +207,12 @@ class Calibration(_tables.Tabular):
         return axes
 
     def plot_corner(self, axes: NDArray[np.object_] | None = None) -> NDArray[np.object_]:
-        """Draws each key's samples alone (how often) and with each other key's.
+        """Plots the posterior: a histogram of each key, and a scatter plot of each pair of keys.
 
         Parameters
         ----------
         axes : array of matplotlib axes, shape (keys, keys), optional
-            Where; those of a new figure without.
+            Axes to plot on; by default those of a new figure.
 
         Returns
         -------
@@ -216,10 +221,10 @@ class Calibration(_tables.Tabular):
         Raises
         ------
         ParameterError
-            If there are no samples, or not as many axes.
+            If there are no posterior samples, or the shape of the axes is wrong.
         """
         if self.samples is None:
-            raise ParameterError("a point fit has no samples to draw")
+            raise ParameterError("a point fit has no posterior samples to plot")
         count = len(self.key)
         if axes is None:
             import matplotlib.pyplot as plt
@@ -273,34 +278,35 @@ def calibrate(
     candidate_slip_angle_deg: ArrayLike = (0.0, 15.0, 30.0, 45.0),
 ) -> Calibration:
     """Fits numbers of a soil to a file of measured wheel tests: bounded least squares from several
-    starts, then an affine-invariant ensemble sampler. The same bits as the program's calibration.
+    starts, then an affine-invariant ensemble sampler. Results equal the program's, bit for bit.
 
     Parameters
     ----------
     data, where, wheel_label
         As for `validate`.
     soil : Soil, name, path or mapping
-        The soil to start from, for all values that are not fitted.
+        The soil: initial values of the fit, and all values that are not fitted.
     wheel, gravity_m_s2, model
         As for `settle`.
     fit : str, sequence of str, or mapping of str to (float, float) or None
-        Keys of the soil, such as ``"pressure_sinkage.k_phi"``; a mapping gives bounds, None the usual.
+        Keys of the soil, such as ``"pressure_sinkage.k_phi"``; a mapping gives bounds,
+        or None for the default ones.
     point_fit : bool
-        Least squares alone, no posterior.
+        Whether to stop after least squares, without the posterior.
     steps : int
         Steps of each walker of the posterior, 100 to 999999, rounded up to whole blocks of 25.
     seed : int
-        Of all random numbers.
+        Seed of all random numbers.
     cross_validate : bool
-        Whether also to fit without each slip angle in turn, and judge there.
+        Whether to repeat the fit without each slip angle in turn, and validate it at that angle.
     target : str
-        The prediction that the next runs should make sure of, such as
+        The prediction whose uncertainty the proposed tests should reduce, such as
         ``"side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15"``.
     propose : int
-        How many runs to propose.
+        How many tests to propose.
     candidate_load_n, candidate_slip_ratio, candidate_slip_angle_deg : array_like
-        What the stand can run: loads [N] (without them half, once and twice the tests' own), slip
-        ratios [-], slip angles [°].
+        Settings that the test stand can run: loads [N] (by default half, once and twice those of
+        the tests), slip ratios [-], slip angles [°].
 
     Returns
     -------
@@ -309,7 +315,7 @@ def calibrate(
     Raises
     ------
     ParameterError
-        For keys that are no numbers of the soil, or that these measurements cannot determine.
+        For keys that are not numbers of the soil, or that these measurements cannot determine.
     DocumentError, DocumentNotFoundError
         As `validate`.
     CalibrationError
@@ -376,8 +382,8 @@ def calibrate_plates(
     steps: int = 400,
     seed: int = 1,
 ) -> Calibration:
-    """Fits the moduli of a pressure-sinkage law to curves of a plate test. The same bits as the
-    program's calibration from plate tests.
+    """Fits the moduli of a pressure-sinkage law to curves of a plate test. Results equal the
+    program's, bit for bit.
 
     Parameters
     ----------
@@ -386,7 +392,7 @@ def calibrate_plates(
     soil : Soil, name, path or mapping
         The soil, for all other values.
     plate_law : {"bekker", "reece"}, optional
-        The law; the soil's own without.
+        The law; by default the soil's own.
     gravity_m_s2 : float
         Gravity [m/s²].
     point_fit, steps, seed
@@ -418,18 +424,18 @@ def calibrate_plates(
 def _common(found: dict[str, Any]) -> dict[str, Any]:
     """The fields that every calibration has."""
     parameters = found["parameters"]
-    sentences = [*found["notes"], *found["cannot_tell_apart"]]
+    reasons = [*found["notes"], *found["cannot_tell_apart"]]
     is_determined = found["outcome"] == "determined"
     names = ("samples", "correlations", "discrepancies", "searches", "searches_that_agree")
     soil = Soil.__new__(Soil)
     soil._take(found["soil"])
     return {
         "key": tuple(parameters["key"]),
-        **{name: parameters[name] for name in _PARAMETERS},
+        **{field: parameters[name] for name, field in _PARAMETERS.items()},
         **{name: found[name] for name in names},
         "outcome": found["outcome"],
-        "message": None if is_determined else "; ".join(sentences),
-        "cannot_tell_apart": tuple(found["cannot_tell_apart"]),
+        "message": None if is_determined else "; ".join(reasons),
+        "unidentifiable": tuple(found["cannot_tell_apart"]),
         "notes": tuple(found["notes"]),
         "sampler": found["sampler"],
         "soil": soil,
@@ -437,7 +443,7 @@ def _common(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def _keys(fit: Any) -> list[tuple[str, tuple[float, float] | None]]:
-    """Keys with their bounds; ``soil.`` may stand before them."""
+    """Keys with their bounds; a key may start with ``soil.``."""
     if isinstance(fit, str):
         fit = [fit]
     if isinstance(fit, Mapping):

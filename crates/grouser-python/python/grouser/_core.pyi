@@ -22,9 +22,6 @@ __all__ = [
     "SteppingWheels",
     "__version__",
     "arrow_stream",
-    "attitude",
-    "attitude_band",
-    "attitude_map",
     "calibrate_plate_tests",
     "calibrate_wheel_tests",
     "campaign_facts",
@@ -36,6 +33,9 @@ __all__ = [
     "check_shard",
     "find_campaign",
     "find_document",
+    "heading",
+    "heading_band",
+    "heading_map",
     "merge_campaign",
     "most_shard_bytes",
     "not_carried",
@@ -123,7 +123,7 @@ class SteppingWheels:
     @property
     def shearing_radius_m(self) -> _Floats: ...
     def reaction(
-        self, duration_s: float, sinkage: _Floats, free: _Floats, mobility: _Floats
+        self, duration_s: float, sinkage: _Floats, free: _Floats, inverse_mass: _Floats
     ) -> tuple[_Floats, float]: ...
 
 @final
@@ -145,7 +145,7 @@ class Simulators:
     ) -> None: ...
     def samples(self) -> _Floats: ...
     def wheel_samples(self) -> _Floats: ...
-    def words(self) -> list[tuple[str | None, str | None, str]]: ...
+    def statuses(self) -> list[tuple[str | None, str | None, str]]: ...
 
 def simulator_columns() -> tuple[list[str], list[str]]: ...
 def unit_of(name: str) -> str | None: ...
@@ -194,10 +194,10 @@ def rollout(
     count: int,
     keep: bool,
 ) -> dict[str, Any]: ...
-def attitude(
+def heading(
     scenario: Document, slope_deg: _Floats
 ) -> tuple[dict[str, Any], float | None, str]: ...
-def attitude_band(
+def heading_band(
     scenario: Document, slope_deg: _Floats, seed: int, samples: int
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...
 def simulated_wheel_test(
@@ -211,8 +211,8 @@ def simulated_wheel_test(
     noise: Sequence[float],
     seed: int,
 ) -> dict[str, Any]: ...
-def attitude_map(
-    scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, speed_m_s: float
+def heading_map(
+    scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, rim_speed_m_s: float
 ) -> dict[str, Any]: ...
 def validate(
     data: str | os.PathLike[str],

@@ -1,4 +1,4 @@
-"""Descriptions of soils, wheels, rovers, sites and runs: frozen values, made from documents."""
+"""Descriptions of soils, wheels, rovers, sites and runs: immutable values, read from documents."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar, Union
 
-from . import _core
+from . import _core, _former_names
 from ._errors import ParameterError
 
 _Self = TypeVar("_Self", bound="_Description")
-#: What a description is made from: a preset's name, a path, or its keys.
+#: The sources of a description: a preset's name, a path, or its keys.
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 
 
 class _Description:
-    """A value with named keys. Frozen; equal to another with the same keys and values."""
+    """An immutable value with named keys; equal to another with the same keys and values."""
 
     __slots__ = ("_document", "_files", "_items", "_toml")
     _kind: ClassVar[str]
@@ -65,12 +65,12 @@ class _Description:
         text : str
             The document.
         files : mapping of str to str, optional
-            What is in the files that it names, as `files` has it.
+            The content of the files that it names, in the form of `files`.
 
         Raises
         ------
         DocumentError
-            With line and column, if the text is none.
+            With line and column, if the text is not a valid document.
         DocumentNotFoundError
             If a file that it names is neither among ``files`` nor in the current folder.
         """
@@ -80,7 +80,7 @@ class _Description:
 
     @classmethod
     def _of(cls: type[_Self], items: Mapping[str, Any], files: Mapping[str, str]) -> _Self:
-        """A part of another description, with the files of that."""
+        """A part of another description, with its files."""
         label = f"{cls.__name__}(…)"
         made = cls.__new__(cls)
         made._take(_core.read_document_table(cls._kind, label, dict(items), {}, dict(files)))
@@ -95,44 +95,46 @@ class _Description:
         """The same with other values.
 
         A mapping changes single keys of a table: ``soil.replace(pressure_sinkage={"n": 1.1})``. A
-        changed value is noted among the ``assumptions``, because the source no longer speaks for it.
+        changed value is noted among the ``assumptions``, because the source no longer applies to
+        it.
 
         Raises
         ------
         ParameterError
-            If there is no such key, or its value is not allowed.
+            If a key does not exist, or its value is not allowed.
         """
         return type(self)(self, **changes)
 
     def to_toml(self) -> str:
-        """The resolved document: read again, with its `files` beside it, it gives an equal
+        """The complete document as TOML. Read again, with its `files`, it gives an equal
         description."""
         return self._toml
 
     @property
     def files(self) -> dict[str, str]:
-        """Files that the document names, by name, with what is in them; a copy. A soil whose
-        uncertainty is samples has one."""
+        """Names and contents of the files that the document names; a copy. A soil whose uncertainty
+        is given by samples has one."""
         return dict(self._files)
 
     def to_dict(self) -> dict[str, Any]:
-        """Its keys and values, as the document has them; a copy."""
+        """Keys and values of the document; a copy."""
         return self._document.to_dict()
 
     @property
     def assumptions(self) -> tuple[str, ...]:
-        """What was assumed, each with the name of the document that says so."""
+        """The assumed values, each with the name of its document."""
         return tuple(self._document.assumptions)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        try:
-            return _frozen(self._items[name])
-        except KeyError:
-            raise AttributeError(
-                f"{type(self).__name__} has no key {name!r}; it has {', '.join(self._items)}"
-            ) from None
+        if name not in self._items:
+            now = _former_names.key_of(self._items, name)
+            if now is None:
+                known = ", ".join(self._items)
+                raise AttributeError(f"{type(self).__name__} has no key {name!r}; it has {known}")
+            name = now
+        return _frozen(self._items[name])
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._items})
@@ -174,10 +176,20 @@ class _Description:
         return f"<b>{type(self).__name__}</b> {title}{_html_table(self._items)}"
 
 
+class _Keys(dict[str, Any]):
+    """Keys of a table; a subscript finds those of version 0.1 as well."""
+
+    def __missing__(self, name: object) -> Any:
+        now = _former_names.key_of(self, name)
+        if now is None:
+            raise KeyError(name)
+        return self[now]
+
+
 def _frozen(value: Any) -> Any:
-    """What cannot be changed by who asked for it."""
+    """A read-only view of a value."""
     if isinstance(value, dict):
-        return MappingProxyType({key: _frozen(item) for key, item in value.items()})
+        return MappingProxyType(_Keys({key: _frozen(item) for key, item in value.items()}))
     if isinstance(value, list):
         return tuple(_frozen(item) for item in value)
     return value
@@ -210,10 +222,10 @@ def _html_table(items: Mapping[str, Any]) -> str:
 
 
 class Soil(_Description):
-    """A soil, and how it bears and shears.
+    """A soil: its strength, and how stresses grow with sinkage and shear displacement.
 
     ``Soil("toyoura")`` is a preset, ``Soil("my-soil.toml")`` or ``Soil(pathlib.Path(…))`` a file,
-    ``Soil({…})`` or ``Soil(cohesion_kpa=0.0, …)`` its keys, and keywords beside a source change
+    ``Soil({…})`` and ``Soil(cohesion_kpa=0.0, …)`` give its keys. Keywords beside a source change
     single keys: ``Soil("toyoura", cohesion_kpa=0.5)``.
 
     Keys, each also an attribute (``schema/soil.json`` has all, with their ranges): ``cohesion_kpa``
@@ -223,11 +235,11 @@ class Soil(_Description):
     Raises
     ------
     ParameterError
-        For a keyword that does not exist or is out of its range.
+        For an unknown keyword, or a value out of its range.
     DocumentError
-        For a file that cannot be used, with line and column.
+        For an invalid file, with line and column.
     DocumentNotFoundError
-        A ``FileNotFoundError``: neither a preset nor a file.
+        If there is neither a preset nor a file of this name; also a ``FileNotFoundError``.
     """
 
     __slots__ = ()
@@ -236,7 +248,8 @@ class Soil(_Description):
 
 class Wheel(_Description):
     """A rigid wheel with a flat rim: ``radius_m`` [m], ``width_m`` [m], and ``grousers`` with
-    ``height_m`` [m] and ``count``, left out for a smooth wheel. Made and failing as `Soil` is."""
+    ``height_m`` [m] and ``count``, left out for a smooth wheel. Sources and errors are those of
+    `Soil`."""
 
     __slots__ = ()
     _kind = "wheel"
@@ -246,7 +259,7 @@ class Rover(_Description):
     """A rover: ``body``, ``wheel_unit`` with its ``wheel``, and a ``mount`` for each wheel with its
     ``position_m`` [m] from the body's centre of mass, in the body frame (x forward, y left, z up).
     A mount may have a ``wheel``, ``mass_kg`` and ``inertia_kg_m2`` of its own, and ``steering_deg``
-    [°], positive to the left. Made and failing as `Soil` is."""
+    [°], positive to the left. Sources and errors are those of `Soil`."""
 
     __slots__ = ()
     _kind = "rover"
@@ -259,11 +272,12 @@ class Rover(_Description):
 
 class Scenario(_Description):
     """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
-    ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``, ``loads``,
-    ``moments``, ``simulation``, ``drive``, ``start``. Every key has a default: together they are the
-    source paper's traverse of a slope of 10°. A ``site=Site(…)`` stands for its three keys.
+    ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``,
+    ``load_transfer``, ``wheel_moments``, ``simulation``, ``drive``, ``start``. Every key has a
+    default: together they are the source paper's traverse of a slope of 10°. A ``site=Site(…)``
+    gives ``soil``, ``slope_deg`` and ``gravity_m_s2`` together.
 
-    Made and failing as `Soil` is.
+    Sources and errors are those of `Soil`.
     """
 
     __slots__ = ()
@@ -305,11 +319,11 @@ class Site(_Description):
     Parameters
     ----------
     soil : Soil, str, path or mapping
-        The soil, or what one is made from.
+        The soil, or a source of one.
     slope_deg : float
         Inclination of the plane [°], 0 to 60; it rises along +y.
     gravity_m_s2 : float
-        Gravity [m/s²], 0.01 to 30; ``MOON_GRAVITY`` and ``MARS_GRAVITY`` are others'.
+        Gravity [m/s²], 0.01 to 30; see ``MOON_GRAVITY`` and ``MARS_GRAVITY``.
 
     Raises
     ------
@@ -318,7 +332,7 @@ class Site(_Description):
     """
 
     __slots__ = ()
-    # There are no documents of sites: a scenario's checks are those of its place.
+    # A site has no document of its own: it is checked as a part of a scenario.
     _kind = "scenario"
     _KEYS: ClassVar[tuple[str, ...]] = ("soil", "slope_deg", "gravity_m_s2")
 
@@ -351,7 +365,7 @@ class Site(_Description):
 
     @classmethod
     def from_toml(cls, text: str, files: Mapping[str, str] | None = None) -> Site:
-        """The site of a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or of a
+        """A site from a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or from a
         scenario's."""
         if "schema" not in text.split("[", 1)[0]:
             text = 'schema = "scenario/1"\n' + text
@@ -359,7 +373,7 @@ class Site(_Description):
 
     @classmethod
     def presets(cls) -> dict[str, str]:
-        """None: a site is a soil's preset on a slope."""
+        """Empty: there are no presets of sites."""
         return {}
 
     def replace(self, **changes: Any) -> Site:

@@ -1,4 +1,5 @@
-"""What can be wrong, as exceptions with names. What a rover does is never one of them."""
+"""The exceptions of the package. A rover that gets stuck or slides is a result, never one of
+them."""
 
 from __future__ import annotations
 
@@ -6,20 +7,20 @@ import errno
 
 
 class GrouserError(Exception):
-    """Whatever this package finds wrong."""
+    """Base class of all exceptions of this package."""
 
 
 class ParameterError(GrouserError, ValueError):
-    """An argument that nothing can have, or that is not allowed.
+    """An invalid argument or keyword.
 
     Attributes
     ----------
     name : str or None
         The argument, or the key of a description.
     value : float or None
-        What was given, where it is a number.
+        The given value, if it is a number.
     expected : str or None
-        What would be allowed.
+        The allowed values.
     """
 
     def __init__(
@@ -39,7 +40,7 @@ class ParameterError(GrouserError, ValueError):
 
 
 class DocumentError(GrouserError, ValueError):
-    """A document that cannot be used.
+    """An invalid document.
 
     Attributes
     ----------
@@ -48,13 +49,13 @@ class DocumentError(GrouserError, ValueError):
     line, column : int or None
         Where in it, from 1; columns count characters.
     key : str or None
-        The key, with the tables it stands in.
+        The key, with the tables that contain it.
     value : float or None
-        What it is, where that is a number.
+        Its value, if that is a number.
     expected : str or None
-        What it may be.
+        The allowed values.
     hint : str or None
-        How it may be mended.
+        How to correct it.
     """
 
     def __init__(
@@ -86,7 +87,7 @@ class DocumentError(GrouserError, ValueError):
 
 
 class DocumentNotFoundError(DocumentError, FileNotFoundError):
-    """Neither a preset nor a file; or a path that leads nowhere."""
+    """A name that is neither a preset nor a file, or a path without a file."""
 
     def __init__(self, message: str, file: str | None = None, hint: str | None = None) -> None:
         super().__init__(message, file, hint=hint)
@@ -98,7 +99,7 @@ class DocumentNotFoundError(DocumentError, FileNotFoundError):
 
 
 class DocumentUnreadableError(GrouserError, OSError):
-    """A file that is there, and cannot be read: a folder, no permission, a failing disk."""
+    """A file that exists and cannot be read: a folder, no permission, a failing disk."""
 
     def __init__(self, message: str, file: str | None = None) -> None:
         super().__init__(message)
@@ -117,7 +118,7 @@ class SimulationError(GrouserError, ArithmeticError):
     Attributes
     ----------
     time_s : float or None
-        When [s].
+        The time of the failure [s].
     """
 
     def __init__(self, message: str, time_s: float | None = None) -> None:
@@ -129,16 +130,17 @@ class SimulationError(GrouserError, ArithmeticError):
 
 
 class CalibrationError(GrouserError, ArithmeticError):
-    """A calibration that cannot be computed: no start gives finite predictions, for instance. That
-    data leave a key open is a result."""
+    """A calibration that cannot be computed: no start gives finite predictions, for instance. A key
+    that the data leave underdetermined is a result."""
 
 
 class CampaignError(GrouserError):
-    """A campaign that cannot go on: a folder with another study, a shard that nobody can compute."""
+    """A campaign that cannot continue: a folder with another study, a shard that no worker can
+    compute."""
 
 
 class CampaignLockedError(CampaignError, BlockingIOError):
-    """Another program writes to the folder."""
+    """A folder to which another program is writing."""
 
     def __init__(self, message: str, folder: str | None = None) -> None:
         super().__init__(message)
@@ -152,7 +154,7 @@ class CampaignLockedError(CampaignError, BlockingIOError):
 
 
 class CampaignNotFoundError(CampaignError, FileNotFoundError):
-    """There is no campaign in the folder."""
+    """A folder without a campaign."""
 
     def __init__(self, message: str, folder: str | None = None) -> None:
         super().__init__(message)
@@ -167,7 +169,7 @@ class CampaignNotFoundError(CampaignError, FileNotFoundError):
 
 
 class CampaignDiskError(CampaignError, OSError):
-    """The disk is full or fails, or does not permit it. What was written before is kept."""
+    """A disk that is full, fails or denies permission. Files written before are kept."""
 
     def __init__(self, message: str, number: int | None = None, file: str | None = None) -> None:
         super().__init__(message)

@@ -1,4 +1,4 @@
-"""Many runs at once."""
+"""Many runs in one call."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _tables
+from . import _core, _former_names, _tables
 from ._arrays import Floats, broadcast
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
@@ -25,14 +25,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rollout(_tables.Tabular):
-    """The ends of many runs: arrays of the shape to which the arguments broadcast, (runs,) for a
-    sequence of scenarios; NaN where a run could not be computed. Frames are those of a `Trajectory`.
+    """Final states of many runs: arrays of the shape to which the arguments broadcast, (runs,) for
+    a sequence of scenarios; NaN where a run could not be computed. Frames are those of a
+    `Trajectory`.
     """
 
     outcome: NDArray[np.str_]
     """Each run's outcome; ``failed`` where it could not be computed."""
     message: NDArray[np.object_]
-    """What that means; None for a completed run."""
+    """The outcome explained; None for a completed run."""
     time_s: Floats
     """Time [s]."""
     x_m: Floats
@@ -58,9 +59,9 @@ class Rollout(_tables.Tabular):
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
 
-    samples: Mapping[str, Floats] | None = None
-    """With ``trajectories=True``, all samples of each run by name (``time_s`` and the fields after
-    it): arrays with one dimension more, NaN after a run's end."""
+    records: Mapping[str, Floats] | None = None
+    """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the
+    fields after it): arrays with one dimension more, NaN after a run's end."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -74,16 +75,16 @@ class Rollout(_tables.Tabular):
         return {"outcome": self.outcome, "message": self.message, **columns_of(self, SAMPLE)}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each run: where it ended."""
+        """A table with a row for each run: its final state."""
         return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
-        """A dataset with units in the attributes; samples have names that start with ``sample_``.
+        """A dataset with units in the attributes; records have names that start with ``sample_``.
 
         Parameters
         ----------
         dims : sequence of str, optional
-            Names of the dimensions; without, ``run``, or ``dim_0``, ``dim_1`` … for several.
+            Names of the dimensions; by default ``run``, or ``dim_0``, ``dim_1`` … for several.
         """
         count = len(self.shape)
         usual = ("run",) if count == 1 else tuple(f"dim_{k}" for k in range(count))
@@ -93,16 +94,16 @@ class Rollout(_tables.Tabular):
                 f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
             )
         data = _tables.dataset(names, self._table())
-        for name, values in (self.samples or {}).items():
+        for name, values in (self.records or {}).items():
             data[f"sample_{name}"] = _tables.variable((*names, "sample"), name, values)
         return data
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws where the runs ended, seen from above, and their paths if they were kept."""
+        """Plots the final positions, seen from above, and the paths with ``trajectories=True``."""
         axes = _tables.axes_or_new(axes)
-        if self.samples is not None:
-            count = self.samples["x_m"].shape[-1]
-            paths = (self.samples[name].reshape(-1, count).T for name in ("x_m", "y_m"))
+        if self.records is not None:
+            count = self.records["x_m"].shape[-1]
+            paths = (self.records[name].reshape(-1, count).T for name in ("x_m", "y_m"))
             axes.plot(*paths, color="grey", lw=0.5)
         axes.plot(self.x_m.ravel(), self.y_m.ravel(), **{"ls": "", "marker": ".", **style})
         axes.set_xlabel("along the contour, x [m]")
@@ -110,11 +111,12 @@ class Rollout(_tables.Tabular):
         return axes
 
     def __repr__(self) -> str:
-        words, counts = np.unique(self.outcome, return_counts=True)
-        told = ", ".join(f"{count} {word}" for word, count in zip(words, counts))
-        return f"<Rollout of {len(self)} runs: {told}>"
+        names, counts = np.unique(self.outcome, return_counts=True)
+        ended = ", ".join(f"{count} {name}" for name, count in zip(names, counts))
+        return f"<Rollout of {len(self)} runs: {ended}>"
 
 
+@_former_names.takes("speed_m_s")
 def rollout(
     scenarios: Scenario | Source | Iterable[Scenario | Source] | None = None,
     /,
@@ -122,36 +124,36 @@ def rollout(
     soil: Soils | None = None,
     slope_deg: ArrayLike | None = None,
     yaw_deg: ArrayLike | None = None,
-    speed_m_s: ArrayLike | None = None,
+    rim_speed_m_s: ArrayLike | None = None,
     gravity_m_s2: ArrayLike | None = None,
     duration_s: ArrayLike | None = None,
     trajectories: bool = False,
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
 
-    The arguments broadcast against each other as those of `settle` do; what is not given is the
-    scenario's own. Runs that differ in these keys alone need no description each, which is far
-    cheaper. They keep their order, and each has the bits that it has alone, for any number of cores.
+    The arguments broadcast against each other as those of `settle` do; a value that is not given is
+    the scenario's own. Runs that differ in these keys alone need no description each, which is far
+    cheaper. They keep their order, and each has the same results as alone, for any number of cores.
 
     Parameters
     ----------
     scenarios : Scenario, name, path, mapping, or a sequence of them, optional
-        What to run; the source paper's traverse without. A sequence broadcasts as an array of shape
-        (runs,).
+        The scenarios; by default the source paper's traverse. A sequence broadcasts as an array of
+        shape (runs,).
     soil : Soil, name, path, mapping, or a sequence of them, optional
-        Instead of the scenarios' own, with its own theory where they name none.
+        Instead of the scenarios' own, with its own wheel–soil model where they do not name one.
     slope_deg : array_like, optional
         Slopes [°], 0 to 60.
     yaw_deg : array_like, optional
         Yaws at the start [°], −180 to 180, positive where the nose points uphill.
-    speed_m_s : array_like, optional
-        Speeds of all rims [m/s], −10 to 10; under Eq. 18 those that it wants.
+    rim_speed_m_s : array_like, optional
+        Speeds of all rims [m/s], −10 to 10; under Eq. 18 the desired speeds over the ground.
     gravity_m_s2 : array_like, optional
         Gravities [m/s²], 0.01 to 30.
     duration_s : array_like, optional
-        How long the runs last [s], above 0, to 86400.
+        Durations of the runs [s], above 0, to 86400.
     trajectories : bool
-        Whether to keep all samples, as `Rollout.samples`.
+        Whether to keep the records over time, as `Rollout.records`.
 
     Returns
     -------
@@ -160,8 +162,8 @@ def rollout(
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `Scenario`, and for shapes that do not broadcast. A run that cannot be computed is told as
-        ``failed``, and the others go on.
+        As `Scenario`, and for shapes that do not broadcast. A run that cannot be computed has the
+        outcome ``failed``, and the others continue.
 
     Examples
     --------
@@ -176,7 +178,7 @@ def rollout(
     given = {
         "slope_deg": slope_deg,
         "yaw_deg": yaw_deg,
-        "speed_m_s": speed_m_s,
+        "rim_speed_m_s": rim_speed_m_s,
         "gravity_m_s2": gravity_m_s2,
         "duration_s": duration_s,
     }
@@ -195,15 +197,15 @@ def rollout(
     )
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
     message = np.array(found.pop("reason"), dtype=object).reshape(shape)
-    samples = found.pop("samples", None)
-    if samples is not None:
-        samples = {name: it.reshape(*shape, it.shape[-1]) for name, it in samples.items()}
+    records = found.pop("samples", None)
+    if records is not None:
+        records = {name: it.reshape(*shape, it.shape[-1]) for name, it in records.items()}
     ends = {name: values.reshape(shape) for name, values in found.items()}
-    return Rollout(outcome=outcome, message=message, **ends, samples=samples)
+    return Rollout(outcome=outcome, message=message, **ends, records=records)
 
 
 def _scenarios(scenarios: Any) -> tuple[list[Scenario], NDArray[np.int64]]:
-    """The scenarios, and for each place which of them is there."""
+    """The scenarios, and which of them each run has."""
     kinds = (Scenario, str, os.PathLike, Mapping, type(None))
     if isinstance(scenarios, kinds):
         return [scenario_of(scenarios, {})], np.zeros((), dtype=np.int64)
@@ -215,5 +217,5 @@ def _scenarios(scenarios: Any) -> tuple[list[Scenario], NDArray[np.int64]]:
             "scenarios",
         ) from None
     made = [scenario_of(one, {}) for one in several]
-    # No runs at all have no scenario to be in.
+    # An empty sequence has no runs, but an array of no runs needs a scenario.
     return made or [Scenario()], np.arange(len(made), dtype=np.int64)

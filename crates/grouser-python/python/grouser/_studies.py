@@ -1,4 +1,4 @@
-"""What a rover does."""
+"""A run of a rover from its start to its end."""
 
 from __future__ import annotations
 
@@ -26,30 +26,30 @@ SAMPLE = _tables.COLUMNS["sample"]
 
 @dataclass(frozen=True, eq=False)
 class Trajectory(_tables.Tabular):
-    """A run: what became of the rover, and its samples: arrays of shape (samples,). Positions are in
-    the slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
+    """Outcome and records over time of a run: arrays of shape (records,). Positions are in the
+    slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
 
-    ``wheel`` has arrays of shape (samples, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
+    ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
     rover has just tipped over or sunk.
     """
 
     scenario: Scenario
-    """What was run."""
+    """The scenario of the run."""
     outcome: str
     """``completed``, ``immobilised``, ``sliding`` or ``tipped_over``."""
     message: str | None
-    """What that means here; None for a completed run."""
+    """The outcome explained; None for a completed run."""
     simulation: str
     """``dynamic``, ``quasi-steady``, or ``fell-back`` from the second to the first."""
     simulation_message: str | None
-    """Since when and why it fell back."""
+    """Time and reason of the fallback."""
     energy_error_j: float
-    """What the energy books cannot account for [J]."""
+    """Error of the energy balance [J]."""
     wheel_names: tuple[str, ...]
     """The wheels, in the order of their mounts."""
     wheel: Mapping[str, Floats]
-    """Arrays of shape (samples, wheels), by name."""
+    """Arrays of shape (records, wheels), by name."""
     time_s: Floats
     """Time [s]."""
     x_m: Floats
@@ -86,13 +86,13 @@ class Trajectory(_tables.Tabular):
         return notes if self.message is None else {**notes, "message": self.message}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each sample; columns of a wheel start with its name, as in
+        """A table with a row for each record; columns of a wheel start with its name, as in
         ``front-left.slip_ratio``, as the program's CSV has them."""
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for what each wheel has; the
-        latter's names start with ``wheel_``. Units stand in the attributes."""
+        """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for the wheels, whose
+        names start with ``wheel_``. Units are in the attributes."""
         rover = columns_of(self, SAMPLE[1:])
         data = _tables.dataset(("time_s",), rover, {"time_s": self.time_s})
         for name, values in self.wheel.items():
@@ -102,14 +102,14 @@ class Trajectory(_tables.Tabular):
         return data.assign_attrs(self._notes())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws the path on the slope, seen from above.
+        """Plots the path on the slope, seen from above.
 
         Parameters
         ----------
         axes : matplotlib axes, optional
-            Where; a new figure without.
+            Axes to plot on; by default those of a new figure.
         **style
-            For ``Axes.plot``.
+            Arguments of ``Axes.plot``.
         """
         axes = _tables.axes_or_new(axes)
         axes.plot(self.x_m, self.y_m, **{"label": self.outcome, **style})
@@ -119,19 +119,19 @@ class Trajectory(_tables.Tabular):
 
     def __repr__(self) -> str:
         end = {name: float(getattr(self, name)[-1]) for name in ("time_s", "x_m", "y_m", "yaw_deg")}
-        words = ", ".join(f"{name}={value:.4g}" for name, value in end.items())
-        return f"<Trajectory {self.outcome}: {words}>"
+        state = ", ".join(f"{name}={value:.4g}" for name, value in end.items())
+        return f"<Trajectory {self.outcome}: {state}>"
 
 
 def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Trajectory:
-    """Runs a rover from its start to its end.
+    """Simulates a rover from its start to its end.
 
-    The same scenario gives the same bits, here and in the program's ``grouser traverse``.
+    Results are reproducible bit for bit, here and in the program's ``grouser traverse``.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        What to run; the source paper's traverse without.
+        The scenario; by default the source paper's traverse.
     **changes
         Keys of the scenario with other values: ``slope_deg=15.0``, ``soil="toyoura"``.
 
@@ -144,7 +144,7 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
     ParameterError, DocumentError, DocumentNotFoundError
         As `Scenario`.
     SimulationError
-        If the run cannot be computed. What a rover does, such as getting stuck, is an outcome.
+        If the run cannot be computed. A rover that gets stuck is an outcome, not an error.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Results for pandas and xarray. Columns and units are the library's."""
+"""Results as tables for pandas, xarray and Arrow. Columns and units are the library's."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _core
+from . import _core, _former_names
 
 if TYPE_CHECKING:
     import pandas
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Names of the library's columns of numbers, by what they are of.
+#: Names of the library's columns of numbers, by result.
 COLUMNS = {
     kind: tuple(name for name, _, _ in columns) for kind, columns in _core.result_columns().items()
 }
@@ -70,7 +70,7 @@ class Tabular:
         raise NotImplementedError
 
     def _notes(self) -> Mapping[str, str]:
-        """What is to be said of the whole table."""
+        """Metadata of the whole table."""
         return {}
 
     def _unit_of(self, name: str) -> str | None:
@@ -80,7 +80,7 @@ class Tabular:
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         """The table as an Arrow stream of one batch, by the Arrow PyCapsule interface: what a
         consumer calls. The schema is always the table's own. Each number's unit is in its field's
-        metadata as ``units``; a result that there is not is null."""
+        metadata as ``units``; a missing result is null."""
         columns = [
             (name, *_arrow_column(self._unit_of(name), np.ravel(np.asarray(values))))
             for name, values in self._table().items()
@@ -88,11 +88,18 @@ class Tabular:
         return _core.arrow_stream(columns, dict(self._notes()))
 
     def to_arrow(self) -> pyarrow.Table:
-        """The rows of ``to_pandas`` as a table of Arrow, with units in the fields' metadata and null
-        where there is no result."""
+        """The rows of ``to_pandas`` as a table of Arrow, with units in the fields' metadata and
+        null for a missing result."""
         import pyarrow
 
         return pyarrow.table(self)
+
+    # Type checkers see the present names only, and so find misspelt ones.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> object:
+            """An attribute by its name of version 0.1."""
+            return _former_names.attribute_of(self, name)
 
 
 def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
@@ -107,7 +114,7 @@ def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
 
 
 def axes_or_new(axes: Axes | None) -> Axes:
-    """The axes that were given, or those of a new figure."""
+    """The given axes, or those of a new figure."""
     if axes is not None:
         return axes
     import matplotlib.pyplot as plt

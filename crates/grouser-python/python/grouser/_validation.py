@@ -1,4 +1,4 @@
-"""A theory beside measured wheel tests."""
+"""Errors of wheel–soil models against measured wheel tests."""
 
 from __future__ import annotations
 
@@ -20,20 +20,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Validation(_tables.Tabular):
-    """A theory's errors against measurements, in the words of ``grouser validate``.
+    """Errors of a wheel–soil model against measurements, with the names of ``grouser validate``.
 
     A group of cells is a mapping: ``slip_angle_deg``, ``motion``, ``cells``, ``trials``,
     ``unsettled_trials``, and for each of ``drawbar_pull_n``, ``side_force_n``, ``sinkage_mm`` and
-    ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability`` and
-    ``cells``, or None where it was not measured.
+    ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability``
+    and ``cells``, or None where it was not measured.
     """
 
     overall: Mapping[str, Any]
     """All cells."""
     driven: Mapping[str, Any] | None
-    """The driven cells; None where there are none."""
+    """The driven cells; None if there are none."""
     skid: Mapping[str, Any] | None
-    """The skidding ones; None where there are none."""
+    """The skidding cells; None if there are none."""
     groups: tuple[Mapping[str, Any], ...]
     """The cells of each slip angle, driven and skidding."""
     cells: Mapping[str, Any]
@@ -41,7 +41,7 @@ class Validation(_tables.Tabular):
     trials: Mapping[str, Any]
     """Columns over trials, in the order of the file."""
     notes: tuple[str, ...]
-    """What was noticed in the file and left."""
+    """Remarks on the file."""
 
     def _table(self) -> Mapping[str, Any]:
         return self.trials
@@ -51,7 +51,7 @@ class Validation(_tables.Tabular):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Draws the predictions of a quantity over its measurements, a dot for each cell."""
+        """Plots predictions of a quantity over its measurements, a dot for each cell."""
         axes = _tables.axes_or_new(axes)
         measured, predicted = self.cells[f"measured_{name}"], self.cells[name]
         axes.plot(measured, predicted, **{"ls": "", "marker": ".", **style})
@@ -75,7 +75,7 @@ def validate(
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     model: str | None = None,
 ) -> Validation:
-    """Holds a theory against a file of measured wheel tests.
+    """Compares a wheel–soil model with a file of measured wheel tests.
 
     Parameters
     ----------
@@ -85,9 +85,10 @@ def validate(
     soil, wheel, gravity_m_s2, model
         As for `settle`; one soil.
     where : sequence of str
-        Which rows count: ``column=value,value`` or ``column!=value``; all conditions must be met.
+        Which rows to use: ``column=value,value`` or ``column!=value``; all conditions must be met.
     wheel_label : str, optional
-        Which wheel's rows of a file with several; the name or path of the wheel without.
+        The wheel whose rows to use, in a file with several; by default the name or path of
+        ``wheel``.
 
     Returns
     -------
@@ -112,18 +113,18 @@ def validate(
 
 
 def validation_of(found: dict[str, Any]) -> Validation:
-    """What the native half found."""
+    """The result of the native half."""
     found["groups"], found["notes"] = tuple(found["groups"]), tuple(found["notes"])
     return Validation(**found)
 
 
 @dataclass(frozen=True, eq=False)
 class Ranking(_tables.Tabular):
-    """Theories beside measurements, in the words of the program's ranking: a mapping for each
-    theory with a soil on a part of a data set, best first.
+    """Wheel–soil models ranked by their errors, with the names of the program's ranking: a mapping
+    for each model with a soil on a part of a data set, best first.
 
     It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``score`` (root mean square error
-    over the standard deviation of what was measured, averaged over the measured quantities [-]: 0 is
+    over the standard deviation of the measurements, averaged over the measured quantities [-]: 0 is
     perfect, 1 no better than a constant), ``unsettled_trials``, and the groups ``driven`` and
     ``overall`` of a `Validation`.
     """
@@ -157,7 +158,7 @@ class Ranking(_tables.Tabular):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws the scores as bars, the best at the top of each part."""
+        """Plots the scores as bars, the best at the top of each part."""
         axes = _tables.axes_or_new(axes)
         rows = self.rows[::-1]
         scores = [np.nan if row["score"] is None else row["score"] for row in rows]
@@ -168,18 +169,18 @@ class Ranking(_tables.Tabular):
         return axes
 
     def __repr__(self) -> str:
-        return f"<Ranking of {len(self)} theories with soils>"
+        return f"<Ranking of {len(self)} models with soils>"
 
 
 def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
-    """Ranks every theory, with its own soils, on every data set that comes with Grouser, or on those
-    of a folder.
+    """Ranks every wheel–soil model, with its own soils, on every data set that comes with Grouser,
+    or on those of a folder.
 
     Parameters
     ----------
     folder : str or path, optional
-        Where your own data sets are, instead of those that come with Grouser; ``docs/guide/data.md``
-        tells how to describe them.
+        A folder of your own data sets, used instead of those that come with Grouser;
+        ``docs/guide/data.md`` explains how to describe them.
 
     Returns
     -------
@@ -188,7 +189,7 @@ def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
     Raises
     ------
     DocumentNotFoundError
-        If the folder is not there, or no known data set in it.
+        If the folder does not exist, or has no known data set.
     DocumentError
         For a document or a file of measurements that cannot be used.
     """

@@ -1,4 +1,4 @@
-"""What a test stand shows: exactly, or as a stand that does not read exactly would."""
+"""Wheel tests on a simulated test stand, with or without measurement noise."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-#: What is set on a test stand, and the number of the run.
+#: The settings of a test stand, and the number of the trial.
 _COORDS = ("load_n", "slip_angle_deg", "slip_ratio", "trial")
 
 
@@ -35,23 +35,24 @@ class WheelTest(_tables.Tabular):
     slip_ratio: Floats
     """Slip ratios [-], shape (ratios,)."""
     wheels: Settled
-    """What the wheel did; fields of shape (loads, angles, ratios)."""
+    """Sinkage and forces; fields of shape (loads, angles, ratios)."""
 
     def _table(self) -> dict[str, Any]:
         return {**self.wheels._table(), "status": self.wheels.messages}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each setting, slip ratios fastest, as the program has it."""
+        """A table with a row for each setting, slip ratios fastest, as in the program's CSV."""
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
-        """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the attributes."""
+        """A dataset over ``load_n``, ``slip_angle_deg`` and ``slip_ratio``; units in the
+        attributes."""
         coords = {name: getattr(self, name) for name in _COORDS[:3]}
         columns = {k: v for k, v in self.wheels._table().items() if k not in coords}
         return _tables.dataset(tuple(coords), columns, coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Draws a quantity over the slip ratio, a line for each load and slip angle."""
+        """Plots a quantity over the slip ratio, a line for each load and slip angle."""
         axes = _tables.axes_or_new(axes)
         values = getattr(self.wheels, name)
         for i, load in enumerate(self.load_n):
@@ -70,9 +71,9 @@ class WheelTest(_tables.Tabular):
 
 @dataclass(frozen=True, eq=False)
 class SimulatedWheelTest(_tables.Tabular):
-    """A wheel test on a stand that does not read exactly: arrays of shape (loads, angles, ratios,
-    trials), NaN where the soil does not carry the wheel. Readings are rounded to a ten-thousandth of
-    their unit."""
+    """A wheel test with simulated measurement noise: arrays of shape (loads, angles, ratios,
+    trials), NaN where the soil does not carry the wheel. Readings are rounded to a ten-thousandth
+    of their unit."""
 
     load_n: Floats
     """Loads [N], shape (loads,)."""
@@ -105,8 +106,9 @@ class SimulatedWheelTest(_tables.Tabular):
         return {**dict(zip(coords, mesh)), **self._readings()}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each run of each setting, as the program has it. Its CSV
-        (``.to_csv(file, index=False)``) is a file of measurements, for `calibrate` and `validate`."""
+        """A table with a row for each trial of each setting, as in the program's CSV. Its CSV
+        (``.to_csv(file, index=False)``) is a file of measurements, for `calibrate` and
+        `validate`."""
         return _tables.frame(self._table())
 
     def to_xarray(self) -> xarray.Dataset:
@@ -116,7 +118,7 @@ class SimulatedWheelTest(_tables.Tabular):
         return _tables.dataset(tuple(coords), self._readings(), coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Draws a reading over the slip ratio, a dot for each run."""
+        """Plots a reading over the slip ratio, a dot for each trial."""
         axes = _tables.axes_or_new(axes)
         values = getattr(self, name)
         for i, load in enumerate(self.load_n):
@@ -185,7 +187,7 @@ def wheel_test(
     noise_nm: float = 0.02,
     seed: int = 1,
 ) -> WheelTest | SimulatedWheelTest:
-    """A wheel on a test stand: every load with every slip angle and every slip ratio
+    """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio
     ([FourWheel], section 4 and Fig. 7).
 
     Parameters
@@ -199,11 +201,12 @@ def wheel_test(
     slip_angle_deg : array_like, shape (angles,)
         Slip angles [°], −90 to 90.
     trials : int, optional
-        Simulate a stand: run each setting so often, 1 to 1000, with normal noise on what it reads.
+        Number of trials of each setting, 1 to 1000, with normally distributed measurement noise; by
+        default the exact values, once.
     noise_n, noise_mm, noise_nm : float
         Standard deviations of the simulated forces [N], sinkage [mm] and torque [N·m].
     seed : int
-        What the noise is drawn from: the same seed makes the same test.
+        Seed of the noise: the same seed gives the same readings.
 
     Returns
     -------

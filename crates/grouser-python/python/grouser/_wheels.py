@@ -1,4 +1,4 @@
-"""What the soil does to wheels, on whole arrays."""
+"""Sinkage and forces of wheels on soil, for whole arrays."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ SUNK_TO_AXLE = 1
 
 @dataclass(frozen=True, eq=False)
 class WheelForces(_tables.Tabular):
-    """The soil's reaction on wheels, about the hub, in the wheel frame (x forward, y left, z up).
+    """Forces and moments of the soil on wheels, about the hub, in the wheel frame (x forward, y
+    left, z up).
 
     Every field is an array of the shape to which the arguments broadcast; of no dimensions if all
     were single values. Angles are from straight down, positive towards the side that enters the
@@ -90,7 +91,7 @@ class WheelForces(_tables.Tabular):
         Parameters
         ----------
         dims : sequence of str, optional
-            Names of the dimensions; ``dim_0``, ``dim_1`` … without.
+            Names of the dimensions; by default ``dim_0``, ``dim_1`` …
         """
         names = (
             tuple(dims) if dims is not None else tuple(f"dim_{k}" for k in range(len(self.shape)))
@@ -107,8 +108,8 @@ class WheelForces(_tables.Tabular):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Settled(WheelForces):
-    """Wheels that sank until the soil carries them. A wheel that it does not carry has ``status`` 1
-    and NaN for all results."""
+    """Wheels at the sinkage at which the soil carries their load. A wheel that it cannot carry has
+    ``status`` 1 and NaN for all results."""
 
     load_n: Floats
     """Load [N], as asked."""
@@ -120,11 +121,11 @@ class Settled(WheelForces):
 
     @property
     def messages(self) -> NDArray[np.object_]:
-        """Each wheel's status in words, as the program's tables have it: ``ok``, or why not."""
-        words = np.full(self.shape, "ok", dtype=object)
+        """Each wheel's status as text, as in the program's tables: ``ok``, or the reason."""
+        messages = np.full(self.shape, "ok", dtype=object)
         sunk = self.status == SUNK_TO_AXLE
-        words[sunk] = _core.not_carried(self.load_n[sunk], self.capacity_n[sunk])
-        return words
+        messages[sunk] = _core.not_carried(self.load_n[sunk], self.capacity_n[sunk])
+        return messages
 
 
 def settle(
@@ -137,11 +138,13 @@ def settle(
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     model: str | None = None,
 ) -> Settled:
-    """The smallest sinkages at which the soil carries wheels (F_z = load), and the forces there.
+    """Finds the smallest sinkages at which the soil carries wheels (F_z = load), and the forces
+    there.
 
     The arguments broadcast against each other as those of NumPy's ufuncs do, by the order of their
-    axes: DataArrays of xarray must all have the same dimensions and coordinates. Wheels are shared
-    among all cores, without Python's lock, and each has the bits that it has alone.
+    axes: DataArrays of xarray must all have the same dimensions and coordinates. Wheels are
+    distributed over all cores, without Python's lock, and each has the same results as alone, bit
+    for bit.
 
     Parameters
     ----------
@@ -158,7 +161,8 @@ def settle(
     gravity_m_s2 : float
         Gravity [m/s²]; it gives the soil its weight.
     model : str, optional
-        The theory: ``ishigami``, ``bekker``, ``extended`` or ``rft``; without it each soil's own.
+        The wheel–soil model: ``ishigami``, ``bekker``, ``small-wheel`` or ``rft``; by default each
+        soil's own.
 
     Returns
     -------
@@ -167,10 +171,10 @@ def settle(
     Raises
     ------
     ParameterError
-        For a value that is no number, masked or out of its range, for shapes that do not broadcast,
-        and for DataArrays over different dimensions.
+        For a value that is not a number, masked or out of its range, for shapes that do not
+        broadcast, and for DataArrays over different dimensions.
     DocumentNotFoundError
-        If there is no such soil or wheel.
+        If a name is neither a preset nor a file.
 
     Examples
     --------
@@ -200,7 +204,7 @@ def wheel_forces(
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     model: str | None = None,
 ) -> WheelForces:
-    """The soil's reaction on wheels that are sunk as deep as they are told.
+    """Computes the forces of the soil on wheels at given sinkages.
 
     Broadcasts as `settle` does.
 
@@ -232,7 +236,7 @@ def wheel_forces(
 
 
 class _Stand:
-    """What all wheels of a call share, and which soil each has."""
+    """Wheel, gravity and model of a call, and the soil of each wheel."""
 
     def __init__(
         self, soil: Soils, wheel: Wheel | Source, gravity_m_s2: float, model: str | None
@@ -257,8 +261,8 @@ class _Stand:
 
 
 def setting(gravity_m_s2: float, model: str | None) -> Scenario:
-    """Gravity and theory, checked as those of a scenario are; remembered, because asking for one
-    wheel is quicker than reading a document."""
+    """Gravity and wheel–soil model, checked as those of a scenario are. They are cached, because
+    computing one wheel is faster than reading a document."""
     if not isinstance(model, (str, type(None))):
         given = type(model).__name__
         raise ParameterError(f"model is of type {given}, it must be a name", "model")
@@ -272,7 +276,7 @@ def _setting(gravity_m_s2: float, model: str | None) -> Scenario:
 
 
 def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
-    """The different soils, and for each place which of them is there."""
+    """The different soils, and which of them each wheel has."""
     is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
     cells: NDArray[np.object_] = np.empty((), dtype=object)
     if is_one:
@@ -296,6 +300,6 @@ def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
             one = Soil(cell)
         places[place] = different.setdefault(one, len(different))
     if not different:
-        # An empty sequence asks for no wheels at all.
+        # An empty sequence is for no wheels, but an array of no wheels needs a soil.
         return [Soil("toyoura")], places
     return list(different), places

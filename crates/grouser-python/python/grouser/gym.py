@@ -1,7 +1,7 @@
-"""Gymnasium environments: hold a level line on a slope of unknown soil.
+"""Gymnasium environments: hold the contour line on a slope of unknown soil.
 
-Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that leads all its
-rovers at once on all cores. It needs Gymnasium: ``pip install grouser[gym]``.
+Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that simulates all
+its rovers at once on all cores. It needs Gymnasium: ``pip install grouser[gym]``.
 
 Examples
 --------
@@ -39,7 +39,7 @@ except ImportError as error:
 from ._arrays import Floats, mask as mask_of, number, numbers, whole_number
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
-from ._simulator import SimulatorBatch
+from ._runs import RunBatch
 
 __all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv"]
 
@@ -48,37 +48,39 @@ ENV_ID = "grouser/LevelTraverse-v0"
 #: Steps after which ``gymnasium.make`` truncates an episode: a minute at the usual period.
 MAX_EPISODE_STEPS = 120
 
-#: What a reset draws the start's yaw from [°].
+#: The range of the sampled yaw at the start [°].
 START_YAW_DEG = (-10.0, 10.0)
-#: The soil and the least and steepest slope [°] where neither an argument nor the scenario names any.
+#: The soil and the least and steepest slope [°] where neither an argument nor the scenario names
+#: one.
 USUAL_SOIL, USUAL_SLOPE_DEG = "toyoura-uncertain", (5.0, 15.0)
-#: Keys of a scenario that an environment has no use for, and why.
+#: Keys of a scenario that an environment does not use, and why.
 _UNUSED = {
     "drive": "actions turn the wheels",
     "duration_s": "max_episode_steps ends an episode",
     "sample_interval_s": "dt_s is the interval",
 }
-#: What a reset may be given instead of what it draws.
+#: Options of a reset, each in place of a sampled value.
 _OPTIONS = ("slope_deg", "yaw_deg", "soil_seed")
-#: An offset from the line that costs as much as the fastest progress earns [m]: about a wheel's
-#: radius.
+#: The offset from the line whose penalty equals the reward of the fastest progress [m]: about a
+#: wheel's radius.
 LINE_M = 0.1
-#: An offset at which the line is lost, and the episode ends [m]: about the rover's length.
+#: The offset at which the line is lost and the episode ends [m]: about the rover's length.
 LOST_M = 0.5
-#: The reward of an episode's end that is none of the rover's merits.
+#: The reward of a step that terminates the episode.
 PENALTY = -50.0
 
-#: Names of what is observed of the rover, with units.
+#: Names of the observations of the rover, with units.
 _ROVER = ("y_m", "yaw_deg", "forward_speed_m_s", "lateral_speed_m_s", "yaw_rate_deg_s")
-#: Bounds of the same; what is beyond is clipped, far from where an episode goes on.
+#: Bounds of the same; values beyond are clipped, far outside the range of an episode that
+#: continues.
 _ROVER_BOUNDS = (1.0, 180.0, 1.0, 1.0, 180.0)
-#: Names of what is observed of each wheel, with units, and bounds of the same.
+#: Names of the observations of each wheel, with units, and their bounds.
 _WHEEL = ("wheel_speed_rad_s", "torque_nm", "power_w")
 _WHEEL_BOUNDS = (20.0, 50.0, 100.0)
 
 
 class _Traverses:
-    """Any number of rovers that are to hold their lines: what both forms of the environment are."""
+    """Any number of rovers that should hold their lines: the common part of both environments."""
 
     def __init__(
         self,
@@ -100,7 +102,7 @@ class _Traverses:
                 self.fastest,
             )
         self.dt_s = number("dt_s", dt_s)
-        self.rovers = SimulatorBatch([run] * count, commands="speed_m_s")
+        self.rovers = RunBatch([run] * count, commands="rim_speed_m_s")
         # Wheels on the left side are those with y > 0 in the body frame.
         left = [mount["position_m"][1] > 0.0 for mount in run.rover.mount]
         self.side = np.where(left, -1.0, 1.0)
@@ -115,8 +117,8 @@ class _Traverses:
         randoms: Sequence[np.random.Generator],
         options: Mapping[str, Any],
     ) -> None:
-        """Draws slope, yaw and soil, in this order, of each rover from its own generator; what the
-        options give takes the place of what was drawn."""
+        """Samples slope, yaw and soil of each rover, in this order, from its own generator; options
+        replace sampled values."""
         count = len(randoms)
         given_slopes, given_yaws, given_seeds = (_given(name, options, count) for name in _OPTIONS)
         slopes, yaws = self.slope_deg.copy(), np.zeros(count)
@@ -155,7 +157,7 @@ class _Traverses:
     def observations(self) -> Floats:
         state, wheel = self.rovers.state, self.rovers.wheel
         rover = [state[:, [self.rovers.STATE.index(name)]] for name in _ROVER]
-        # A rover that has just tipped over or sunk has no torque to tell.
+        # A rover that has just tipped over or sunk has no torque: NaN.
         wheels = [np.nan_to_num(wheel[name]) for name in _WHEEL]
         high = self.observation_space.high
         observations: Floats = np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
@@ -172,60 +174,61 @@ class _Traverses:
 
 
 class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
-    """Hold a level line on a slope of unknown soil, with a rover that cannot steer its wheels.
+    """Hold the contour line on a slope of unknown soil, with a rover that cannot steer its wheels.
 
-    The line is the contour through the start, y = 0. Each reset draws the slope, the yaw at the
-    start (−10 to 10°) and the soil, from its ``[uncertainty]``; none of them but the yaw is
-    observed. A rover that drives straight on drifts downhill: it has to find the yaw uphill that
-    makes up for it, by different speeds of its left and right wheels.
+    The line is the contour through the start, y = 0. Each reset samples the slope, the yaw at the
+    start (−10 to 10°) and the soil, from its ``[uncertainty]``; only the yaw is observed. A rover
+    that drives straight on drifts downhill: it has to find the heading offset that compensates for
+    it, by different speeds of its left and right wheels.
 
     **Action**, two numbers from −1 to 1: drive, and turn to the left (uphill, while the rover goes
     along +x). Rims on the left turn at ``max_speed_m_s`` (drive − turn), those on the right at
     ``max_speed_m_s`` (drive + turn), each limited to ``max_speed_m_s``, for ``dt_s``.
 
     **Observation**, float64: offset from the line y [m], positive uphill; yaw [°]; forward and
-    lateral speed of the body [m/s]; yaw rate [°/s]; then of every wheel, in the mounts' order, wheel
-    speed [rad/s], motor torque [N·m], motor power [W]. Values are clipped to the space's bounds.
+    lateral speed of the body [m/s]; yaw rate [°/s]; then of every wheel, in the mounts' order,
+    wheel speed [rad/s], motor torque [N·m], motor power [W]. Values are clipped to the space's
+    bounds.
 
-    **Reward** of a step: way along the line over the longest possible, Δx/(max_speed dt), less
+    **Reward** of a step: distance along the line over the longest possible, Δx/(max_speed dt), less
     (y/0.1 m)²; less 50 where the episode terminates.
 
     **Termination**: the rover gets stuck, slides, tips over, or is more than 0.5 m off the line.
     ``gymnasium.make`` truncates after 120 steps, a minute.
 
-    **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None while under way),
-    ``fallback_to_dynamic``: whether a quasi-steady episode met velocities without a steady state, and
-    has been computed dynamically since. Sharp turns do that to most episodes.
+    **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None during the run),
+    ``fallback_to_dynamic``: whether a quasi-steady episode had no steady state at some time, and
+    has been computed dynamically since. Sharp turns have that effect in most episodes.
 
-    **Options** of a reset, each instead of what it would draw: ``slope_deg`` [°], ``yaw_deg`` [°] and
-    ``soil_seed``, a whole number that decides on the soil, or None for the soil as its document says.
-    What is not given is drawn as it would be without options.
+    **Options** of a reset, each in place of a sampled value: ``slope_deg`` [°], ``yaw_deg`` [°] and
+    ``soil_seed``, a whole number that determines the soil, or None for the values of its document.
+    All other values are sampled as without options.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is quicker to compute as
+        Rover, gravity, model, and ``simulation``, whose ``"quasi-steady"`` is faster to compute as
         long as there is a steady state. A mapping gives single keys, and its ``soil`` and
-        ``slope_deg`` count as if they were arguments; of all others, which have every key, soil and
-        slope count where there is no argument for them. Its drive, duration, sample interval and
-        yaw at the start do not count, and a mapping must not have them.
+        ``slope_deg`` are used like arguments; all other sources have every key, and their soil and
+        slope are used if there is no argument for them. Drive, duration, record interval and yaw at
+        the start are not used, and a mapping must not have them.
     soil : Soil, name, path or mapping, optional
-        The soil, ``toyoura-uncertain`` if nothing names one; without ``[uncertainty]`` it is the same
+        The soil; by default ``toyoura-uncertain``. Without ``[uncertainty]`` it is the same
         in every episode.
     slope_deg : (float, float), optional
-        Least and steepest slope [°]; 5 to 15 if nothing names one.
+        Least and steepest slope [°]; by default 5 to 15.
     max_speed_m_s : float
-        The fastest rim [m/s].
+        The largest rim speed [m/s].
     dt_s : float
-        How long an action is held [s].
+        Duration of an action [s].
     render_mode : None
-        There is nothing to render.
+        Rendering is not supported.
 
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give, or
-        that does not count.
+        As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give,
+        or that is not used.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]
@@ -255,14 +258,15 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Floats, dict[str, Any]]:
-        """Starts an episode; the seed decides on slope, yaw and soil, where ``options`` does not."""
+        """Starts an episode; the seed determines slope, yaw and soil, except for those in
+        ``options``."""
         given = _options_of(options, _OPTIONS)
         super().reset(seed=seed)
         self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
         return self._traverses.observations()[0], self._traverses.info(0)
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
-        """Holds an action for ``dt_s``."""
+        """Applies an action for ``dt_s``."""
         all_of_one = np.ones(1, dtype=np.bool_)
         rewards, ended = self._traverses.step(np.asanyarray(action)[None], all_of_one)
         observation = self._traverses.observations()[0]
@@ -270,7 +274,8 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
 
 
 class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
-    """Many `LevelTraverseEnv` at once, on all cores: with the same seeds they have the same bits.
+    """Many `LevelTraverseEnv` at once, on all cores; the same seeds give the same results, bit for
+    bit.
 
     Seeds, masks of ``options["reset_mask"]``, infos and resets at an episode's end are those of
     ``gymnasium.vector.SyncVectorEnv``.
@@ -278,13 +283,13 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     Parameters
     ----------
     num_envs : int
-        How many.
+        Number of sub-environments.
     max_episode_steps : int or None
         Steps after which an episode is truncated.
     autoreset_mode : AutoresetMode or str
         When a sub-environment whose episode has ended is reset: with the next step (the default,
         whose action it ignores), in the same step (the end is in ``infos["final_obs"]`` and
-        ``infos["final_info"]``), or not by itself.
+        ``infos["final_info"]``), or only by a call.
     **settings
         As for `LevelTraverseEnv`.
     """
@@ -320,8 +325,8 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     ) -> tuple[Floats, dict[str, Any]]:
         """Starts episodes; sub-environment k of a single seed has ``seed + k``.
 
-        ``options["reset_mask"]``, an array of bool, says which of them; all without. The other
-        options are those of `LevelTraverseEnv`: one value, or one for each sub-environment.
+        ``options["reset_mask"]``, an array of bool, selects some of them; by default all. The
+        other options are those of `LevelTraverseEnv`: one value, or one for each sub-environment.
         """
         given = _options_of(options, (*_OPTIONS, "reset_mask"))
         seeds = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else seed
@@ -348,8 +353,8 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
     def step(
         self, actions: Floats
     ) -> tuple[Floats, Floats, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
-        """Holds an action of each for ``dt_s``; those whose episode ended are reset as
-        ``autoreset_mode`` says."""
+        """Applies an action to each for ``dt_s``; those whose episode has ended are reset according
+        to ``autoreset_mode``."""
         if not self._randoms:
             raise gymnasium.error.ResetNeeded("reset the environments before the first step")
         again = self._ended.copy()
@@ -396,7 +401,7 @@ def _start_of(
     if isinstance(scenario, Mapping):
         _check_keys(scenario, {"soil": soil, "slope_deg": slope_deg})
     run = Scenario(scenario)
-    # A mapping and nothing at all leave what they do not name to the environment.
+    # A mapping or no scenario at all leaves its missing keys to the environment.
     named = {} if scenario is None else scenario if isinstance(scenario, Mapping) else run.to_dict()
     if soil is None and "soil" not in named:
         soil = USUAL_SOIL
@@ -406,33 +411,33 @@ def _start_of(
     low, high = _pair("slope_deg", slope_deg)
     whole = soil if isinstance(soil, Soil) or soil is None else Soil(soil)
     changes: dict[str, Any] = {} if whole is None else {"soil": whole}
-    # What a reset draws must be allowed at both ends, and is found out here.
+    # The scenario must be valid at both ends of the range of slopes: checked here.
     run.replace(**changes, slope_deg=low)
     return run.replace(**changes, slope_deg=high), (low, high)
 
 
 def _check_keys(scenario: Mapping[str, Any], arguments: Mapping[str, Any]) -> None:
-    """That a mapping gives nothing twice, and nothing that does not count."""
+    """Checks that a mapping has no key that is also an argument, and no key that is not used."""
     for name, value in arguments.items():
         if value is not None and name in scenario:
             raise ParameterError(
-                f"{name} is given twice: {_words(value)} as an argument, {_words(scenario[name])} by "
-                "the scenario; give it once",
+                f"{name} is given twice: {_shown(value)} as an argument, {_shown(scenario[name])} "
+                "by the scenario; give it once",
                 name,
             )
     for name, why in _UNUSED.items():
         if name in scenario:
-            raise ParameterError(f"the scenario has {name}, which does not count: {why}", name)
+            raise ParameterError(f"the scenario has {name}, which is not used: {why}", name)
     start = scenario.get("start")
     if isinstance(start, Mapping) and "yaw_deg" in start:
         raise ParameterError(
-            "the scenario has start.yaw_deg, which does not count: every reset draws the yaw, or "
+            "the scenario has start.yaw_deg, which is not used: every reset samples the yaw, or "
             "takes it from its option yaw_deg",
             "start.yaw_deg",
         )
 
 
-def _words(value: Any) -> str:
+def _shown(value: Any) -> str:
     return f"the soil {value.name!r}" if isinstance(value, Soil) else repr(value)
 
 

@@ -1,4 +1,4 @@
-//! What a calibration found, in the words of tables, JSON and CSV.
+//! Results of a calibration as records for tables, JSON and CSV.
 
 mod aim;
 mod plates;
@@ -21,7 +21,7 @@ use crate::studies::calibration::identifiability::{Combination, Identifiability,
 use crate::studies::calibration::{Channel, Fit, Parameter, Regime};
 use crate::studies::measurement::Quantity;
 
-/// A parameter that was found. Posterior values are null where none was sampled.
+/// A calibrated parameter. Posterior values are null without a posterior.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParameterRecord {
     /// Its key, in whose unit all values are.
@@ -34,7 +34,7 @@ pub struct ParameterRecord {
     pub upper: f64,
     /// Least squares.
     pub fit: f64,
-    /// Its standard deviation, to first order; at a bound it is not known.
+    /// Standard deviation of the fit, to first order; not known at a bound.
     pub fit_std: Option<f64>,
     /// Mean of the posterior.
     pub mean: Option<f64>,
@@ -46,12 +46,13 @@ pub struct ParameterRecord {
     pub p50: Option<f64>,
     /// 2.5 % of the samples lie above.
     pub p97_5: Option<f64>,
-    /// Agreement of the chains [-]: 1 is perfect.
+    /// R-hat, agreement of the chains [-]: 1 is perfect.
     pub r_hat: Option<f64>,
-    /// Independent samples that would tell as much [-].
+    /// Effective sample size: independent samples with the same standard error [-].
     pub effective_samples: Option<f64>,
-    /// Standard deviation over the one before any data [-]: near 1 the data say nothing.
-    pub narrowing: Option<f64>,
+    /// Posterior contraction: standard deviation over that of the prior [-]; near 1 the data do not constrain it.
+    #[serde(rename = "narrowing")]
+    pub contraction: Option<f64>,
 }
 
 impl ParameterRecord {
@@ -80,12 +81,12 @@ impl ParameterRecord {
             p97_5: of(|it| it.upper),
             r_hat: of(|it| it.r_hat),
             effective_samples: of(|it| it.effective_samples),
-            narrowing: found.narrowing.get(place).copied(),
+            contraction: found.contraction.get(place).copied(),
         }
     }
 }
 
-/// What a channel of observations is called: `drawbar_pull_n, driven`.
+/// The name of a channel of observations: `drawbar_pull_n, driven`.
 #[must_use]
 pub fn channel_name(channel: &Channel) -> String {
     match channel {
@@ -112,19 +113,22 @@ pub fn channel_unit(channel: &Channel) -> f64 {
     }
 }
 
-/// What the data cannot tell apart, a sentence for each finding.
+/// Unidentifiable parameters and combinations, a sentence for each.
 #[must_use]
-pub fn open_questions(parameters: &[Parameter], found: &Identifiability) -> Vec<String> {
-    let loose = found.loose.iter().map(|combination| loose_sentence(parameters, combination));
+pub fn unidentifiable(parameters: &[Parameter], found: &Identifiability) -> Vec<String> {
+    let combinations = found
+        .unidentifiable
+        .iter()
+        .map(|combination| combination_sentence(parameters, combination));
     let pairs = found.pairs.iter().map(|pair| pair_sentence(parameters, pair));
-    loose.chain(pairs).collect()
+    combinations.chain(pairs).collect()
 }
 
-fn loose_sentence(parameters: &[Parameter], combination: &Combination) -> String {
-    let left = 100.0 * combination.narrowing.min(1.0);
+fn combination_sentence(parameters: &[Parameter], combination: &Combination) -> String {
+    let left = 100.0 * combination.contraction.min(1.0);
     if let [(only, _)] = combination.shares[..] {
         let name = &parameters[only].name;
-        return format!("{name} stays almost open: {left:.0} % of its range before the data");
+        return format!("{name} is underdetermined: posterior {left:.0} % as wide as the prior");
     }
     let term = |(place, share): &(usize, f64)| {
         let sign = if *share < 0.0 { "−" } else { "+" };
@@ -132,21 +136,25 @@ fn loose_sentence(parameters: &[Parameter], combination: &Combination) -> String
     };
     let terms: Vec<String> = combination.shares.iter().map(term).collect();
     let terms = terms.join(" ");
-    format!("the combination {terms} stays almost open: {left:.0} % of its range before the data")
+    format!(
+        "the combination {terms} is underdetermined: posterior {left:.0} % as wide as the prior"
+    )
 }
 
 fn pair_sentence(parameters: &[Parameter], pair: &Pair) -> String {
     let [one, other] = pair.parameters.map(|place| &parameters[place].name);
     let correlation = pair.correlation;
     let how = if correlation < 0.0 {
-        "a larger value of one makes up for a smaller one of the other"
+        "a larger value of one compensates for a smaller one of the other"
     } else {
-        "they can only grow together"
+        "a larger value of one compensates for a larger one of the other"
     };
-    format!("{one} and {other} are hard to tell apart (correlation {correlation:.2}): {how}")
+    format!(
+        "{one} and {other} are not separately identifiable (correlation {correlation:.2}): {how}"
+    )
 }
 
-/// A run that would help.
+/// A proposed run and the standard deviation that it leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ProposalRecord {
     /// Load [N].

@@ -1,6 +1,6 @@
-//! `campaign/1`: many runs over what is not known exactly.
+//! `campaign/1`: Monte Carlo campaigns, which sample uncertain inputs and run a study for each sample.
 //!
-//! A campaign names a study (`traverse`, `attitude`, `wheel-test`), what it is a study of, and how well
+//! A campaign names a study (`traverse`, `heading`, `wheel-test`), what it is a study of, and how well
 //! the numbers of that are known. Read, it is a [`Campaign`]: ready to run, run by run, in any order and
 //! on any machine, each run a row of the same [`Column`]s. These steps lead there:
 //!
@@ -86,13 +86,13 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
 }
 
 impl Campaign {
-    /// What it calls itself.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         self.document().name()
     }
 
-    /// What every run computes.
+    /// The study that every run computes.
     #[must_use]
     pub fn study(&self) -> Study {
         self.study
@@ -105,7 +105,7 @@ impl Campaign {
         self.ensemble().runs()
     }
 
-    /// What tells its draws from those of the same document with another seed.
+    /// The seed of its samples.
     #[must_use]
     pub fn seed(&self) -> u64 {
         self.ensemble().design().seed
@@ -142,7 +142,7 @@ impl Campaign {
         &self.prepared.ensemble
     }
 
-    /// What a sensitivity can be asked of, in the ensemble's order of dimensions: the keys, and `samples`
+    /// The factors of sensitivities, in the ensemble's order of dimensions: the keys, and `samples`
     /// for rows of samples, which are one.
     #[must_use]
     pub fn factors(&self) -> &[String] {
@@ -186,7 +186,7 @@ impl Campaign {
         row
     }
 
-    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` said no before
+    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` was false before
     /// the end.
     ///
     /// * `go_on`: asked before each run, from any thread

@@ -12,16 +12,16 @@ pub const SHARE: RangeInclusive<f64> = 0.0..=1.0;
 /// Margins that a rule may have [°].
 pub const MARGIN_DEG: RangeInclusive<f64> = 0.0..=60.0;
 
-/// When to go.
+/// The limits of the verdicts, in degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RuleRecord {
     /// Largest slip ratio of a go [-].
     pub go_slip_ratio: f64,
-    /// Least share of the draws within it [-].
+    /// Least share of the samples within it [-].
     pub go_probability: f64,
-    /// Largest slip ratio that is no no-go [-].
+    /// Largest slip ratio that is not a no-go [-].
     pub no_go_slip_ratio: f64,
-    /// Least share of the draws within it [-].
+    /// Least share of the samples within it [-].
     pub no_go_probability: f64,
     /// Margin of slope where no uncertainty is stated [°].
     pub margin_deg: f64,

@@ -1,21 +1,21 @@
-//! A sampler's state as a file, from which it goes on as if it had never stopped.
+//! A sampler's state as a file, from which sampling continues with the same bits.
 //!
-//! Numbers are written as they are, bit for bit, little-endian; an identity at the start tells
-//! whose state it is, and a check sum at the end (FNV-1a, 64 bits) that it is whole.
+//! Numbers are written as they are, bit for bit, little-endian; an identity at the start names
+//! the calibration, and a check sum at the end (FNV-1a, 64 bits) finds damage.
 
 use super::fnv_1a;
 use crate::studies::calibration::PosteriorState;
 use crate::studies::calibration::posterior::Ensemble;
 
 const MAGIC: &[u8] = b"grouser posterior 2\n";
-/// What earlier versions wrote: their check sum was the compiler's, which no other version knows.
+/// The mark of earlier versions, whose check sum depended on the compiler.
 const OLD_MAGIC: &[u8] = b"grouser posterior 1\n";
 
 /// The largest file of a state that is read [bytes]: that of ten keys after a hundred thousand steps
 /// has about a gigabyte.
 pub const LARGEST: u64 = 4 << 30;
 
-/// Why a state cannot be taken up again.
+/// A state that cannot be continued.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CheckpointError {
     /// Not a state, or not all of one.
@@ -33,7 +33,7 @@ pub enum CheckpointError {
 
 /// The state as bytes.
 ///
-/// * `identity`: whatever tells this calibration from others
+/// * `identity`: the inputs that identify this calibration
 #[must_use]
 pub fn to_bytes(state: &PosteriorState, identity: &str) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();

@@ -190,8 +190,8 @@ mod tests {
             (format!("{HEADER}\n50,1,nan\n"), ["plates.csv:2: ", "`pressure_kpa`"]),
             (format!("{HEADER},sinkage_mm\n50,1,2,3\n"), ["plates.csv:1: ", "twice"]),
         ] {
-            let said = refusal(&text);
-            assert!(parts.iter().all(|part| said.contains(part)), "{text}: {said}");
+            let message = refusal(&text);
+            assert!(parts.iter().all(|part| message.contains(part)), "{text}: {message}");
         }
     }
 }

@@ -1,5 +1,4 @@
-//! Every theory on every data set, best first: on those that come with the program, or on those of
-//! a folder.
+//! Ranks every wheel–soil model on every data set: those that come with the program, or those of a folder.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -17,16 +16,16 @@ use crate::soil::Extended;
 use crate::studies::measurement::Quantity;
 use crate::studies::validation::{Validation, ValidationStudy};
 
-/// A theory with a soil on a part of a data set.
+/// A wheel–soil model with a soil on a part of a data set.
 #[derive(Clone, Debug, Serialize)]
 pub struct RankedTheory {
     /// The data set's name.
     pub data_set: String,
     /// Its part.
     pub case: String,
-    /// Place among the theories of the part, from 1.
+    /// Place among the models of the part, from 1.
     pub rank: usize,
-    /// The theory's name.
+    /// The model's name.
     pub model: &'static str,
     /// The soil's name.
     pub soil: String,
@@ -44,7 +43,7 @@ pub struct RankedTheory {
     pub validation: Validation,
 }
 
-/// Why theories cannot be ranked.
+/// Models cannot be ranked.
 #[derive(Debug, thiserror::Error)]
 pub enum RankingError {
     /// A folder that is not there.
@@ -55,7 +54,7 @@ pub enum RankingError {
     Unreadable {
         /// The folder.
         folder: PathBuf,
-        /// What the system says.
+        /// The system's error.
         error: std::io::Error,
     },
     /// A document that names a file which is not there.
@@ -82,7 +81,7 @@ pub enum RankingError {
     Measurements(#[from] MeasurementError),
 }
 
-/// Every theory on every data set of a folder, or without a folder on those that come with the
+/// Ranks every model on every data set of a folder, or without a folder on those that come with the
 /// program: data set by data set and part by part, best first.
 ///
 /// * `limits`: how much of each file is read
@@ -176,7 +175,7 @@ fn documents_in(folder: &Path) -> Result<Vec<PathBuf>, RankingError> {
     Ok(files)
 }
 
-/// Every theory with the soils of a part, best first.
+/// Every model with the soils of a part, best first.
 fn rank(
     set: &LoadedDataSet,
     case: &DataSetCase,
@@ -189,7 +188,7 @@ fn rank(
     for (name, soil) in &case.soils {
         for theory in Theory::ALL {
             let for_another = soil.document.theory().is_some_and(|own| own != theory);
-            // Without its terms the extended theory is the classical one.
+            // Without its terms the small-wheel model is the classical one.
             let same = theory == Theory::Extended && soil.value.extended == Extended::OFF;
             if for_another || same {
                 continue;

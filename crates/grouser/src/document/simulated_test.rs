@@ -1,4 +1,4 @@
-//! What simulated wheel tests may be asked for.
+//! Permitted settings of simulated wheel tests.
 
 use std::ops::RangeInclusive;
 

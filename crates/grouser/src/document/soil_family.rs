@@ -1,4 +1,4 @@
-//! Soils that differ in a few numbers of one document: what a calibration chooses among.
+//! The family of soils of a calibration: one document with other values of some keys.
 
 use std::ops::RangeInclusive;
 
@@ -13,7 +13,7 @@ use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::studies::calibration::{Parameter, Scale};
 
-/// A soil's document, and the keys whose values are to be found.
+/// A soil's document, and the keys to fit.
 #[derive(Clone, Debug)]
 pub struct SoilFamily {
     base: Varied<Soil>,
@@ -21,7 +21,7 @@ pub struct SoilFamily {
     parameters: Vec<Parameter>,
 }
 
-/// A key to be found, as it was asked for: `soil.pressure_sinkage.k_phi`, or with bounds of its
+/// A key to fit, as it was written: `soil.pressure_sinkage.k_phi`, or with bounds of its
 /// own, `soil.pressure_sinkage.k_phi=1e6:5e7`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FitKey {
@@ -53,7 +53,7 @@ impl FitKey {
             None => (text, None),
         };
         let path = key.trim().strip_prefix("soil.").ok_or_else(|| {
-            format!("'{key}' is no key of a soil: write soil.friction_angle_deg, for instance")
+            format!("'{key}' is not a key of a soil: write soil.friction_angle_deg, for instance")
         })?;
         let bounds = bounds.map(|bounds| {
             let ends = bounds.split_once(':').and_then(|(from, to)| {
@@ -130,7 +130,7 @@ impl SoilFamily {
     /// The soil with these values of the keys.
     ///
     /// # Errors
-    /// [`ParameterError`] if they are no soil together.
+    /// [`ParameterError`] if they contradict each other.
     pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
         self.base.with(&self.keys, values).map_err(Misfit::of_numbers)
     }
@@ -188,7 +188,7 @@ fn no_start(soil: &Document, path: &str) -> String {
              soil.{path}=VALUE"
         );
     }
-    format!("soil.{path} is no number of this soil: {}", meant_number(soil, path))
+    format!("soil.{path} is not a number of this soil: {}", meant_number(soil, path))
 }
 
 fn parameter(
@@ -259,7 +259,7 @@ mod tests {
     fn keys_that_cannot_be_fitted_say_why() {
         for (key, part) in [
             ("soil.cohesion", "cohesion_kpa"),
-            ("soil.bulldozing.law", "no number"),
+            ("soil.bulldozing.law", "not a number"),
             ("soil.rft.scale", "by the setting soil.rft.scale=VALUE"),
             ("soil.friction_angle_deg=40:50", "must lie between"),
             ("soil.friction_angle_deg=30:90", "within 5 to 60"),

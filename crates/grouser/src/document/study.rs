@@ -1,4 +1,4 @@
-//! What wheel tests and attitudes may be asked for.
+//! Permitted settings of wheel tests and heading maps.
 
 use std::ops::RangeInclusive;
 
@@ -9,7 +9,7 @@ pub const SLIP_RATIO: RangeInclusive<f64> = -2.0..=2.0;
 /// Slip angles that a wheel test may ask for [°].
 pub const SLIP_ANGLE_DEG: RangeInclusive<f64> = -90.0..=90.0;
 
-/// Courses that an attitude map may ask for [°].
+/// Courses that a heading map may ask for [°].
 pub const COURSE_DEG: RangeInclusive<f64> = -90.0..=90.0;
-/// Rim speeds that an attitude map may ask for [m/s].
+/// Rim speeds that a heading map may ask for [m/s].
 pub const MAP_SPEED_M_S: RangeInclusive<f64> = 1e-6..=10.0;

@@ -1,4 +1,4 @@
-//! Errors of models against measurements, as JSON and tables say them.
+//! Errors of models against measurements, as records for JSON and tables.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 

@@ -1,25 +1,25 @@
-//! Calibration: which parameters a series of measurements speaks for, how surely, and which run
-//! to make next.
+//! Calibration: estimates parameters from measurements, with confidence intervals, and proposes the runs to make
+//! next.
 //!
-//! An [`Experiment`] is measurements and the theory that predicts them: [`WheelTestExperiment`] for
-//! a wheel on a test stand, [`PlateTest`] for a bevameter. A [`Calibration`] asks it about a
-//! [`ParameterSpace`]. An observation y_i of channel k, the mean over repeated trials, is taken as
+//! An [`Experiment`] is measurements and the model that predicts them: [`WheelTestExperiment`] for
+//! a wheel on a test stand, [`PlateTest`] for a bevameter. A [`Calibration`] has one, and the
+//! [`ParameterSpace`] to search. An observation y_i of channel k, the mean over repeated trials, is taken as
 //!
 //! ```text
 //! y_i = f_i(θ) + N(0, s_i² + δ_k²)
 //! ```
 //!
-//! with the scatter s_i of the trials, which is known, and a model discrepancy δ_k, which is found
-//! along with θ: no theory is exact, and one that is not must not be made sure of its parameters
-//! by the number of trials. Discrepancies are taken as independent from one observation to the next.
+//! with the scatter s_i of the trials, which is known, and a model discrepancy δ_k, which is estimated
+//! along with θ: no model is exact, and more trials of an inexact model must not narrow its parameters
+//! without limit. Discrepancies are taken as independent from one observation to the next.
 //!
 //! The order of work, each step on its own:
 //!
 //! 1. [`Calibration::fit`]: bounded least squares from several starts;
 //! 2. [`Calibration::start_posterior`] and [`Calibration::advance`]: samples of all parameter sets
 //!    that agree with the data, in blocks, between which a run can be stopped, kept and resumed;
-//! 3. [`diagnostics`]: whether the samples suffice, and what they say;
-//! 4. [`identifiability`]: what these data cannot tell apart;
+//! 3. [`diagnostics`]: convergence of the sampler, and summaries of the samples;
+//! 4. [`identifiability`]: parameters that these data do not determine;
 //! 5. [`design`]: which run to make next;
 //! 6. [`cross_validation`]: the same fit with some measurements left out.
 //!
@@ -55,7 +55,7 @@ pub use wheel_test::{Resolution, WheelTestExperiment};
 use crate::elementary::wide;
 use crate::error::ParameterError;
 
-/// An experiment, and the parameters that it is asked about.
+/// An experiment, and the parameters to estimate.
 ///
 /// Which moduli of Bekker's law fit two plates, 5 and 10 cm wide, that were pressed 1 to 4 cm deep?
 ///
@@ -104,29 +104,29 @@ pub struct Calibration<'a> {
 /// minute, and the time grows with their number: ten thousand keep a machine busy for hours.
 pub const MOST_OBSERVATIONS: usize = 10_000;
 
-/// Why a calibration gives no answer.
+/// A calibration has no result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
-    /// There is nothing to find.
+    /// No parameters were given.
     #[error("no parameter is to be fitted")]
     NoParameters,
     /// There are not enough observations for the parameters.
     #[error("{observations} observations cannot determine {parameters} parameters")]
     TooFewObservations {
-        /// How many there are.
+        /// Their number.
         observations: usize,
-        /// How many parameters they are to determine.
+        /// The number of parameters to determine.
         parameters: usize,
     },
-    /// There are more observations than a search goes through in reasonable time.
+    /// There are more observations than a search can use in reasonable time.
     #[error(
         "{observations} observations are more than {most}, the most that are fitted: let rows that \
          repeat each other form one cell (their mean is one observation), or choose rows"
     )]
     TooManyObservations {
-        /// How many there are.
+        /// Their number.
         observations: usize,
-        /// The most that are fitted.
+        /// The largest number that is fitted.
         most: usize,
     },
     /// An observation is not a finite number, or its scatter is negative.
@@ -139,26 +139,26 @@ pub enum CalibrationError {
         /// Its scatter.
         scatter: f64,
     },
-    /// A parameter makes no sense.
+    /// A parameter is invalid.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// At no start do the parameters make a soil with finite predictions.
+    /// No start has parameters of a valid soil with finite predictions.
     #[error("none of {starts} starts gives finite predictions; the first fails: {reason}")]
     NoStart {
-        /// How many starts were tried.
+        /// The number of starts tried.
         starts: usize,
-        /// What the given start fails with.
+        /// The error at the given start.
         reason: String,
     },
     /// A slip angle cannot be left out where there is no other.
     #[error("each slip angle is left out in turn, and all trials are at one")]
     OneSlipAngle,
-    /// Without a slip angle there is nothing to fit. (Rounded as people wrote it.)
+    /// Without a slip angle the other cells cannot be fitted. (The angle is rounded as it was written.)
     #[error("without the trials at {}°, {error}", (slip_angle.to_degrees() * 1e9).round() / 1e9)]
     LeavingOut {
         /// The slip angle that is left out [rad].
         slip_angle: f64,
-        /// What is wrong with the others.
+        /// The error of the others.
         error: Box<CalibrationError>,
     },
     /// The observer asked to stop.
@@ -167,17 +167,17 @@ pub enum CalibrationError {
     /// A state of the sampler that belongs to another problem, or was damaged.
     #[error("the sampler's state does not fit the problem: {what}")]
     ForeignState {
-        /// What does not fit.
+        /// The difference.
         what: String,
     },
 }
 
 impl<'a> Calibration<'a> {
-    /// An experiment asked about its parameters.
+    /// The calibration of some parameters from an experiment.
     ///
     /// # Errors
     /// [`CalibrationError`] if there are no parameters, fewer observations than parameters, more
-    /// than [`MOST_OBSERVATIONS`], or observations that are no numbers.
+    /// than [`MOST_OBSERVATIONS`], or observations that are not finite.
     pub fn new(
         experiment: &'a dyn Experiment,
         space: ParameterSpace,
@@ -221,20 +221,20 @@ impl<'a> Calibration<'a> {
         &self.discrepancies
     }
 
-    /// Parameters and discrepancies: what a sample of the posterior has coordinates of.
+    /// The number of parameters and discrepancies: the coordinates of a posterior sample.
     #[must_use]
     pub fn dimension(&self) -> usize {
         self.space.len() + self.discrepancies.len()
     }
 
-    /// Predictions of all observations; `None` where the values make no soil or no numbers.
+    /// Predictions of all observations; `None` where the values are no valid soil or give no finite predictions.
     fn predictions(&self, values: &[f64]) -> Option<Vec<f64>> {
         let mut predictions = vec![0.0; self.experiment.observations().len()];
         self.experiment.predict(values, &mut predictions).ok()?;
         predictions.iter().all(|prediction| prediction.is_finite()).then_some(predictions)
     }
 
-    /// Variances of all observations about the theory, s² + δ².
+    /// Variances of all observations about the model, s² + δ².
     fn variances(&self, discrepancies: &[f64]) -> Vec<f64> {
         let observations = self.experiment.observations().iter();
         let variance = |one: &Observation| one.scatter.powi(2) + discrepancies[one.channel].powi(2);

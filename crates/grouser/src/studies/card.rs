@@ -1,38 +1,37 @@
-//! The operator's card: for each slope, which heading keeps a traverse level, what it costs, what
-//! happens without it, and whether to go at all.
+//! The operator's card: for each slope, the heading that holds the contour, slip and power there, the drift without
+//! it, and a verdict to go or not.
 //!
-//! On an uncertain soil every number has a band over its draws, and a slope is judged by how many
-//! of them allow a level traverse at a slip that a rover can afford. On a soil of which no
-//! uncertainty is stated there is one curve and no band: nothing is made up, and a slope is judged
-//! as if it were steeper by a margin. The [`Rule`] is the caller's; a verdict never gets better on
-//! a steeper slope.
+//! On an uncertain soil every number has a band over the sampled soils, and a slope is judged by the share
+//! of them on which a heading holds the contour at an acceptable slip. On a soil without stated
+//! uncertainty there is one curve and no band, and a slope is judged as if it were steeper by a margin.
+//! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
-use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy};
 use super::ensemble::{Band, Probability, outputs};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
-/// What an operator is told about a slope.
+/// Whether to drive on a slope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
     /// Drive.
     Go,
-    /// Drive only with a second look: measured slip, a stop on the way, someone's decision.
+    /// Drive only after a second check: measured slip, a stop on the way, a person's decision.
     Caution,
     /// Do not drive.
     NoGo,
 }
 
-/// When to go, and when not to. Source of all numbers: ours; a mission has its own.
+/// The limits of the verdicts. Source of all numbers: ours; a mission has its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
-    /// Go: a level traverse exists and slips at most this much [-] …
+    /// Go: a contour traverse exists and slips at most this much [-] …
     pub go_slip_ratio: f64,
-    /// … on at least this share of the drawn soils [-].
+    /// … on at least this share of the sampled soils [-].
     pub go_probability: f64,
-    /// No-go: a level traverse exists and slips at most this much [-] …
+    /// No-go: a contour traverse exists and slips at most this much [-] …
     pub no_go_slip_ratio: f64,
-    /// … on less than this share of the drawn soils [-].
+    /// … on less than this share of the sampled soils [-].
     pub no_go_probability: f64,
     /// Without stated uncertainty a slope is judged as if it were steeper by this [rad].
     pub margin: f64,
@@ -42,7 +41,7 @@ impl Rule {
     /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
     /// 95 % band.
     /// Slip 0.6: rims go 2.5 times the way, and thrust hardly grows any more: nothing is left to
-    /// get out with. 0.8: on one soil in five the slope cannot be crossed level.
+    /// get out with. 0.8: on one soil in five no heading holds the contour.
     /// 5°: about as far as the stated deviations of Toyoura sand move the steepest slope down.
     pub const DEFAULT: Self = Self {
         go_slip_ratio: 0.3,
@@ -52,7 +51,7 @@ impl Rule {
         margin: 5.0 * std::f64::consts::PI / 180.0,
     };
 
-    /// That the rule has an order: what is a go is never a no-go.
+    /// Checks that no slope can be both a go and a no-go.
     ///
     /// # Errors
     /// [`ParameterError`] for shares and slip ratios outside 0 to 1, a go that asks for less than
@@ -73,7 +72,7 @@ impl Rule {
 
     /// The verdict on a slope.
     ///
-    /// * `slips`: slip ratio of the level traverse on each soil, `None` where there is none
+    /// * `slips`: slip ratio of the contour traverse on each soil, `None` where no heading holds the contour
     fn verdict(&self, slips: &[Option<f64>]) -> Verdict {
         let share_within = |most: f64| {
             let count = slips.iter().flatten().filter(|slip| **slip <= most).count();
@@ -89,14 +88,14 @@ impl Rule {
     }
 }
 
-/// What the card asks.
+/// The inputs of a card.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardStudy {
-    /// Rover, soil as its document has it, gravity, theory and balance.
-    pub attitude: AttitudeStudy,
+    /// Rover, soil as its document has it, gravity, model and load transfer.
+    pub heading: HeadingStudy,
     /// Rim speed ω r_s [m/s], for the power.
     pub rim_speed: f64,
-    /// When to go.
+    /// The limits of the verdicts.
     pub rule: Rule,
 }
 
@@ -105,12 +104,12 @@ pub struct CardStudy {
 pub struct Card {
     /// On each slope that was asked for, in that order.
     pub rows: Vec<CardRow>,
-    /// Steepest slope with a level traverse on the soil as written [rad], and what ends it; `Err` with
-    /// the reason where the rover cannot move.
+    /// Steepest slope on which a heading holds the contour on the soil as written [rad], and what ends it; `Err`
+    /// with the reason where the rover cannot move.
     pub limit: Result<(f64, String), String>,
-    /// The same over the draws on which the rover can move.
+    /// The same over the samples on which the rover can move.
     pub limit_band: Option<Band>,
-    /// How many soils were drawn; `None` where no uncertainty is stated.
+    /// Number of sampled soils; `None` where no uncertainty is stated.
     pub draws: Option<usize>,
 }
 
@@ -119,18 +118,18 @@ pub struct Card {
 pub struct CardRow {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// Whether to go.
+    /// The verdict.
     pub verdict: Verdict,
-    /// On the soil as written; `None` where it has no level traverse.
+    /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
     /// the contour [-]; `None` where the rover slides.
     pub drift: Option<f64>,
-    /// Over the draws; `None` where no uncertainty is stated.
+    /// Over the samples; `None` where no uncertainty is stated.
     pub bands: Option<CardBands>,
 }
 
-/// A level traverse.
+/// A contour traverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
     /// Yaw, *γ* [rad], positive uphill.
@@ -141,10 +140,10 @@ pub struct Level {
     pub power: f64,
 }
 
-/// What the draws say of one slope.
+/// One slope over the sampled soils.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// How many have a level traverse: those that yaw, slip and power are over.
+    /// Samples on which a heading holds the contour: yaw, slip and power are over them.
     pub level: Probability,
     /// Yaw, *γ* [rad].
     pub yaw: Option<Band>,
@@ -152,13 +151,13 @@ pub struct CardBands {
     pub slip_ratio: Option<Band>,
     /// Power of the motors [W].
     pub power: Option<Band>,
-    /// How many do not slide with the nose on the contour: those that drift is over.
+    /// Samples on which the rover does not slide with the nose on the contour: drift is over them.
     pub held: Probability,
     /// Drift [-].
     pub drift: Option<Band>,
 }
 
-/// What is kept of one soil.
+/// One soil: the numbers that the card needs.
 struct Draw {
     limit: Result<(f64, String), String>,
     /// On each slope.
@@ -167,20 +166,20 @@ struct Draw {
 }
 
 impl CardStudy {
-    /// The card. Draws are shared among threads and keep their order: the result is the same for
+    /// Computes the card. Samples are shared among threads and keep their order: the result is the same for
     /// any number of threads.
     ///
     /// Go or no-go on 5°, 10° and 20°, where nothing is known of the soil's uncertainty?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
-    /// use grouser::studies::attitude::AttitudeStudy;
+    /// use grouser::studies::heading::HeadingStudy;
     /// use grouser::studies::card::{CardStudy, Rule, Verdict};
     /// use grouser::units::deg;
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-    /// let attitude = AttitudeStudy::of(&scenario);
-    /// let study = CardStudy { attitude, rim_speed: 0.06, rule: Rule::DEFAULT };
+    /// let heading = HeadingStudy::of(&scenario);
+    /// let study = CardStudy { heading, rim_speed: 0.06, rule: Rule::DEFAULT };
     /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::NoGo]);
@@ -189,13 +188,13 @@ impl CardStudy {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// * `soils`: one for each draw; none where no uncertainty is stated
+    /// * `soils`: one for each sample; empty where no uncertainty is stated
     /// * `slopes`: [rad], rising
-    /// * `done`: called after each draw, from any thread
+    /// * `done`: called after each sample, from any thread
     ///
     /// # Errors
     /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
-    /// first soil that is none.
+    /// first invalid soil.
     pub fn card(
         &self,
         soils: &[Soil],
@@ -207,7 +206,7 @@ impl CardStudy {
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
-        let nominal = self.draw(&self.attitude.soil, slopes)?;
+        let nominal = self.draw(&self.heading.soil, slopes)?;
         let drawn = |soil: &Soil| {
             let draw = self.draw(soil, slopes);
             done();
@@ -218,7 +217,7 @@ impl CardStudy {
             outputs(soils, drawn).into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
         let judged: Vec<Vec<Option<f64>>> = if draws.is_empty() {
             let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
-            let levels = self.draw(&self.attitude.soil, &steeper)?.levels;
+            let levels = self.draw(&self.heading.soil, &steeper)?.levels;
             levels.iter().map(|level| vec![level.map(|level| level.slip_ratio)]).collect()
         } else {
             (0..slopes.len()).map(|place| slips_at(&draws, place)).collect()
@@ -254,14 +253,14 @@ impl CardStudy {
     }
 
     fn draw(&self, soil: &Soil, slopes: &[f64]) -> Result<Draw, ParameterError> {
-        let study = AttitudeStudy { soil: *soil, ..self.attitude.clone() };
+        let study = HeadingStudy { soil: *soil, ..self.heading.clone() };
         let (level, drift) = (study.curve()?, study.drift_curve()?);
-        let keep = |attitude: &Attitude| Level {
-            yaw: attitude.yaw,
-            slip_ratio: attitude.slip_ratio,
-            power: attitude.power(&study.rover, self.rim_speed),
+        let keep = |heading: &HeadingOffset| Level {
+            yaw: heading.yaw,
+            slip_ratio: heading.slip_ratio,
+            power: heading.power(&study.rover, self.rim_speed),
         };
-        let on = |curve: &AttitudeCurve, slope: f64| curve.at(slope).ok();
+        let on = |curve: &HeadingCurve, slope: f64| curve.at(slope).ok();
         Ok(Draw {
             limit: level
                 .limit()
@@ -273,7 +272,7 @@ impl CardStudy {
     }
 }
 
-/// Slip ratios of the level traverses on one of the slopes.
+/// Slip ratios of the contour traverses on one of the slopes.
 fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
     draws.iter().map(|draw| draw.levels[place].map(|level| level.slip_ratio)).collect()
 }

@@ -1,8 +1,8 @@
-//! How near a simulated traverse comes to a measured one ([FourWheel], Table 4).
+//! Metrics of a traverse against a measured one ([FourWheel], Table 4).
 
 use crate::simulation::Trajectory;
 
-/// A measured traverse, and what the source prints about it. Angles [rad].
+/// A measured traverse, and the metrics that the source prints. Angles [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredTraverse {
     /// Slope, *α*.
@@ -38,7 +38,7 @@ pub fn yaw_error(measured: f64, predicted: f64) -> f64 {
     (measured - predicted).abs() / predicted.abs()
 }
 
-/// How level a run was.
+/// The deviation of a run from the contour.
 ///
 /// How far does a run leave the contour that starts at the yaw of the measured one?
 ///
@@ -68,7 +68,7 @@ pub struct Levelness {
 }
 
 impl Levelness {
-    /// Of a run that started at y = 0.
+    /// The deviation of a run that started at y = 0.
     #[must_use]
     pub fn of(run: &Trajectory) -> Self {
         let count = run.records.len() as f64;

@@ -2,20 +2,20 @@
 
 use crate::simulation::{Record, Trajectory, WheelRecord};
 
-/// A traverse in a few numbers.
+/// Length, drift and means of a traverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Length of the way [m], from sample to sample.
+    /// Length of the way [m], from record to record.
     pub distance: f64,
     /// Drift per metre travelled, −*y*/distance [m/m], −1 to 1: positive downhill, as
-    /// [`Attitude::drift`](crate::studies::attitude::Attitude::drift). None for a rover that did not
+    /// [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift). Missing for a rover that did not
     /// move.
     pub drift: Option<f64>,
-    /// Slip ratio [-], over wheels and samples. None where no sample has its wheels.
+    /// Slip ratio [-], the mean over wheels and records. Missing where no record has its wheels.
     pub slip_ratio: Option<f64>,
-    /// Sinkage [m], over wheels and samples.
+    /// Sinkage [m], the mean over wheels and records.
     pub sinkage: Option<f64>,
-    /// Work of the motors over the time [W]. None for a run without any.
+    /// Mean power of the motors [W]. Missing for a run of no duration.
     pub power: Option<f64>,
     /// Work of the motors [J].
     pub energy: f64,
@@ -24,10 +24,10 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// Of a run; means are over its samples.
+    /// The numbers of a run; means are over its records.
     #[must_use]
     pub fn of(run: &Trajectory) -> Self {
-        /// A way shorter than this is none [m].
+        /// A shorter way counts as standing still [m].
         const STILL: f64 = 1e-9;
         let last = run.last();
         let steps = run.records.windows(2);

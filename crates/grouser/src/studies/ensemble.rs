@@ -1,12 +1,12 @@
-//! Ensembles: many cases whose inputs are not known exactly, and what they say together.
+//! Monte Carlo: cases whose uncertain inputs are sampled, and the statistics of their results.
 //!
 //! An [`Ensemble`] has the inputs of each case: a [`design::Design`] spreads points over the unit cube, and a
 //! [`Distribution`] makes values of them. Case *i* depends on the seed and on *i* alone, so that it can be repeated
-//! on its own, on any machine, and does not care what other cases there are. [`outputs`] computes many cases.
+//! on its own, on any machine, whatever other cases there are. [`outputs`] computes many cases.
 //! [`statistics`] has bands, quantiles and probabilities with their confidence intervals, and [`sensitivity`]
-//! says which input an output's variance comes from.
+//! attributes an output's variance to the inputs.
 //!
-//! What the values stand for, and what is computed from them, is not known here.
+//! The meaning of the values, and the computation, are the caller's.
 
 pub mod design;
 mod permutation;
@@ -23,9 +23,9 @@ pub use grouser_io::statistics::{
     Band, Contradiction, Correlation, Distribution, Marginal, NothingAccepted, Probability,
 };
 
-/// What comes of many cases, in the cases' order. They are shared among threads, which changes no result.
+/// Computes many cases, in their order. They are shared among threads, which changes no result.
 ///
-/// * `one`: what comes of a case
+/// * `one`: computes a case
 pub fn outputs<C: Send, T: Send>(
     cases: impl IntoParallelIterator<Item = C>,
     one: impl Fn(C) -> T + Sync + Send,
@@ -33,7 +33,7 @@ pub fn outputs<C: Send, T: Send>(
     cases.into_par_iter().map(one).collect()
 }
 
-/// The same; nothing if `go_on` was false before the end.
+/// Computes many cases; nothing if `go_on` was false before the end.
 ///
 /// * `go_on`: asked before each case, from any thread
 pub fn outputs_while<C: Send, T: Send>(
@@ -108,7 +108,7 @@ pub struct Inputs {
     pub place: Option<Place>,
 }
 
-/// A run's place among those that tell sensitivities.
+/// A run's place in a design for sensitivities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// The point, below N.
@@ -164,14 +164,14 @@ impl Ensemble {
         if self.sensitivity { self.dimensions() as u64 + 2 } else { 1 }
     }
 
-    /// Whether the runs are laid out so that they tell sensitivities.
+    /// Whether the runs are a design for sensitivities.
     #[must_use]
     pub fn is_for_sensitivity(&self) -> bool {
         self.sensitivity
     }
 
-    /// Whether a run is one of the independent samples: all are, but for those of a design for sensitivities
-    /// that are A with one input exchanged.
+    /// Whether a run is one of the independent samples: all are, except those of a design for
+    /// sensitivities that are A with one input exchanged.
     #[must_use]
     pub fn is_sample(&self, run: u64) -> bool {
         !self.sensitivity || matches!(self.place(run).matrix, Matrix::A | Matrix::B)

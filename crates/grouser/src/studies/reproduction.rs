@@ -1,15 +1,15 @@
-//! The source paper's study, run again: wheel curves (Fig. 7), traverses (Fig. 9), attitudes
-//! (Fig. 10) and the comparison with the experiment (Table 4).
+//! The source paper's study, run again: wheel curves (Fig. 7), traverses (Fig. 9), heading
+//! offsets (Fig. 10, there *attitude*) and the comparison with the experiment (Table 4).
 
-use super::attitude::{Attitude, AttitudeCurve, AttitudeStudy, NoAttitude};
 use super::comparison::MeasuredTraverse;
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::wheel_test::{WheelTest, WheelTestRow};
 use crate::error::ParameterError;
 use crate::simulation::{Motion, Numerics, Run, RunError, Scenario, Start, Trajectory};
 use crate::soil::{Shear, ShearModulus, Soil};
 use crate::vehicle::LoadSharing;
 
-/// What is reproduced: the paper's rover, soil and drive, and what was measured.
+/// The inputs of the study: the paper's rover, soil and drive, and its measurements.
 ///
 /// How far off the contour do simulated traverses end on one slope: with the nose along the contour,
 /// and with the heading offset that was measured at the start?
@@ -51,7 +51,7 @@ pub struct Plan {
     pub loads: Vec<f64>,
 }
 
-/// Everything that the report shows.
+/// The results of the study: wheel tests, heading offsets, traverses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reproduction {
     /// The single-wheel test for each longitudinal modulus.
@@ -60,8 +60,8 @@ pub struct Reproduction {
     pub by_slip_angle: Vec<WheelTestRow>,
     /// The single-wheel test under each load, at slip angle 0.
     pub by_load: Vec<WheelTestRow>,
-    /// The attitude over the slope.
-    pub attitudes: AttitudeCurve,
+    /// The heading offset over the slope.
+    pub headings: HeadingCurve,
     /// The traverses on each measured slope.
     pub slopes: Vec<SlopeRuns>,
     /// The first moments of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
@@ -82,11 +82,11 @@ pub struct WheelCurve {
 pub struct SlopeRuns {
     /// What was measured there.
     pub measured: MeasuredTraverse,
-    /// Our attitude.
-    pub attitude: Result<Attitude, NoAttitude>,
+    /// Our heading offset.
+    pub heading: Result<HeadingOffset, NoHeading>,
     /// Nose along the contour: the drift.
     pub uncompensated: Trajectory,
-    /// Started at our attitude, where there is one.
+    /// Started at our heading offset, where a heading holds the contour.
     pub compensated: Option<Trajectory>,
     /// Started at the measured yaw.
     pub from_measured_yaw: Trajectory,
@@ -99,7 +99,7 @@ pub const START_UP_ROW: usize = 1;
 /// Length of the run from rest [s], and its sample interval [s].
 const START_UP: (f64, f64) = (0.3, 0.002);
 
-/// Why the study could not be run.
+/// The study cannot be run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReproductionError {
     /// The plan is wrong.
@@ -117,7 +117,7 @@ impl Plan {
         self.longitudinal_moduli.len() + 2 + RUNS_PER_SLOPE * self.measured.len() + 1
     }
 
-    /// Runs the study; `progress` is told the name of each step as it begins.
+    /// Runs the study; `progress` gets the name of each step as it begins.
     ///
     /// # Errors
     /// [`ReproductionError`] if the plan is wrong or a run cannot be computed.
@@ -129,16 +129,16 @@ impl Plan {
         progress("wheel test");
         let by_slip_angle = self.wheel_test(&[self.wheel_load], &self.slip_angles).run();
         let by_load = self.wheel_test(&self.loads, &[0.0]).run();
-        progress("attitudes");
-        let attitudes = AttitudeStudy::of(&self.scenario).curve()?;
+        progress("heading offsets");
+        let headings = HeadingStudy::of(&self.scenario).curve()?;
         let slopes = self
             .measured
             .iter()
-            .map(|measured| self.slope_runs(measured, &attitudes, progress))
+            .map(|measured| self.slope_runs(measured, &headings, progress))
             .collect::<Result<Vec<_>, _>>()?;
         progress("start from rest");
         let start_up = self.start_up(&slopes)?;
-        Ok(Reproduction { wheel_curves, by_slip_angle, by_load, attitudes, slopes, start_up })
+        Ok(Reproduction { wheel_curves, by_slip_angle, by_load, headings, slopes, start_up })
     }
 
     fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {
@@ -167,7 +167,7 @@ impl Plan {
     fn slope_runs(
         &self,
         measured: &MeasuredTraverse,
-        attitudes: &AttitudeCurve,
+        headings: &HeadingCurve,
         progress: &mut dyn FnMut(&str),
     ) -> Result<SlopeRuns, ReproductionError> {
         let mut run = |yaw: f64, sharing: LoadSharing| {
@@ -176,28 +176,28 @@ impl Plan {
             Run::new(&scenario)?.to_end()
         };
         let sharing = self.scenario.sharing;
-        let attitude = attitudes.at(measured.slope);
+        let heading = headings.at(measured.slope);
         Ok(SlopeRuns {
             measured: *measured,
             uncompensated: run(0.0, sharing)?,
-            compensated: attitude
+            compensated: heading
                 .as_ref()
                 .ok()
-                .map(|attitude| run(attitude.yaw, sharing))
+                .map(|heading| run(heading.yaw, sharing))
                 .transpose()?,
             from_measured_yaw: run(measured.initial_yaw, LoadSharing::QuasiStatic)?,
             from_measured_yaw_with_torque: run(
                 measured.initial_yaw,
                 LoadSharing::QuasiStaticTorque,
             )?,
-            attitude,
+            heading,
         })
     }
 
     fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
         let row = slopes.get(START_UP_ROW).or(slopes.first());
         let (slope, yaw) = row.map_or((self.scenario.site.terrain.slope, 0.0), |row| {
-            (row.measured.slope, row.attitude.as_ref().map_or(0.0, |attitude| attitude.yaw))
+            (row.measured.slope, row.heading.as_ref().map_or(0.0, |heading| heading.yaw))
         });
         let (duration, sample_interval) = START_UP;
         let scenario = Scenario {

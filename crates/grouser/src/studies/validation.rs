@@ -1,5 +1,5 @@
-//! A theory against measured wheel tests: every trial predicted at its own load and motion,
-//! averaged over the trials of a cell, judged over cells of equal weight.
+//! Errors of a wheel–soil model against measured wheel tests: every trial is predicted at its own load and
+//! motion, averaged over the trials of a cell, and compared over cells of equal weight.
 
 use rayon::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
 use crate::wheel::Wheel;
 
-/// What is to be judged, and by what.
+/// Measured tests, and the model to compare with them.
 ///
 /// How far is the predicted drawbar pull of a smooth wheel from the measured one?
 ///
@@ -45,7 +45,7 @@ pub struct ValidationStudy<'a> {
     pub wheel: Wheel,
     /// The soil it was tested on.
     pub soil: Soil,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
@@ -54,7 +54,7 @@ pub struct ValidationStudy<'a> {
 /// Predictions beside measurements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Validation {
-    /// What the theory makes of each trial, in the order of the tests.
+    /// The prediction of each trial, in the order of the tests.
     pub predictions: Vec<Result<Settled, SettleError>>,
     /// Each cell, in the order of the tests.
     pub cells: Vec<CellComparison>,
@@ -81,9 +81,9 @@ pub struct CellComparison {
     pub load: f64,
     /// Whether the wheel drives.
     pub driven: bool,
-    /// How many trials it has.
+    /// Number of trials.
     pub trials: usize,
-    /// How many of them the soil cannot carry, says the theory.
+    /// Number of trials whose wheel the soil cannot carry in the model.
     pub unsettled: usize,
     /// Each quantity's means; `None` where it was not measured, or not in a trial that settles.
     pub quantities: PerQuantity<Option<Comparison>>,
@@ -96,7 +96,7 @@ pub struct Comparison {
     pub measured: f64,
     /// Predicted, over the same trials.
     pub predicted: f64,
-    /// How many trials they are over.
+    /// Number of trials that they are over.
     pub trials: usize,
     /// Standard deviation between the measured trials; `None` for a single one.
     pub repeatability: Option<f64>,
@@ -111,11 +111,11 @@ pub struct Group {
     pub slip_angle: Option<f64>,
     /// Whether they are driven; `None` for both kinds.
     pub driven: Option<bool>,
-    /// How many cells there are.
+    /// Number of cells.
     pub cells: usize,
-    /// How many trials they have.
+    /// Number of trials.
     pub trials: usize,
-    /// How many of those the soil cannot carry, says the theory: they are in no error.
+    /// Number of trials whose wheel the soil cannot carry in the model: they are in no error.
     pub unsettled: usize,
     /// The errors of each quantity; `None` where it was not measured.
     pub errors: PerQuantity<Option<Errors>>,
@@ -131,15 +131,15 @@ pub struct Errors {
     /// Coefficient of determination, R² [-]: 1 − Σ error²/Σ (measured − mean)². `None` where the
     /// measured values do not differ.
     pub r2: Option<f64>,
-    /// Standard deviation between repeated trials, pooled over the cells. A theory whose errors
-    /// are as small agrees as well as the experiment does with itself.
+    /// Standard deviation between repeated trials, pooled over the cells. A model whose errors
+    /// are as small agrees with the experiment as well as the experiment repeats.
     pub repeatability: Option<f64>,
-    /// How many cells have the quantity.
+    /// Number of cells that have the quantity.
     pub cells: usize,
 }
 
 impl ValidationStudy<'_> {
-    /// Predicts every trial, in parallel, and judges the predictions.
+    /// Predicts every trial, in parallel, and computes the errors.
     #[must_use]
     pub fn run(&self) -> Validation {
         let predict = |trial: &crate::studies::measurement::Trial| {
@@ -150,7 +150,7 @@ impl ValidationStudy<'_> {
 }
 
 impl Validation {
-    /// Judges predictions that are at hand.
+    /// Computes the errors of given predictions.
     ///
     /// * `predictions`: one for each trial, in their order
     #[must_use]

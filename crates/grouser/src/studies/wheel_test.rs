@@ -39,7 +39,7 @@ pub struct WheelTest {
     pub soil: Soil,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// Loads [N].
     pub loads: Vec<f64>,
@@ -49,7 +49,7 @@ pub struct WheelTest {
     pub slip_ratios: Vec<f64>,
 }
 
-/// One setting of the test stand, and what the wheel did.
+/// One setting of the test stand, and its result.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelTestRow {
     /// Load [N].
@@ -58,7 +58,7 @@ pub struct WheelTestRow {
     pub slip_angle: f64,
     /// Slip ratio [-].
     pub slip_ratio: f64,
-    /// The settled wheel, or why there is none.
+    /// The settled wheel, or why it does not settle.
     pub result: Result<Settled, SettleError>,
 }
 

@@ -379,10 +379,16 @@ fn one_plate_cannot_tell_the_moduli_apart_and_says_so() {
     };
     let (by_fit, by_samples) = open(&[0.05]);
     assert!(by_fit.pairs.iter().any(|pair| pair.parameters == [0, 1]), "{by_fit:?}");
-    let loose = &by_samples.loose;
-    assert!(loose.len() == 1 && loose[0].shares.iter().any(|share| share.0 == 1), "{by_samples:?}");
+    let unidentifiable = &by_samples.unidentifiable;
+    assert!(
+        unidentifiable.len() == 1 && unidentifiable[0].shares.iter().any(|share| share.0 == 1),
+        "{by_samples:?}"
+    );
     let (by_fit, by_samples) = open(&[0.05, 0.15]);
-    assert!(by_fit.loose.is_empty() && by_samples.loose.is_empty(), "{by_samples:?}");
+    assert!(
+        by_fit.unidentifiable.is_empty() && by_samples.unidentifiable.is_empty(),
+        "{by_samples:?}"
+    );
 }
 
 // ---- wheels ----

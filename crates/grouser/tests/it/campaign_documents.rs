@@ -6,9 +6,9 @@ use grouser::document::campaign::{Role, STATUSES};
 use grouser::document::table::{Cell, ColumnKind, Table, Values};
 use grouser::document::unit_of;
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
-use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::Summary;
+use grouser::studies::heading::HeadingStudy;
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -172,7 +172,7 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
         let overrides = Overrides::parse([set.as_str(), "scenario.slope_deg=8"]).expect("they are");
         let scenario = document::read_scenario(&Source::default_scenario(), &overrides);
         let scenario = scenario.expect("it is one").value;
-        let curve = AttitudeStudy::of(&scenario).curve().expect("a soil");
+        let curve = HeadingStudy::of(&scenario).curve().expect("a soil");
         let attitude = curve.at(scenario.site.terrain.slope).expect("it exists");
         assert_eq!(yaw, Some(attitude.yaw.to_degrees()));
     }
@@ -182,7 +182,7 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
 #[test]
 fn an_attitude_on_one_slope_is_that_of_the_whole_curve() {
     let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none());
-    let study = AttitudeStudy::of(&scenario.expect("it is one").value);
+    let study = HeadingStudy::of(&scenario.expect("it is one").value);
     let curve = study.curve().expect("a soil");
     let (limit, _) = curve.limit().expect("it moves");
     for share in 0..=20 {
@@ -244,7 +244,7 @@ fn draws_that_are_no_soil_together_are_rows_with_a_status() {
     // λ(1) = 0.5 + per_slip is above 1.5 for half of the draws; 4 deviations are 13.
     assert!((7..33).contains(&unfit), "{unfit}");
     let reason = texts(&tables, "reason").into_iter().flatten().next().expect("some are");
-    assert!(reason.contains("exit-angle ratio"), "{reason}");
+    assert!(reason.contains("wheel sinkage ratio"), "{reason}");
 }
 
 #[test]
@@ -437,7 +437,7 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
         &["unknown key `soil.cohesion`", "soil.cohesion_kpa"],
     );
     check_refused(&own("friction_angle_deg", normal), &["did you mean `soil.friction_angle_deg`?"]);
-    check_refused(&own("soil.name", normal), &["`soil.name` is no number of what is varied"]);
+    check_refused(&own("soil.name", normal), &["`soil.name` is not a number of what is varied"]);
     check_refused(
         &own("soil.rft.surface_friction_angle_deg", normal),
         &["gives this key no value"],
@@ -446,7 +446,7 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
     check_refused(&own("soil.friction_angle_deg", normal), &["a second time"]);
     check_refused(
         &own("soil.exit.ratio", "distribution = \"normal\"\nmean = 40.0\nstandard_deviation = 1.0"),
-        &["less than 1 % of the draws of `soil.exit.ratio`", "0 to 1.5"],
+        &["less than 1 % of the samples of `soil.exit.ratio`", "0 to 1.5"],
     );
     check_refused(
         &own("soil.exit.ratio", "distribution = \"uniform\"\nlow = 1.0\nhigh = 2.0"),

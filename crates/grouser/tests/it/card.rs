@@ -3,9 +3,9 @@
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
-use grouser::studies::attitude::AttitudeStudy;
 use grouser::studies::card::{Card, CardStudy, Rule, Verdict};
 use grouser::studies::ensemble::{Band, Probability};
+use grouser::studies::heading::HeadingStudy;
 use grouser::units::deg;
 
 use super::given;
@@ -19,8 +19,8 @@ fn scenario() -> LoadedScenario {
 }
 
 fn study() -> CardStudy {
-    let attitude = AttitudeStudy::of(&scenario().value);
-    CardStudy { attitude, rim_speed: given::RIM_SPEED, rule: Rule::DEFAULT }
+    let heading = HeadingStudy::of(&scenario().value);
+    CardStudy { heading, rim_speed: given::RIM_SPEED, rule: Rule::DEFAULT }
 }
 
 fn soils(count: u64) -> Vec<Soil> {
@@ -42,7 +42,7 @@ fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
 /// In a second its yaw moment turns it a little.
 #[test]
 fn drift_is_that_of_a_run_with_the_nose_on_the_contour() {
-    let drift = study().attitude.drift_curve().expect("sand");
+    let drift = study().heading.drift_curve().expect("sand");
     for slope in [3.0, 10.0, 16.0].map(deg) {
         let held = drift.at(slope).expect("it is held");
         let run = given::run(&Scenario { duration: 1.0, ..given::traverse(slope, 0.0) });
@@ -59,9 +59,9 @@ fn drift_is_that_of_a_run_with_the_nose_on_the_contour() {
 #[test]
 fn drift_balances_the_pull_of_the_slope() {
     let study = study();
-    let drift = study.attitude.drift_curve().expect("sand");
-    let weight = study.attitude.rover.mass() * study.attitude.gravity;
-    for attitude in drift.attitudes() {
+    let drift = study.heading.drift_curve().expect("sand");
+    let weight = study.heading.rover.mass() * study.heading.gravity;
+    for attitude in drift.headings() {
         let forces = attitude.wheels.iter().map(|wheel| wheel.settled.forces);
         let (pull, side) =
             forces.fold((0.0, 0.0), |(x, y), f| (x + f.drawbar_pull, y + f.side_force));
@@ -77,7 +77,7 @@ fn drift_balances_the_pull_of_the_slope() {
 #[test]
 fn soils_that_do_not_differ_have_no_band() {
     let study = study();
-    let card = card(&study, &vec![study.attitude.soil; 4], &slopes(22));
+    let card = card(&study, &vec![study.heading.soil; 4], &slopes(22));
     for row in &card.rows {
         let bands = row.bands.expect("soils were drawn");
         let exactly = |value: Option<f64>| value.map(|v| Band { low: v, median: v, high: v });
@@ -133,9 +133,9 @@ fn the_number_of_threads_changes_nothing() {
 fn a_mirrored_traverse_has_the_mirrored_heading() {
     let study = study();
     let mut mirrored = study.clone();
-    mirrored.attitude.rover = study.attitude.rover.mirrored();
-    assert!(study.attitude.rover.is_symmetric());
-    assert_eq!(mirrored.attitude.rover.mirrored(), study.attitude.rover);
+    mirrored.heading.rover = study.heading.rover.mirrored();
+    assert!(study.heading.rover.is_symmetric());
+    assert_eq!(mirrored.heading.rover.mirrored(), study.heading.rover);
     let (one, other) = (card(&study, &[], &slopes(19)), card(&mirrored, &[], &slopes(19)));
     for (one, other) in one.rows.iter().zip(&other.rows) {
         let (level, image) = (one.level.expect("not steep"), other.level.expect("not steep"));
@@ -150,8 +150,8 @@ fn a_lopsided_rover_has_two_cards() {
     let rover = given::rover_on(given::hakuto_wheel(), &hubs);
     assert!(!rover.is_symmetric());
     let yaw = |rover| {
-        let attitude = AttitudeStudy { rover, ..study().attitude };
-        let card = card(&CardStudy { attitude, ..study() }, &[], &[deg(12.0)]);
+        let heading = HeadingStudy { rover, ..study().heading };
+        let card = card(&CardStudy { heading, ..study() }, &[], &[deg(12.0)]);
         card.rows[0].level.expect("not steep").yaw
     };
     assert!((yaw(rover.mirrored()) - yaw(rover)).abs() > deg(0.01));
@@ -177,8 +177,8 @@ fn verdicts_are_the_rules() {
     let card = card(&study, &soils, &slopes(24));
     let slips = |slope: f64| {
         let slip = |soil: &Soil| {
-            let attitude = AttitudeStudy { soil: *soil, ..study.attitude.clone() };
-            attitude.curve().expect("sand").at(slope).ok().map(|level| level.slip_ratio)
+            let heading = HeadingStudy { soil: *soil, ..study.heading.clone() };
+            heading.curve().expect("sand").at(slope).ok().map(|level| level.slip_ratio)
         };
         soils.iter().map(slip).collect::<Vec<Option<f64>>>()
     };

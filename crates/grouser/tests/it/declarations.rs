@@ -120,7 +120,7 @@ const OTHER_PLACES: [(&str, &str); 6] = [
     ("sinkage_mm", "document/calibration/plates.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
-    ("course_deg", "commands/attitude_map.rs"),
+    ("course_deg", "commands/heading_map.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),
     ("sinkage_mm", "grouser-python/src/wheels.rs"),
 ];

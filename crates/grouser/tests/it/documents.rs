@@ -454,7 +454,7 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
         (
             "ratio = 1.0",
             "law = \"quadratic-in-slip\"\nat_zero = 1\nper_slip = 1\nper_slip2 = 0",
-            "the exit-angle ratio at a slip ratio of 0.51",
+            "the wheel sinkage ratio at a slip ratio of 0.51",
         ),
         ("\"sine\"", "\"cosine\"", "`bulldozing.law` is \"cosine\", it must be \"none\", \"sign\""),
         ("[shear]", "[shears]", "unknown key `shears`"),

@@ -404,7 +404,7 @@ fn an_upward_import_is_seen_however_it_is_written() {
         "use super::super::{site, vehicle};",
         "mod inner { use super::super::super::vehicle::Rover; }",
         "use crate::document;",
-        "#[cfg(test)] mod tests { use crate::studies::attitude; }",
+        "#[cfg(test)] mod tests { use crate::studies::heading; }",
     ] {
         check_breaches("contact/slip.rs", text, &[1]);
     }
@@ -441,10 +441,10 @@ fn the_outer_world_stays_outside() {
         "fn f() { println!(\"x\"); }",
         "fn f() { eprint!(\"x\"); }",
     ] {
-        check_breaches("studies/attitude.rs", text, &[1]);
+        check_breaches("studies/heading.rs", text, &[1]);
         check_breaches("document/soil.rs", text, &[]);
     }
-    check_breaches("studies/attitude.rs", "use std::f64::consts::PI; fn print() {}", &[]);
+    check_breaches("studies/heading.rs", "use std::f64::consts::PI; fn print() {}", &[]);
 }
 
 #[test]
@@ -480,7 +480,7 @@ fn units_of_people_stay_at_the_door() {
         check_breaches("units.rs", text, &[]);
     }
     let for_people = "#[error(\"{:.1}°\", .limit.to_degrees())] struct TooSteep { limit: f64 }";
-    check_breaches("studies/attitude.rs", for_people, &[]);
+    check_breaches("studies/heading.rs", for_people, &[]);
     let in_tests = "#[cfg(test)]\nmod tests { fn f() { deg(15.0); } }\nfn f() { deg(1.0); }";
-    check_breaches("studies/attitude.rs", in_tests, &[3]);
+    check_breaches("studies/heading.rs", in_tests, &[3]);
 }

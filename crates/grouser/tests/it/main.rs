@@ -1,6 +1,5 @@
 //! The claims of the library, tested from outside.
 
-mod attitude_map;
 mod calibration;
 mod campaign;
 mod campaign_documents;
@@ -12,6 +11,7 @@ mod extended;
 mod files;
 mod former_names;
 mod given;
+mod heading_map;
 mod integration;
 mod kernel;
 mod laws;

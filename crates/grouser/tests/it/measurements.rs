@@ -197,7 +197,7 @@ fn broken_files_say_what_is_wrong_and_where() {
         (format!("{header}\"0,5\",0,20,5\n"), vec!["decimals with a point"]),
         (format!("{header}0,0,20,5\n{header}0,0,20,5\n"), vec!["a.csv:3", "header stands here"]),
         ("slip_ratio,slip_ratio,load_n,sinkage_mm\n0,0,20,5\n".into(), vec!["is there twice"]),
-        ("slip_ratio,load_n,sinkage_mm,sinkage_m\n".into(), vec!["tell the same"]),
+        ("slip_ratio,load_n,sinkage_mm,sinkage_m\n".into(), vec!["have the same meaning"]),
         ("slip_ratio,load,sinkage_mm\n0,20,5\n".into(), vec!["the load is missing", "`load_n`?"]),
         ("slip,load_n,sinkage_mm\n0,20,5\n".into(), vec!["the slip", "slip_ratio"]),
         ("slip_ratio;load_n;sinkage_mm\n0;20;5\n".into(), vec!["delimiter ';'"]),

@@ -4,7 +4,7 @@ use grouser::contact::{Theory, WheelForces};
 use grouser::document::{Overrides, Source, read_rover, read_scenario};
 use grouser::simulation::{Approach, Motion, Numerics, Scenario, Start};
 use grouser::soil::{PressureSinkage, Soil};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser::units::{Vec2, Vec3, deg};
 use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover};
 use grouser::wheel::Wheel;
@@ -358,7 +358,7 @@ fn an_attitude_of_different_wheels_holds_the_slope() {
         }
     });
     let scenario = Scenario { rover, ..traverse(deg(10.0), 0.0) };
-    let study = AttitudeStudy::of(&scenario);
+    let study = HeadingStudy::of(&scenario);
     let attitude = study.curve().expect("a study").at(deg(10.0)).expect("it exists");
     let rover = &scenario.rover;
     let weight = rover.mass() * scenario.site.gravity;
@@ -378,5 +378,5 @@ fn an_attitude_of_different_wheels_holds_the_slope() {
     let work: f64 = torques.zip(turned).map(|(torque, angle)| torque * angle).sum();
     assert!((work / power - 1.0).abs() < 1e-12);
     let steered = changed(|place, mount| mount.steering = deg(place as f64));
-    assert!(AttitudeStudy { rover: steered, ..study }.curve().is_err());
+    assert!(HeadingStudy { rover: steered, ..study }.curve().is_err());
 }

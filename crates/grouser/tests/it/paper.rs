@@ -4,8 +4,8 @@ use grouser::contact::{Contact, Ishigami};
 use grouser::contact::{Slip, Theory, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::soil::{Bulldozing, Exit, PressureSinkage, Shear, SinkageExponent, Soil};
-use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy, NoAttitude};
 use grouser::studies::comparison::{Levelness, yaw_error};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy, NoHeading};
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
@@ -89,7 +89,7 @@ fn table_3_frictional_modulus_is_not_for_use_with_the_unit_weight() {
     // table has H = 0.16 m, and rounds.
     assert!((yaw_on(&curve, 5.0) - 4.1).abs() < 0.06);
     assert!((yaw_on(&curve, 10.0) - 11.3).abs() < 0.1);
-    assert!(matches!(curve.at(deg(15.0)), Err(NoAttitude::TooSteep { .. })));
+    assert!(matches!(curve.at(deg(15.0)), Err(NoHeading::TooSteep { .. })));
 }
 
 /// Source: theory, section 2.7: a static wheel of r = 0.10 m, b = 0.08 m, W = 20 N, λ = 1; sinkages
@@ -197,7 +197,7 @@ fn with_the_tuned_shear_modulus_of_0_3_the_wheel_cannot_pull() {
     assert!((pulls[2].drawbar_pull + 1.2).abs() < 0.051, "{} N", pulls[2].drawbar_pull);
     assert!((pulls[10].drawbar_pull + 0.4).abs() < 0.051, "{} N", pulls[10].drawbar_pull);
     let curve = curve_with(with_k_x(0.3), LoadSharing::QuasiStatic);
-    assert!(matches!(curve.limit(), Err(NoAttitude::CannotMove(_))));
+    assert!(matches!(curve.limit(), Err(NoHeading::CannotMove(_))));
 }
 
 /// Source: [FourWheel], section 4.2: the untuned model "overestimates the forces at high slip".
@@ -250,8 +250,8 @@ fn side_force_falls_with_slip_and_rises_with_slip_angle() {
 
 // ---- Section 5, Figs 9 and 10, Table 4: the traverse ----
 
-fn curve_with(soil: Soil, sharing: LoadSharing) -> AttitudeCurve {
-    let study = AttitudeStudy {
+fn curve_with(soil: Soil, sharing: LoadSharing) -> HeadingCurve {
+    let study = HeadingStudy {
         rover: given::hakuto(),
         soil,
         gravity: EARTH_GRAVITY,
@@ -262,7 +262,7 @@ fn curve_with(soil: Soil, sharing: LoadSharing) -> AttitudeCurve {
     study.curve().expect("sand and gravity")
 }
 
-fn yaw_on(curve: &AttitudeCurve, slope_deg: f64) -> f64 {
+fn yaw_on(curve: &HeadingCurve, slope_deg: f64) -> f64 {
     curve.at(deg(slope_deg)).expect("it can be crossed").yaw.to_degrees()
 }
 
@@ -432,7 +432,7 @@ fn the_assumed_wheel_decides_little_on_10_degrees() {
     for radius in [0.10, 0.105, 0.115] {
         for width in [0.06, 0.10] {
             let wheel: Wheel = given::smooth_wheel(radius, width);
-            let study = AttitudeStudy {
+            let study = HeadingStudy {
                 rover: given::rover_on(wheel, &given::HAKUTO_HUBS),
                 soil: given::toyoura(),
                 gravity: EARTH_GRAVITY,

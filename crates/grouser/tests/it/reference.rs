@@ -6,8 +6,8 @@ use grouser::site::Site;
 use grouser::soil::{
     Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
 };
-use grouser::studies::attitude::{Attitude, AttitudeStudy};
 use grouser::studies::comparison::Levelness;
+use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::load::{slope_pull, wheel_loads};
 use grouser::vehicle::{LoadSharing, OwnMoments, RoverState, dynamics};
@@ -149,8 +149,8 @@ fn traverses_of_the_reference() {
     }
 }
 
-fn hakuto_study(sharing: LoadSharing) -> AttitudeStudy {
-    AttitudeStudy {
+fn hakuto_study(sharing: LoadSharing) -> HeadingStudy {
+    HeadingStudy {
         rover: given::hakuto(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
@@ -238,7 +238,7 @@ fn oracle_static_sinkage() {
 
 // ---- theory, sections 4.3 and 4.5: numbers of the same independent code ----
 
-fn hakuto_attitude(sharing: LoadSharing, slope_deg: f64) -> Attitude {
+fn hakuto_attitude(sharing: LoadSharing, slope_deg: f64) -> HeadingOffset {
     let curve = hakuto_study(sharing).curve().expect("sand and gravity");
     curve.at(deg(slope_deg)).expect("it can be crossed")
 }
@@ -373,7 +373,7 @@ fn soil_constants_that_ignore_gravity_nearly_double_the_yaw_on_the_moon() {
     let held = PressureSinkage::Bekker { k_c: 0.0, k_phi: stiffness.modulus, exponent };
     for (pressure_sinkage, printed) in [(earth.soil.pressure_sinkage, 5.0), (held, 9.4)] {
         let soil = Soil { pressure_sinkage, ..earth.soil };
-        let moon = AttitudeStudy { soil, gravity: MOON_GRAVITY, ..earth.clone() };
+        let moon = HeadingStudy { soil, gravity: MOON_GRAVITY, ..earth.clone() };
         let yaw = moon.curve().expect("sand").at(deg(10.0)).expect("it can be crossed").yaw;
         assert!((yaw.to_degrees() - printed).abs() < 0.06, "{}°, not {printed}°", yaw.to_degrees());
     }

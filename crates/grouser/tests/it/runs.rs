@@ -11,7 +11,7 @@ use grouser::simulation::{
 };
 use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
-use grouser::studies::attitude::AttitudeStudy;
+use grouser::studies::heading::HeadingStudy;
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::kinematics::hub_velocity;
@@ -410,7 +410,7 @@ fn on_the_moon_the_same_rover_goes_the_same_way_more_slowly() {
 #[test]
 fn the_level_attitude_does_not_depend_on_gravity_in_weighing_sand() {
     let yaw_under = |gravity: f64| {
-        let study = AttitudeStudy {
+        let study = HeadingStudy {
             rover: given::hakuto(),
             soil: given::toyoura(),
             gravity,

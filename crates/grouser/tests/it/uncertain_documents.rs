@@ -141,9 +141,9 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
         (parameter("k_phi", "1"), "\"k_phi\"", "did you mean `pressure_sinkage.k_phi`?"),
         (parameter("colour", "1"), "\"colour\"", "hint: there are cohesion_kpa,"),
         (parameter("", "1"), "key = \"\"", "unknown key ``"),
-        (parameter("shear", "1"), "\"shear\"", "`shear` is no number of this soil"),
-        (parameter("name", "1"), "\"name\"", "`name` is no number of this soil"),
-        (parameter("shear.law", "1"), "\"shear.law\"", "`shear.law` is no number of this soil"),
+        (parameter("shear", "1"), "\"shear\"", "`shear` is not a number of this soil"),
+        (parameter("name", "1"), "\"name\"", "`name` is not a number of this soil"),
+        (parameter("shear.law", "1"), "\"shear.law\"", "`shear.law` is not a number of this soil"),
         (
             parameter("small_wheel.mounds.bow_wave", "1"),
             "\"small_wheel.mounds.bow_wave\"",
@@ -208,12 +208,12 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
             "no/such.csv",
             "there is no file of samples no/such.csv",
         ),
-        (parameter(FRICTION, "1e9"), FRICTION, "less than 1 % of the draws"),
+        (parameter(FRICTION, "1e9"), FRICTION, "less than 1 % of the samples"),
         (parameter(FRICTION, "1e9"), FRICTION, "5 to 60"),
         (
             uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),
             "uncertainty",
-            "1000 tries of draw 0 gave nothing",
+            "1000 tries of sample 0 gave nothing",
         ),
         (
             uniform(N, "2.9", "3") + &uniform(N_PER_SLIP, "0.5", "1"),
@@ -351,7 +351,7 @@ fn a_resolved_document_is_read_again_with_its_companions() {
 fn wrong_samples_say_what_where_and_how_to_mend_it() {
     for (name, samples, place, message) in [
         ("unknown", SAMPLES.replacen(FRICTION, "friction", 1), ":1:1", "`friction_angle_deg`?"),
-        ("word", SAMPLES.replacen(FRICTION, "name", 1), ":1:1", "`name` is no number"),
+        ("word", SAMPLES.replacen(FRICTION, "name", 1), ":1:1", "`name` is not a number"),
         ("twice", SAMPLES.replacen("shear.longitudinal_m", FRICTION, 1), ":1:20", "a second time"),
         ("outside", SAMPLES.replacen("38.25", "380", 1), ":3:1", "is 380, it must be 5 to 60"),
         ("nan", SAMPLES.replacen("0.036", "nan", 1), ":3:7", "must be a finite number"),

@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::soil::{Exit, Soil};
-use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::attitude_band::AttitudeBand;
 use grouser::studies::ensemble::{
     Band, Contradiction, Correlation, Distribution, Marginal, Probability,
 };
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_band::HeadingBand;
 use grouser::units::deg;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -276,9 +276,9 @@ fn soils(count: u64) -> Vec<Soil> {
     (0..count).map(|index| uncertain.draw(SEED, index).expect("it can be drawn")).collect()
 }
 
-fn band(soils: &[Soil], slopes: &[f64]) -> AttitudeBand {
-    let study = AttitudeStudy::of(&scenario().value);
-    let band = AttitudeBand::of(&study, soils, slopes, &|| true);
+fn band(soils: &[Soil], slopes: &[f64]) -> HeadingBand {
+    let study = HeadingStudy::of(&scenario().value);
+    let band = HeadingBand::of(&study, soils, slopes, &|| true);
     band.expect("they are soils").expect("nobody broke it off")
 }
 
@@ -291,7 +291,7 @@ fn slopes() -> Vec<f64> {
 #[test]
 fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
     let scenario = scenario();
-    let study = AttitudeStudy::of(&scenario.value);
+    let study = HeadingStudy::of(&scenario.value);
     let curve = study.curve().expect("it is a soil");
     let band = band(&vec![scenario.value.site.terrain.soil; 5], &slopes());
     for on_slope in &band.slopes {
@@ -317,9 +317,9 @@ fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
 fn the_band_is_that_of_the_curves_one_by_one() {
     let soils = soils(12);
     let band = band(&soils, &slopes());
-    let study = AttitudeStudy::of(&scenario().value);
+    let study = HeadingStudy::of(&scenario().value);
     let curve =
-        |soil: &Soil| AttitudeStudy { soil: *soil, ..study.clone() }.curve().expect("it is a soil");
+        |soil: &Soil| HeadingStudy { soil: *soil, ..study.clone() }.curve().expect("it is a soil");
     let curves: Vec<_> = soils.iter().map(curve).collect();
     for on_slope in &band.slopes {
         let yaws: Vec<f64> =
@@ -348,15 +348,15 @@ fn every_draw_is_told_when_it_is_done() {
         done.fetch_add(1, Ordering::Relaxed);
         true
     };
-    let study = AttitudeStudy::of(&scenario().value);
-    AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &count).expect("they are soils");
+    let study = HeadingStudy::of(&scenario().value);
+    HeadingBand::of(&study, &soils(7), &[deg(5.0)], &count).expect("they are soils");
     assert_eq!(done.into_inner(), 7);
 }
 
 #[test]
 fn a_study_that_is_broken_off_has_no_result() {
-    let study = AttitudeStudy::of(&scenario().value);
-    let broken_off = AttitudeBand::of(&study, &soils(7), &[deg(5.0)], &|| false);
+    let study = HeadingStudy::of(&scenario().value);
+    let broken_off = HeadingBand::of(&study, &soils(7), &[deg(5.0)], &|| false);
     assert_eq!(broken_off.expect("they are soils"), None);
 }
 
@@ -375,9 +375,9 @@ fn soils_that_do_not_carry_the_rover_count_against_it() {
 /// A curve that breaks off for want of a solver would count as too steep a slope.
 #[test]
 fn every_drawn_curve_ends_for_a_physical_reason() {
-    let study = AttitudeStudy::of(&scenario().value);
+    let study = HeadingStudy::of(&scenario().value);
     for soil in soils(60) {
-        let curve = AttitudeStudy { soil, ..study.clone() }.curve().expect("it is a soil");
+        let curve = HeadingStudy { soil, ..study.clone() }.curve().expect("it is a soil");
         let (limit, reason) = curve.limit().expect("the rover moves");
         let physical = ["turning further uphill", "wheels spin", "tips over", "range of slopes"];
         assert!(physical.iter().any(|end| reason.contains(end)), "{limit}: {reason} on {soil:?}");
@@ -388,9 +388,9 @@ fn every_drawn_curve_ends_for_a_physical_reason() {
 fn the_first_soil_that_is_none_is_the_error() {
     let good = scenario().value.site.terrain.soil;
     let bad = |density| Soil { density, ..good };
-    let study = AttitudeStudy::of(&scenario().value);
+    let study = HeadingStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];
-    let error = AttitudeBand::of(&study, &soils, &[deg(5.0)], &|| true);
+    let error = HeadingBand::of(&study, &soils, &[deg(5.0)], &|| true);
     let error = error.expect_err("density");
     assert_eq!(error.value, -1.0);
 }

@@ -1,4 +1,4 @@
-//! The sampler's state on disk, so that an interrupted calibration goes on where it stopped.
+//! The sampler's state on disk, from which an interrupted calibration continues.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ impl Checkpoint {
     /// That of a calibration, with the state to go on from if an earlier run was interrupted. There
     /// is none without a folder, or without samples.
     ///
-    /// * `identity`: whatever tells this calibration from others
+    /// * `identity`: the inputs that identify this calibration
     pub(super) fn open(args: &CalibrateArgs, identity: String) -> Result<Option<Self>, Failure> {
         let Some(folder) = args.output.out.as_ref().filter(|_| !args.point_fit) else {
             return Ok(None);
@@ -61,7 +61,7 @@ impl Checkpoint {
         match from_bytes(&bytes, &self.identity) {
             Ok(state) => {
                 let blocks = state.blocks;
-                output::tell(&format!("going on after block {blocks} of an interrupted run"));
+                output::message(&format!("going on after block {blocks} of an interrupted run"));
                 Ok(Some(state))
             }
             Err(_) if force => Ok(None),

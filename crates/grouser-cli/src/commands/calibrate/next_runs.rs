@@ -1,4 +1,4 @@
-//! The aim of the flags: what the next runs are to make sure of, and what the stand can do.
+//! The flags of the next runs: the prediction to narrow, and the settings that the stand can run.
 
 use grouser::document::calibration::{AimError, AimWords};
 use grouser::studies::calibration::design::Aim;

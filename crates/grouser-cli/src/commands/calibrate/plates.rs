@@ -13,7 +13,7 @@ use super::super::Answer;
 use super::checkpoint::{Checkpoint, open_folder};
 use super::progress::{Progress, sampling};
 use super::report;
-use crate::args::{CalibrateArgs, PlateLawWord};
+use crate::args::{CalibrateArgs, PlateLawChoice};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -29,9 +29,9 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let measured = plates::read_from(&escape::path(file), bytes.as_slice(), limits)?;
     let PlateMeasurements { curves, notes } = measured;
     for note in &notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
-    let law = args.plate_law.map(PlateLawWord::name);
+    let law = args.plate_law.map(PlateLawChoice::name);
     let problem =
         PlateProblem::new(&soil.document, law, gravity, curves).map_err(Failure::Usage)?;
     let settings = settings(args, file, &bytes, problem.soil(), gravity);
@@ -44,13 +44,13 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     let solved = &found.solved;
     report::tell_notes(solved);
     let answer = Answer::new("calibrate", settings, found.results());
-    let blocks = [vec![report::parameters(&solved.records)], report::said(solved)].concat();
+    let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
     let text = blocks.join("\n");
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
         report::add_soil(&mut folder, problem.family(), solved, &found.soil)?;
         let mut page = Page::new("Calibration on plate tests");
-        page.heading("What was found");
+        page.heading("Results");
         report::add_parameters(&mut page, solved);
         let chart = chart(problem.curves(), solved).to_svg();
         page.drawing(&chart, "Pressure over sinkage, measured and with the fit.");

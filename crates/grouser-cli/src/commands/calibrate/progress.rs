@@ -1,4 +1,4 @@
-//! What a calibration shows while it works: bars, notes, and the state that it keeps.
+//! Progress of a calibration: bars, notes, and its state on disk.
 
 use std::ops::ControlFlow;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -27,7 +27,7 @@ impl<'a> Progress<'a> {
         Self { checkpoint, bar: Mutex::default(), failure: Mutex::default() }
     }
 
-    /// What to tell of an error: what broke the work off, or the error itself.
+    /// The failure to report: the one that stopped the work, or the error itself.
     pub(super) fn failure(&self, error: CalibrationError) -> Failure {
         let broken_off = self.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
         broken_off.unwrap_or_else(|| error.into())
@@ -60,7 +60,7 @@ impl Observer for Progress<'_> {
 
     fn fitted(&self, fit: &Fit) {
         for note in fit_notes(fit) {
-            output::tell(&format!("note: {note}"));
+            output::message(&format!("note: {note}"));
         }
     }
 

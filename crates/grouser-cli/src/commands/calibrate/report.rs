@@ -1,4 +1,4 @@
-//! What a calibration says: text, page, figures.
+//! The report of a calibration: text, page, figures.
 
 use grouser::document::calibration::{ParameterRecord, Solved, WheelFound, samples_csv};
 use grouser::document::columns::fit::column_of;
@@ -28,7 +28,7 @@ const KEYS_ON_PAGE: usize = 7;
 /// Bars of each histogram.
 const BARS: usize = 24;
 
-/// Prints what was found.
+/// Prints the results.
 pub(super) fn print<R: Serialize>(
     args: &CalibrateArgs,
     text: &str,
@@ -57,23 +57,23 @@ pub(super) fn add_soil(
     Ok(())
 }
 
-/// Says what should be known of the fit, and of how the posterior was sampled.
+/// Prints notes on parameters at their bounds and on the sampling of the posterior.
 pub(super) fn tell_notes(solved: &Solved) {
     for note in solved.bound_notes().into_iter().chain(solved.note()) {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
 }
 
-/// For people: blocks with an empty line between them.
+/// The report as text: blocks with an empty line between them.
 pub(super) fn text(found: &WheelFound, target: &str) -> String {
     let solved = &found.solved;
     let mut blocks = vec![parameters(&solved.records)];
-    blocks.extend(said(solved));
+    blocks.extend(conclusions(solved));
     blocks.extend(judgement(found, target));
     blocks.join("\n")
 }
 
-/// How good the fit is, with the fit and without an angle, and what to measure next.
+/// Errors of the fit, errors at slip angles left out, and proposed runs.
 fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
     let overall = GroupRecord::from(&found.validation.overall);
     let mut blocks = vec![errors("with the fit", &[overall])];
@@ -81,7 +81,10 @@ fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
         blocks.push(errors("with the angle left out of the fit", &found.left_out));
     }
     if !found.proposals.is_empty() {
-        blocks.push(format!("next runs, to make sure of {target}\n{}", next_runs(found)));
+        blocks.push(format!(
+            "next runs that narrow the prediction of {target}\n{}",
+            next_runs(found)
+        ));
     }
     blocks
 }
@@ -117,12 +120,12 @@ pub(super) fn parameters(records: &[ParameterRecord]) -> String {
     aligned(&header.map(str::to_owned), &records.iter().map(row).collect::<Vec<_>>())
 }
 
-/// What the data leave open, if anything, and how far theory and data differ.
-pub(super) fn said(solved: &Solved) -> Vec<String> {
+/// Parameters that the data do not determine, and the discrepancy between model and data.
+pub(super) fn conclusions(solved: &Solved) -> Vec<String> {
     let mut blocks = Vec::new();
-    if !solved.questions.is_empty() {
-        let lines: String = solved.questions.iter().map(|it| format!("- {it}\n")).collect();
-        blocks.push(format!("what these data cannot tell\n{lines}"));
+    if !solved.unidentifiable.is_empty() {
+        let lines: String = solved.unidentifiable.iter().map(|it| format!("- {it}\n")).collect();
+        blocks.push(format!("what these data do not determine\n{lines}"));
     }
     blocks.push(discrepancies(solved));
     blocks
@@ -161,8 +164,8 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     let soil = problem.stand.soil.document.name();
     let wheel = problem.stand.wheel.document.name();
     let theory = problem.stand.theory.name();
-    page.answer(&format!("{}: theory {theory}, from {soil}, {wheel}", problem.file));
-    page.heading("What was found");
+    page.answer(&format!("{}: model {theory}, from {soil}, {wheel}", problem.file));
+    page.heading("Results");
     add_parameters(&mut page, &found.solved);
     for block in judgement(found, target) {
         page.code(&block);
@@ -180,7 +183,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     page.paragraph(
         "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
          priors uniform within the bounds (by the logarithm where a number spans decades). An \
-         observation is the mean over the trials of a cell; its deviation from the theory is taken \
+         observation is the mean over the trials of a cell; its deviation from the model is taken \
          as normal, with the variance of the mean between trials and that of a model discrepancy, \
          one for each quantity of driven and of skidding wheels, which is sampled along.",
     );
@@ -195,12 +198,12 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     folder.add("report.html", page.to_html());
 }
 
-/// The fitted keys, what stays open, and how far theory and data differ.
+/// The fitted keys, those that the data do not determine, and the discrepancy between model and data.
 pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
     page.code(&parameters(&solved.records));
-    if !solved.questions.is_empty() {
-        page.heading("What these data cannot tell");
-        page.list(&solved.questions);
+    if !solved.unidentifiable.is_empty() {
+        page.heading("What these data do not determine");
+        page.list(&solved.unidentifiable);
     }
     page.code(&discrepancies(solved));
 }
@@ -210,7 +213,7 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
     let Some(Posterior { samples, .. }) = &solved.solution.posterior else { return };
     let shown = least_known(&solved.records);
     let which = if shown.len() < solved.records.len() {
-        " Here the keys that are known least; figures/corner.svg has all."
+        " Shown are the keys with the widest posteriors; figures/corner.svg has all."
     } else {
         ""
     };
@@ -218,9 +221,9 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
     page.drawing(
         &corner(&solved.records, &shown, samples).to_svg(),
         &format!(
-            "Each fitted key alone (how often) and each pair (samples). A slanted cloud is a pair \
-             that makes up for each other; a cloud that fills its bounds is a key the data say \
-             nothing of.{which}"
+            "Posterior of each fitted key (histogram) and of each pair (samples). A slanted cloud is \
+             a correlated pair: one key compensates for the other. A cloud that fills its bounds is a \
+             key that the data do not constrain.{which}"
         ),
     );
     let all: Vec<usize> = (0..solved.records.len()).collect();
@@ -229,7 +232,7 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
     page.drawing(
         &traces,
         "Means of each ensemble of walkers over the kept steps, in standard deviations from the \
-         mean of all: they should cross each other all along.",
+         mean of all. Ensembles that have converged cross each other all along.",
     );
     folder.add("figures/traces.svg", traces);
 }
@@ -242,7 +245,7 @@ fn short(record: &ParameterRecord) -> &str {
 /// Places of the keys whose deviation is largest beside that of the prior, in the keys' order.
 fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..records.len()).collect();
-    let left = |place: usize| records[place].narrowing.unwrap_or(1.0);
+    let left = |place: usize| records[place].contraction.unwrap_or(1.0);
     places.sort_by(|&one, &other| left(other).total_cmp(&left(one)));
     places.truncate(KEYS_ON_PAGE);
     places.sort_unstable();

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output;
 
-/// Everything that a calibration on wheel tests is made from.
+/// The inputs of a calibration on wheel tests.
 pub(super) struct Problem {
     pub(super) file: String,
     pub(super) stand: StandInputs,
@@ -62,7 +62,7 @@ fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
     let bytes = rows.bytes(limits)?;
     let measured = measurements::read_from(&rows.label(), &*bytes, &choice)?;
     for note in &measured.notes {
-        output::tell(&format!("note: {note}"));
+        output::message(&format!("note: {note}"));
     }
     let family = SoilFamily::new(&stand.soil.document, &args.fit)
         .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;

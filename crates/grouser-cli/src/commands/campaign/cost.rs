@@ -1,4 +1,4 @@
-//! `grouser campaign cost`: what a study would take, measured on one thread of this machine.
+//! `grouser campaign cost`: estimates time and disk space of studies, measured on one thread of this machine.
 
 use std::time::{Duration, Instant};
 

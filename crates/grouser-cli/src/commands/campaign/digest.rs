@@ -1,4 +1,4 @@
-//! `grouser campaign digest`: one number for all results.
+//! `grouser campaign digest`: prints the SHA-256 over all results.
 
 use grouser_store::{Finished, Results};
 use serde::Serialize;

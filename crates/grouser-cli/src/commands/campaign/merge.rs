@@ -1,4 +1,4 @@
-//! `grouser campaign merge`: the parts of an array of jobs in one folder.
+//! `grouser campaign merge`: merges the parts of an array of jobs into one folder.
 
 use grouser_store::{Results, Study};
 

@@ -1,4 +1,4 @@
-//! How far a campaign is: a bar for people, lines for machines.
+//! Progress of a campaign: a bar for people, lines of JSON for programs.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -37,7 +37,7 @@ impl Progress {
 
     /// A run starts.
     pub(super) fn start(&self) {
-        /// Every so many runs the bar is told: telling it costs more than a quick run does.
+        /// The bar moves once in so many runs: moving it costs more than a quick run does.
         const STEP: u64 = 64;
         let started = self.started.fetch_add(1, Ordering::Relaxed) + 1;
         if started.is_multiple_of(STEP) {
@@ -45,14 +45,20 @@ impl Progress {
         }
     }
 
-    /// Tells machines how far the folder is.
+    /// Prints a line of progress for programs, at most one in each interval.
     ///
-    /// * `told`: when that was last done
-    pub(super) fn tell(&self, folder: &Folder, told: &mut Option<Instant>) -> Result<(), Failure> {
-        if self.format == TableOrJson::Table || told.is_some_and(|told| told.elapsed() < BETWEEN) {
+    /// * `reported`: when the last line was printed
+    pub(super) fn report(
+        &self,
+        folder: &Folder,
+        reported: &mut Option<Instant>,
+    ) -> Result<(), Failure> {
+        if self.format == TableOrJson::Table
+            || reported.is_some_and(|reported| reported.elapsed() < BETWEEN)
+        {
             return Ok(());
         }
-        *told = Some(Instant::now());
+        *reported = Some(Instant::now());
         let done = folder.runs_done();
         let seconds = self.since.elapsed().as_secs_f64();
         let rate = (done - self.before) as f64 / seconds;

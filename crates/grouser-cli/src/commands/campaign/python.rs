@@ -3,7 +3,7 @@
 use std::env;
 use std::process::{Command, Stdio};
 
-use crate::args::{CampaignRunArgs, ExecutorWord, TableOrJson};
+use crate::args::{CampaignRunArgs, ExecutorChoice, TableOrJson};
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -12,10 +12,10 @@ const PYTHON: &str = "GROUSER_PYTHON";
 /// The package's half of this command.
 const MODULE: &str = "grouser.campaign";
 
-/// Has the Python package do what is asked, and ends as it ends.
+/// Runs the campaign by the Python package, and returns its exit code.
 pub(super) fn hand_over(args: &CampaignRunArgs) -> Result<(), Failure> {
     let python = env::var_os(PYTHON).unwrap_or_else(|| "python3".into());
-    let word = word(args.executor);
+    let word = name(args.executor);
     let probe = Command::new(&python)
         .args(["-c", &format!("import {MODULE}")])
         .stdin(Stdio::null())
@@ -30,8 +30,8 @@ pub(super) fn hand_over(args: &CampaignRunArgs) -> Result<(), Failure> {
             python.display()
         )));
     }
-    interrupt::look_after();
-    let status = Command::new(&python).args(["-m", MODULE, "run"]).args(words(args)).status();
+    interrupt::handle_ctrl_c();
+    let status = Command::new(&python).args(["-m", MODULE, "run"]).args(arguments(args)).status();
     let status = status.map_err(|source| Failure::Environment {
         what: format!("cannot start {}", python.display()),
         source,
@@ -39,29 +39,29 @@ pub(super) fn hand_over(args: &CampaignRunArgs) -> Result<(), Failure> {
     match status.code() {
         Some(0) => Ok(()),
         // Exit codes of programs have eight bits; without one, a signal ended it.
-        Some(code) => Err(Failure::ToldByOther(u8::try_from(code).unwrap_or(1))),
+        Some(code) => Err(Failure::ReportedByChild(u8::try_from(code).unwrap_or(1))),
         None => Err(Failure::Run(format!("{} ended: {status}", python.display()))),
     }
 }
 
-fn word(executor: ExecutorWord) -> &'static str {
+fn name(executor: ExecutorChoice) -> &'static str {
     match executor {
-        ExecutorWord::Threads => "threads",
-        ExecutorWord::Processes => "processes",
-        ExecutorWord::Dask => "dask",
-        ExecutorWord::Ray => "ray",
+        ExecutorChoice::Threads => "threads",
+        ExecutorChoice::Processes => "processes",
+        ExecutorChoice::Dask => "dask",
+        ExecutorChoice::Ray => "ray",
     }
 }
 
-/// The same request, in the same flags.
-fn words(args: &CampaignRunArgs) -> Vec<std::ffi::OsString> {
-    let mut words = vec![args.study.clone().into(), "--out".into(), args.out.clone().into()];
+/// The arguments of this command for the Python package.
+fn arguments(args: &CampaignRunArgs) -> Vec<std::ffi::OsString> {
+    let mut arguments = vec![args.study.clone().into(), "--out".into(), args.out.clone().into()];
     let mut flag = |name: &str, value: Option<String>| {
         if let Some(value) = value {
-            words.extend([name.into(), value.into()]);
+            arguments.extend([name.into(), value.into()]);
         }
     };
-    flag("--executor", Some(word(args.executor).to_owned()));
+    flag("--executor", Some(name(args.executor).to_owned()));
     flag("--scheduler", args.scheduler.clone());
     flag("--workers", args.threads.map(|threads| threads.to_string()));
     flag("--shard", args.shard.map(|part| part.to_string()));
@@ -71,5 +71,5 @@ fn words(args: &CampaignRunArgs) -> Vec<std::ffi::OsString> {
     if args.format == TableOrJson::Json {
         flag("--format", Some("json".to_owned()));
     }
-    words
+    arguments
 }

@@ -1,4 +1,4 @@
-//! `grouser campaign rerun`: one run again, as proof that it can be had alone.
+//! `grouser campaign rerun`: computes one run again, and compares it with the stored row.
 
 use grouser::document::table::Cell;
 use serde_json::{Map, Value, json};
@@ -40,7 +40,7 @@ pub(super) fn run(args: &CampaignRerunArgs) -> Result<(), Failure> {
     }
 }
 
-/// That a run is what it was, to the last bit.
+/// Checks that a run is equal to the stored one, bit for bit.
 fn check_same(
     args: &CampaignRerunArgs,
     row: &[(String, Cell)],

@@ -1,7 +1,7 @@
-//! `grouser campaign run`: all runs that are not there yet.
+//! `grouser campaign run`: computes all missing runs of a campaign.
 //!
 //! One thread has the shards computed, by all threads, one shard after another; another one takes
-//! them to the disk, so that nobody waits for that.
+//! them to the disk, so that no thread waits for that.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,7 +17,7 @@ use serde::Serialize;
 use super::digest::DigestRecord;
 use super::progress::Progress;
 use super::{campaign, inputs, python};
-use crate::args::{CampaignRunArgs, ExecutorWord, TableOrJson};
+use crate::args::{CampaignRunArgs, ExecutorChoice, TableOrJson};
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::{interrupt, output};
@@ -39,7 +39,7 @@ struct RunRecord {
 
 pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     let campaign = campaign(&args.study, &args.settings)?;
-    if args.executor != ExecutorWord::Threads {
+    if args.executor != ExecutorChoice::Threads {
         return python::hand_over(args);
     }
     if args.scheduler.is_some() {
@@ -55,7 +55,7 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     let finished_before = folder.missing().is_empty();
     let progress = Progress::new(args.format, &folder);
     if !finished_before {
-        interrupt::look_after();
+        interrupt::handle_ctrl_c();
         compute(&campaign, &mut folder, &progress)?;
     }
     let runs_per_s = progress.rate(&folder);
@@ -64,9 +64,9 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     finish(args, &results, RunRecord { finished_before, digest, statuses, runs_per_s })
 }
 
-/// Opens the folder. What is there is read to its last bit, which a bar tells.
+/// Opens the folder, and checks all files in it, with a progress bar.
 fn open(args: &CampaignRunArgs, study: &Study) -> Result<Folder, Failure> {
-    let _not_now = interrupt::not_now();
+    let _deferred = interrupt::defer_ctrl_c();
     let bar = output::progress_bar(0);
     bar.set_message("shards checked");
     let folder = Folder::open_watched(&args.out, study, args.shard, &mut |done, all| {
@@ -82,7 +82,7 @@ fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
     const MANY: u64 = 1_000_000;
     let shards = folder.missing().len();
     if shards > MANY {
-        output::tell(&format!(
+        output::message(&format!(
             "note: {shards} files of {} runs each will be written; `shard_runs`, up to 1000000, makes them \
              fewer and larger, and --shard I/N splits them over N folders",
             campaign.shard_runs()
@@ -92,20 +92,20 @@ fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
 
 fn tell_surprises(folder: &Folder) {
     for name in folder.mended() {
-        output::tell(&format!(
+        output::message(&format!(
             "note: {name} was damaged or of an earlier form, and is written anew"
         ));
     }
     for (shard, fault) in folder.faults() {
-        output::tell(&format!("note: shard {shard} is computed anew: {fault}"));
+        output::message(&format!("note: shard {shard} is computed anew: {fault}"));
     }
     if !folder.is_locked() {
-        output::tell(
+        output::message(
             "note: this disk has no locks: make sure that no second campaign writes to the folder",
         );
     }
     if folder.runs_done() > 0 && !folder.missing().is_empty() {
-        output::tell(&format!(
+        output::message(&format!(
             "going on: {} of {} runs are there",
             folder.runs_done(),
             folder.runs()
@@ -164,19 +164,19 @@ fn compute_shards(
 }
 
 fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Result<(), Failure> {
-    let mut told = None;
-    progress.tell(folder, &mut told)?;
+    let mut reported = None;
+    progress.report(folder, &mut reported)?;
     for (shard, bytes) in shards {
         {
-            let _not_now = interrupt::not_now();
+            let _deferred = interrupt::defer_ctrl_c();
             folder.accept(shard, &bytes)?;
         }
-        progress.tell(folder, &mut told)?;
+        progress.report(folder, &mut reported)?;
     }
     Ok(())
 }
 
-/// The digest, and how often each status is: all files are read for the one, and tell the other.
+/// The digest and the counts of statuses: both from one reading of all files.
 fn read_once(folder: &mut Folder) -> Result<(DigestRecord, BTreeMap<String, u64>), Failure> {
     let mut counts = BTreeMap::new();
     let bar = output::progress_bar(folder.manifest().own_count());

@@ -1,4 +1,4 @@
-//! `grouser campaign summarise`: what the runs say together.
+//! `grouser campaign summarise`: statistics of all runs.
 
 mod figures;
 mod page;
@@ -16,7 +16,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned};
 use crate::output::{self, Format};
 
-/// All that is told for programs.
+/// The results for programs.
 #[derive(Serialize)]
 struct SummaryRecord<'a> {
     #[serde(flatten)]
@@ -29,7 +29,7 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let (results, campaign) = stored(&args.folder)?;
     if let Some(part) = results.manifest().part {
-        output::tell(&format!(
+        output::message(&format!(
             "note: this is part {part} of a campaign; `grouser campaign merge` brings the parts together"
         ));
     }

@@ -6,7 +6,7 @@ use grouser_page::{Anchor, Face, Place, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::row::CardRow;
-use super::words::Words;
+use super::texts::Texts;
 
 /// Rows on the page.
 pub(super) struct Table<'a> {
@@ -91,23 +91,23 @@ const CHARTS: [Chart; 4] = [
 ];
 
 impl Chart {
-    /// What it shows of a row: low, median and high, or only the middle one.
+    /// Its values of a row: low, median and high, or only the middle one.
     fn values(&self, row: CardRow<'_>) -> [Option<f64>; 3] {
         row.band(self.quantity, self.factor)
     }
 }
 
 /// Draws the table with its head.
-pub(super) fn draw(sheet: &mut Sheet, words: &Words, table: &Table<'_>, measured: &[MeasuredYaw]) {
+pub(super) fn draw(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, measured: &[MeasuredYaw]) {
     verdicts(sheet, table);
-    heads(sheet, words, table, !measured.is_empty());
+    heads(sheet, texts, table, !measured.is_empty());
     for chart in &CHARTS {
         axis(sheet, table, chart);
         band(sheet, table, chart);
     }
     measured_points(sheet, table, measured);
     for row in table.rows {
-        line(sheet, words, table, *row);
+        line(sheet, texts, table, *row);
     }
     frame(sheet, table);
 }
@@ -137,7 +137,7 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
     }
 }
 
-fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool) {
+fn heads(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, are_measured: bool) {
     let y = table.top - 2.0;
     let bold = |text: &str, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::Middle);
     sheet.text(bold("SLOPE", 4.4), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
@@ -147,8 +147,8 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
     sheet.text(bold("UPHILL BY", 4.2).grey(WHITE), [middle, y - 1.4]);
     let middle = f64::midpoint(HEADING, RANGE);
     let small = |text: &str| shown(text, 3.0).anchor(Anchor::Middle);
-    sheet.text(small(&words.band), [middle, y - 4.0]);
-    sheet.text(small(if words.has_bands { "need" } else { "stated" }), [middle, y]);
+    sheet.text(small(&texts.band), [middle, y - 4.0]);
+    sheet.text(small(if texts.has_bands { "need" } else { "stated" }), [middle, y]);
     for chart in &CHARTS {
         let from = chart.numbers.map_or(chart.from, |end| end - 8.5);
         let middle = from.midpoint(chart.to);
@@ -157,7 +157,7 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
         let unit = if is_marked { "°; × measured" } else { chart.head[1] };
         sheet.text(small(unit), [middle, y]);
     }
-    if words.has_bands {
+    if texts.has_bands {
         let middle = f64::midpoint(CHANCE, RIGHT);
         for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
             let text = shown(text, 2.35).anchor(Anchor::Middle);
@@ -167,7 +167,7 @@ fn heads(sheet: &mut Sheet, words: &Words, table: &Table<'_>, are_measured: bool
 }
 
 /// One row of numbers.
-fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: CardRow<'_>) {
+fn line(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, row: CardRow<'_>) {
     let large = (table.height * 0.98).min(7.6);
     // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
     // one line of text for those who copy it, too.
@@ -191,7 +191,7 @@ fn line(sheet: &mut Sheet, words: &Words, table: &Table<'_>, row: CardRow<'_>) {
             sheet.text(shown(text, small).anchor(Anchor::End), at(end));
         }
     }
-    if let Some(level) = row.number(PROBABILITY_LEVEL).filter(|_| words.has_bands) {
+    if let Some(level) = row.number(PROBABILITY_LEVEL).filter(|_| texts.has_bands) {
         // Rounded down: 100 % is all of them.
         let text = format!("{} %", (level * 100.0 + 1e-9).floor());
         sheet.text(shown(text, small).anchor(Anchor::End), at(RIGHT - 1.5));

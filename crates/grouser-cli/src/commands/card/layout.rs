@@ -1,4 +1,4 @@
-//! Where everything stands on the card.
+//! The layout of the card.
 //!
 //! One row for a degree: the eye finds the slope on the left, reads the heading in the largest
 //! digits of the page beside it, and goes on to the charts, whose axes run across the same rows. What
@@ -12,7 +12,7 @@ use grouser_page::{Anchor, BLACK, Face, Place, Shape, Sheet, Stroke, Text, WHITE
 
 use super::columns::{self, Table};
 use super::row::CardRow;
-use super::words::Words;
+use super::texts::Texts;
 
 /// Size of the page, and the box that everything stands in [mm].
 const PAGE: [f64; 2] = [210.0, 297.0];
@@ -32,10 +32,10 @@ const BAR: f64 = 10.0;
 const HIGHEST_ROW: f64 = 7.4;
 
 /// Draws the card.
-pub(super) fn draw(words: &Words, card: &table::Table, measured: &[MeasuredYaw]) -> Sheet {
-    let title = format!("Operator's card: {}", words.title);
+pub(super) fn draw(texts: &Texts, card: &table::Table, measured: &[MeasuredYaw]) -> Sheet {
+    let title = format!("Operator's card: {}", texts.title);
     let mut sheet = Sheet::new(&escape::line(&title), PAGE[0], PAGE[1]);
-    head(&mut sheet, words);
+    head(&mut sheet, texts);
     pictogram(&mut sheet, [167.0, 45.0]);
     // Level ground needs no card, and slopes between whole degrees were asked for elsewhere.
     let whole = |row: &CardRow<'_>| row.slope() >= 1.0 && row.slope().fract() == 0.0;
@@ -44,21 +44,21 @@ pub(super) fn draw(words: &Words, card: &table::Table, measured: &[MeasuredYaw])
     let room = TABLE_BOTTOM - TABLE_TOP - HEADER - AXES - BAR;
     let height = (room / driven.len().max(1) as f64).min(HIGHEST_ROW);
     let table = Table { top: TABLE_TOP + HEADER, height, rows: &driven };
-    columns::draw(&mut sheet, words, &table, measured);
+    columns::draw(&mut sheet, texts, &table, measured);
     let end = table.top + height * driven.len() as f64 + AXES;
     let first = CardRow::all(card).find(|row| row.is_no_go() && row.slope().fract() == 0.0);
     if let Some(first) = first {
         bar(&mut sheet, end, first.slope());
     }
-    foot(&mut sheet, words, end + BAR + 4.5);
+    foot(&mut sheet, texts, end + BAR + 4.5);
     sheet
 }
 
-fn head(sheet: &mut Sheet, words: &Words) {
+fn head(sheet: &mut Sheet, texts: &Texts) {
     /// Room beside the picture [mm].
     const ROOM: f64 = 138.0;
-    let size = fitting(&words.title, 8.6, RIGHT - LEFT);
-    sheet.text(shown(&words.title, size).face(Face::Bold), [LEFT, TOP + 7.0]);
+    let size = fitting(&texts.title, 8.6, RIGHT - LEFT);
+    sheet.text(shown(&texts.title, size).face(Face::Bold), [LEFT, TOP + 7.0]);
     sheet.text(
         shown("OPERATOR'S CARD: how to cross a slope without drifting down", 4.6).face(Face::Bold),
         [LEFT, TOP + 14.5],
@@ -67,8 +67,8 @@ fn head(sheet: &mut Sheet, words: &Words) {
         "1  Find the slope in the left column.".to_owned(),
         "2  Turn the nose uphill by the large number beside it.".to_owned(),
         "3  Drive on: it goes straight across the slope, neither up nor down.".to_owned(),
-        words.side.to_owned(),
-        words.setting.clone(),
+        texts.side.to_owned(),
+        texts.setting.clone(),
     ];
     for (index, step) in steps.iter().enumerate() {
         let size = fitting(step, 4.0, ROOM);
@@ -141,7 +141,7 @@ fn arrow_head(tip: Place, way: Place, length: f64) -> Shape {
     Shape::area(ends, BLACK)
 }
 
-/// From where on nobody drives.
+/// A black bar for the no-go slopes.
 fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
     sheet.draw(Shape::rectangle([LEFT, top], [RIGHT - LEFT, BAR], BLACK));
     let text = match from_deg {
@@ -154,43 +154,43 @@ fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
 }
 
 /// Rule, facts and assumptions, as large as they fit.
-fn foot(sheet: &mut Sheet, words: &Words, top: f64) {
+fn foot(sheet: &mut Sheet, texts: &Texts, top: f64) {
     /// Size of the rule [mm], which is read more often than the rest.
     const RULE: f64 = 3.3;
     /// Sizes that are tried for the rest [mm]; the smallest is that of a footnote.
     const SIZES: [f64; 8] = [3.0, 2.8, 2.65, 2.5, 2.35, 2.2, 2.1, 2.0];
-    let rules: Vec<(&str, &str)> = words.rule.iter().map(|(name, text)| (*name, &**text)).collect();
+    let rules: Vec<(&str, &str)> = texts.rule.iter().map(|(name, text)| (*name, &**text)).collect();
     let top = paragraphs(sheet, &rules, [LEFT, RIGHT], RULE, top) + 1.0;
     let fits = |size: &f64| {
-        below(&mut Sheet::new("", PAGE[0], PAGE[1]), words, *size, usize::MAX, top) <= BOTTOM
+        below(&mut Sheet::new("", PAGE[0], PAGE[1]), texts, *size, usize::MAX, top) <= BOTTOM
     };
     let smallest = SIZES[SIZES.len() - 1];
     let size = SIZES.into_iter().find(fits).unwrap_or(smallest);
-    let most = (0..=words.assumed.len()).rev().find(|most| {
-        below(&mut Sheet::new("", PAGE[0], PAGE[1]), words, size, *most, top) <= BOTTOM
+    let most = (0..=texts.assumed.len()).rev().find(|most| {
+        below(&mut Sheet::new("", PAGE[0], PAGE[1]), texts, size, *most, top) <= BOTTOM
     });
-    below(sheet, words, size, most.unwrap_or(0), top);
+    below(sheet, texts, size, most.unwrap_or(0), top);
 }
 
 /// What stands below the rule; where it ends [mm].
 ///
 /// * `most`: how many assumptions there is room for
-fn below(sheet: &mut Sheet, words: &Words, size: f64, most: usize, top: f64) -> f64 {
+fn below(sheet: &mut Sheet, texts: &Texts, size: f64, most: usize, top: f64) -> f64 {
     const GAP: f64 = 4.0;
     let middle = f64::midpoint(LEFT, RIGHT);
     let facts: Vec<(&str, &str)> =
-        words.facts.iter().map(|(name, text)| (*name, &**text)).collect();
+        texts.facts.iter().map(|(name, text)| (*name, &**text)).collect();
     let (left, right) = facts.split_at(facts.len().div_ceil(2));
     let ends = [
         paragraphs(sheet, left, [LEFT, middle - GAP / 2.0], size, top),
         paragraphs(sheet, right, [middle + GAP / 2.0, RIGHT], size, top),
     ];
     let mut assumed =
-        words.assumed.iter().take(most).cloned().collect::<Vec<String>>().join("  ·  ");
-    if let Some(more @ 1..) = words.assumed.len().checked_sub(most) {
+        texts.assumed.iter().take(most).cloned().collect::<Vec<String>>().join("  ·  ");
+    if let Some(more @ 1..) = texts.assumed.len().checked_sub(most) {
         assumed = format!("{assumed}  ·  and {more} more, in the documents");
     }
-    let mut rest = vec![("Holds for", &*words.holds_for), ("Leaves out", &*words.leaves_out)];
+    let mut rest = vec![("Holds for", &*texts.holds_for), ("Leaves out", &*texts.leaves_out)];
     if !assumed.is_empty() {
         rest.push(("Assumed", &assumed));
     }

@@ -1,4 +1,4 @@
-//! Measured yaws of level traverses, to be held against the card.
+//! Measured yaws of contour traverses, to compare with the card.
 
 use std::path::Path;
 
@@ -43,7 +43,7 @@ pub(super) fn read(path: &Path, limits: Limits) -> Result<Vec<MeasuredYaw>, Fail
             number.ok_or_else(|| {
                 let (name, text) = (&header[place], &row[place]);
                 let [name, text] = [name, text].map(|text| escape::short_line(text, QUOTED));
-                wrong(*line, format!("{name}: '{text}' is no number"))
+                wrong(*line, format!("{name}: '{text}' is not a number"))
             })
         };
         let slope_deg = number(slope)?;

@@ -1,4 +1,4 @@
-//! Charts of a validation: predictions through measured points, and what is left over.
+//! Charts of a validation: predictions through measured points, and residuals.
 
 use grouser::document::columns::TOTAL_SLIP;
 use grouser::document::columns::fit::{self, column_of};
@@ -9,7 +9,7 @@ use grouser::studies::validation::Validation;
 
 use crate::chart::{Chart, Series, Style};
 
-/// A chart with its file's name, without ending, and what to see in it.
+/// A chart with its file's name, without ending, and its caption.
 pub(crate) struct Figure {
     pub(crate) file: String,
     pub(crate) chart: Chart,
@@ -39,7 +39,7 @@ impl Cells {
         Self(fit::cells(&sorted))
     }
 
-    /// What they have of a quantity.
+    /// The cells' values of a quantity.
     fn of_quantity(&self, quantity: columns::Quantity) -> Vec<Cell> {
         let (measurement, deviation) = (quantity.measurement(), quantity.deviation());
         let names = [SLIP_ANGLE.name, TOTAL_SLIP.name, &measurement, &deviation, quantity.name];
@@ -61,7 +61,7 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
     let mut figures = Vec::new();
     for quantity in Quantity::ALL {
         let column = column_of(quantity);
-        let (name, unit) = (&column.words(), column.unit.symbol);
+        let (name, unit) = (&column.label(), column.unit.symbol);
         let cells = all.of_quantity(column);
         if cells.iter().all(|cell| cell.measured.is_none()) {
             continue;
@@ -77,9 +77,9 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
         figures.push(Figure {
             file: format!("{file}-residuals"),
             chart: residuals(&cells, name, unit),
-            caption: "What the theory says too much (above zero) or too little, cell by cell. Where a \
-                      bar reaches zero, the trials differ from each other as much as from the \
-                      theory.",
+            caption: "Prediction minus measurement, cell by cell: above zero the model predicts too much. \
+                      Where a bar reaches zero, the trials differ from each other as much as from \
+                      the model.",
         });
     }
     figures

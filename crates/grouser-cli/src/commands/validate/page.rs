@@ -24,8 +24,8 @@ pub(super) fn html(
     page.list(what_was_compared(args, data, stand));
     if validation.overall.unsettled > 0 {
         page.paragraph(&format!(
-            "{} of {} trials have no prediction, for the soil cannot carry the wheel, says the \
-             theory. They are in no error and in no figure.",
+            "{} of {} trials have no prediction: in the model the soil cannot carry the wheel. No \
+             error and no figure includes them.",
             validation.overall.unsettled, validation.overall.trials
         ));
     }
@@ -34,15 +34,15 @@ pub(super) fn html(
         "Every trial is predicted at its own load and motion. Trials that repeat each other form a \
          cell; measurement and prediction are averaged over it, and every cell weighs the same. \
          rmse: root mean square of prediction minus measurement. bias: its mean, positive where \
-         the theory says too much. repeatability: standard deviation between the trials of a cell; \
-         a theory whose rmse is as small agrees as well as the experiment does with itself. r2: 1 is \
+         the model predicts too much. repeatability: standard deviation between the trials of a cell; \
+         a model whose rmse is as small agrees as well as the experiment does with itself. r2: 1 is \
          perfect, 0 no better than the mean of the measured values.",
     );
     let groups = groups_and_sums(validation);
     for quantity in Quantity::ALL {
         let rows = error_rows(&groups, quantity);
         if !rows.is_empty() {
-            let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
+            let (name, unit) = (column_of(quantity).label(), column_of(quantity).unit.symbol);
             let caption = format!("Errors of the {name} [{unit}]");
             page.grid(&caption, &ERRORS.map(str::to_owned), &rows);
         }
@@ -56,24 +56,24 @@ pub(super) fn html(
     page.to_html()
 }
 
-/// What the theory is worth on these cells, in a sentence for each quantity.
+/// The errors of the model on these cells, in a sentence.
 fn answer(stand: &StandInputs, validation: &Validation) -> String {
     let overall = GroupRecord::from(&validation.overall);
     let words = Quantity::ALL.into_iter().filter_map(|quantity| {
         let errors = overall.errors(quantity)?;
-        let (name, unit) = (column_of(quantity).words(), column_of(quantity).unit.symbol);
+        let (name, unit) = (column_of(quantity).label(), column_of(quantity).unit.symbol);
         let itself = errors.repeatability.map_or(String::new(), |deviation| {
-            format!(" (the experiment repeats itself to {} {unit})", four_digits(deviation))
+            format!(" (repeatability of the experiment {} {unit})", four_digits(deviation))
         });
-        Some(format!("the {name} by {} {unit}{itself}", four_digits(errors.rmse)))
+        Some(format!("{name} {} {unit}{itself}", four_digits(errors.rmse)))
     });
     let words: Vec<String> = words.collect();
     let theory = stand.theory.name();
     if words.is_empty() {
-        return format!("The theory {theory} predicts no trial.");
+        return format!("The model {theory} predicts no trial.");
     }
     let (cells, words) = (overall.0.cells, words.join(", "));
-    format!("The theory {theory} misses, root mean square over {cells} cells, {words}.")
+    format!("Root mean square errors of the model {theory} over {cells} cells: {words}.")
 }
 
 fn what_was_compared(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! `grouser validate --all`: every theory on every data set, best first.
+//! `grouser validate --all`: ranks every model on every data set.
 
 use grouser::document::ranking::{RankedTheory, RankingError, rank_all};
 use grouser::document::validation::{ErrorsRecord, GroupRecord};
@@ -59,7 +59,7 @@ impl From<RankingError> for Failure {
                 Self::at("cannot look into", &folder)(error)
             }
             RankingError::NoDataSet { .. } => Self::Usage(format!(
-                "{error}\nhint: docs/guide/data.md tells how a document describes a data set; without \
+                "{error}\nhint: docs/guide/data.md explains how a document describes a data set; without \
                  --data-dir those that come with the program are ranked"
             )),
             RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {

@@ -1,16 +1,16 @@
-"""Campaigns: many runs over what is not known exactly, on one machine or on many.
+"""Monte Carlo campaigns: sample uncertain inputs, run and summarise, on one machine or on many.
 
-`grouser.Campaign` describes one, `run` computes it into a folder or under a URL of fsspec, `results`
-reads what is there, `merge` brings the parts of an array of jobs together.
+`grouser.Campaign` describes a campaign, `run` computes it into a folder or under a URL of fsspec,
+`results` reads its results, `merge` joins the parts of an array of jobs.
 
-A campaign is split into shards, by its document alone; a worker gets the study as a text and a
-shard's number, and gives back the bytes of a Parquet file. These depend on the two and on nothing
-else, so that the digest over all shards is the same for one thread, a pool of processes, Dask, Ray
-and an array of jobs, in whatever order the shards came, and however often workers died meanwhile.
-A worker needs this package, in the same version, and nothing else.
+The document of a campaign determines its shards. A worker gets the study as a text and the number
+of a shard, and returns the bytes of a Parquet file. The bytes depend on these two alone, so that
+the digest over all shards is the same for one thread, a pool of processes, Dask, Ray and an array
+of jobs, for any order of the shards, and also if workers died. A worker needs only this package, in
+the same version.
 
-``python -m grouser.campaign run STUDY --out DIR --executor dask --scheduler ADDRESS`` is the same from
-a shell.
+``python -m grouser.campaign run STUDY --out DIR --executor dask --scheduler ADDRESS`` is the same
+from a shell.
 
 Examples
 --------

@@ -1,8 +1,9 @@
-"""``python -m grouser.campaign run STUDY --out DIR``: campaigns on processes, Dask or Ray, from a shell.
+"""``python -m grouser.campaign run STUDY --out DIR``: campaigns on processes, Dask or Ray, from a
+shell.
 
-The program's ``grouser campaign run --executor …`` comes here. Flags, output and exit codes are the
-program's: 0 done; 1 the run or the environment failed; 2 wrong use or a bad document; 3 some runs
-failed; 130 interrupted.
+The program's ``grouser campaign run --executor …`` calls this module. Flags, output and exit codes
+are the program's: 0 done; 1 the run or the environment failed; 2 wrong use or a bad document; 3
+some runs failed; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -27,11 +28,11 @@ from ._results import Results
 from ._run import run
 from ._study import Campaign
 
-#: The least time between two lines for machines [s].
+#: The least time between two lines of progress [s].
 _BETWEEN_S = 1.0
 
 
-def _arguments(words: Sequence[str] | None) -> argparse.Namespace:
+def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser("python -m grouser.campaign", description=__doc__)
     commands = parser.add_subparsers(required=True)
     command = commands.add_parser("run", help="compute what is missing of a campaign")
@@ -50,18 +51,19 @@ def _arguments(words: Sequence[str] | None) -> argparse.Namespace:
     add("--write", choices=["coordinator", "workers"], default="coordinator", help="who writes")
     add("--set", metavar="DOCUMENT.KEY=VALUE", action="append", default=[], dest="settings")
     add("--format", choices=["table", "json"], default="table")
-    return parser.parse_args(words)
+    return parser.parse_args(given)
 
 
-def _part(word: str) -> tuple[int, int]:
-    index, slash, of = word.partition("/")
+def _part(text: str) -> tuple[int, int]:
+    index, slash, of = text.partition("/")
     if not (slash and index.isdigit() and of.isdigit() and 1 <= int(index) <= int(of)):
-        raise argparse.ArgumentTypeError(f"{word!r} is not I/N with 1 <= I <= N")
+        raise argparse.ArgumentTypeError(f"{text!r} is not I/N with 1 <= I <= N")
     return int(index), int(of)
 
 
-class _Teller:
-    """Says how far the campaign is: a line that is written over for people, lines for machines."""
+class _ProgressLine:
+    """Prints the progress of a campaign: one line, overwritten, for people; a line each for
+    programs."""
 
     def __init__(self, format: str) -> None:
         self._json = format == "json"
@@ -75,7 +77,7 @@ class _Teller:
             return
         self._last = time.monotonic()
         if self._json:
-            line = {
+            now_as_json = {
                 "schema": "grouser.campaign.progress.v1",
                 "runs_done": now.runs_done,
                 "runs": now.runs,
@@ -83,7 +85,7 @@ class _Teller:
                 "runs_per_s": now.runs_per_s,
                 "left_s": now.left_s,
             }
-            print(json.dumps(line), flush=True)
+            print(json.dumps(now_as_json), flush=True)
         elif self._people:
             lost = f", {now.lost} given to other workers" if now.lost else ""
             left = f", {now.left_s:.0f} s left" if now.left_s is not None else ""
@@ -93,36 +95,38 @@ class _Teller:
             print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
-        """Leaves the line."""
+        """Ends the line."""
         if self._people and self.rate is not None:
             print(file=sys.stderr)
 
 
-def _report(results: Results, teller: _Teller, format: str) -> int:
-    """Says what was found; the exit code."""
+def _report(results: Results, line: _ProgressLine, format: str) -> int:
+    """Prints the statuses of the runs; returns the exit code."""
     statuses, size = results.count()
     runs = sum(statuses.values())
     if format == "json":
-        print(json.dumps(_answer(results, teller, statuses, size), ensure_ascii=False))
+        print(json.dumps(_answer(results, line, statuses, size), ensure_ascii=False))
     else:
         state = (
-            f"is finished: {runs} runs, {teller.rate:.0f} per second"
-            if teller.rate is not None
+            f"is finished: {runs} runs, {line.rate:.0f} per second"
+            if line.rate is not None
             else f"is finished, there is nothing to do: {runs} runs"
         )
         print(f"{results.location} {state}")
-        print(", ".join(f"{word}: {count}" for word, count in statuses.items()))
+        print(", ".join(f"{status}: {count}" for status, count in statuses.items()))
         shards = results.shard_count
         files = "file" if shards == 1 else "files"
         print(f"{shards} {files}, {size / 1e6:.1f} MB, SHA-256 {results.digest}")
-    failed = sum(count for word, count in statuses.items() if word in _core.FAILED_STATUSES)
+    failed = sum(
+        count for status, count in statuses.items() if status in _core.FAILED_STATUSES
+    )
     if failed:
-        _say(f"{failed} of {runs} runs failed; the column `reason` says why")
+        _print_error(f"{failed} of {runs} runs failed; the column `reason` says why")
     return 3 if failed else 0
 
 
 def _answer(
-    results: Results, teller: _Teller, statuses: dict[str, int], size: int
+    results: Results, line: _ProgressLine, statuses: dict[str, int], size: int
 ) -> dict[str, Any]:
     manifest = results.manifest
     return {
@@ -132,23 +136,23 @@ def _answer(
             "study": manifest["name"],
             **{key: manifest[key] for key in ("study_sha256", "seed", "runs", "part")},
         },
-        "finished_before": teller.rate is None,
+        "finished_before": line.rate is None,
         "digest": results.digest,
         "shards": results.shard_count,
         "bytes": size,
         "statuses": statuses,
-        "runs_per_s": teller.rate,
+        "runs_per_s": line.rate,
     }
 
 
-def _say(message: object) -> None:
+def _print_error(message: object) -> None:
     print(f"error: {message}", file=sys.stderr)
 
 
-def main(words: Sequence[str] | None = None) -> int:
-    """Does what is asked; the exit code."""
-    asked = _arguments(words)
-    teller = _Teller(asked.format)
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the command; returns the exit code."""
+    asked = _arguments(arguments)
+    line = _ProgressLine(asked.format)
     try:
         campaign = Campaign._of_document(_core.find_campaign(asked.study, asked.settings))
         results = run(
@@ -159,27 +163,27 @@ def main(words: Sequence[str] | None = None) -> int:
             workers=asked.workers,
             part=asked.shard,
             write=asked.write,
-            progress=teller,
+            progress=line,
         )
-        teller.end()
-        return _report(results, teller, asked.format)
+        line.end()
+        return _report(results, line, asked.format)
     except KeyboardInterrupt:
-        teller.end()
+        line.end()
         print("interrupted: what was finished is kept; the same command goes on", file=sys.stderr)
         return 130
     except GrouserError as error:
-        teller.end()
-        _say(error)
+        line.end()
+        _print_error(error)
         environment = (CampaignDiskError, CampaignLockedError, DocumentUnreadableError)
         usage = isinstance(error, (ValueError, CampaignError)) and not isinstance(
             error, environment
         )
-        # A campaign that something else ended: nobody asked wrongly.
+        # A campaign that another error ended: the arguments were right.
         ended = isinstance(error, CampaignError) and error.__cause__ is not None
         return 2 if usage and not ended else 1
     except (ImportError, OSError) as error:
-        teller.end()
-        _say(error)
+        line.end()
+        _print_error(error)
         return 1
 
 

@@ -1,7 +1,9 @@
-"""Who computes shards: this process, pools, Dask, Ray, or any executor of `concurrent.futures`.
+"""The workers of a campaign: this process, pools, Dask, Ray, or any executor of
+`concurrent.futures`.
 
-All of them become executors of `concurrent.futures`, so that one loop submits and collects. What
-differs is how many shards are kept in flight, how a dead worker shows, and what then has to be done.
+All of them become executors of `concurrent.futures`, so that one loop submits and collects. They
+differ in the number of shards in flight, in the errors by which a dead worker shows, and in what
+has to be done then.
 """
 
 from __future__ import annotations
@@ -28,11 +30,11 @@ from typing import Any, Union
 from .._errors import ParameterError
 from ._worker import Writer, compute
 
-#: Shards in flight for each worker: one to compute, one to go on with at once.
+#: Shards in flight for each worker: one to compute, one to continue with at once.
 _AHEAD = 2
-#: How often a cluster is asked how many workers it has [s].
+#: Interval between queries of the number of workers of a cluster [s].
 _ASKED_EVERY_S = 2.0
-#: Exceptions by which engines say that a worker died, by their names: most engines are not here.
+#: Exceptions by which engines report that a worker died, by name: most engines are not installed.
 _DEATHS = frozenset(
     {
         "KilledWorker",  # Dask
@@ -41,7 +43,7 @@ _DEATHS = frozenset(
         "WorkerCrashedError",  # Ray
         "NodeDiedError",  # Ray
         "LocalRayletDiedError",  # Ray
-        "OutOfMemoryError",  # Ray: the machine's memory ran out, and a worker had to go
+        "OutOfMemoryError",  # Ray: the machine's memory ran out, and a worker was ended
         "ObjectLostError",  # Ray
         "OwnerDiedError",  # Ray
     }
@@ -57,7 +59,7 @@ def is_death(error: BaseException) -> bool:
 
 @dataclass(frozen=True)
 class Job:
-    """What is the same for all shards."""
+    """The arguments that are the same for all shards."""
 
     study: str
     threads: int
@@ -65,11 +67,12 @@ class Job:
 
 
 class Engine:
-    """Any executor of `concurrent.futures`. It stays its maker's: it is neither mended nor shut down."""
+    """Any executor of `concurrent.futures`. It belongs to the caller: it is neither replaced nor
+    shut down."""
 
     #: Whether a broken one can be replaced.
     mends = False
-    #: What to look at where workers die before they finish anything.
+    #: Advice for the case that workers die before they finish a shard.
     hint = "has each of them enough memory, and this package?"
 
     def __init__(self, executor: Executor, job: Job, in_flight: int | None) -> None:
@@ -85,7 +88,7 @@ class Engine:
         return getattr(self.executor, "_max_workers", None) or os.cpu_count() or 1
 
     def submit(self, shard: int) -> Future[Union[bytes, int]]:
-        """Gives a shard to whoever is free."""
+        """Submits a shard."""
         job = self.job
         return self.executor.submit(compute, job.study, shard, job.threads, job.writer)
 
@@ -93,7 +96,8 @@ class Engine:
         """Makes a new pool in place of a broken one."""
 
     def close(self, *, at_once: bool) -> None:
-        """Ends what was started here; `at_once` also what is under way."""
+        """Ends the workers that were started here; with `at_once` without waiting for their
+        shards."""
 
 
 class _Here(Executor):
@@ -127,7 +131,7 @@ class Threads(Engine):
 
 
 def _begin_worker() -> None:
-    """A worker leaves Ctrl-C to the process that started it, and ends when that one has died."""
+    """Makes a worker ignore Ctrl-C, and end when the process that started it has died."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
     if parent is not None:
@@ -169,7 +173,7 @@ class Processes(Engine):
 
 
 class _Asked:
-    """A number that a cluster is asked for now and then."""
+    """A number that is queried from a cluster at intervals."""
 
     def __init__(self, ask: Any) -> None:
         self._ask, self._value, self._next = ask, 0, 0.0
@@ -182,19 +186,19 @@ class _Asked:
 
 
 class Dask(Engine):
-    """A client of Dask distributed. The scheduler gives the shards of a worker that died to others; a
-    shard that it gives up, after as many deaths as its `allowed-failures`, comes back here."""
+    """A client of Dask distributed. The scheduler gives the shards of a dead worker to others;
+    after as many deaths as its `allowed-failures` it returns the shard as lost."""
 
     mends = True
 
     def __init__(
         self, client: Any, job: Job, in_flight: int | None, *, closing: tuple[Any, ...] = ()
     ) -> None:
-        # A shard has the same bytes wherever it is computed; Dask need not remember what came of it.
+        # Not pure: Dask need not keep the results of shards.
         super().__init__(client.get_executor(pure=False), job, in_flight)
         self._closing = closing
         self._threads = _Asked(lambda: sum(client.nthreads().values()))
-        # A task, not scattered data: computed anew if all workers that have it die.
+        # A task, not scattered data: it is computed again if all workers that have it die.
         self._study = client.submit(str, job.study, pure=False)
 
     def _workers(self) -> int:
@@ -211,7 +215,7 @@ class Dask(Engine):
 
 
 class _RayExecutor(Executor):
-    """Tasks of Ray as an executor. Ray tries again by itself where a worker died."""
+    """Tasks of Ray as an executor. Ray itself repeats tasks of a dead worker."""
 
     def __init__(self, ray: Any, cpus: int) -> None:
         self._compute = ray.remote(num_cpus=cpus, max_retries=3)(compute)
@@ -297,7 +301,7 @@ def _imported(module: str, otherwise: str) -> Any:
 
 
 def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
-    distributed = _imported("distributed", "Dask is not here: pip install grouser[dask]")
+    distributed = _imported("distributed", "Dask is not installed: pip install grouser[dask]")
     if scheduler is not None:
         client = distributed.Client(scheduler, set_as_default=False)
     else:
@@ -312,7 +316,7 @@ def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int |
 
 
 def _ray(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
-    ray = _imported("ray", "Ray is not here: pip install grouser[ray]")
+    ray = _imported("ray", "Ray is not installed: pip install grouser[ray]")
     owned = not ray.is_initialized()
     if owned:
         if scheduler is not None:

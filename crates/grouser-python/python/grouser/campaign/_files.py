@@ -12,7 +12,7 @@ from typing import Any, Protocol, Union
 from .._errors import CampaignError, CampaignNotFoundError
 from ._worker import FolderWriter, UrlWriter, Writer, open_url, put
 
-#: Where a campaign is.
+#: Folder or URL of a campaign.
 Location = Union[str, "os.PathLike[str]"]
 
 MANIFEST = "manifest.json"
@@ -23,31 +23,32 @@ MOST_BYTES = 1 << 30
 
 
 def is_url(location: Location) -> bool:
-    """Whether fsspec has to reach it."""
+    """Whether a location is a URL of fsspec."""
     return isinstance(location, str) and "://" in location
 
 
 class Files(Protocol):
-    """What is needed of a folder, or of what looks like one."""
+    """Access to the files of a folder or a URL."""
 
     location: str
 
     def read(self, name: str, most: int = MOST_BYTES) -> bytes | None:
-        """What a file has; None if there is none. It is looked at before it is opened: a pipe or a device has
-        no end, and what is longer than `most` bytes is no file of a campaign."""
+        """The content of a file; None if it does not exist. Type and size are checked before it is
+        opened: a pipe or a device has no end, and a file longer than `most` bytes is not one of a
+        campaign."""
 
     def where(self, name: str) -> str:
-        """What messages call a file."""
+        """The name of a file in messages."""
 
     def names(self, folder: str = "") -> list[str]:
-        """The names in a folder, sorted; none if it does not exist."""
+        """The names in a folder, sorted; empty if it does not exist."""
 
     def writer(self) -> Writer:
-        """What puts shards in their place."""
+        """The writer of shards."""
 
 
 class Folder:
-    """A folder of this machine, or of a disk that it shares."""
+    """A folder of this machine, or of a shared disk."""
 
     def __init__(self, location: Location) -> None:
         self._path = Path(location)
@@ -58,10 +59,10 @@ class Folder:
         try:
             about = path.stat()
             if not stat.S_ISREG(about.st_mode):
-                raise _strange(self.where(name))
+                raise _not_regular(self.where(name))
             _check_size(self.where(name), about.st_size, most)
             with path.open("rb") as file:
-                # It may grow meanwhile; one byte more than allowed tells.
+                # It may grow meanwhile: one byte more than allowed shows that.
                 data = file.read(most + 1)
         except FileNotFoundError:
             return None
@@ -81,7 +82,7 @@ class Folder:
 
 
 class Url:
-    """What fsspec reaches."""
+    """A location that fsspec reads and writes."""
 
     def __init__(self, location: str, options: Mapping[str, Any] | None) -> None:
         self._options = tuple(sorted((options or {}).items()))
@@ -93,7 +94,7 @@ class Url:
         try:
             about = self._files.info(place)
             if about.get("type", "file") != "file":
-                raise _strange(self.where(name))
+                raise _not_regular(self.where(name))
             if about.get("size") is not None:
                 _check_size(self.where(name), about["size"], most)
             data: bytes = self._files.cat_file(place)
@@ -105,7 +106,7 @@ class Url:
         return f"{self.location.rstrip('/')}/{name}"
 
     def names(self, folder: str = "") -> list[str]:
-        # Other machines write there: what was listed before does not count.
+        # Other machines write there: an earlier listing is out of date.
         self._files.invalidate_cache()
         place = f"{self._path}/{folder}".rstrip("/")
         try:
@@ -115,7 +116,7 @@ class Url:
         return sorted(str(path).rstrip("/").rsplit("/", 1)[-1] for path in found)
 
     def put(self, name: str, data: bytes) -> None:
-        """Puts a file in its place: whole, or not at all."""
+        """Writes a file to its place: complete, or not at all."""
         folder, _, last = f"{self._path}/{name}".rpartition("/")
         put(self._files, folder, last, data)
 
@@ -124,7 +125,7 @@ class Url:
         self._files.rm_file(f"{self._path}/{name}")
 
     def make(self) -> None:
-        """Makes the folders, where a store has such."""
+        """Makes the folders, if a store has folders."""
         self._files.makedirs(f"{self._path}/{RUNS}", exist_ok=True)
 
     def writer(self) -> Writer:
@@ -136,8 +137,8 @@ def files_of(location: Location, options: Mapping[str, Any] | None) -> Files:
     return Url(str(location), options) if is_url(location) else Folder(location)
 
 
-def _strange(file: str) -> CampaignError:
-    return CampaignError(f"{file}: it is no regular file")
+def _not_regular(file: str) -> CampaignError:
+    return CampaignError(f"{file}: it is not a regular file")
 
 
 def _check_size(file: str, size: int, most: int) -> None:
@@ -148,7 +149,7 @@ def _check_size(file: str, size: int, most: int) -> None:
 
 
 def need(files: Files, name: str, most: int = MOST_BYTES) -> bytes:
-    """A file that must be there."""
+    """The content of a file that must exist."""
     data = files.read(name, most)
     if data is None:
         message = f"{files.location} holds no campaign: it has no {name}"

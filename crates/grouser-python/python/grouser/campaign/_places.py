@@ -1,4 +1,4 @@
-"""Where shards go: a folder that is locked, or a URL of fsspec."""
+"""The destination of shards: a folder that is locked, or a URL of fsspec."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ._worker import Writer, file_name
 
 @dataclass(frozen=True)
 class Finished:
-    """A campaign whose shards are all there."""
+    """A campaign whose shards are all finished."""
 
     digest: str
     shards: int
@@ -27,41 +27,41 @@ class Finished:
 
 
 class Place(Protocol):
-    """Takes shards in, whoever computed them."""
+    """Collects shards of any worker."""
 
-    #: Damaged shards that are computed anew, each with what is wrong.
+    #: Damaged shards, which are computed again, each with its fault.
     faults: list[tuple[int, str]]
 
     def missing(self) -> Iterator[int]:
-        """Shards that are not there, in order."""
+        """Missing shards, in order."""
 
     def shards(self) -> tuple[int, int]:
-        """How many are there, and how many belong here."""
+        """Numbers of finished shards and of all shards."""
 
     def runs(self) -> tuple[int, int]:
-        """How many runs are there, and how many belong here."""
+        """Numbers of finished runs and of all runs."""
 
     def accept(self, shard: int, data: bytes) -> None:
-        """Takes a shard in."""
+        """Adds a shard."""
 
     def adopt(self, shard: int) -> None:
-        """Takes a shard in that a worker has put in its place."""
+        """Counts a shard that a worker has written to its place."""
 
     def writer(self) -> Writer:
-        """What a worker puts shards in their place with."""
+        """The writer for workers."""
 
     def pause(self) -> None:
-        """Writes down what was done."""
+        """Writes the session to the manifest."""
 
     def finish(self) -> Finished:
         """The digest of all shards."""
 
     def close(self) -> None:
-        """Lets others have it."""
+        """Unlocks the destination."""
 
 
 class FolderPlace:
-    """A folder: locked, checked to the last bit, written to by rename."""
+    """A locked folder: every bit is checked, files are written by rename."""
 
     def __init__(self, path: Location, campaign: Campaign, part: tuple[int, int] | None) -> None:
         self._folder = _core.CampaignFolder(path, campaign._document, part)
@@ -70,7 +70,7 @@ class FolderPlace:
         self._shards = len(_own(campaign, part))
 
     def missing(self) -> Iterator[int]:
-        # Ranges: a list of all would be longer than memory for the largest campaigns.
+        # Ranges: a list of all shards would not fit into memory for the largest campaigns.
         ranges = self._folder.missing()
         return itertools.chain.from_iterable(
             range(first, first + step * count, step) for first, step, count in ranges
@@ -102,8 +102,8 @@ class FolderPlace:
 
 
 class UrlPlace:
-    """What fsspec reaches: no lock, so that two programs may compute the same shards there. They
-    write the same bytes, and what is lost is their time."""
+    """A URL of fsspec: there is no lock, so two programs may compute the same shards. They write
+    the same bytes, and only time is lost."""
 
     def __init__(self, files: Url, campaign: Campaign, part: tuple[int, int] | None) -> None:
         self._files = files
@@ -116,11 +116,11 @@ class UrlPlace:
         self._check_shards()
 
     def _open(self, part: tuple[int, int] | None) -> dict[str, Any]:
-        """The manifest that is there, or a new one."""
+        """The existing manifest, or a new one."""
         fresh: dict[str, Any] = json.loads(_core.campaign_manifest(self._campaign._document, part))
-        told = self._files.read(MANIFEST)
-        if told is not None:
-            return self._checked(told, fresh)
+        found = self._files.read(MANIFEST)
+        if found is not None:
+            return self._checked(found, fresh)
         stranger = next((name for name in self._files.names() if name not in (STUDY, RUNS)), None)
         if stranger is not None:
             raise CampaignError(
@@ -128,23 +128,23 @@ class UrlPlace:
             )
         self._files.make()
         self._files.put(STUDY, self._campaign.to_toml().encode())
-        # Last: with it, this is a campaign's.
+        # Last: the manifest makes this the location of a campaign.
         self._files.put(MANIFEST, _json(fresh))
         return fresh
 
-    def _checked(self, told: bytes, fresh: dict[str, Any]) -> dict[str, Any]:
+    def _checked(self, found: bytes, fresh: dict[str, Any]) -> dict[str, Any]:
         ours = self._campaign.to_toml().encode()
         theirs = self._files.read(STUDY)
         try:
-            _core.CampaignManifest(told, self._files.where(MANIFEST))
+            _core.CampaignManifest(found, self._files.where(MANIFEST))
         except CampaignError:
-            # Damaged, or of a form without a hash. The study that is there says whether it is this one; every
+            # Damaged, or of a form without a hash. It is renewed if the study is the same; every
             # shard is checked then.
             if theirs != ours:
                 raise
             self._files.put(MANIFEST, _json(fresh))
             return fresh
-        manifest: dict[str, Any] = json.loads(told)
+        manifest: dict[str, Any] = json.loads(found)
         version, study, part = (manifest[key] for key in ("version", "study_sha256", "part"))
         if study != fresh["study_sha256"]:
             text = (theirs or b"").decode(errors="replace")
@@ -166,7 +166,7 @@ class UrlPlace:
         return self._files.location
 
     def _check_shards(self) -> None:
-        """Finds out which shards are there and whole. All of them are read for that."""
+        """Finds the shards that are complete. All of them are read for that."""
         for name in self._files.names(RUNS):
             if name.startswith("."):
                 if ".partial-" in name:
@@ -187,7 +187,7 @@ class UrlPlace:
             self.faults.append((shard, str(error)))
 
     def _read(self, shard: int) -> bytes | None:
-        """The bytes of a shard, whole; None if it is not there."""
+        """The checked bytes of a shard; None if it is missing."""
         most = _core.most_shard_bytes(self._campaign._document, shard)
         data = self._files.read(f"{RUNS}/{file_name(shard)}", most)
         if data is not None:
@@ -264,7 +264,7 @@ def place_of(
     campaign: Campaign,
     part: tuple[int, int] | None,
 ) -> Place:
-    """The place at a location, made if it is not there."""
+    """The destination at a location, made if it does not exist."""
     if is_url(location):
         return UrlPlace(Url(str(location), options), campaign, part)
     return FolderPlace(location, campaign, part)
@@ -277,7 +277,8 @@ def _own(campaign: Campaign, part: tuple[int, int] | None) -> range:
 
 
 def _runs_in(campaign: Campaign, shards: range) -> int:
-    """How many runs some shards have. All but the last of the campaign are alike."""
+    """Number of runs of some shards. All but the last shard of the campaign have the same
+    number."""
     if not shards:
         return 0
     others = len(shards) - 1
@@ -285,7 +286,7 @@ def _runs_in(campaign: Campaign, shards: range) -> int:
 
 
 def _number_of(name: str) -> int | None:
-    """The shard that a file is named for."""
+    """The shard that the name of a file gives."""
     digits = name[len("part-") : -len(".parquet")]
     shard = int(digits) if digits.isascii() and digits.isdigit() else None
     return shard if shard is not None and file_name(shard) == name else None

@@ -1,4 +1,4 @@
-"""How far a campaign is."""
+"""The progress of a campaign."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a campaign is, told after every shard."""
+    """The progress of a campaign, reported after every shard."""
 
     shards_done: int
-    """Shards that are there."""
+    """Number of finished shards."""
     shards: int
-    """All that belong here."""
+    """Number of all shards of the campaign, or of its part."""
     runs_done: int
-    """Runs that are there."""
+    """Number of finished runs."""
     runs: int
-    """All that belong here."""
+    """Number of all runs of the campaign, or of its part."""
     elapsed_s: float
-    """Since the start [s]."""
+    """Time since the start [s]."""
     runs_per_s: float
-    """Runs that were computed since the start, per second; 0 before the first shard."""
+    """Runs computed since the start, per second; 0 before the first shard."""
     lost: int
-    """Shards whose worker died; they were given to others."""
+    """Number of shards whose worker died; other workers compute them again."""
 
     @property
     def left_s(self) -> float | None:
-        """The time that is left at this rate [s]; None before the first shard."""
+        """Remaining time at this rate [s]; None before the first shard."""
         return (self.runs - self.runs_done) / self.runs_per_s if self.runs_per_s > 0 else None

@@ -1,4 +1,4 @@
-"""What a campaign has found, read from its folder or URL."""
+"""The results of a campaign, read from its folder or URL."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ if TYPE_CHECKING:
 
 
 class Results:
-    """The runs of a campaign that are there: a row each, a column for each input and result.
+    """The finished runs of a campaign: a row for each run, a column for each input and result.
 
-    Nothing is locked, and a campaign may still be running: what is read is what was there when this
-    was made. Nothing is taken on trust: the manifest carries a hash of itself and one of the study, each shard
-    one of itself, and once a campaign is finished the digest over all shards is held against the manifest's.
-    What was changed or damaged raises `grouser.CampaignError` with the file's name; `run` into the same place
-    computes it anew.
+    Nothing is locked, and a campaign may still be running: the results are those that existed when
+    this object was made. Everything is checked: the manifest contains a hash of itself and one of
+    the study, each shard one of itself, and the digest over all shards of a finished campaign is
+    compared with the manifest's. A changed or damaged file raises `grouser.CampaignError` with its
+    name; `run` into the same location computes it again.
 
     The files are an ordinary Parquet data set; DuckDB, polars and pandas read
     ``DIR/runs/*.parquet`` as it is.
@@ -53,7 +53,7 @@ class Results:
 
     @functools.cached_property
     def campaign(self) -> Campaign:
-        """What was run, with everything in its place."""
+        """The campaign, with all documents that it names."""
         campaign = Campaign.from_toml(self._study.decode())
         if self._manifest["version"] == _core.__version__:
             self._checked.check_campaign(campaign._document, self._files.where(MANIFEST))
@@ -66,9 +66,9 @@ class Results:
 
     @property
     def digest(self) -> str | None:
-        """SHA-256 over the bytes of all shards in their order, written down when the last was there;
-        None before. It is the same on every machine that computes them. Unless all shards were read
-        already, the first look reads and checks them."""
+        """SHA-256 over the bytes of all shards in their order; None before the campaign is
+        finished. It is the same on every machine. The first access reads and checks all shards,
+        unless they were read before."""
         if self._recorded is not None and not self._compared:
             for shard, data in self._shards():
                 self._read(shard, data, [])
@@ -76,30 +76,30 @@ class Results:
 
     @property
     def _recorded(self) -> str | None:
-        """The digest as the manifest has it."""
+        """The digest in the manifest."""
         digest: str | None = self._manifest["digest"]
         return digest
 
     @property
     def is_finished(self) -> bool:
-        """Whether all shards are there."""
+        """Whether all shards are finished."""
         return self._missing == 0
 
     @property
     def manifest(self) -> dict[str, Any]:
-        """What the folder says of itself: study, version, seed, columns with their units, and when it
-        was computed; a copy."""
+        """The manifest: study, version, seed, columns with their units, and times of computation; a
+        copy."""
         manifest: dict[str, Any] = copy.deepcopy(self._manifest)
         return manifest
 
     @property
     def shard_count(self) -> int:
-        """How many shards are there."""
+        """Number of finished shards."""
         return len(self._there)
 
     def count(self) -> tuple[dict[str, int], int]:
-        """How often each status is among the runs that are there, and how many bytes they have; read
-        shard by shard."""
+        """Number of finished runs with each status, and their size in bytes; read shard by
+        shard."""
         statuses: Counter[str] = Counter()
         size = 0
         for shard, data in self._shards():
@@ -109,15 +109,15 @@ class Results:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """What a row has, in order."""
+        """Names of the columns, in order."""
         return tuple(column["name"] for column in self._manifest["columns"])
 
     def __len__(self) -> int:
-        """How many runs are there."""
+        """Number of finished runs."""
         return sum(end - start for start, end in self._runs())
 
     def _runs(self) -> list[tuple[int, int]]:
-        """The runs that are there: the first of each shard, and the one after its last."""
+        """The finished runs: the first of each shard, and the one after its last."""
         return [self._checked.runs_of(shard) for shard in self._there]
 
     def column(self, name: str) -> NDArray[Any]:
@@ -126,7 +126,7 @@ class Results:
         Raises
         ------
         ParameterError
-            If there is no such column.
+            If the column does not exist.
         """
         found: NDArray[Any] = self._columns([name])[name]
         return found
@@ -146,8 +146,8 @@ class Results:
         return {name: np.concatenate([empty[name], *parts[name]]) for name in names}
 
     def _shards(self) -> Iterator[tuple[int, bytes]]:
-        """The shards that are there, in order: one at a time is in memory. After the last one of a finished
-        campaign, their digest is compared with the manifest's."""
+        """The finished shards, in order: one at a time is in memory. After the last one of a
+        finished campaign, their digest is compared with the manifest's."""
         digest = hashlib.sha256()
         for shard in self._there:
             data = self._bytes(shard)
@@ -156,8 +156,8 @@ class Results:
         recorded, found = self._recorded, digest.hexdigest()
         if self.is_finished and recorded not in (None, found):
             raise CampaignError(
-                f"{self.location}: its digest was {recorded}, now it is {found}: some shard was computed anew "
-                "with other numbers; run the campaign in a new folder"
+                f"{self.location}: its digest was {recorded}, now it is {found}: some shard was computed "
+                "again with other numbers; run the campaign in a new folder"
             )
         self._compared = self.is_finished
 
@@ -165,7 +165,7 @@ class Results:
         return need(self._files, f"{RUNS}/{file_name(shard)}", self._checked.most_bytes(shard))
 
     def _read(self, shard: int, data: bytes, columns: Sequence[str]) -> dict[str, Any]:
-        """Columns of a shard that is as it was written."""
+        """Columns of a shard, after its hash was checked."""
         place = self._files.where(f"{RUNS}/{file_name(shard)}")
         return self._checked.read(shard, data, list(columns), place)
 
@@ -175,7 +175,7 @@ class Results:
         Parameters
         ----------
         columns : names, optional
-            Which columns; all without. Memory is that of these.
+            Which columns; by default all. Only these are in memory.
         """
         return _tables.frame(self._columns(list(self.columns if columns is None else columns)))
 
@@ -185,7 +185,7 @@ class Results:
         Parameters
         ----------
         columns : names, optional
-            Which columns; all without.
+            Which columns; by default all.
 
         Raises
         ------
@@ -204,16 +204,16 @@ class Results:
             tables.append(parquet.read_table(pyarrow.BufferReader(data), columns=names))
         if not tables:
             raise CampaignError(f"{self.location} has no shards yet")
-        # Each shard's footer tells its own number.
+        # Each shard's footer has its own number.
         return pyarrow.concat_tables(table.replace_schema_metadata(None) for table in tables)
 
     def row(self, run: int) -> dict[str, Any]:
-        """A run as it is stored: its row by column, None or NaN where there is no value.
+        """The stored row of a run by column, None or NaN for a missing value.
 
         Raises
         ------
         ParameterError
-            If there is no such run, or its shard is not there.
+            If the run does not exist, or its shard is missing.
         """
         shard = run // self._manifest["shard_runs"]
         if run < 0 or shard not in self._there:
@@ -225,13 +225,13 @@ class Results:
         return {name: _plain(values[place]) for name, values in columns.items()}
 
     def rerun(self, run: int) -> dict[str, Any]:
-        """Computes a run anew, alone, whether it is there or not: its row by column, None where there is
-        no value.
+        """Computes a single run again, finished or not: its row by column, None for a missing
+        value.
 
         Raises
         ------
         ParameterError
-            If there is no such run.
+            If the run does not exist.
         """
         return self.campaign.rerun(run)
 
@@ -241,22 +241,22 @@ class Results:
         *,
         quantiles: Sequence[float] = (0.025, 0.5, 0.975),
     ) -> Summary:
-        """What the runs say together: how often each status is, with Wilson's intervals; mean, quantiles
-        and their confidence intervals for each result; convergence over the runs; Sobol indices, if the
-        campaign was laid out for them. Such a campaign repeats runs with one input exchanged; all but the
-        indices is over its independent runs alone.
+        """Statistics over the runs: the share of each status, with Wilson intervals; mean and
+        quantiles of each result, with confidence intervals; convergence over the runs; Sobol
+        indices of a campaign with ``sensitivity``. Such a campaign repeats runs with one input
+        exchanged; all statistics but the indices are over its independent runs alone.
 
         Parameters
         ----------
         columns : names, optional
-            Which results; all without.
+            Which results; by default all.
         quantiles : sequence of float
-            Their shares, between 0 and 1.
+            Probabilities of the quantiles, between 0 and 1.
 
         Raises
         ------
         CampaignError
-            If shards are missing, as what is there then need not stand for all; or if a file was changed or
+            If shards are missing, because the others may be biased; or if a file was changed or
             damaged.
         """
         if not self.is_finished:
@@ -266,7 +266,7 @@ class Results:
         return summary_of(self, columns, quantiles)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Read anew where it arrives: what was checked here says nothing of the files there.
+        # Read again after unpickling: the checks made here do not hold for the files there.
         return Results, (self._files,)
 
     def __repr__(self) -> str:
@@ -274,7 +274,7 @@ class Results:
         return f"<Results {self._manifest['name']!r} in {self.location}: {len(self)} runs, {state}>"
 
 
-#: NumPy's types for what stands in a column.
+#: NumPy's types of columns.
 _DTYPES: dict[str, Any] = {"float": np.float64, "whole": np.int64, "text": object}
 
 
@@ -291,12 +291,12 @@ def results(location: Location, *, storage_options: Mapping[str, Any] | None = N
     location : path or str
         The folder, or a URL of fsspec.
     storage_options : mapping, optional
-        What fsspec needs to reach the URL.
+        Options of fsspec for the URL.
 
     Raises
     ------
     CampaignNotFoundError
-        If there is no campaign.
+        If the location has no campaign.
     CampaignError
         If the manifest or the study was changed or damaged. Shards are checked when they are read.
     """
@@ -304,20 +304,20 @@ def results(location: Location, *, storage_options: Mapping[str, Any] | None = N
 
 
 def merge(out: Location, parts: Sequence[Location]) -> Results:
-    """Brings the parts of an array of jobs together: their shards are copied to one folder, which is
-    then as if one process had computed all.
+    """Joins the parts of an array of jobs: their shards are copied to one folder, which is then the
+    same as if one process had computed all.
 
     Parameters
     ----------
     out : path
-        The folder for all.
+        The folder for all shards.
     parts : sequence of paths
         The parts' folders, in any order.
 
     Raises
     ------
     CampaignError
-        If parts are unfinished, missing, twice there, or of another study. Nothing is written then.
+        If parts are unfinished, missing, given twice, or of another study. Nothing is written then.
     CampaignNotFoundError
         If a folder has no campaign.
     """
@@ -325,7 +325,9 @@ def merge(out: Location, parts: Sequence[Location]) -> Results:
         raise ParameterError("there are no parts to merge", "parts", None, "at least one folder")
     for location in (out, *parts):
         if is_url(location):
-            raise ParameterError(f"{location} is no folder: parts are merged in folders", "parts")
+            raise ParameterError(
+                f"{location} is not a folder: parts are merged in folders", "parts"
+            )
     study = results(parts[0]).campaign
     _core.merge_campaign(out, study._document, list(parts))
     return results(out)

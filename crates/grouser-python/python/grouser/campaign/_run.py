@@ -17,10 +17,10 @@ from ._progress import Progress
 from ._results import Results, results
 from ._study import Campaign
 
-#: How often a shard may be lost with its worker: then it is taken for what kills workers.
+#: How often a shard may be lost with its worker, before the shard is taken for the cause.
 MOST_LOSSES = 5
-#: How often all shards that are in flight may be lost with none finished in between: then workers do
-#: not live long enough for any.
+#: How often all shards in flight may be lost without a finished one in between, before the workers
+#: are taken for too short-lived.
 MOST_BARREN_ROUNDS = 3
 
 
@@ -39,62 +39,62 @@ def run(
     progress: Callable[[Progress], None] | None = None,
     storage_options: Mapping[str, Any] | None = None,
 ) -> Results:
-    """Computes what is missing of a campaign, and brings it together.
+    """Computes the missing shards of a campaign, and its digest.
 
-    Interrupted at any moment, the same call goes on where it stopped; on a finished campaign it
-    computes nothing. Workers may die: their shards are given to others.
+    After an interruption at any moment, the same call continues from there; on a finished campaign
+    it computes nothing. Shards of workers that die are given to other workers.
 
     Parameters
     ----------
     study : Campaign, path or mapping
-        What to compute.
+        The campaign.
     out : path or str
-        A folder, made if it is not there and locked meanwhile; or a URL of fsspec such as
+        A folder, made if it does not exist and locked meanwhile; or a URL of fsspec such as
         ``s3://bucket/campaign``, which has no lock.
     executor : optional
-        Who computes. None: this process, on all cores. ``"processes"`` or ``"threads"``: as many of
-        this machine as ``workers``. ``"dask"`` or ``"ray"``: the cluster at ``scheduler``, or else workers
-        of this machine. Or an object: any executor of ``concurrent.futures``, a client or cluster of
-        Dask distributed, the module ``ray``; it is used as it is, and not shut down.
+        The workers. None: this process, on all cores. ``"processes"`` or ``"threads"``: as many of
+        this machine as ``workers``. ``"dask"`` or ``"ray"``: the cluster at ``scheduler``, or else
+        workers of this machine. Or an object: any executor of ``concurrent.futures``, a client or
+        cluster of Dask distributed, the module ``ray``; it is not shut down.
     scheduler : str, optional
         The address of a scheduler of Dask, or of a cluster of Ray.
     workers : int, optional
-        How many workers to start, where they are started here; one for each core without.
+        Number of workers to start on this machine; by default one for each core.
     threads : int, optional
         Threads for each shard: 1, or all cores without an executor. The bytes are the same.
     part : (int, int), optional
         Part *i* of *n*, counted from 1, for an array of jobs without any engine: each has a folder
-        of its own, `merge` brings them together. All shards without.
+        of its own, `merge` brings them together. By default all shards.
     write : {"coordinator", "workers"}
-        Who writes shards: this process, to which they are sent; or workers, straight to the
-        folder, which then all of them must share under the same path, or to the URL.
+        The writer of shards: this process, to which they are sent; or the workers, directly to the
+        folder, which all of them must share under the same path, or to the URL.
     in_flight : int, optional
-        How many shards are submitted at once; two for each worker without. Memory here is that of as
-        many shards, however many there are.
+        Number of shards that are submitted at once; by default two for each worker. It bounds the
+        memory of this process.
     progress : callable, optional
         Called with a `Progress` after every shard, in this thread.
     storage_options : mapping, optional
-        What fsspec needs to reach the URL.
+        Options of fsspec for the URL.
 
     Returns
     -------
     Results
-        What is there: the whole campaign, or the whole part.
+        The results of the campaign, or of the part.
 
     Raises
     ------
     DocumentError, ParameterError
-        If the study or an argument is not possible.
+        If the study or an argument is invalid.
     CampaignError
-        If the folder is another study's, or a shard is lost again and again.
+        If the folder belongs to another study, or a shard is lost repeatedly.
     CampaignLockedError
         If another program writes to the folder.
     CampaignDiskError
-        If the disk fails or is full. What was written before is kept.
+        If the disk fails or is full. Files written before are kept.
     ImportError
         If an engine is not installed, with the command that installs it.
     KeyboardInterrupt
-        On Ctrl-C. What was finished before is kept.
+        On Ctrl-C. Finished shards are kept.
     """
     campaign = study if isinstance(study, Campaign) else Campaign(study)
     _check_counts(workers=workers, threads=threads, in_flight=in_flight)
@@ -115,7 +115,7 @@ def run(
             _compute(campaign, place, engine, progress)
         place.finish()
     except BaseException:
-        # What is wrong is said already; a disk that fails here, too, adds nothing to it.
+        # The first error is the one to report; another failure of the disk adds nothing.
         try:
             place.pause()
         except (GrouserError, OSError):
@@ -146,7 +146,7 @@ def _compute(
     engine: Engine,
     report: Callable[[Progress], None] | None,
 ) -> None:
-    """Computes all shards that are missing."""
+    """Computes all missing shards."""
     loop = _Loop(campaign, place, engine, report)
     try:
         loop.run()
@@ -158,7 +158,7 @@ def _compute(
 
 
 class _Loop:
-    """Keeps an engine busy until all shards are there."""
+    """Keeps an engine busy until all shards are finished."""
 
     def __init__(
         self,
@@ -169,8 +169,8 @@ class _Loop:
     ) -> None:
         self._campaign, self._place, self._engine, self._report = campaign, place, engine, report
         self._missing: Iterator[int] = place.missing()
-        #: Shards that were lost with their worker. They come last: what kills workers harms the fewest
-        #: others then.
+        #: Shards that were lost with their worker. They come last, so that a shard that kills
+        #: workers harms the fewest others.
         self._again: deque[int] = deque()
         self._losses: Counter[int] = Counter()
         #: Losses since a shard was last finished.
@@ -184,7 +184,7 @@ class _Loop:
     def run(self) -> None:
         """Submits and collects."""
         while self._fill() or self._pending:
-            # Waits for a second at most, so that Ctrl-C is heard on every system.
+            # Waits for a second at most, so that Ctrl-C interrupts on every system.
             done, _ = wait(self._pending, timeout=1.0, return_when=FIRST_COMPLETED)
             broken: BaseException | None = None
             for future in done:
@@ -194,7 +194,7 @@ class _Loop:
                 self._mend(broken)
 
     def _fill(self) -> bool:
-        """Submits as many shards as may be in flight; whether there were any."""
+        """Submits as many shards as may be in flight; returns whether there were any."""
         submitted = False
         while len(self._pending) < self._engine.capacity():
             shard = next(self._missing, None)
@@ -205,7 +205,7 @@ class _Loop:
             try:
                 self._pending[self._engine.submit(shard)] = shard
             except BrokenExecutor as error:
-                # It broke since the last look; this shard has nothing to do with it.
+                # It broke since the last check; this shard is not the cause.
                 self._again.append(shard)
                 if self._pending:
                     return True
@@ -214,7 +214,7 @@ class _Loop:
         return submitted
 
     def _collect(self, future: Future[Union[bytes, int]]) -> BaseException | None:
-        """Takes a shard in, or notes that it was lost."""
+        """Adds a finished shard, or counts a lost one."""
         shard = self._pending.pop(future)
         error = _error_of(future)
         if error is None:
@@ -224,7 +224,7 @@ class _Loop:
             else:
                 self._place.adopt(shard)
             self._barren = 0
-            self._tell(shard)
+            self._report_progress(shard)
         elif is_death(error):
             self._lose(shard, error)
         elif isinstance(error, (GrouserError, KeyboardInterrupt)):
@@ -249,7 +249,7 @@ class _Loop:
         self._again.append(shard)
 
     def _mend(self, error: BaseException) -> None:
-        """Replaces a broken executor, once all that was submitted to it has come back."""
+        """Replaces a broken executor, after all its shards have been collected."""
         if not self._engine.mends:
             raise CampaignError(
                 f"the executor is broken ({error}); what was finished is kept: go on with a new one"
@@ -259,7 +259,7 @@ class _Loop:
             self._collect(future)
         self._engine.mend()
 
-    def _tell(self, shard: int) -> None:
+    def _report_progress(self, shard: int) -> None:
         self._shards += 1
         self._runs += len(self._campaign.runs_of(shard))
         if self._report is not None:
@@ -277,13 +277,13 @@ class _Loop:
             )
 
     def cancel(self) -> None:
-        """Takes back what nobody has begun."""
+        """Cancels shards that no worker has started."""
         for future in self._pending:
             future.cancel()
 
 
 def _error_of(future: Future[Any]) -> BaseException | None:
-    """What went wrong, with a cancelled shard as an error like others."""
+    """The error of a shard; cancellation is one as well."""
     try:
         return future.exception()
     except BaseException as error:

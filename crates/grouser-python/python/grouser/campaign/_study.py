@@ -10,13 +10,14 @@ from .._errors import ParameterError
 
 
 class Campaign(_Description):
-    """Many runs of one study over numbers that are not known exactly: ``study``, ``runs``, ``seed``,
-    ``shard_runs``, ``sampling``, ``sensitivity``, ``scenario`` or ``wheel_test``, and what is
-    uncertain: ``parameter``, ``correlation``, ``samples``, ``soil_uncertainty``. The guide on
-    campaigns explains them. Made and failing as `Soil` is.
+    """Description of a Monte Carlo campaign: many runs of one study with sampled inputs. Keys:
+    ``study``, ``runs``, ``seed``, ``shard_runs``, ``sampling``, ``sensitivity``, ``scenario`` or
+    ``wheel_test``, and the uncertain inputs: ``parameter``, ``correlation``, ``samples``,
+    ``soil_uncertainty``. The guide on campaigns explains them. Sources and errors are those of
+    `Soil`.
 
-    What it is resolved to (``to_toml``) holds samples and all that it names: that one text is all a
-    worker needs.
+    The complete document (``to_toml``) contains samples and all documents that it names: a worker
+    needs only that text.
     """
 
     __slots__ = ("_facts",)
@@ -29,38 +30,38 @@ class Campaign(_Description):
 
     @classmethod
     def _of_document(cls, document: _core.Document) -> Campaign:
-        """The description that a document was read to."""
+        """The description of a document that was read."""
         made = cls.__new__(cls)
         made._take(document)
         return made
 
     @property
     def row_count(self) -> int:
-        """How many runs there are: ``runs`` or, with ``sensitivity``, that many times two more than
-        there are inputs."""
+        """Number of runs: ``runs`` or, with ``sensitivity``, ``runs`` times the number of inputs
+        plus two."""
         count: int = self._facts["runs"]
         return count
 
     @property
     def shard_count(self) -> int:
-        """How many shards there are: fixed by the document, not by who computes them."""
+        """Number of shards, which the document determines."""
         count: int = self._facts["shards"]
         return count
 
     @property
     def sha256(self) -> str:
-        """SHA-256 of the resolved document: the campaign's name among all."""
+        """SHA-256 of the complete document: it identifies the campaign."""
         name: str = self._facts["sha256"]
         return name
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """What a row has, in order."""
+        """Names of the columns, in order."""
         return tuple(name for name, *_ in self._facts["columns"])
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The columns of what is drawn."""
+        """The columns of sampled inputs."""
         return self._of_role("input")
 
     @property
@@ -77,7 +78,7 @@ class Campaign(_Description):
         return tuple(name for name, _, role, _ in self._facts["columns"] if role == wanted)
 
     def runs_of(self, shard: int) -> range:
-        """The runs of a shard; none beyond the last."""
+        """The runs of a shard; empty beyond the last shard."""
         length: int = self._items["shard_runs"]
         start = min(shard * length, self.row_count)
         return range(start, min(start + length, self.row_count))
@@ -90,7 +91,7 @@ class Campaign(_Description):
         shard : int
             Its number, from 0.
         threads : int
-            How many to compute with; 0 for one on each core. The bytes are the same.
+            Number of threads; 0 for one on each core. The bytes do not depend on it.
 
         Returns
         -------
@@ -100,7 +101,7 @@ class Campaign(_Description):
         Raises
         ------
         ParameterError
-            If there is no such shard.
+            If the shard does not exist.
         """
         return _core.campaign_shard(
             self._document, _whole("shard", shard), _whole("threads", threads)
@@ -112,7 +113,7 @@ class Campaign(_Description):
         Raises
         ------
         ParameterError
-            If there is no such run.
+            If the run does not exist.
         """
         return _core.campaign_row(self._document, _whole("run", run))
 
@@ -120,5 +121,7 @@ class Campaign(_Description):
 def _whole(name: str, value: int) -> int:
     """A number that is not negative."""
     if not 0 <= value < 2**63:
-        raise ParameterError(f"{name} is {value}, which counts nothing", name, value, "0 or more")
+        raise ParameterError(
+            f"{name} is {value}, it must not be negative", name, value, "0 or more"
+        )
     return value

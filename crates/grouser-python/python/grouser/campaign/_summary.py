@@ -1,4 +1,4 @@
-"""What the runs of a campaign say together. The statistics are the library's."""
+"""Statistics over the runs of a campaign, computed by the library."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Share:
-    """How often something happened, with its 95 % interval (Wilson)."""
+    """The share of runs with some status or outcome, with its 95 % interval (Wilson)."""
 
     count: int
-    """Independent runs in which it did."""
+    """Number of independent runs with it."""
     share: float
-    """Of all independent runs [-]."""
+    """Share of all independent runs [-]."""
     low: float
     """Lower end of the interval [-]."""
     high: float
@@ -33,16 +33,17 @@ class Share:
 
 @dataclass(frozen=True)
 class Quantity:
-    """What the runs say of one result, in the unit of its name. Intervals are of 95 %."""
+    """Statistics of one result over the runs, in the unit of its name. Intervals are 95 %
+    intervals."""
 
     name: str
     """The column."""
     count: int
-    """Independent runs that have it."""
+    """Number of independent runs that have a value."""
     missing: int
-    """Independent runs that do not."""
+    """Number of independent runs that have none."""
     mean: float
-    """Mean; NaN, as all of these, if fewer than two runs have it."""
+    """Mean; NaN, as the statistics below, if fewer than two runs have a value."""
     mean_low: float
     """Lower end of the mean's interval."""
     mean_high: float
@@ -54,28 +55,29 @@ class Quantity:
     most: float
     """The largest."""
     quantiles: Mapping[float, tuple[float, float | None, float | None]]
-    """For each share: the quantile, and the two runs between which it lies; None where so few runs do
-    not bound it."""
+    """For each probability: the quantile, and the ends of its confidence interval; None where too
+    few runs bound it."""
     convergence: tuple[Mapping[str, Any], ...]
     """The same after the first 16, 32 … runs, and after all: ``runs``, ``mean`` and so on."""
     sensitivity: Mapping[str, Mapping[str, float]]
-    """Sobol indices for each input: ``first`` and ``total`` with ``_low`` and ``_high``, over ``points`` points,
-    ``points_missing`` being left out; empty unless the campaign was laid out for them."""
+    """Sobol indices of each input: ``first`` and ``total`` with ``_low`` and ``_high``, over
+    ``points`` points, without ``points_missing`` others; empty for a campaign without
+    ``sensitivity``."""
 
 
 @dataclass(frozen=True)
 class Summary:
-    """What the runs of a campaign say together."""
+    """Statistics over the runs of a campaign."""
 
     runs: int
-    """How many there are that are independent: all, but for a campaign with ``sensitivity``, where those with one
-    input exchanged only tell the Sobol indices."""
+    """Number of independent runs: all runs; in a campaign with ``sensitivity``, without those with
+    one input exchanged, which serve the Sobol indices alone."""
     status: Mapping[str, Share]
-    """How often each status is."""
+    """Share of each status."""
     outcome: Mapping[str, Share]
-    """What became of the rover, for traverses."""
+    """Share of each outcome, for traverses."""
     quantities: Mapping[str, Quantity]
-    """Each result."""
+    """Statistics of each result."""
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each result; quantiles are columns such as ``0.975``, with
@@ -111,18 +113,21 @@ def summary_of(
     for share in shares:
         if not 0.0 < share < 1.0:
             raise ParameterError(
-                f"{share} is no quantile's share", "quantiles", share, "between 0 and 1"
+                f"{share} is not the probability of a quantile",
+                "quantiles",
+                share,
+                "between 0 and 1",
             )
     campaign = results.campaign
     names = list(campaign.outputs if columns is None else columns)
     for name in names:
         if name not in campaign.outputs:
             known = ", ".join(campaign.outputs)
-            raise ParameterError(f"{name!r} is no result", "columns", None, known)
+            raise ParameterError(f"{name!r} is not a result", "columns", None, known)
     runs = results._runs()
     texts = results._columns([name for name in ("status", "outcome") if name in results.columns])
     outcomes = texts.get("outcome", ())
-    said = _core.campaign_frequencies(
+    found = _core.campaign_frequencies(
         campaign._document, runs, list(texts["status"]), list(outcomes)
     )
     quantities = {}
@@ -130,37 +135,38 @@ def summary_of(
     for start in range(0, len(names), at_once):
         columns = results._columns(names[start : start + at_once])
         values = [(name, np.ascontiguousarray(column)) for name, column in columns.items()]
-        for told in _core.campaign_summary(campaign._document, runs, values, shares):
-            quantities[told["quantity"]] = _quantity(told)
-    return Summary(said["samples"], _shares(said["status"]), _shares(said["outcome"]), quantities)
+        for one in _core.campaign_summary(campaign._document, runs, values, shares):
+            quantities[one["quantity"]] = _quantity(one)
+    status, outcome = _shares(found["status"]), _shares(found["outcome"])
+    return Summary(found["samples"], status, outcome, quantities)
 
 
-#: How much of the columns is in memory at once: each pass over the files brings that many, and checks them.
+#: Bytes of columns that are in memory at once: each pass over the files reads and checks that many.
 _BYTES = 1 << 28
 
 
 def _shares(counts: Mapping[str, tuple[int, float, float, float]]) -> dict[str, Share]:
-    """How often each word is, most often first; runs without one do not count."""
+    """The share of each text, most frequent first; runs without a text are left out."""
     most = sorted(counts.items(), key=lambda pair: (-pair[1][0], pair[0]))
-    return {word: Share(*of) for word, of in most}
+    return {name: Share(*of) for name, of in most}
 
 
-def _quantity(told: dict[str, Any]) -> Quantity:
+def _quantity(found: dict[str, Any]) -> Quantity:
     nan = float("nan")
-    sensitivity = {it.pop("input"): it for it in told["sensitivity"]}
+    sensitivity = {it.pop("input"): it for it in found["sensitivity"]}
     return Quantity(
-        name=told["quantity"],
-        count=told.get("count", 0),
-        missing=told["missing"],
-        mean=told.get("mean", nan),
-        mean_low=told.get("mean_low", nan),
-        mean_high=told.get("mean_high", nan),
-        standard_deviation=told.get("standard_deviation", nan),
-        least=told.get("least", nan),
-        most=told.get("most", nan),
+        name=found["quantity"],
+        count=found.get("count", 0),
+        missing=found["missing"],
+        mean=found.get("mean", nan),
+        mean_low=found.get("mean_low", nan),
+        mean_high=found.get("mean_high", nan),
+        standard_deviation=found.get("standard_deviation", nan),
+        least=found.get("least", nan),
+        most=found.get("most", nan),
         quantiles={
-            share: (value, low, high) for share, value, low, high in told.get("quantiles", ())
+            share: (value, low, high) for share, value, low, high in found.get("quantiles", ())
         },
-        convergence=tuple(told["convergence"]),
+        convergence=tuple(found["convergence"]),
         sensitivity=sensitivity,
     )

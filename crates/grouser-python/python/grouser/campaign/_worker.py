@@ -1,4 +1,4 @@
-"""What a worker does. All that it needs comes with the call, and this package."""
+"""The task of a worker. It needs only the arguments of the call, and this package."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from .._errors import ParameterError
 
 
 class Writer(Protocol):
-    """Puts a shard in its place from wherever a worker is. It travels to workers."""
+    """Writes a shard to its place. It is pickled and sent to workers."""
 
     def put(self, name: str, data: bytes) -> None:
-        """Puts a file in its place: whole, or not at all."""
+        """Writes a file to its place: complete, or not at all."""
 
 
 @functools.lru_cache(maxsize=2)
 def _campaign(study: str) -> _core.Document:
-    """A study that was read. Workers compute many shards of one."""
+    """A study that was read; cached, because workers compute many shards of one study."""
     return _core.read_document_text("campaign", "study.toml", study, {}, {})
 
 
@@ -32,7 +32,7 @@ def file_name(shard: int) -> str:
 
 
 def compute(study: str, shard: int, threads: int, writer: Writer | None) -> Union[bytes, int]:
-    """Computes a shard: its bytes or, if the worker puts them in their place, how many they are."""
+    """Computes a shard: its bytes or, if the worker writes them, their number."""
     data = _core.campaign_shard(_campaign(study), shard, threads)
     if writer is None:
         return data
@@ -47,8 +47,8 @@ class FolderWriter:
     folder: str
 
     def put(self, name: str, data: bytes) -> None:
-        """Writes beside the place, waits until it is on disk, and renames."""
-        # Processes on different machines may have the same number; this is nobody else's.
+        """Writes a temporary file beside the place, waits until it is on disk, and renames it."""
+        # Processes on different machines may have the same number; a UUID is unique.
         beside = os.path.join(self.folder, f".{name}.partial-{uuid.uuid4().hex}")
         try:
             with open(beside, "xb") as file:
@@ -62,20 +62,21 @@ class FolderWriter:
             raise
 
 
-#: Stores in which an object appears whole or not at all, and moving is copying: nothing is gained by
-#: writing beside the place there.
+#: Stores in which an object appears complete or not at all, and moving is copying: a temporary
+#: object would gain nothing.
 WHOLE_OBJECTS = frozenset({"s3", "s3a", "gs", "gcs", "az", "abfs", "abfss", "adl", "oss", "memory"})
 
 
 @dataclass(frozen=True)
 class UrlWriter:
-    """Writes to what fsspec reaches."""
+    """Writes to a URL of fsspec."""
 
     url: str
     options: tuple[tuple[str, Any], ...]
 
     def put(self, name: str, data: bytes) -> None:
-        """Writes an object; where a store shows unfinished ones, under another name, then moved."""
+        """Writes an object; in a store that shows unfinished objects, under another name, then
+        moved."""
         files, folder = open_url(self.url, self.options)
         put(files, folder, name, data)
 

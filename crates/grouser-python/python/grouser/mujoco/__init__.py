@@ -1,7 +1,8 @@
-"""Soil under the wheels of MuJoCo models.
+"""Forces of the soil on the wheels of MuJoCo models.
 
-`SoilContact` puts the soil's reaction on the wheels of a model, in place of MuJoCo's own contact.
-`rover_xml` writes a model of a `grouser.Rover`. Needs MuJoCo: ``pip install grouser[mujoco]``.
+`SoilContact` applies the forces of the soil to the wheels of a model, in place of MuJoCo's own
+contact. `rover_xml` writes a model of a `grouser.Rover`. Needs MuJoCo: ``pip install
+grouser[mujoco]``.
 """
 
 try:

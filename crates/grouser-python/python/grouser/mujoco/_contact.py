@@ -1,4 +1,4 @@
-"""The soil's reaction as forces on the wheels of a MuJoCo model."""
+"""Forces of the soil on the wheels of a MuJoCo model."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _core
+from .. import _core, _former_names
 from .._arrays import number
 from .._descriptions import Soil, Source, Wheel
 from .._errors import ParameterError
@@ -22,22 +22,22 @@ Floats = NDArray[np.float64]
 
 
 class SoilContact:
-    """The soil under the wheels of a MuJoCo model.
+    """Applies the forces of the soil to the wheels of a MuJoCo model.
 
-    It takes the place of MuJoCo's contact between wheels and ground, which has to be off. Before a
-    step it writes the soil's reaction into the wheels' rows of ``data.xfrc_applied``: call `apply`
+    It replaces MuJoCo's contact between wheels and ground, which has to be off. Before a step it
+    writes the forces of the soil into the wheels' rows of ``data.xfrc_applied``: call `apply`
     before each ``mujoco.mj_step``, or `step`, which does both.
 
     A wheel is a body that turns on one hinge, with the hub at the hinge's anchor. The ground under
     it is the plane that fits the surface over its footprint; the wheel frame has z along that
     plane's normal and y along it, to the side of the axle. Sinkage is the depth of the shearing
-    circle's lowest point below the plane, and the soil knows no ruts: every wheel meets it
-    undisturbed.
+    circle's lowest point below the plane, and there are no ruts: every wheel meets
+    undisturbed soil.
 
-    The reaction is the one at the end of the step (backward Euler, for all wheels together), which
+    The forces are those at the end of the step (backward Euler, for all wheels together), which
     keeps MuJoCo's usual steps stable where a wheel starts, stops or stands: see
-    ``docs/guide/mujoco.md``. To know the end of the step, `apply` takes a trial step with the
-    reaction that ``data.xfrc_applied`` holds from the step before, in a copy of the data.
+    ``docs/guide/mujoco.md``. To know the end of the step, `apply` makes a preliminary step with the
+    forces that ``data.xfrc_applied`` holds from the step before, in a copy of the data.
 
     Parameters
     ----------
@@ -46,19 +46,19 @@ class SoilContact:
     soil : Soil, name, path, mapping, or a sequence of them
         The soil, or one for each wheel.
     wheels : mapping
-        Names of the wheels' bodies, each with its `Wheel` or what one is made from.
+        Names of the wheels' bodies, each with its `Wheel` or a source of one.
     ground : str or callable
         Name of the geom that is the ground, a plane or a height field of the world; or a function
         that gives heights [m] over arrays of world x and y [m].
     model : str, optional
-        The theory; without it each soil's own.
-    moments : str
+        The wheel–soil model; by default each soil's own.
+    wheel_moments : str
         Whether the wheels' overturning and aligning moments act: ``included`` or ``neglected``.
     sinkage_damping_s_m : float
-        All stresses grow by this share for each m/s of sinking [s/m].
+        Relative increase of all stresses per speed of sinking [s/m].
     rest_speed_m_s : float
-        Speed of rim and hub [m/s] below which the stresses fade to none. A rover that stands on a
-        slope creeps at a part of it.
+        Speed of rim and hub [m/s] below which the stresses fade to zero. A rover that stands on a
+        slope creeps at a fraction of it.
     check_sizes : bool
         Whether the geoms of a wheel's body must have its radius (the rim's, the grousers' tips', or
         between) and its width, to 2 %. The soil acts on the wheel, whatever the geoms look like.
@@ -66,7 +66,7 @@ class SoilContact:
     Raises
     ------
     ParameterError
-        For bodies, geoms or values that are not what they must be; if a wheel has another size than
+        For invalid bodies, geoms or values; if a wheel has another size than
         the geoms of its body; if MuJoCo's own contact between a wheel and the ground is on; if
         there is no gravity.
 
@@ -87,6 +87,7 @@ class SoilContact:
     1.0
     """
 
+    @_former_names.takes("moments")
     def __init__(
         self,
         mj_model: mujoco.MjModel,
@@ -96,7 +97,7 @@ class SoilContact:
         wheels: Mapping[str, Wheel | Source],
         ground: str | HeightFunction,
         model: str | None = None,
-        moments: str = "included",
+        wheel_moments: str = "included",
         sinkage_damping_s_m: float = _core.SINKAGE_DAMPING_S_M,
         rest_speed_m_s: float = _core.REST_SPEED_M_S,
         check_sizes: bool = True,
@@ -106,14 +107,15 @@ class SoilContact:
                 "the model's integrator is RK4, it must be Euler, implicit or implicitfast",
                 "mj_model",
             )
-        if moments not in ("included", "neglected"):
+        if wheel_moments not in ("included", "neglected"):
             raise ParameterError(
-                f"moments is {moments!r}, it must be 'included' or 'neglected'", "moments"
+                f"wheel_moments is {wheel_moments!r}, it must be 'included' or 'neglected'",
+                "wheel_moments",
             )
         if not wheels:
             raise ParameterError("there are no wheels", "wheels")
         self._model = mj_model
-        self._trial = mujoco.MjData(mj_model)
+        self._ahead = mujoco.MjData(mj_model)
         self._names = tuple(wheels)
         hinges = [_hinge(mj_model, name) for name in wheels]
         self._hinges = np.array(hinges)
@@ -135,7 +137,7 @@ class SoilContact:
         self._radii = self._reaction.shearing_radius_m
         widths = np.array([float(wheel.width_m) for wheel in made])
         self._ground: Ground = ground_of(mj_model, ground, self._radii, widths)
-        self._moments = moments == "included"
+        self._moments = wheel_moments == "included"
         self._rows = np.array([self._reaction.names.index(name) for name in _FORCES])
         self._signs = np.ones((len(made), 6))
         self._signs[:, 3] = -1.0 / self._radii
@@ -151,67 +153,70 @@ class SoilContact:
 
     @property
     def forces(self) -> WheelForces:
-        """The reaction that the last `apply` wrote, with an entry for each wheel; sinkage and slip
+        """Forces that the last `apply` wrote, with an entry for each wheel; sinkage and slip
         are those at the end of the step."""
         found = dict(zip(self._reaction.names, self._found))
         return WheelForces(**found)
 
     @property
     def residual_m_s(self) -> float:
-        """How far the wheels' motion at the end of the step is from the one that the reaction leads
-        to, at worst [m/s]; a millionth of the rest speed where the search for it succeeded."""
+        """Largest residual of the wheels' velocities at the end of the step [m/s]: a millionth of
+        the rest speed if the solution has converged."""
         return self._residual
 
     def step(self, data: mujoco.MjData, count: int = 1) -> None:
-        """`apply` and ``mujoco.mj_step``, so many times."""
+        """Calls `apply` and ``mujoco.mj_step``, ``count`` times."""
         for _ in range(count):
             self.apply(data)
             mujoco.mj_step(self._model, data)
 
     def apply(self, data: mujoco.MjData) -> None:
-        """Writes the soil's reaction over the coming step into ``data.xfrc_applied``.
+        """Writes the forces of the soil over the coming step into ``data.xfrc_applied``.
 
         Raises
         ------
         ParameterError
             If the model's motion is not finite.
         """
-        model, trial = self._model, self._trial
+        model, ahead = self._model, self._ahead
         mujoco.mj_getState(model, data, self._state, _STATE)
-        mujoco.mj_setState(model, trial, self._state, _STATE)
-        mujoco.mj_step(model, trial)
-        hubs, axles = trial.xanchor[self._hinges], trial.xaxis[self._hinges]
-        arms = hubs - trial.xipos[self._bodies]
-        normals, distances = self._ground.under(trial, hubs, axles)
+        mujoco.mj_setState(model, ahead, self._state, _STATE)
+        mujoco.mj_step(model, ahead)
+        hubs, axles = ahead.xanchor[self._hinges], ahead.xaxis[self._hinges]
+        arms = hubs - ahead.xipos[self._bodies]
+        normals, distances = self._ground.under(ahead, hubs, axles)
         # The lowest point of a circle that leans.
         leaning = (axles * normals).sum(axis=1)
         sinkage = self._radii * np.sqrt(1.0 - np.minimum(leaning**2, 1.0)) - distances
         directions = self._directions(axles, normals)
         jacobians = self._jacobians
         for jacobian, hub, body in zip(jacobians, hubs, self._bodies):
-            mujoco.mj_jac(model, trial, jacobian[:3], jacobian[3:], hub, body)
+            mujoco.mj_jac(model, ahead, jacobian[:3], jacobian[3:], hub, body)
         along = directions @ jacobians
         forces, motions = along.reshape(-1, model.nv), along[:, :4].reshape(-1, model.nv)
-        # What acted on the wheels in the trial step has to be taken off again.
-        held = trial.xfrc_applied[self._bodies]
+        # The forces that acted on the wheels in the preliminary step are subtracted.
+        held = ahead.xfrc_applied[self._bodies]
         held[:, 3:] -= _cross(arms, held[:, :3])
         held = held.ravel() @ jacobians.reshape(-1, model.nv)
         sides = np.concatenate([forces, held[None]]).T
-        response = motions @ np.linalg.solve(inertia_of_step(model, trial), sides)
+        response = motions @ np.linalg.solve(inertia_of_step(model, ahead), sides)
         duration = float(model.opt.timestep)
-        free = motions @ trial.qvel - duration * response[:, -1]
-        mobility = np.ascontiguousarray(response[:, :-1])
-        self._found, self._residual = self._reaction.reaction(duration, sinkage, free, mobility)
+        free = motions @ ahead.qvel - duration * response[:, -1]
+        # J M⁻¹ Jᵀ, the Delassus matrix.
+        inverse_mass = np.ascontiguousarray(response[:, :-1])
+        self._found, self._residual = self._reaction.reaction(
+            duration, sinkage, free, inverse_mass
+        )
         wrenches = ((self._found[self._rows].T * self._signs)[:, None] @ directions)[:, 0]
         wrenches[:, 3:] += _cross(arms, wrenches[:, :3])
         data.xfrc_applied[self._bodies] = wrenches
 
     def _directions(self, axles: Floats, normals: Floats) -> Floats:
-        """Along which each wheel's forces F_x, F_y, F_z, −T/r_s, M_x, M_z act, as a row for each of
-        force and moment about the hub, in the world. The hub's motion along the first four is
-        v_x, v_y, v_z, ω r_s."""
+        """Directions along which each wheel's forces F_x, F_y, F_z, −T/r_s, M_x, M_z act, as a row
+        for each of force and moment about the hub, in the world. The hub's motion along the first
+        four is v_x, v_y, v_z, ω r_s."""
         forward = _cross(axles, normals)
-        # A wheel that lies flat has no forward, and then no sinkage.
+        # A wheel that lies flat has no forward direction, and no sinkage either.
         forward /= np.maximum(np.sqrt((forward**2).sum(axis=1)), 1e-9)[:, None]
         directions = np.zeros((len(axles), 6, 6))
         directions[:, 0, :3], directions[:, 2, :3] = forward, normals
@@ -231,7 +236,7 @@ _FORCES = (
     "aligning_moment_nm",
 )
 _RK4, _HINGE = int(mujoco.mjtIntegrator.mjINT_RK4), int(mujoco.mjtJoint.mjJNT_HINGE)
-#: All that a step depends on.
+#: The state that a step depends on.
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 
 
@@ -242,7 +247,7 @@ _SIGNS[[0, 2, 1], [2, 1, 0], [1, 0, 2]] = -1.0
 
 
 def _cross(one: Floats, other: Floats) -> Floats:
-    """Cross products of rows; several times as quick as NumPy's for a few of them."""
+    """Cross products of rows; several times as fast as NumPy's for a few rows."""
     products: Floats = np.einsum("ijk,nj,nk->ni", _SIGNS, one, other)
     return products
 
@@ -257,7 +262,7 @@ def _one_each(soil: Any, count: int) -> list[Soil]:
 
 
 def _hinge(model: Any, name: str) -> int:
-    """The joint on which a wheel's body turns."""
+    """The joint on which the body of a wheel turns."""
     body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
     if body < 0:
         raise ParameterError(f"the model has no body {name!r} for a wheel", "wheels")
@@ -270,17 +275,17 @@ def _hinge(model: Any, name: str) -> int:
 
 
 def _check_contact_is_off(model: Any, bodies: NDArray[np.int64], ground: str) -> None:
-    """That MuJoCo itself does not press wheels onto the ground."""
-    floor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, ground)
+    """Checks that MuJoCo's own contact between wheels and ground is off."""
+    surface = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_GEOM, ground)
     excluded = set(model.exclude_signature.tolist())
     for geom in np.flatnonzero(np.isin(model.geom_bodyid, bodies)):
-        one, other = sorted((int(model.geom_bodyid[geom]), int(model.geom_bodyid[floor])))
+        one, other = sorted((int(model.geom_bodyid[geom]), int(model.geom_bodyid[surface])))
         touching = (
-            model.geom_contype[geom] & model.geom_conaffinity[floor]
-            or model.geom_contype[floor] & model.geom_conaffinity[geom]
+            model.geom_contype[geom] & model.geom_conaffinity[surface]
+            or model.geom_contype[surface] & model.geom_conaffinity[geom]
         )
         paired = any(
-            {geom, floor} == {first, second}
+            {geom, surface} == {first, second}
             for first, second in zip(model.pair_geom1, model.pair_geom2)
         )
         if paired or (touching and (one << 16) + other not in excluded):

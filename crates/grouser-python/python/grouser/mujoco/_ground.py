@@ -1,4 +1,4 @@
-"""The surface under wheels: a plane, a height field, or a function of place."""
+"""The surface under wheels: a plane, a height field, or a function of position."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ class _Uneven:
     through nine points.
 
     They are those of a rectangle about the point below the hub, as long as the wheel's contact and
-    as wide as the wheel. The theories know no ground but a plane; what is smaller than a wheel's
-    footprint is evened out.
+    as wide as the wheel. The wheel–soil models assume a plane; features smaller than a wheel's
+    footprint are averaged out.
     """
 
     def __init__(self, heights: HeightFunction, footprints: _core.Footprints) -> None:
@@ -64,14 +64,14 @@ class _Uneven:
 
 
 class _HeightField:
-    """The same of a height field, which is bilinear between its points; beyond its edges it goes on
-    as high as there."""
+    """The same of a height field, which is bilinear between its points; beyond its edges it keeps
+    the height of the edge."""
 
     def __init__(self, model: Any, geom: int, footprints: _core.Footprints) -> None:
         field = int(model.geom_dataid[geom])
         rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
         start = int(model.hfield_adr[field])
-        # A view: who changes the model's field changes the ground.
+        # A view: a change of the model's field changes the ground.
         self._data = model.hfield_data[start : start + rows * columns].reshape(rows, columns)
         half_x, half_y, self._height = (float(s) for s in model.hfield_size[field][:3])
         self._half = half_x, half_y
@@ -85,8 +85,8 @@ class _HeightField:
 
 
 def ground_of(model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats) -> Ground:
-    """The ground that a geom's name or a function stands for, under wheels of these shearing radii
-    and widths [m]."""
+    """The ground of a geom's name or a function, under wheels of these shearing radii and widths
+    [m]."""
     footprints = _core.Footprints(radii, widths)
     if isinstance(ground, str):
         geom = ground_geom(model, ground)

@@ -1,4 +1,4 @@
-"""The inertia that a step of MuJoCo's integrators works with."""
+"""The effective inertia in a step of MuJoCo's integrators."""
 
 from __future__ import annotations
 

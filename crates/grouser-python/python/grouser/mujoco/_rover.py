@@ -10,8 +10,8 @@ from xml.etree import ElementTree as Xml
 from .. import _core
 from .._descriptions import Rover, Source
 
-#: Gain of the motors' speed control over what would hold a wheel at its speed within a step [-]:
-#: the rim then differs from its command by less than a thousandth.
+#: Gain of the motors' speed control, relative to the gain that would bring a wheel to its speed
+#: within a step [-]: the rim then differs from its command by less than a thousandth.
 _GAIN = 1e4
 
 
@@ -23,7 +23,7 @@ def rover_xml(
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     timestep_s: float = 0.002,
 ) -> str:
-    """A MuJoCo model (MJCF) of a rover on a plane, as `grouser.simulate` has it.
+    """Writes a MuJoCo model (MJCF) of a rover on a plane, as `grouser.simulate` has it.
 
     The body is rigid and carries the wheels on hinges, each with a motor under speed control, whose
     command is the wheel's speed [rad/s]. The world is the slope frame: x along the contour, y

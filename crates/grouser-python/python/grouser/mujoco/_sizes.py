@@ -1,4 +1,4 @@
-"""Whether a wheel is as large as the geoms of its body."""
+"""Checks that a wheel is as large as the geoms of its body."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .._errors import ParameterError
 
 Floats = NDArray[np.float64]
 
-#: How far radius and width may be off, as a share: what polygons and rounded numbers make (the sides
-#: of a polygon with sixteen corners lie 1.9 % nearer to its middle).
+#: Allowed relative error of radius and width, for polygons and rounded numbers (the sides of a
+#: polygon with sixteen corners are 1.9 % nearer to its centre).
 TOLERANCE = 0.02
 
 _GEOM = mujoco.mjtGeom
@@ -24,10 +24,10 @@ _ROUND = (int(_GEOM.mjGEOM_SPHERE), int(_GEOM.mjGEOM_CAPSULE), int(_GEOM.mjGEOM_
 
 
 def check_sizes(model: Any, names: tuple[str, ...], hinges: list[int], wheels: list[Wheel]) -> None:
-    """That the geom of each wheel's body which reaches furthest from the axle is as large as the
-    wheel: a radius from the rim's to the grousers' tips, and the width.
+    """Checks the geom of each wheel's body that reaches furthest from the axle: its radius is
+    between those of the rim and of the grousers' tips, and its width is the wheel's.
 
-    A body without geoms has no size; one that is rounded to its sides has no width.
+    A body without geoms has no size; a geom with rounded sides has no width.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def check_sizes(model: Any, names: tuple[str, ...], hinges: list[int], wheels: l
 def _refuse(name: str, quantity: str, found: str, wanted: str) -> None:
     raise ParameterError(
         f"the geoms of {name!r} have a {quantity} of {found}, the wheel one of {wanted}: they may "
-        f"differ by {TOLERANCE:.0%}. Give the wheel that the model has, or check_sizes=False if the "
+        f"differ by {TOLERANCE:.0%}. Give the model's wheel, or check_sizes=False if the "
         "geoms are not to scale",
         "wheels",
     )
@@ -66,8 +66,8 @@ def _grouser_height(wheel: Wheel) -> float:
 
 
 def _extent(model: Any, geom: int, hinge: int) -> tuple[float, float | None]:
-    """How far a geom reaches from the axle, and how wide it is along it [m]; None for one that is
-    rounded."""
+    """The reach of a geom from the axle, and its width along the axle [m]; None for a rounded
+    geom."""
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.geom_quat[geom])
     points = _points(model, geom) @ turn.reshape(3, 3).T + model.geom_pos[geom]
@@ -80,7 +80,7 @@ def _extent(model: Any, geom: int, hinge: int) -> tuple[float, float | None]:
 
 
 def _points(model: Any, geom: int) -> Floats:
-    """Points of a geom's surface, in its frame, between which nothing of it reaches further out."""
+    """Points on the surface of a geom, in its frame, whose convex hull contains the geom."""
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == _MESH:
         mesh = int(model.geom_dataid[geom])

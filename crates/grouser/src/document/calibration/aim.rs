@@ -1,4 +1,4 @@
-//! What the next runs are to make sure of, and what the stand can run, as people write it.
+//! The prediction that the next runs should narrow, and the settings that the stand can run, parsed from text.
 
 use std::ops::RangeInclusive;
 
@@ -11,12 +11,12 @@ use crate::studies::measurement::{Quantity, Trial};
 /// Settings that are compared: their covariances fill a table with this number squared.
 pub const MOST_CANDIDATES: usize = 1000;
 
-/// What is asked of the design of the next runs.
+/// Inputs of the design of the next runs, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AimWords {
-    /// The prediction to make sure of: `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
+    /// The prediction to narrow: `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
     pub target: String,
-    /// How many runs to propose.
+    /// Number of runs to propose.
     pub propose: usize,
     /// Loads that the stand can run [N]; without them half, once and twice the tests' own.
     pub load_n: Option<Vec<f64>>,
@@ -26,10 +26,10 @@ pub struct AimWords {
     pub slip_angle_deg: Vec<f64>,
 }
 
-/// Why there is no such aim.
+/// An invalid aim.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AimError {
-    /// No target is written so.
+    /// The target cannot be parsed.
     #[error("{what}")]
     Target {
         /// What is wrong.
@@ -56,12 +56,12 @@ pub enum AimError {
 }
 
 impl AimWords {
-    /// What is meant.
+    /// Parses the aim.
     ///
-    /// * `trials`: where the words say no load, theirs is meant; at least one
+    /// * `trials`: give the load where the text has none; at least one
     ///
     /// # Errors
-    /// [`AimError`] for words that mean nothing.
+    /// [`AimError`] for text that cannot be parsed.
     pub fn aim(&self, trials: &[Trial]) -> Result<Aim, AimError> {
         let median = median_load(trials);
         let (target, candidates) = (self.target(median)?, self.candidates(median)?);
@@ -84,7 +84,7 @@ impl AimWords {
                 .parse()
                 .ok()
                 .filter(|value: &f64| value.is_finite())
-                .ok_or_else(|| wrong(format!("'{value}' is no number")))?;
+                .ok_or_else(|| wrong(format!("'{value}' is not a number")))?;
             match key.trim() {
                 key if key == LOAD.name && value > 0.0 => setting.load = value,
                 key if key == SLIP.name && SLIP_RATIO.contains(&value) => {
@@ -93,7 +93,7 @@ impl AimWords {
                 key if key == SLIP_ANGLE.name && SLIP_ANGLE_DEG.contains(&value) => {
                     setting.slip_angle = SLIP_ANGLE.unit.to_si(value);
                 }
-                _ => return Err(wrong(format!("'{part}' is no setting of a test stand"))),
+                _ => return Err(wrong(format!("'{part}' is not a setting of a test stand"))),
             }
         }
         Ok(Target { quantity, setting })

@@ -12,11 +12,11 @@ use crate::studies::calibration::{
     PlateTest, Sampling,
 };
 
-/// The sum of the law's two terms is all that one width shows, and no sampler need find that out.
-const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_phi are not told \
-                         apart by plates of one width: test a second one";
+/// With one width only the sum of the law's two terms is identifiable; no sampler is needed to find that out.
+const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_phi are not \
+                         separately identifiable from plates of one width: test a second one";
 
-/// Everything that a calibration on plate tests is made from.
+/// The inputs of a calibration on plate tests.
 #[derive(Clone, Debug)]
 pub struct PlateProblem {
     soil: Document,
@@ -25,21 +25,22 @@ pub struct PlateProblem {
     family: SoilFamily,
 }
 
-/// What it found.
+/// The results of a calibration on plate tests.
 #[derive(Clone, Debug)]
 pub struct PlateFound {
-    /// Parameters, samples, what stays open.
+    /// Parameters, samples, unidentifiable parameters.
     pub solved: Solved,
     /// The soil of the fit.
     pub soil: Document,
 }
 
-/// The same in the words of JSON.
+/// The same as JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlateResults<'a> {
     rows: &'a [ParameterRecord],
     discrepancies: &'a [DiscrepancyRecord],
-    cannot_tell_apart: &'a [String],
+    #[serde(rename = "cannot_tell_apart")]
+    unidentifiable: &'a [String],
     sampler: &'a Option<SamplerRecord>,
 }
 
@@ -57,7 +58,7 @@ pub struct PlateRecord {
 }
 
 impl PlateProblem {
-    /// Curves, and the soil for all values that they do not tell.
+    /// Curves, and the soil for all values that are not fitted.
     ///
     /// * `law`: `bekker` or `reece`; the soil's own without
     /// * `gravity`: *g* [m/s²]
@@ -109,7 +110,7 @@ impl PlateProblem {
     /// * `sampling`: of the posterior; least squares alone without
     ///
     /// # Errors
-    /// [`CalibrationError`] for curves that do not tell the law, and if the observer broke off.
+    /// [`CalibrationError`] for curves that do not determine the law, and if the observer stopped it.
     pub fn solve(
         &self,
         file: &str,
@@ -123,7 +124,7 @@ impl PlateProblem {
         let solution = calibration.solve(fit, sampling, observer)?;
         let mut solved = Solved::new(self.family.parameters(), solution);
         if test.widths() < 2 {
-            solved.questions.insert(0, ONE_WIDTH.to_owned());
+            solved.unidentifiable.insert(0, ONE_WIDTH.to_owned());
         }
         Ok(PlateFound { soil: self.fitted(file, &solved), solved })
     }
@@ -154,8 +155,8 @@ impl PlateProblem {
     }
 }
 
-/// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 that wait to be
-/// found.
+/// The same soil with another pressure-sinkage law, `bekker` or `reece`, and moduli of 1 to be
+/// fitted.
 fn with_law(soil: &Document, law: &str) -> Document {
     soil.changed(|keys| {
         let table = &mut keys["pressure_sinkage"];
@@ -166,13 +167,13 @@ fn with_law(soil: &Document, law: &str) -> Document {
 }
 
 impl PlateFound {
-    /// In words.
+    /// The results for JSON.
     #[must_use]
     pub fn results(&self) -> PlateResults<'_> {
         PlateResults {
             rows: &self.solved.records,
             discrepancies: &self.solved.discrepancies,
-            cannot_tell_apart: &self.solved.questions,
+            unidentifiable: &self.solved.unidentifiable,
             sampler: &self.solved.sampler,
         }
     }

@@ -1,10 +1,10 @@
-//! What every calibration says: parameters, discrepancies, the sampler, what stays open, and the
-//! samples as a table.
+//! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable parameters,
+//! and the samples as a table.
 
 use serde::Serialize;
 
 use super::super::SoilFamily;
-use super::{ParameterRecord, channel_name, channel_unit, open_questions};
+use super::{ParameterRecord, channel_name, channel_unit, unidentifiable};
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
     Fit, Parameter, Posterior, PosteriorState, SamplerSettings, Sampling, Solution,
@@ -13,10 +13,10 @@ use crate::studies::calibration::{
 /// Samples that the soil's file keeps.
 const KEPT_SAMPLES: usize = 1000;
 
-/// How far a theory is from measurements of one kind, beyond their scatter.
+/// Discrepancy between a model and measurements of one kind, beyond their scatter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DiscrepancyRecord {
-    /// What was measured: a quantity, and driven or skid.
+    /// The measured quantity, and driven or skid.
     pub channel: String,
     /// With the fit, in the unit of the quantity.
     pub fit: f64,
@@ -31,7 +31,7 @@ pub struct DiscrepancyRecord {
 pub struct SamplerRecord {
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Ensembles that know nothing of each other.
+    /// Independent ensembles.
     pub ensembles: usize,
     /// Walkers of each.
     pub walkers: usize,
@@ -60,7 +60,7 @@ impl From<&Posterior> for SamplerRecord {
     }
 }
 
-/// A solution in words.
+/// A solution with its records.
 #[derive(Clone, Debug)]
 pub struct Solved {
     /// The solution itself.
@@ -69,8 +69,8 @@ pub struct Solved {
     pub records: Vec<ParameterRecord>,
     /// And for each channel.
     pub discrepancies: Vec<DiscrepancyRecord>,
-    /// What the data cannot tell, a sentence for each.
-    pub questions: Vec<String>,
+    /// Unidentifiable parameters and combinations, a sentence for each.
+    pub unidentifiable: Vec<String>,
     /// How the posterior was sampled, if it was.
     pub sampler: Option<SamplerRecord>,
 }
@@ -98,14 +98,14 @@ impl Solved {
         Self {
             records: parameters.iter().enumerate().map(record).collect(),
             discrepancies: solution.channels.iter().enumerate().map(discrepancy).collect(),
-            questions: open_questions(parameters, &solution.identifiability),
+            unidentifiable: unidentifiable(parameters, &solution.identifiability),
             sampler: solution.posterior.as_ref().map(SamplerRecord::from),
             solution,
         }
     }
 
-    /// How it ended: `determined`; `open`, if the data leave something open; `not_mixed`, if the
-    /// samples do not suffice; `not_settled`, if least squares did not come to its end.
+    /// The outcome: `determined`; `open`, if a parameter or combination is underdetermined; `not_mixed`,
+    /// if the sampler has not converged; `not_settled`, if least squares has not converged.
     #[must_use]
     pub fn outcome(&self) -> &'static str {
         let worst = self.sampler.as_ref().map_or(1.0, |sampler| sampler.worst_r_hat);
@@ -113,14 +113,14 @@ impl Solved {
             "not_settled"
         } else if worst > GOOD_R_HAT {
             "not_mixed"
-        } else if self.questions.is_empty() {
+        } else if self.unidentifiable.is_empty() {
             "determined"
         } else {
             "open"
         }
     }
 
-    /// Of each key whose fit ends at a bound: that its standard deviation is not known.
+    /// Notes on keys whose fit ends at a bound, where their standard deviation is not known.
     #[must_use]
     pub fn bound_notes(&self) -> Vec<String> {
         let note = |record: &ParameterRecord| {
@@ -136,25 +136,25 @@ impl Solved {
         self.records.iter().filter_map(note).collect()
     }
 
-    /// What should be known of how the posterior was sampled.
+    /// A note if the sampler has not converged.
     #[must_use]
     pub fn note(&self) -> Option<String> {
         let worst = self.sampler.as_ref()?.worst_r_hat;
         (worst > GOOD_R_HAT).then(|| {
             format!(
-                "R-hat is {worst:.3} at worst, above {GOOD_R_HAT}: walk more steps, or fit \
-                 fewer keys"
+                "the sampler has not converged: R-hat is {worst:.3} at worst, above {GOOD_R_HAT}; walk \
+                 more steps, or fit fewer keys"
             )
         })
     }
 }
 
-/// What should be known of how a fit was found.
+/// Notes if a fit has not converged, or searches disagree.
 #[must_use]
 pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let mut notes = Vec::new();
     if !fit.converged {
-        let text = "the best search had not settled when its evaluations were used up";
+        let text = "the best search had not converged when its evaluations were used up";
         notes.push(text.to_owned());
     }
     let agreeing = fit.searches.iter().filter(|search| search.agrees).count();
@@ -168,7 +168,7 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
     notes
 }
 
-/// Steps of each walker that may be asked for.
+/// Permitted numbers of steps of each walker.
 pub const STEPS: std::ops::Range<u64> = 100..1_000_000;
 
 /// How a posterior is sampled with a seed and a number of steps, rounded up to whole blocks.

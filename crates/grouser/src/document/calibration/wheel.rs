@@ -18,32 +18,32 @@ use crate::studies::measurement::Quantity;
 use crate::studies::validation::Validation;
 use crate::wheel::Wheel;
 
-/// Everything that a calibration on wheel tests is made from.
+/// The inputs of a calibration on wheel tests.
 pub struct WheelProblem<'a> {
     /// The soils among which it chooses.
     pub family: &'a SoilFamily,
-    /// What was measured.
+    /// The measurements.
     pub measured: &'a Measurements,
     /// Name of the file, for the soil's source.
     pub file: &'a str,
     /// The wheel.
     pub wheel: Wheel,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// How the posterior is sampled; least squares alone without.
     pub sampling: Option<Sampling>,
-    /// What the next runs are to make sure of.
+    /// The prediction that the next runs should narrow.
     pub aim: Aim,
     /// Whether each slip angle is left out in turn.
     pub cross_validate: bool,
 }
 
-/// What it found.
+/// The results of a calibration on wheel tests.
 #[derive(Clone, Debug)]
 pub struct WheelFound {
-    /// Parameters, samples, what stays open.
+    /// Parameters, samples, unidentifiable parameters.
     pub solved: Solved,
     /// The errors with the fit.
     pub validation: Validation,
@@ -55,12 +55,13 @@ pub struct WheelFound {
     pub soil: Document,
 }
 
-/// The same in the words of JSON.
+/// The same as JSON.
 #[derive(Clone, Debug, Serialize)]
 pub struct WheelResults<'a> {
     rows: &'a [ParameterRecord],
     discrepancies: &'a [DiscrepancyRecord],
-    cannot_tell_apart: &'a [String],
+    #[serde(rename = "cannot_tell_apart")]
+    unidentifiable: &'a [String],
     target: &'a str,
     proposals: &'a [ProposalRecord],
     overall: GroupRecord,
@@ -76,7 +77,7 @@ impl WheelProblem<'_> {
     ///
     /// # Errors
     /// [`CalibrationError`] for measurements and keys that do not go together, and if the observer
-    /// broke off.
+    /// stopped it.
     pub fn solve(&self, observer: &dyn Observer) -> Result<WheelFound, CalibrationError> {
         let family = self.family;
         let soil_of = |values: &[f64]| -> Result<Soil, ParameterError> { family.soil(values) };
@@ -126,16 +127,16 @@ impl WheelProblem<'_> {
 }
 
 impl WheelFound {
-    /// In words.
+    /// The results for JSON.
     ///
-    /// * `target`: what the next runs are to make sure of, as it was asked for
+    /// * `target`: the prediction that the next runs should narrow, as it was written
     #[must_use]
     pub fn results<'a>(&'a self, target: &'a str) -> WheelResults<'a> {
         let searches = &self.solved.solution.fit.searches;
         WheelResults {
             rows: &self.solved.records,
             discrepancies: &self.solved.discrepancies,
-            cannot_tell_apart: &self.solved.questions,
+            unidentifiable: &self.solved.unidentifiable,
             target,
             proposals: &self.proposals,
             overall: GroupRecord::from(&self.validation.overall),

@@ -1,4 +1,4 @@
-//! What is uncertain about a campaign's base, and the document that says so in its own keys.
+//! The uncertain inputs of a campaign, checked against its base.
 
 use serde_json::{Value as Json, json};
 
@@ -16,12 +16,12 @@ use super::{Settings, Study};
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::{Ensemble, Matrix};
 
-/// What is uncertain, with everything in its place.
+/// The uncertain inputs, resolved.
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
     /// Keys of the base: those of the parameters, then those of the samples.
     keys: Vec<Key>,
-    /// What a sensitivity is asked of: the parameters, then the samples as one.
+    /// The factors of sensitivities: the parameters, then the samples as one.
     factors: Vec<String>,
     pub(super) ensemble: Ensemble,
     /// The document with everything that is uncertain in its own keys.
@@ -50,7 +50,7 @@ impl Prepared {
     }
 }
 
-/// The base of a campaign, and what is uncertain about it.
+/// The base of a campaign, and its uncertain inputs.
 pub(super) fn prepare(
     document: &Document,
     settings: &Settings,
@@ -58,9 +58,9 @@ pub(super) fn prepare(
 ) -> Result<(Base, Prepared), DocumentError> {
     let place = place(settings, tree)?;
     let node = tree.entry(place).map_or(tree, |entry| &entry.node);
-    let said = document.get(place).cloned().unwrap_or_default();
+    let given = document.get(place).cloned().unwrap_or_default();
     let base = if place == "scenario" {
-        Base::scenario(Document::of(Kind::Scenario, &said), node)?
+        Base::scenario(Document::of(Kind::Scenario, &given), node)?
     } else {
         Base::stand(document, node)?
     };
@@ -82,10 +82,10 @@ pub(super) fn prepare(
     Ok((base, Prepared { keys: inputs.keys, factors, ensemble, resolved }))
 }
 
-/// The key under which what is varied stands.
+/// The key of the base that is varied.
 fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError> {
     let (needed, other) = match settings.study {
-        Study::Traverse | Study::Attitude => ("scenario", "wheel_test"),
+        Study::Traverse | Study::Heading => ("scenario", "wheel_test"),
         Study::WheelTest => ("wheel_test", "scenario"),
     };
     if let Some(entry) = tree.entry(other) {
@@ -104,7 +104,7 @@ fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError
     Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
 }
 
-/// What the base's soil says of its own uncertainty, and the soil's tree.
+/// The uncertainty of the base's own soil, and the soil's tree.
 fn of_soil<'t>(
     document: &Document,
     place: &str,
@@ -145,7 +145,7 @@ impl Numbers for StudyNumbers<'_> {
 /// What keys that a study does not look at start with.
 fn unused_keys(study: Study) -> &'static [&'static str] {
     match study {
-        Study::Attitude => {
+        Study::Heading => {
             &["start.", "duration_s", "sample_interval_s", "drive.reference_slip_ratio"]
         }
         Study::Traverse => &["sample_interval_s"],
@@ -195,19 +195,19 @@ fn resolved(
     for Statement { stated, prefix, .. } in statements {
         let table = if prefix.is_empty() { "" } else { &*format!("{place}.soil.uncertainty.") };
         let all = |key: &str| document.get(&format!("{table}{key}")).and_then(Json::as_array);
-        for (said, parameter) in all("parameter").into_iter().flatten().zip(&stated.parameters) {
+        for (given, parameter) in all("parameter").into_iter().flatten().zip(&stated.parameters) {
             let key = &inputs.keys[parameters.len()];
-            let mut said = said.clone();
-            said["key"] = key.path.clone().into();
+            let mut given = given.clone();
+            given["key"] = key.path.clone().into();
             if parameter.has_no_mean() {
-                said["mean"] = key.value.into();
+                given["mean"] = key.value.into();
             }
-            parameters.push(said);
+            parameters.push(given);
         }
-        for (said, pair) in all("correlation").into_iter().flatten().zip(&stated.correlations) {
-            let mut said = said.clone();
-            said["between"] = json!(pair.between.each_ref().map(|key| format!("{prefix}{key}")));
-            correlations.push(said);
+        for (given, pair) in all("correlation").into_iter().flatten().zip(&stated.correlations) {
+            let mut given = given.clone();
+            given["between"] = json!(pair.between.each_ref().map(|key| format!("{prefix}{key}")));
+            correlations.push(given);
         }
     }
     document.changed(|keys| {

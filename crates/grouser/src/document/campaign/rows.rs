@@ -1,4 +1,4 @@
-//! From drawn numbers to a row: the base with the numbers in their place, run, and put into words.
+//! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
 
 use super::super::Document;
 use super::super::columns::heading::{Held, held};
@@ -14,33 +14,33 @@ use super::table::{Column, Role};
 use super::{Stand, Study};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
-use crate::studies::attitude::{AttitudeStudy, NoAttitude};
 use crate::studies::drive::Drive;
+use crate::studies::heading::{HeadingStudy, NoHeading};
 use crate::vehicle::DriveLaw;
 
-/// What a campaign varies.
+/// The base that a campaign varies.
 #[derive(Clone, Debug)]
 pub(super) enum Base {
     Scenario(Box<Varied<Scenario>>),
     Stand(Box<Varied<Stand>>),
 }
 
-/// A draw's domain value.
+/// The domain value of a sample.
 enum Case {
     Scenario(Box<Scenario>),
     WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
 }
 
-/// Why a row has no answer: a word that is the same for all such rows, and the reason of this one.
+/// A run without a result: a status that is the same for all such rows, and the reason of this one.
 struct Failure {
     status: &'static str,
     reason: String,
 }
 
-/// Numbers that are fine one by one, but not together.
+/// Numbers that are valid one by one, but not together.
 const UNFIT: &str = "not possible together";
-/// There is no yaw that keeps a traverse level.
-const NO_ATTITUDE: &str = "no level attitude";
+/// No heading holds the contour. (The text of version 0.1, by which results are counted.)
+const NO_HEADING: &str = "no level attitude";
 /// Not even on level ground.
 const CANNOT_MOVE: &str = "cannot move";
 /// The soil carries less than the load.
@@ -49,14 +49,14 @@ const SUNK: &str = "soil cannot carry the load";
 const NOT_COMPUTED: &str = "not computed";
 
 /// All statuses of a row; `ok` first.
-pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_ATTITUDE, CANNOT_MOVE, SUNK, NOT_COMPUTED];
+pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_HEADING, CANNOT_MOVE, SUNK, NOT_COMPUTED];
 
 /// Statuses of rows that could not be computed: all others are answers, or findings.
 pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
 
 /// The columns of a study.
 ///
-/// * `keys`: what is drawn
+/// * `keys`: of the inputs
 pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Column> {
     let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
     if sensitivity {
@@ -66,12 +66,12 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     let words: &[&str] = match study {
         Study::Traverse => &["status", "reason", "outcome", "simulation"],
-        Study::Attitude | Study::WheelTest => &["status", "reason"],
+        Study::Heading | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let names: Vec<&str> = match study {
         Study::Traverse => names(END).chain(names(&DRIVE)).collect(),
-        Study::Attitude => names(&held()).collect(),
+        Study::Heading => names(&held()).collect(),
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
@@ -82,10 +82,10 @@ fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str
     results.iter().map(|column| column.name)
 }
 
-/// Runs the base with drawn values, and adds what comes of it to the row: at least the status.
+/// Runs the base with sampled values, and adds the results to the row: at least the status.
 pub(super) fn run(study: Study, base: &Base, keys: &[Key], values: &[f64], row: &mut Vec<Cell>) {
     let answer = base.with(keys, values).and_then(|case| match (study, case) {
-        (Study::Attitude, Case::Scenario(scenario)) => attitude(&scenario),
+        (Study::Heading, Case::Scenario(scenario)) => heading(&scenario),
         (_, Case::Scenario(scenario)) => traverse(&scenario),
         (_, Case::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
     });
@@ -142,14 +142,14 @@ impl Base {
     }
 }
 
-fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
-    let attitude = AttitudeStudy::of(scenario)
+fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
+    let heading = HeadingStudy::of(scenario)
         .on_slope(scenario.site.terrain.slope)
         .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
         .map_err(|error| {
             let status = match error {
-                NoAttitude::CannotMove(_) => CANNOT_MOVE,
-                NoAttitude::TooSteep { .. } => NO_ATTITUDE,
+                NoHeading::CannotMove(_) => CANNOT_MOVE,
+                NoHeading::TooSteep { .. } => NO_HEADING,
             };
             Failure { status, reason: error.to_string() }
         })?;
@@ -157,7 +157,7 @@ fn attitude(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         DriveLaw::Constant(speed) => Some(speed),
         _ => None,
     };
-    let held_row = Held { attitude: &attitude, rover: &scenario.rover, rim_speed };
+    let held_row = Held { heading: &heading, rover: &scenario.rover, rim_speed };
     Ok(cells([Cell::Text(None)], &held(), &held_row).collect())
 }
 

@@ -1,4 +1,4 @@
-//! What the runs of a campaign say together: the one place that knows which of them are independent samples.
+//! Statistics of a campaign's runs. This module alone decides which runs are independent samples.
 //!
 //! In a campaign laid out for sensitivities, a point is run as A, as B, and as A with each input of B in turn.
 //! Only A and B are independent samples; the others repeat them but for one input. Summaries and probabilities
@@ -14,7 +14,7 @@ use crate::studies::ensemble::sensitivity::Sensitivity;
 use crate::studies::ensemble::statistics::{Convergence, Summary};
 use crate::studies::ensemble::{Ensemble, Probability};
 
-/// What runs say of one quantity.
+/// Statistics of one quantity over runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct QuantityStatistics {
     /// How many independent samples there are, with or without the quantity.
@@ -89,7 +89,7 @@ fn whole_points(
     all
 }
 
-/// How often words are said of the independent samples.
+/// Counts of statuses and outcomes over the independent samples.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Frequencies {
     /// How many independent samples there are.
@@ -100,7 +100,7 @@ pub struct Frequencies {
     pub outcomes: BTreeMap<String, usize>,
     /// How often the outcome or, without one, the status is each word.
     pub events: BTreeMap<String, usize>,
-    /// Samples that have no answer or were not completed.
+    /// Samples without a result, or not completed.
     pub failures: usize,
 }
 
@@ -136,7 +136,7 @@ impl Frequencies {
         }
     }
 
-    /// The probability of what happened so often; nothing without samples.
+    /// The probability of an event by its count; nothing without samples.
     #[must_use]
     pub fn probability(&self, count: usize) -> Option<Probability> {
         (self.samples > 0).then_some(Probability { successes: count, trials: self.samples })
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!((frequencies.samples, frequencies.statuses["ok"]), (16, 16));
     }
 
-    /// Of a part whose shards of three runs cut points of four in two, whole points alone tell sensitivities.
+    /// Of a part whose shards of three runs cut points of four in two, only whole points count for sensitivities.
     #[test]
     fn points_that_a_part_cuts_in_two_are_left_out() {
         let campaign = campaign();

@@ -3,27 +3,27 @@
 use super::super::table::ColumnKind;
 use super::super::unit::unit_of;
 
-/// What a row has at one place.
+/// A column of a campaign's rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// As documents and results name it: `sinkage_mm`, or an input's key.
     pub name: String,
-    /// What stands in it.
+    /// The kind of its values.
     pub kind: ColumnKind,
-    /// What it tells of a run.
+    /// Its role in a run.
     pub role: Role,
 }
 
-/// What a column tells of a run.
+/// The role of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Which run it is.
+    /// The number of the run.
     Index,
-    /// What was drawn for it.
+    /// A sampled input.
     Input,
-    /// Whether it has an answer, and what became of it.
+    /// Its status or outcome.
     Status,
-    /// The answer.
+    /// A result.
     Result,
 }
 

@@ -11,12 +11,12 @@ use crate::studies::card::{Card, CardRow, Verdict};
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
-/// What to do on a slope.
+/// The verdict on a slope: go, caution or no-go.
 pub const VERDICT: &str = "verdict";
 
-/// The word of a verdict.
+/// The keyword of a verdict.
 #[must_use]
-pub const fn word_of(verdict: Verdict) -> &'static str {
+pub const fn name_of(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Go => "go",
         Verdict::Caution => "caution",
@@ -32,50 +32,53 @@ struct OnCard<'a> {
 const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
     [
         SLOPE.given("Slope", |it| Some(it.row.slope)),
-        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(word_of(it.row.verdict).into())),
-        YAW.maybe("Yaw that keeps the traverse level, positive uphill", |it| {
+        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
+        YAW.maybe("Yaw that holds the contour, positive uphill", |it| {
             it.row.level.map(|level| level.yaw)
         }),
-        YAW.band("The same over the draws", |it| it.row.bands.as_ref()?.yaw),
+        YAW.band("The same over the samples", |it| it.row.bands.as_ref()?.yaw),
         SLIP_RATIO.maybe("Slip ratio of every wheel at that yaw", |it| {
             it.row.level.map(|level| level.slip_ratio)
         }),
-        SLIP_RATIO.band("The same over the draws", |it| it.row.bands.as_ref()?.slip_ratio),
+        SLIP_RATIO.band("The same over the samples", |it| it.row.bands.as_ref()?.slip_ratio),
         POWER.maybe("Power of the motors at that yaw", |it| it.row.level.map(|level| level.power)),
-        POWER.band("The same over the draws", |it| it.row.bands.as_ref()?.power),
+        POWER.band("The same over the samples", |it| it.row.bands.as_ref()?.power),
         DRIFT.maybe("Drift per metre travelled at yaw 0, positive downhill", |it| it.row.drift),
-        DRIFT.band("The same over the draws", |it| it.row.bands.as_ref()?.drift),
-        PROBABILITY_LEVEL.probability("Share of the draws with a level traverse", |it| {
-            it.row.bands.as_ref().map(|bands| bands.level)
-        }),
+        DRIFT.band("The same over the samples", |it| it.row.bands.as_ref()?.drift),
+        PROBABILITY_LEVEL
+            .probability("Share of the samples with a heading that holds the contour", |it| {
+                it.row.bands.as_ref().map(|bands| bands.level)
+            }),
         whole(
             DRAWS_LEVEL,
-            "Draws with a level traverse: those that yaw, slip and power are over",
+            "Samples with a heading that holds the contour: yaw, slip and power are over them",
             |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
         ),
-        whole("draws_held", "Draws that do not slide at yaw 0: those that drift is over", |it| {
-            it.row.bands.as_ref().map(|bands| bands.held.successes)
-        }),
-        whole(DRAWS, "All draws", |it| it.card.draws),
-        text(STATUS, "`ok`, or why the soil as written has no level traverse", |it| {
+        whole(
+            "draws_held",
+            "Samples on which the rover does not slide at yaw 0: drift is over them",
+            |it| it.row.bands.as_ref().map(|bands| bands.held.successes),
+        ),
+        whole(DRAWS, "All samples", |it| it.card.draws),
+        text(STATUS, "`ok`, or why no heading holds the contour on the soil as written", |it| {
             Some(status(it))
         }),
     ]
 }
 
-/// Why the soil as written has no level traverse.
+/// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
     match (&it.row.level, &it.card.limit) {
         (Some(_), _) => OK.to_owned(),
         (None, Ok((limit, reason))) => {
             let limit = (limit.to_degrees() * 100.0).floor() / 100.0;
-            format!("no level attitude: the steepest slope is {limit:.2}°, {reason}")
+            format!("no heading holds the contour: the steepest slope is {limit:.2}°, {reason}")
         }
         (None, Err(reason)) => reason.clone(),
     }
 }
 
-/// A row for each slope. What has no band is of the soil as its document has it; bands are over the draws, and
+/// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and
 /// missing where no uncertainty is stated.
 #[must_use]
 pub fn table(card: &Card) -> Table {
@@ -103,15 +106,15 @@ pub fn bands_brief() -> Vec<String> {
     vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level]
 }
 
-/// How many draws the card has, and the steepest slope: one row.
+/// How many samples the card has, and the steepest slope: one row.
 #[must_use]
 pub fn steepest(card: &Card) -> Table {
     const LIMIT: [Column<Card>; 3] = [
-        whole(DRAWS, "All draws", |it| it.draws),
-        LIMIT_SLOPE.maybe("The steepest slope with a level traverse", |it| {
+        whole(DRAWS, "All samples", |it| it.draws),
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the contour", |it| {
             it.limit.as_ref().ok().map(|(limit, _)| *limit)
         }),
-        LIMIT_SLOPE.band("The same over the draws", |it| it.limit_band),
+        LIMIT_SLOPE.band("The same over the samples", |it| it.limit_band),
     ];
     Table::of(&LIMIT, std::slice::from_ref(card))
 }
@@ -119,9 +122,9 @@ pub fn steepest(card: &Card) -> Table {
 /// A measured yaw, in degrees.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredYaw {
-    /// On which slope [°].
+    /// The slope [°].
     pub slope: f64,
-    /// What was measured: the name of its column.
+    /// The name of its column.
     pub name: String,
     /// The yaw [°], positive uphill.
     pub yaw: f64,
@@ -131,7 +134,7 @@ const MEASURED_YAW: Quantity = quantity("measured_yaw_deg", DEG);
 const MEASURED: &str = "measured";
 const PLACE: &str = "place";
 
-/// Measured yaws, each beside what the card says on its slope, and whether it lies `below`, `inside` or `above`
+/// Measured yaws, each beside the card's numbers on its slope, and whether it lies `below`, `inside` or `above`
 /// the band over samples.
 #[must_use]
 pub fn beside(card: &Table, measured: &[MeasuredYaw]) -> Table {

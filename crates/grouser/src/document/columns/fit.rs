@@ -1,4 +1,4 @@
-//! A model beside measurements: cells and trials with what was measured and what is predicted.
+//! The columns of a model beside measurements: cells and trials, measured and predicted.
 
 use super::super::measurements::Measurements;
 use super::super::table::Table;
@@ -11,7 +11,7 @@ use crate::contact::{SettleError, Settled};
 use crate::studies::measurement::{Quantity as Measured, Trial};
 use crate::studies::validation::{CellComparison, Group, Validation};
 
-/// The column of what a stand measures.
+/// The column of a measured quantity.
 #[must_use]
 pub const fn column_of(measured: Measured) -> Quantity {
     match measured {
@@ -52,7 +52,7 @@ fn means(cell: &CellComparison, measured: Measured) -> [Option<f64>; 3] {
     })
 }
 
-/// The cells of a validation; what was not measured is missing.
+/// The cells of a validation; quantities that were not measured are missing.
 #[must_use]
 pub fn cells(cells: &[CellComparison]) -> Table {
     let rows: Vec<Option<&CellComparison>> = cells.iter().map(Some).collect();

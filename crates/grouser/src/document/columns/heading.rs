@@ -7,19 +7,19 @@ use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
 };
-use crate::studies::attitude::{Attitude, AttitudeCurve, NoAttitude};
-use crate::studies::attitude_band::{AttitudeBand, SlopeBand};
-use crate::studies::attitude_map::{AttitudeMap, AttitudeRow};
+use crate::studies::heading::{HeadingCurve, HeadingOffset, NoHeading};
+use crate::studies::heading_band::{HeadingBand, SlopeBand};
+use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
 
-/// A rover that holds its course.
+/// A rover that holds its course, as the rows of tables need it.
 #[derive(Clone, Copy, Debug)]
 pub struct Held<'a> {
-    /// How.
-    pub attitude: &'a Attitude,
+    /// Heading offset, slip and forces.
+    pub heading: &'a HeadingOffset,
     /// The rover.
     pub rover: &'a Rover,
-    /// Of all wheels, ω r_s [m/s]; none where none is asked for.
+    /// Rim speed of all wheels, ω r_s [m/s]; missing where no power is asked for.
     pub rim_speed: Option<f64>,
 }
 
@@ -27,33 +27,33 @@ pub struct Held<'a> {
 #[must_use]
 pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
     [
-        YAW.number("Yaw that keeps the course, positive uphill", |it| it.attitude.yaw),
-        SLIP_RATIO.number("Slip ratio of every wheel", |it| it.attitude.slip_ratio),
-        SINKAGE.number("Mean sinkage of the wheels", |it| it.attitude.mean_sinkage()),
-        TORQUE.number("Torque of all wheels together", |it| it.attitude.torque()),
+        YAW.number("Yaw that holds the course, positive uphill", |it| it.heading.yaw),
+        SLIP_RATIO.number("Slip ratio of every wheel", |it| it.heading.slip_ratio),
+        SINKAGE.number("Mean sinkage of the wheels", |it| it.heading.mean_sinkage()),
+        TORQUE.number("Torque of all wheels together", |it| it.heading.torque()),
         POWER.maybe("Power of the motors at the rim speed of the map", |it| {
-            it.rim_speed.map(|speed| it.attitude.power(it.rover, speed))
+            it.rim_speed.map(|speed| it.heading.power(it.rover, speed))
         }),
         ENERGY_PER_METRE.number("Work of the wheels per metre along the course", |it| {
-            it.attitude.energy_per_metre(it.rover)
+            it.heading.energy_per_metre(it.rover)
         }),
         number(
             "yaw_moment_nm",
             NM,
             "Yaw moment left over; negative turns the nose downhill",
-            |it| it.attitude.yaw_moment,
+            |it| it.heading.yaw_moment,
         ),
     ]
 }
 
-/// What was found on a slope of some soil and course.
+/// A slope of some soil and course, and the heading offset there.
 #[derive(Clone, Copy, Debug)]
 struct OnSlope<'a> {
     slope: f64,
-    found: &'a Result<Attitude, NoAttitude>,
+    found: &'a Result<HeadingOffset, NoHeading>,
     /// Of a map: the soil's name, and its row.
     soil: &'a str,
-    row: Option<&'a AttitudeRow>,
+    row: Option<&'a HeadingRow>,
 }
 
 const fn slope<'a>() -> [Column<OnSlope<'a>>; 1] {
@@ -68,7 +68,7 @@ const fn status<'a>() -> [Column<OnSlope<'a>>; 1] {
 
 const SOIL: &str = "soil";
 
-/// Of a map, before what was found.
+/// Columns of a map before the results.
 const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
     [
         text(SOIL, "The soils' names", |it| Some(it.soil.to_owned())),
@@ -78,7 +78,7 @@ const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
     ]
 }
 
-/// Of a map, after what was found.
+/// Columns of a map after the results.
 const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
     [LIMIT_SLOPE
         .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
@@ -88,7 +88,7 @@ const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
 
 /// A row for each slope [rad]. Results are missing where `status` is not `ok`.
 #[must_use]
-pub fn table(curve: &AttitudeCurve, rover: &Rover, slopes: &[f64]) -> Table {
+pub fn table(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Table {
     let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
     let rows = slopes.iter().zip(&found);
     let rows = rows.map(|(slope, found)| OnSlope { slope: *slope, found, soil: "", row: None });
@@ -98,8 +98,8 @@ pub fn table(curve: &AttitudeCurve, rover: &Rover, slopes: &[f64]) -> Table {
 /// Slope, results and status.
 fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Option<f64>) -> Table {
     let all = rows.iter().map(|row| {
-        let attitude = row.found.as_ref().ok()?;
-        Some(Held { attitude, rover, rim_speed })
+        let heading = row.found.as_ref().ok()?;
+        Some(Held { heading, rover, rim_speed })
     });
     let all: Vec<Option<Held<'_>>> = all.collect();
     let all: Vec<Option<&Held<'_>>> = all.iter().map(Option::as_ref).collect();
@@ -118,22 +118,22 @@ pub fn brief() -> Vec<String> {
     names.into_iter().chain([yaw_moment.name, STATUS]).map(String::from).collect()
 }
 
-/// The curve of an attitude over the slope, as points of a chart.
+/// The heading offset over the slope, as points of a chart.
 #[must_use]
-pub fn curve(curve: &AttitudeCurve) -> Table {
-    const POINT: [Column<Attitude>; 2] = [
+pub fn curve(curve: &HeadingCurve) -> Table {
+    const POINT: [Column<HeadingOffset>; 2] = [
         SLOPE.number("Slopes", |it| it.slope),
-        YAW.number("Yaw that keeps the course, positive uphill", |it| it.yaw),
+        YAW.number("Yaw that holds the course, positive uphill", |it| it.yaw),
     ];
-    Table::of(&POINT, &curve.attitudes())
+    Table::of(&POINT, &curve.headings())
 }
 
 /// The steepest slope, and what ends the curve there: one row.
 #[must_use]
-pub fn steepest(curve: &AttitudeCurve) -> Table {
+pub fn steepest(curve: &HeadingCurve) -> Table {
     type Limit = Result<(f64, String), String>;
     const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope that can be crossed level", |it| {
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
         text(LIMIT_REASON, "What ends the curve there", |it| {
@@ -142,7 +142,7 @@ pub fn steepest(curve: &AttitudeCurve) -> Table {
     ];
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
-        Err(NoAttitude::CannotMove(reason) | NoAttitude::TooSteep { reason, .. }) => Err(reason),
+        Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
     };
     Table::of(&LIMIT, &[limit])
 }
@@ -155,10 +155,10 @@ pub const LIMIT_REASON: &str = "limit_reason";
 /// * `soils`: the name of each study's soil
 /// * `rim_speed`: for the power [m/s]
 #[must_use]
-pub fn map_table(map: &AttitudeMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Table {
+pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Table {
     let cells = |row| {
         let on_slope = move |(slope, found): (&f64, _)| {
-            let row: &AttitudeRow = row;
+            let row: &HeadingRow = row;
             OnSlope { slope: *slope, found, soil: &soils[row.study], row: Some(row) }
         };
         map.slopes.iter().zip(&row.cells).map(on_slope).collect::<Vec<_>>()
@@ -177,8 +177,8 @@ pub fn map_brief() -> Vec<String> {
     [SOIL].into_iter().chain(names).chain([STATUS]).map(String::from).collect()
 }
 
-/// What samples of an uncertain soil say on one slope. Quantiles are over the samples with an attitude there, and
-/// missing where none has one.
+/// Quantiles and probabilities on one slope over samples of an uncertain soil. Quantiles are over the samples with a
+/// heading that holds the contour there, and missing where no sample has one.
 pub const BAND: [Column<SlopeBand>; 7] = [
     YAW.band("Yaw, positive uphill", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
@@ -186,46 +186,48 @@ pub const BAND: [Column<SlopeBand>; 7] = [
     ENERGY_PER_METRE
         .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
     PROBABILITY_LEVEL.probability(
-        "Probability that a level attitude exists: the share of the draws that have one",
+        "Probability that a heading holds the contour: the share of the samples that have one",
         |it| Some(it.level),
     ),
-    whole(DRAWS_LEVEL, "Draws with a level attitude", |it| Some(it.level.successes)),
-    whole(DRAWS, "All draws", |it| Some(it.level.trials)),
+    whole(DRAWS_LEVEL, "Samples with a heading that holds the contour", |it| {
+        Some(it.level.successes)
+    }),
+    whole(DRAWS, "All samples", |it| Some(it.level.trials)),
 ];
 
-/// How many samples have an attitude.
+/// How many samples have a heading that holds the contour.
 pub(super) const DRAWS_LEVEL: &str = "draws_level";
 /// How many samples there are.
 pub const DRAWS: &str = "draws";
 /// How many samples let the rover move on level ground.
 pub const DRAWS_MOBILE: &str = "draws_mobile";
 
-/// What samples say of the steepest slope.
-pub const BAND_LIMIT: [Column<AttitudeBand>; 3] = [
+/// Quantiles of the steepest slope over samples.
+pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     LIMIT_SLOPE
-        .band("The steepest slope, over the draws on which the rover can move", |it| it.limit),
-    whole(DRAWS_MOBILE, "Draws on which the rover can move on level ground", |it| {
+        .band("The steepest slope, over the samples on which the rover can move", |it| it.limit),
+    whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
-    whole(DRAWS, "All draws", |it| Some(it.mobile.trials)),
+    whole(DRAWS, "All samples", |it| Some(it.mobile.trials)),
 ];
 
-/// A table with a row for each slope, and what samples say there.
+/// A table with a row for each slope, and the columns of [`BAND`] added.
 #[must_use]
 pub fn with_bands(table: Table, bands: &[SlopeBand]) -> Table {
     table.and(&BAND, &bands.iter().map(Some).collect::<Vec<_>>())
 }
 
-/// What samples say, over the slope.
+/// The columns of [`BAND`] over the slope.
 #[must_use]
 pub fn bands(bands: &[SlopeBand]) -> Table {
     const PLACE: [Column<SlopeBand>; 1] = [SLOPE.number("Slopes", |it| it.slope)];
     with_bands(Table::of(&PLACE, bands), bands)
 }
 
-/// What samples say of the steepest slope: one row.
+/// Quantiles of the steepest slope over samples: one row.
 #[must_use]
-pub fn band_limit(band: &AttitudeBand) -> Table {
+pub fn band_limit(band: &HeadingBand) -> Table {
     Table::of(&BAND_LIMIT, std::slice::from_ref(band))
 }
 

@@ -44,10 +44,10 @@ pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
     POWER.number("Power of its motor", WheelRecord::power),
 ];
 
-/// What the energy balance cannot account for.
+/// Error of the energy balance.
 pub const ENERGY_ERROR: Quantity = quantity("energy_error_j", J);
 
-/// What became of the rover.
+/// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
     text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
         Some(it.outcome.name().into())
@@ -58,7 +58,7 @@ const RUN: [Column<Trajectory>; 6] = [
     }),
     text("simulation_reason", "Since when and why it fell back", |it| it.method.reason()),
     ENERGY.number("Work of the motors over the run", |it| it.last().energy.motors),
-    ENERGY_ERROR.number("What the energy balance cannot account for", Trajectory::energy_error),
+    ENERGY_ERROR.number("Error of the energy balance", Trajectory::energy_error),
 ];
 
 /// A run in a few numbers, means over wheels and records: what a campaign keeps beside the end.
@@ -72,10 +72,10 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     ENERGY_PER_METRE.maybe("Work of the motors per metre travelled", |it| it.energy_per_metre),
 ];
 
-/// Where a run ended: of the columns of a sample, what a campaign keeps.
+/// The end of a run: columns of a campaign.
 pub(in super::super) const END: &[Column<Record>] = RECORD.split_at(4).0;
 
-/// A row for each sample. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
+/// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
 /// empty where the rover has just tipped over or sunk, and left out where no sample has any.
 #[must_use]
 pub fn table(run: &Trajectory, rover: &Rover) -> Table {
@@ -96,7 +96,7 @@ pub fn table(run: &Trajectory, rover: &Rover) -> Table {
     table
 }
 
-/// The means of a sample's wheels; none where the rover has just tipped over or sunk.
+/// The means over a record's wheels; missing where the rover has just tipped over or sunk.
 const MEANS: [Column<Record>; 3] = [
     SLIP_RATIO.maybe("Mean slip ratio", |it| mean(it, |wheel| wheel.reaction.slip.ratio)),
     SLIP_ANGLE.maybe("Mean slip angle", |it| mean(it, |wheel| wheel.reaction.slip.angle)),

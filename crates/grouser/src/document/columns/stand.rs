@@ -1,4 +1,4 @@
-//! What a simulated stand reads, no more.
+//! The readings of a simulated test stand.
 
 use super::super::table::Table;
 use super::{

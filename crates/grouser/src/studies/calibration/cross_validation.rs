@@ -1,4 +1,4 @@
-//! How good a theory is where it was not fitted: each slip angle left out in turn.
+//! Cross-validation: the errors of a fit at slip angles that it has not seen, each left out in turn.
 
 use std::ops::ControlFlow;
 
@@ -7,7 +7,7 @@ use super::{Calibration, CalibrationError, Fit, FitSettings, ParameterSpace};
 use crate::contact::{SettleError, Settled};
 use crate::studies::measurement::WheelTests;
 
-/// A fit without the cells of one slip angle, and what it makes of these.
+/// A fit without the cells of one slip angle, and its predictions of them.
 #[derive(Clone, Debug)]
 pub struct LeftOut {
     /// The slip angle that was left out [rad].
@@ -39,7 +39,7 @@ pub fn without(tests: &WheelTests, slip_angle: f64) -> WheelTests {
 
 /// Fits without each slip angle in turn.
 ///
-/// * `observer`: told whenever a search of a fit has ended; it may break off
+/// * `observer`: called whenever a search of a fit has ended; it can stop the work
 ///
 /// # Errors
 /// As [`Calibration::new`] and [`Calibration::fit`], of the first fit that fails.

@@ -1,7 +1,6 @@
-//! Which run to make next: the one that would tell most about a prediction.
+//! Proposes the next runs: those that reduce the uncertainty of a prediction most.
 //!
-//! Samples of the posterior say how a prediction and the outcome of a run that was not made yet
-//! vary together. Taking that as linear and normal, an outcome y with noise N shrinks the
+//! Posterior samples give the covariance of a prediction and the outcome of a future run. Taking that as linear and normal, an outcome y with noise N shrinks the
 //! prediction's variance by
 //!
 //! ```text
@@ -31,27 +30,27 @@ pub struct Setting {
     pub slip_angle: f64,
 }
 
-/// A number that one wants to know: a quantity of the wheel at a setting.
+/// The prediction of interest: a quantity of the wheel at a setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Which quantity.
+    /// The quantity.
     pub quantity: Quantity,
-    /// Where.
+    /// The setting.
     pub setting: Setting,
 }
 
-/// What the next runs should make sure of, and the settings that the stand can run.
+/// The prediction that the next runs should narrow, and the settings that the stand can run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Aim {
-    /// The prediction that should get surer.
+    /// The prediction to narrow.
     pub target: Target,
-    /// What the stand can run.
+    /// The settings that the stand can run.
     pub candidates: Vec<Setting>,
     /// How many runs to propose.
     pub count: usize,
 }
 
-/// Samples that the design of the next runs looks at.
+/// Samples used to propose the next runs.
 const DESIGN_SAMPLES: usize = 200;
 
 impl Aim {
@@ -70,7 +69,7 @@ impl Aim {
     }
 }
 
-/// How far a reading of a new run may be from the theory: mean scatter and model discrepancy.
+/// Deviations of a new reading from the model: mean scatter and model discrepancy.
 fn noise(experiment: &WheelTestExperiment, discrepancies: &[f64]) -> PerQuantity<Option<f64>> {
     PerQuantity::from_fn(|quantity| {
         let own = experiment.sources().iter().zip(experiment.observations());
@@ -82,7 +81,7 @@ fn noise(experiment: &WheelTestExperiment, discrepancies: &[f64]) -> PerQuantity
     })
 }
 
-/// A run worth making.
+/// A proposed run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Proposal {
     /// Place of its setting among the candidates.
@@ -93,22 +92,22 @@ pub struct Proposal {
     pub after: f64,
 }
 
-/// What samples say of a prediction and of candidate runs.
+/// A prediction and the outcomes of candidate runs, sample by sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outlook {
     /// The prediction, sample by sample.
     pub prediction: Vec<f64>,
     /// For each candidate the outcomes that it would measure, each sample by sample.
     pub outcomes: Vec<Vec<Vec<f64>>>,
-    /// Deviations of the measured outcomes about the theory, √(s² + δ²): the same for each run.
+    /// Deviations of the measured outcomes about the model, √(s² + δ²): the same for each run.
     pub noise: Vec<f64>,
 }
 
 impl Outlook {
-    /// Of a wheel test.
+    /// The outlook for a wheel test.
     ///
     /// * `rows`: samples, each beginning with the values of the experiment's parameters. Samples
-    ///   that make no soil are left out.
+    ///   that are no valid soil are left out.
     /// * `noise`: of the quantities that a run would measure; `None` for those that it would not
     #[must_use]
     pub fn of_wheel_test(
@@ -214,7 +213,7 @@ mod tests {
     use super::*;
 
     /// Prediction t ~ N(0, 4). A run that measures t with noise 1 leaves the variance
-    /// 1/(1/4 + 1/1) = 0.8; measured again, 1/(1/4 + 2/1) = 4/9. An unrelated run tells nothing.
+    /// 1/(1/4 + 1/1) = 0.8; measured again, 1/(1/4 + 2/1) = 4/9. An unrelated run changes nothing.
     #[test]
     fn the_run_that_measures_the_prediction_is_proposed() {
         let numbers = normal_numbers(5, 0, 8000);

@@ -1,4 +1,4 @@
-//! Whether samples suffice, and what they say: R-hat, effective sample size, moments, quantiles.
+//! Diagnostics of the sampler and summaries of its samples: R-hat, effective sample size, moments, quantiles.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub struct Samples {
     pub walkers: usize,
 }
 
-/// What is known of one value.
+/// The posterior of one value in a few numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// Mean.
@@ -34,13 +34,13 @@ pub struct Summary {
     pub upper: f64,
     /// Split R-hat [-]: 1 if the chains agree, and the halves of each; see [`r_hat`].
     pub r_hat: f64,
-    /// Independent samples that would tell as much [-].
+    /// Effective sample size: independent samples with the same standard error [-].
     pub effective_samples: f64,
     /// Integrated autocorrelation time, in kept steps [-].
     pub autocorrelation_time: f64,
 }
 
-/// Share of the samples between [`Summary::lower`] and [`Summary::upper`] [-].
+/// The share of the samples between [`Summary::lower`] and [`Summary::upper`] [-].
 pub const INTERVAL: f64 = 0.95;
 
 impl Samples {

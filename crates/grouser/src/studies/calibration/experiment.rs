@@ -1,22 +1,22 @@
-//! What was measured, and what parameters make of it.
+//! Measurements, and a model that predicts them from parameters.
 
 use super::parameter::{Parameter, Scale};
 use crate::error::ParameterError;
 use crate::studies::measurement::Quantity;
 
-/// A kind of observation; one standard deviation tells how far the theory is from all of its kind.
+/// A kind of observation; all of a kind share one model discrepancy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Channel {
     /// A quantity of a wheel on a test stand.
     Wheel {
-        /// Which quantity.
+        /// The quantity.
         quantity: Quantity,
-        /// In which motion.
+        /// The motion.
         regime: Regime,
     },
     /// Pressure under a plate [Pa].
     PlatePressure,
-    /// Anything else that a face or a test makes up.
+    /// Any other kind.
     Other,
 }
 
@@ -31,46 +31,46 @@ pub enum Regime {
     Skid,
 }
 
-/// A number that was measured.
+/// A measured number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Observation {
-    /// What it is, in its SI unit: the mean over repeated trials.
+    /// Its value in SI units: the mean over repeated trials.
     pub value: f64,
-    /// Standard deviation of that mean from trial to trial; 0 where nothing is known of it.
+    /// Standard deviation of that mean from trial to trial; 0 where it is not known.
     pub scatter: f64,
     /// Its kind, by the place in [`Experiment::channels`].
     pub channel: usize,
 }
 
-/// Measurements, and the theory that predicts them.
+/// Measurements, and the model that predicts them.
 pub trait Experiment: Sync {
     /// The kinds of observations.
     fn channels(&self) -> &[Channel];
 
-    /// What was measured.
+    /// The observations.
     fn observations(&self) -> &[Observation];
 
-    /// What parameters predict for each observation: finite for all values within the bounds.
+    /// Predicts each observation from parameters: finite for all values within the bounds.
     ///
     /// * `values`: of the parameters, in their order
     /// * `predictions`: to be filled, one for each observation
     ///
     /// # Errors
-    /// [`ParameterError`] if the values make no soil at all: the search turns away from them.
+    /// [`ParameterError`] if the values are no valid soil: the search turns away from them.
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError>;
 }
 
-/// A discrepancy below this share of the trials' scatter cannot be told from none [-].
+/// A discrepancy below this share of the trials' scatter is not distinguishable from zero [-].
 const LEAST_OF_SCATTER: f64 = 0.1;
 
-/// And no theory is trusted beyond this share of the measurements' range [-]: it keeps the
-/// weights finite where no scatter is known.
+/// The least discrepancy, as a share of the measurements' range [-]: it keeps the weights finite where no
+/// scatter is known.
 const LEAST_OF_SPREAD: f64 = 1e-4;
 
 /// The model discrepancy of each channel, δ, as a parameter.
 ///
 /// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it
-/// cannot be told from none) to the spread of the measured values (above which the theory says
+/// is not distinguishable from zero) to the spread of the measured values (above which the model predicts
 /// nothing).
 #[must_use]
 pub fn discrepancies(experiment: &dyn Experiment) -> Vec<Parameter> {

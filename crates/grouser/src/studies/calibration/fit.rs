@@ -1,5 +1,5 @@
-//! The best parameters: bounded least squares from several starts, with the weights that the
-//! residuals themselves ask for.
+//! The best fit: bounded least squares from several starts, with weights that are estimated from the
+//! residuals.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,7 @@ use crate::elementary::wide::{ln, powi};
 use crate::elementary::{exp, pow};
 use crate::root;
 
-/// How hard to search.
+/// Settings of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FitSettings {
     /// Searches: one from the parameters' own starts, the others from the best of the points tried.
@@ -26,13 +26,13 @@ pub struct FitSettings {
 }
 
 impl Default for FitSettings {
-    /// Found on the sixteen parameters of the extended theory: more starts find nothing better.
+    /// Found on the sixteen parameters of the small-wheel model: more starts find nothing better.
     fn default() -> Self {
         Self { starts: 8, tried: 64, patience: 4 }
     }
 }
 
-/// The best parameters.
+/// The best fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
     /// Their values.
@@ -46,11 +46,11 @@ pub struct Fit {
     /// Half the weighted sum of squares, ½ Σ (y − f)²/(s² + δ²).
     pub cost: f64,
     /// Covariance of the coordinates: inverse of JᵀJ, the prior's own information included, so that
-    /// it exists where the data say nothing.
+    /// it exists where the data determine nothing.
     pub covariance: DMatrix<f64>,
-    /// What became of each search, the given start's first.
+    /// The result of each search, the given start's first.
     pub searches: Vec<Search>,
-    /// Whether the best search ended because nothing more was to be gained.
+    /// Whether the best search has converged.
     pub converged: bool,
 }
 
@@ -63,7 +63,7 @@ pub struct Search {
     pub end: Vec<f64>,
     /// Half the weighted sum of squares there, with the weights of the first round.
     pub cost: f64,
-    /// Whether it came as low as the best one.
+    /// Whether its cost agrees with that of the best one.
     pub agrees: bool,
 }
 
@@ -78,8 +78,8 @@ const ROUNDS: usize = 4;
 const POLISHING_PATIENCE: usize = 6;
 
 impl Fit {
-    /// Standard deviations of the values, to first order. At a bound there is no such thing, and it
-    /// comes out near 0: samples know better.
+    /// Standard deviations of the values, to first order. They are not valid at a bound, where they
+    /// come out near 0: use posterior samples there.
     #[must_use]
     pub fn deviations(&self, space: &ParameterSpace) -> Vec<f64> {
         let slopes = space.slopes(&self.coordinates);
@@ -89,18 +89,18 @@ impl Fit {
 }
 
 impl Calibration<'_> {
-    /// The parameters of least squares.
+    /// Fits the parameters by least squares.
     ///
     /// Weights and parameters depend on each other. The searches from all starts share weights
     /// with a tenth of the measurements' spread as discrepancy; from the best of them on, the
     /// discrepancies are found anew after each search (Paule and Mandel's equation,
     /// Σ r²/(s² + δ²) = n less the channel's share of the parameters).
     ///
-    /// * `observer`: told how many searches have ended, in any order; it may break the fit off
+    /// * `observer`: gets each search that has ended, in any order; it can stop the fit
     ///
     /// # Errors
     /// [`CalibrationError::NoStart`] if no start gives predictions,
-    /// [`CalibrationError::Interrupted`] if the observer broke off.
+    /// [`CalibrationError::Interrupted`] if the observer stopped it.
     pub fn fit(
         &self,
         settings: &FitSettings,
@@ -207,7 +207,7 @@ impl Calibration<'_> {
         (mode, covariance)
     }
 
-    /// The discrepancies that the residuals at a point ask for (Paule and Mandel 1982).
+    /// The discrepancies estimated from the residuals at a point (Paule and Mandel 1982).
     fn discrepancies_at(&self, coordinates: &[f64]) -> Vec<f64> {
         let observations = self.experiment.observations();
         let predictions = self.predictions(&self.space.values(coordinates));

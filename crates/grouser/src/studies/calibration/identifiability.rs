@@ -1,8 +1,8 @@
-//! What the data cannot tell: parameters that they hardly narrow, and those that make up for each
-//! other.
+//! Identifiability: parameters and combinations that the data do not determine, and pairs that compensate for
+//! each other.
 //!
-//! Asked in positions (the prior's own scale, [`parameter`](super::parameter)), in units of the
-//! prior's deviation: there a direction of size 1 is one about which nothing was learnt.
+//! It is judged by the posterior contraction, in positions (the prior's own scale, [`parameter`](super::parameter))
+//! and units of the prior's deviation: a direction of size 1 is as wide as the prior.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -11,14 +11,14 @@ use super::diagnostics::{Samples, correlations_of, covariance_of};
 use super::fit::Fit;
 use super::parameter::{PRIOR_DEVIATION, position_of};
 
-/// What the data leave open.
+/// Which parameters the data determine, and how well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// Deviation of each parameter over its prior's [-]: near 1 the data say nothing of it alone.
-    pub narrowing: Vec<f64>,
-    /// Directions that the data hardly narrow, the widest first.
-    pub loose: Vec<Combination>,
-    /// Pairs that make up for each other, the most so first.
+    /// Posterior contraction: deviation of each parameter over its prior's [-]; near 1 the data do not constrain it.
+    pub contraction: Vec<f64>,
+    /// Directions that the data do not determine, the widest first.
+    pub unidentifiable: Vec<Combination>,
+    /// Pairs that compensate for each other, the most correlated first.
     pub pairs: Vec<Pair>,
 }
 
@@ -28,11 +28,11 @@ pub struct Combination {
     /// Parameters, by their places, and their shares: those of at least a fifth of the largest,
     /// which is positive and first.
     pub shares: Vec<(usize, f64)>,
-    /// Its deviation over the prior's [-].
-    pub narrowing: f64,
+    /// Posterior contraction: its deviation over the prior's [-].
+    pub contraction: f64,
 }
 
-/// Two parameters that the data tell apart badly.
+/// Two correlated parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// Places of the two.
@@ -41,17 +41,17 @@ pub struct Pair {
     pub correlation: f64,
 }
 
-/// A direction is loose if the data leave more than this of its prior's deviation [-].
-pub const LOOSE: f64 = 0.5;
+/// A direction is unidentifiable where its posterior contraction is above this [-].
+pub const UNIDENTIFIABLE: f64 = 0.5;
 
-/// Parameters make up for each other from this correlation on [-].
+/// Parameters compensate for each other from this correlation on [-].
 pub const CORRELATED: f64 = 0.9;
 
 /// Shares below this part of the largest are left out [-].
 const WORTH_NAMING: f64 = 0.2;
 
 impl Identifiability {
-    /// As samples of the posterior tell.
+    /// The identifiability by posterior samples.
     #[must_use]
     pub fn of_samples(calibration: &Calibration, samples: &Samples) -> Self {
         let parameters = calibration.space().len();
@@ -64,10 +64,10 @@ impl Identifiability {
         Self::of_covariance(&covariance_of(&rows))
     }
 
-    /// As the curvature near a fit tells, to first order; the samples know better.
+    /// The identifiability by the curvature near a fit, to first order; samples are more accurate.
     ///
-    /// Taken where the prior counts as well: least squares alone may slide along what the data do
-    /// not tell apart until a bound ends it, and there nothing varies.
+    /// The curvature is taken with the prior included: least squares alone may slide along an unidentifiable
+    /// direction until a bound ends it, and nothing varies there.
     #[must_use]
     pub fn of_fit(calibration: &Calibration, fit: &Fit) -> Self {
         let (mode, covariance) = calibration.mode_near(fit);
@@ -79,11 +79,11 @@ impl Identifiability {
         Self::of_covariance(&DMatrix::from_fn(size, size, scaled))
     }
 
-    /// Of a covariance of positions in units of the prior's deviation.
+    /// The identifiability by a covariance of positions in units of the prior's deviation.
     #[must_use]
     pub fn of_covariance(covariance: &DMatrix<f64>) -> Self {
         let size = covariance.nrows();
-        let narrowing = (0..size).map(|i| covariance[(i, i)].max(0.0).sqrt()).collect();
+        let contraction = (0..size).map(|i| covariance[(i, i)].max(0.0).sqrt()).collect();
         let correlations = correlations_of(covariance);
         let mut pairs = Vec::new();
         for j in 0..size {
@@ -95,22 +95,22 @@ impl Identifiability {
             }
         }
         pairs.sort_by(|one, other| other.correlation.abs().total_cmp(&one.correlation.abs()));
-        Self { narrowing, loose: loose_directions(covariance), pairs }
+        Self { contraction, unidentifiable: unidentifiable_directions(covariance), pairs }
     }
 }
 
-fn loose_directions(covariance: &DMatrix<f64>) -> Vec<Combination> {
+fn unidentifiable_directions(covariance: &DMatrix<f64>) -> Vec<Combination> {
     let eigen = SymmetricEigen::new(covariance.clone());
-    let mut loose = Vec::new();
+    let mut unidentifiable = Vec::new();
     for (&variance, direction) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-        let narrowing = variance.max(0.0).sqrt();
-        if narrowing > LOOSE {
+        let contraction = variance.max(0.0).sqrt();
+        if contraction > UNIDENTIFIABLE {
             let direction: Vec<f64> = direction.iter().copied().collect();
-            loose.push(Combination { shares: worth_naming(&direction), narrowing });
+            unidentifiable.push(Combination { shares: worth_naming(&direction), contraction });
         }
     }
-    loose.sort_by(|one, other| other.narrowing.total_cmp(&one.narrowing));
-    loose
+    unidentifiable.sort_by(|one, other| other.contraction.total_cmp(&one.contraction));
+    unidentifiable
 }
 
 fn worth_naming(direction: &[f64]) -> Vec<(usize, f64)> {
@@ -132,21 +132,23 @@ mod tests {
         let covariance =
             DMatrix::from_row_slice(3, 3, &[0.5, -0.499, 0.0, -0.499, 0.5, 0.0, 0.0, 0.0, 0.0001]);
         let found = Identifiability::of_covariance(&covariance);
-        assert_eq!(found.loose.len(), 1);
-        let loose = &found.loose[0];
+        assert_eq!(found.unidentifiable.len(), 1);
+        let unidentifiable = &found.unidentifiable[0];
         // The eigenvalue of (1, −1)/√2 is 0.5 + 0.499.
-        assert!((loose.narrowing - 0.999_f64.sqrt()).abs() < 1e-12);
-        let [(one, share), (other, against)] = loose.shares[..] else { panic!("{loose:?}") };
+        assert!((unidentifiable.contraction - 0.999_f64.sqrt()).abs() < 1e-12);
+        let [(one, share), (other, against)] = unidentifiable.shares[..] else {
+            panic!("{unidentifiable:?}")
+        };
         assert_eq!([one.min(other), one.max(other)], [0, 1]);
         assert!((share + against).abs() < 1e-9 && share > 0.0);
         assert_eq!(found.pairs.len(), 1);
         assert_eq!(found.pairs[0].parameters, [0, 1]);
-        assert!((found.narrowing[2] - 0.01).abs() < 1e-12);
+        assert!((found.contraction[2] - 0.01).abs() < 1e-12);
     }
 
     #[test]
     fn parameters_that_are_all_known_leave_nothing_open() {
         let found = Identifiability::of_covariance(&(DMatrix::identity(4, 4) * 0.01));
-        assert!(found.loose.is_empty() && found.pairs.is_empty());
+        assert!(found.unidentifiable.is_empty() && found.pairs.is_empty());
     }
 }

@@ -1,7 +1,7 @@
-//! Parameters to be found: bounded outside, unbounded inside.
+//! Parameters to estimate: bounded values outside, unbounded coordinates inside.
 //!
-//! A parameter has a *value* θ between its bounds, a *position* p between 0 and 1 that tells how
-//! far from the lower to the upper bound it lies (by logarithms, if its scale is logarithmic), and
+//! A parameter has a *value* θ between its bounds, a *position* p between 0 and 1, its place
+//! from the lower to the upper bound (by logarithms, if its scale is logarithmic), and
 //! an unbounded *coordinate* u, in which least squares and the sampler move:
 //!
 //! ```text
@@ -26,7 +26,7 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// A parameter to be found.
+/// A parameter to estimate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
     /// Its name, as reports call it.
@@ -52,10 +52,10 @@ pub(super) const COORDINATE_VARIANCE: f64 = PI * PI / 3.0;
 const START_MARGIN: f64 = 1e-3;
 
 impl Parameter {
-    /// That bounds and start make sense.
+    /// Checks bounds and start.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first that does not.
+    /// [`ParameterError`] for the first invalid one.
     pub fn check(&self) -> Result<(), ParameterError> {
         let Self { name, lower, upper, scale, start } = self;
         finite(&format!("lower bound of {name}"), *lower)?;
@@ -101,7 +101,7 @@ impl Parameter {
     }
 
     /// Whether a value is at a bound: nearer than any search starts. The coordinate has no slope
-    /// there, so that nothing of first order says how sure the value is.
+    /// there, so that no standard deviation of first order exists.
     #[must_use]
     pub fn is_at_bound(&self, value: f64) -> bool {
         !(START_MARGIN..=1.0 - START_MARGIN).contains(&self.position_of(value))
@@ -124,7 +124,7 @@ impl ParameterSpace {
     /// A space of checked parameters.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first that makes no sense.
+    /// [`ParameterError`] for the first invalid one.
     pub fn new(parameters: Vec<Parameter>) -> Result<Self, ParameterError> {
         for parameter in &parameters {
             parameter.check()?;

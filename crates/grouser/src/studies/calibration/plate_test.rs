@@ -1,7 +1,7 @@
 //! Bevameter tests as an experiment: pressure under plates of several widths as they sink in.
 //!
-//! One width alone cannot tell the cohesive modulus from the frictional one; a calibration of
-//! such data says so ([`identifiability`](super::identifiability)).
+//! With one width alone the cohesive and the frictional modulus are not separately identifiable; a calibration of
+//! such data reports it ([`identifiability`](super::identifiability)).
 
 use super::experiment::{Channel, Experiment, Observation};
 use crate::elementary::wide::ln;
@@ -29,7 +29,7 @@ pub struct PlatePoint {
     pub scatter: f64,
 }
 
-/// Which law is fitted, and what it needs to know of the soil.
+/// The fitted law, and the properties of the soil that it needs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PlateLaw {
     /// p = (k_c/b + k_φ) zⁿ.
@@ -101,7 +101,7 @@ impl PlateTest {
     /// The experiment of some curves.
     ///
     /// # Errors
-    /// [`ParameterError`] for a width, sinkage or pressure that no plate has.
+    /// [`ParameterError`] for an invalid width, sinkage or pressure.
     pub fn new(law: PlateLaw, curves: Vec<PlateCurve>) -> Result<Self, ParameterError> {
         if let PlateLaw::Reece { cohesion, unit_weight } = law {
             not_negative("cohesion [Pa]", cohesion)?;

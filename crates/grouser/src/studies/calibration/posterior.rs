@@ -1,4 +1,4 @@
-//! Samples of every parameter set that agrees with the data, in proportion to how well it does.
+//! Samples of the posterior distribution of the parameters.
 //!
 //! Several ensembles of walkers sample the posterior, each on its own, so that their agreement can
 //! be asked for. They walk in blocks of steps. A walker's random numbers of a block come from a
@@ -15,15 +15,15 @@ use super::diagnostics::share_of;
 use super::fit::Fit;
 use super::{Calibration, CalibrationError, ensemble};
 
-/// How to sample.
+/// Settings of the sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SamplerSettings {
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Ensembles that know nothing of each other.
+    /// Independent ensembles.
     pub ensembles: usize,
     /// Walkers of each; at least twice the number of parameters and discrepancies, and even.
-    /// Too few are made enough.
+    /// Too small a number is raised to that.
     pub walkers: usize,
     /// Blocks in all.
     pub blocks: u64,
@@ -53,7 +53,7 @@ impl SamplerSettings {
     }
 }
 
-/// All that a sampler remembers between two blocks: plain numbers, which `document` can write down.
+/// The state of a sampler between two blocks: plain numbers, which `document` can write to a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PosteriorState {
     /// Blocks that were walked.
@@ -75,7 +75,7 @@ pub struct Ensemble {
     pub proposed: u64,
 }
 
-/// How a number of blocks ended.
+/// The end of a number of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Advanced {
     /// All blocks were walked.
@@ -128,7 +128,7 @@ impl Calibration<'_> {
 
     /// Walks until [`SamplerSettings::blocks`] blocks were walked in all.
     ///
-    /// * `observer`: shown the state after each block; it may stop there. A state that is kept
+    /// * `observer`: gets the state after each block; it can stop there. A state that is kept
     ///   then, or at any other block, can be advanced later.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! How far the mean over repeated trials is from the mean over ever more of them.
+//! Standard error of the mean over repeated trials.
 
 /// Readings of one quantity in trials that repeat each other.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -11,7 +11,7 @@ pub struct Repeats {
 
 /// A pooled variance counts as much as this many degrees of freedom [-].
 ///
-/// Source: ours. Two or three trials hardly know their own scatter, but a locked wheel's trials
+/// Source: ours. Two or three trials hardly determine their own scatter, but a locked wheel's trials
 /// do differ more than a rolling one's: ten keep the weights of cells that are alike within a few
 /// percent of each other, and let a cell that scatters ten times as much count for less.
 const POOL_WEIGHT: f64 = 10.0;

@@ -1,5 +1,5 @@
-//! A calibration from its search to what is known: least squares, samples, and what the data leave
-//! open.
+//! A calibration in its steps: least squares, posterior samples, and the parameters that the data do not
+//! determine.
 
 use std::ops::ControlFlow;
 
@@ -8,14 +8,14 @@ use super::identifiability::Identifiability;
 use super::{Advanced, Calibration, CalibrationError, Channel, Fit};
 use super::{FitSettings, PosteriorState, SamplerSettings};
 
-/// The first half of the steps still knows where the walkers started [-].
+/// Share of the steps discarded as burn-in [-].
 const DISCARDED: f64 = 0.5;
 
 /// Chains agree well enough below this R-hat [-]. Source: Gelman and others, Bayesian Data
 /// Analysis, 3rd ed., section 11.5, ask for 1.1; Vehtari and others (2021) for 1.01.
 pub const GOOD_R_HAT: f64 = 1.05;
 
-/// Who follows a calibration, from any thread, and may break it off.
+/// Follows the progress of a calibration, from any thread, and can stop it.
 pub trait Observer: Sync {
     /// Some work begins.
     fn begins(&self, _work: Work) {}
@@ -37,32 +37,32 @@ pub trait Observer: Sync {
     fn ends(&self) {}
 }
 
-/// What a calibration does.
+/// A stage of a calibration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Work {
-    /// Least squares from so many starts.
+    /// Least squares from a number of starts.
     Searches(usize),
     /// Samples of the posterior, in blocks.
     Blocks {
-        /// How many were walked before.
+        /// Blocks walked before.
         done: u64,
-        /// How many there will be.
+        /// All blocks.
         all: u64,
     },
     /// Fits without some of the measurements.
     LeavingOut,
 }
 
-/// How a posterior is sampled, and where from.
+/// Settings of the sampler, and the state that it continues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampling {
-    /// How.
+    /// The settings.
     pub settings: SamplerSettings,
     /// The state of an earlier run that was stopped; without it, walkers start around the fit.
     pub kept: Option<PosteriorState>,
 }
 
-/// What a calibration found.
+/// The result of a calibration.
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// The channels of observations, each with its discrepancy.
@@ -71,20 +71,20 @@ pub struct Solution {
     pub fit: Fit,
     /// Standard deviations of its values, to first order.
     pub deviations: Vec<f64>,
-    /// All that agrees with the data; none if it was not sampled.
+    /// The posterior; missing without sampling.
     pub posterior: Option<Posterior>,
-    /// What the data cannot tell apart.
+    /// Parameters and combinations that the data do not determine.
     pub identifiability: Identifiability,
 }
 
 /// A sampled posterior. Its coordinates are those of the parameters, then those of the discrepancies.
 #[derive(Clone, Debug)]
 pub struct Posterior {
-    /// The samples that count.
+    /// The samples after burn-in.
     pub samples: Samples,
-    /// What is known of each value.
+    /// The summary of each value.
     pub summaries: Vec<Summary>,
-    /// How it was sampled.
+    /// The settings of the sampler.
     pub settings: SamplerSettings,
     /// Walkers of each ensemble.
     pub walkers: usize,
@@ -123,10 +123,10 @@ impl Calibration<'_> {
         Ok(fit)
     }
 
-    /// Samples around a fit, if that is wanted, and what the data leave open.
+    /// Samples the posterior around a fit, if asked to, and finds the parameters that the data do not determine.
     ///
     /// # Errors
-    /// [`CalibrationError::Interrupted`] if the observer broke off,
+    /// [`CalibrationError::Interrupted`] if the observer stopped it,
     /// [`CalibrationError::ForeignState`] if a kept state belongs to another problem.
     pub fn solve(
         &self,

@@ -1,5 +1,5 @@
-//! A calibration on wheel tests, whole: the fit, its samples, its errors, its errors where it was
-//! not fitted, and the runs to make next.
+//! A complete calibration on wheel tests: fit, posterior samples, errors, cross-validation, and the runs to
+//! make next.
 
 use super::cross_validation::{leave_one_angle_out, slip_angles, without};
 use super::design::{Aim, Proposal};
@@ -13,26 +13,26 @@ use crate::soil::Soil;
 use crate::studies::measurement::WheelTests;
 use crate::studies::validation::{Group, Validation, ValidationStudy};
 
-/// Measurements, the theory that is to explain them, and what is asked.
+/// Measurements, the model to fit, and the steps to take.
 pub struct WheelCalibration<'a> {
     /// The tests.
     pub tests: &'a WheelTests,
-    /// What they were made with.
+    /// The wheel, gravity and model of the tests.
     pub setup: Setup<'a>,
     /// The parameters of the soil.
     pub space: ParameterSpace,
     /// How the posterior is sampled; least squares alone without.
     pub sampling: Option<Sampling>,
-    /// What the next runs are to make sure of.
+    /// The prediction that the next runs should narrow.
     pub aim: Aim,
     /// Whether each slip angle is left out in turn, and the fit judged there.
     pub cross_validate: bool,
 }
 
-/// What it found.
+/// The results of a calibration on wheel tests.
 #[derive(Clone, Debug)]
 pub struct WheelFindings {
-    /// Parameters, samples, what stays open.
+    /// Parameters, samples, unidentifiable parameters.
     pub solution: Solution,
     /// The errors with the fit.
     pub validation: Validation,
@@ -43,11 +43,11 @@ pub struct WheelFindings {
 }
 
 impl WheelCalibration<'_> {
-    /// Does it all.
+    /// Takes all steps of the calibration.
     ///
     /// # Errors
     /// [`CalibrationError`] for measurements and parameters that do not go together, and if the
-    /// observer broke off.
+    /// observer stopped it.
     pub fn run(&self, observer: &dyn Observer) -> Result<WheelFindings, CalibrationError> {
         if self.cross_validate {
             self.check_that_angles_can_be_left_out()?;

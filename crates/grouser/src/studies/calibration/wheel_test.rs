@@ -1,5 +1,4 @@
-//! Single-wheel tests as an experiment: a soil is asked for the forces and the sinkage of every
-//! cell of a test series.
+//! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test series.
 
 use super::experiment::{Channel, Experiment, Observation, Regime};
 use super::scatter::{self, Repeats};
@@ -10,10 +9,10 @@ use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, Reading, Trial, WheelTests};
 use crate::wheel::Wheel;
 
-/// Makes the soil of parameter values.
+/// Makes a soil from parameter values.
 pub type SoilOf<'a> = dyn Fn(&[f64]) -> Result<Soil, ParameterError> + Sync + 'a;
 
-/// How finely a test series is predicted.
+/// The detail in which a test series is predicted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resolution {
     /// Each trial at its own load and motion, averaged over the cell.
@@ -31,12 +30,12 @@ pub enum Discrepancies {
     /// One for each quantity.
     #[default]
     PerQuantity,
-    /// One for each quantity of driven wheels, and another of skidding ones, which theories
+    /// One for each quantity of driven wheels, and another of skidding ones, which models
     /// predict less well.
     PerRegime,
 }
 
-/// A series of wheel tests, and the theory that is to explain it.
+/// A series of wheel tests, and the model to fit.
 pub struct WheelTestExperiment<'a> {
     tests: WheelTests,
     setup: Setup<'a>,
@@ -60,11 +59,11 @@ struct Run {
 pub struct Setup<'a> {
     /// The wheel.
     pub wheel: Wheel,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
-    /// Makes the soil of parameter values.
+    /// Makes a soil from parameter values.
     pub soil_of: &'a SoilOf<'a>,
     /// How finely the tests are predicted.
     pub resolution: Resolution,
@@ -129,7 +128,7 @@ impl<'a> WheelTestExperiment<'a> {
 
     /// What the stand would read of a wheel: for every soil and every load.
     ///
-    /// A soil that cannot carry the load must not end a search, and should tell it which way to
+    /// A soil that cannot carry the load must not end a search, and should show it which way to
     /// turn: the wheel counts as one sunk to its axle, with all readings larger by
     /// 1 + ln(load/capacity), so that they come down as the soil gets stronger.
     #[must_use]

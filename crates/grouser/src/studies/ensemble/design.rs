@@ -1,4 +1,4 @@
-//! Where in the unit cube a campaign's runs lie.
+//! Designs: the points of the unit cube at which a campaign samples its inputs.
 //!
 //! | sampling | points | error of a mean of N |
 //! |---|---|---|
@@ -17,13 +17,13 @@ pub use grouser_io::campaign::Sampling;
 /// A set of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Design {
-    /// How they are spread.
+    /// The method.
     pub sampling: Sampling,
-    /// How many there are, *N*; at least 1.
+    /// Number of points, *N*; at least 1.
     pub points: u64,
-    /// Of how many dimensions.
+    /// Number of dimensions.
     pub dimensions: usize,
-    /// Which of all such sets.
+    /// Seed of the set.
     pub seed: u64,
 }
 

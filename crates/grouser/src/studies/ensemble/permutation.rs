@@ -1,4 +1,4 @@
-//! A shuffle whose every place can be asked for on its own.
+//! A random permutation of which each place is computed on its own.
 //!
 //! Latin hypercubes need a random order of N strata for each dimension. To keep such an order in
 //! memory costs N words, and to make it costs all runs before one; here place *i* is computed from

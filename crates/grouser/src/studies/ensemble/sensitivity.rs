@@ -1,4 +1,4 @@
-//! Which input an output's variance comes from: Sobol indices.
+//! Sobol indices: the shares of an output's variance that each input causes.
 //!
 //! ```text
 //! S_i = V[E(f | x_i)] / V(f)            first order: what goes away on average once x_i is known
@@ -53,14 +53,14 @@ pub struct Sensitivity {
 const RESAMPLES: u64 = 1000;
 
 impl Sensitivity {
-    /// Of an output in the order of a plan's runs; nothing if fewer than two points have it or it does
-    /// not vary.
+    /// The indices of an output in the order of a plan's runs; nothing if fewer than two points have it or it
+    /// does not vary.
     ///
     /// Points of which a run has no output are left out: the indices are then those of the part of the
     /// inputs that has one, as far as that is still a box.
     ///
     /// * `outputs`: of all runs, points one after another; a last point that is cut short is left out
-    /// * `inputs`: how many there are
+    /// * `inputs`: their number
     /// * `seed`: of the resampling
     #[must_use]
     pub fn of(outputs: &[Option<f64>], inputs: usize, seed: u64) -> Option<Self> {

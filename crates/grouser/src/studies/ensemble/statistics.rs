@@ -1,18 +1,17 @@
-//! What many runs say of one quantity: mean, quantiles, how often something happened, and how far
-//! these are known after so many runs.
+//! Statistics of one quantity over many runs: mean, quantiles and probabilities, with confidence intervals.
 //!
-//! Intervals are 95 % confidence intervals for independent draws: [`Quantile`]s without any
+//! Intervals are 95 % confidence intervals for independent samples: [`Quantile`]s without any
 //! assumption on the distribution, the mean by the central limit, a
 //! [`Probability`] by Wilson. For a Latin hypercube they are
-//! wide rather than narrow: its mean's variance is at most N/(N − 1) times that of independent draws
+//! wide rather than narrow: its mean's variance is at most N/(N − 1) times that of independent samples
 //! (Owen 1997). For a scrambled Sobol design they are wide for every result that is smooth in its inputs;
-//! what is guaranteed is only that its variance is within a constant of independent draws'.
+//! what is guaranteed is only that its variance is within a constant of that of independent samples.
 
 use grouser_io::statistics::quantile;
 
 use crate::studies::random::place_below;
 
-/// A number and the 95 % interval in which it is.
+/// An estimate with its 95 % confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The estimate.
@@ -23,33 +22,33 @@ pub struct Estimate {
     pub high: f64,
 }
 
-/// A quantile and its interval. An end is missing where so few draws do not bound it.
+/// A quantile and its interval. An end is missing where there are too few samples to bound it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantile {
-    /// The share of draws below it [-].
+    /// The share of samples below it [-].
     pub share: f64,
-    /// The estimate, interpolated between two draws.
+    /// The estimate, interpolated between two samples.
     pub value: f64,
-    /// Lower end of the interval: one of the draws.
+    /// Lower end of the interval: one of the samples.
     pub low: Option<f64>,
-    /// Upper end: one of the draws.
+    /// Upper end: one of the samples.
     pub high: Option<f64>,
 }
 
-/// What draws say of a quantity.
+/// A quantity over samples in a few numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
-    /// Draws that have the quantity.
+    /// Samples that have the quantity.
     pub count: usize,
-    /// Draws that do not.
+    /// Samples that do not.
     pub missing: usize,
     /// Mean.
     pub mean: Estimate,
     /// Standard deviation.
     pub deviation: f64,
-    /// The smallest draw.
+    /// The smallest sample.
     pub least: f64,
-    /// The largest draw.
+    /// The largest sample.
     pub most: f64,
     /// The quantiles that were asked for.
     pub quantiles: Vec<Quantile>,
@@ -61,7 +60,7 @@ const Z: f64 = 1.959_963_984_540_054;
 const TAIL: f64 = 0.025;
 
 impl Summary {
-    /// Of draws, `None` for those without the quantity; nothing if fewer than two have it.
+    /// The summary of samples, `None` for those without the quantity; nothing if fewer than two have it.
     ///
     /// * `shares`: of the quantiles [-], above 0 and below 1
     #[must_use]
@@ -89,11 +88,11 @@ impl Summary {
 }
 
 impl Quantile {
-    /// Of draws from the smallest to the largest; nothing if there are none, or for a share that is
-    /// none.
+    /// The quantile of samples from the smallest to the largest; nothing without samples, or for an invalid
+    /// share.
     ///
-    /// The number of draws below the true quantile is binomial whatever their distribution, so that
-    /// the quantile lies between the l-th and the u-th draw with
+    /// The number of samples below the true quantile is binomial whatever their distribution, so that
+    /// the quantile lies between the l-th and the u-th sample with
     ///
     /// ```text
     /// P(K < l) ≤ 2.5 %        P(K ≥ u) ≤ 2.5 %        K ~ Bin(n, p)
@@ -135,7 +134,7 @@ impl Quantile {
 ///
 /// Its terms over the largest one, each from its neighbour, until they no longer count: no
 /// function is needed that differs between machines, and the few hundred terms of a million
-/// draws cost nothing beside the draws.
+/// samples cost nothing beside the samples.
 fn binomial_share(n: usize, p: f64, k: usize) -> f64 {
     /// Terms fall faster than a geometric series from here on.
     const NEGLIGIBLE: f64 = 1e-20;
@@ -169,17 +168,17 @@ fn binomial_share(n: usize, p: f64, k: usize) -> f64 {
     below / (below + above)
 }
 
-/// What the first runs of a campaign say, for more and more of them.
+/// Convergence: the statistics of the first runs of a campaign, for more and more of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convergence {
-    /// How many runs.
+    /// Number of runs.
     pub runs: usize,
-    /// What they say; nothing while fewer than two have the quantity.
+    /// Their summary; nothing while fewer than two have the quantity.
     pub summary: Option<Summary>,
 }
 
 impl Convergence {
-    /// Of draws in the order of their runs: after each number of runs from 16 up that is a power of
+    /// The convergence of samples in the order of their runs: after each number of runs from 16 up that is a power of
     /// two, and after all.
     ///
     /// * `shares`: of the quantiles [-]

@@ -37,8 +37,8 @@ fn distribution(curve: &Curve) -> Figure {
     Figure {
         file: format!("{quantity}-distribution"),
         caption: format!(
-            "Share of the runs with an answer whose {quantity} is below. A steep curve is a quantity \
-             that is known well."
+            "Cumulative distribution of {quantity} over the runs with a result. A steep curve is a \
+             quantity with little uncertainty."
         ),
         chart: Chart {
             title: format!("{quantity}: distribution"),
@@ -99,8 +99,8 @@ fn sensitivity(curve: &Curve, shares: &[&SensitivityRecord]) -> Option<Figure> {
     Some(Figure {
         file: format!("{quantity}-sensitivity"),
         caption: format!(
-            "What share of the variance of {quantity} each input makes, alone and with what it does \
-             together with others: {}.",
+            "Share of the variance of {quantity} that each input causes, alone (first order) and with its \
+             interactions with others (total): {}.",
             names.join(", ")
         ),
         chart: Chart {

@@ -27,7 +27,7 @@ pub(super) fn html(
     ]);
     page.heading("Numbers");
     page.paragraph(
-        "Quantiles are over the runs that have an answer; their intervals hold for any distribution. \
+        "Quantiles are over the runs that have a result; their intervals hold for any distribution. \
          All intervals are for independent draws: those of a Latin hypercube or a Sobol design are \
          rather too wide. Of a campaign for sensitivities, quantiles and probabilities are over the runs \
          of both independent sets, A and B.",
@@ -46,12 +46,12 @@ pub(super) fn html(
     page.to_html()
 }
 
-/// The chance of failure, in a sentence.
+/// The probability of failure, in a sentence.
 fn answer(statistics: &Statistics) -> String {
     let failure = statistics.probabilities.iter().find(|it| it.event.starts_with("failure"));
     let Some(it) = failure else { return "There are no runs.".into() };
     format!(
-        "{} of {} runs failed, that is, had no answer or were not completed: {:.2} %, with 95 % \
+        "{} of {} runs failed, that is, had no result or were not completed: {:.2} %, with 95 % \
          confidence between {:.2} and {:.2} %.",
         it.count,
         it.runs,

@@ -16,13 +16,13 @@ use crate::output::rows::four_digits;
 
 /// Half of all are below [-].
 const MEDIAN: f64 = 0.5;
-/// The quantiles that are told, and how words end that name them.
+/// The quantiles, and the ends of their names.
 pub(super) const QUANTILES: [(f64, &str); 5] =
     [(0.025, "p2_5"), (0.25, "p25"), (MEDIAN, "p50"), (0.75, "p75"), (0.975, "p97_5")];
 /// Points of a distribution's curve.
 const CURVE: usize = 200;
 
-/// What a campaign says.
+/// The statistics of a campaign.
 #[derive(Serialize)]
 pub(super) struct Statistics {
     /// A row for each quantity.
@@ -35,7 +35,7 @@ pub(super) struct Statistics {
     pub(super) curves: Vec<Curve>,
 }
 
-/// How often something happened.
+/// The probability of an event.
 #[derive(Serialize)]
 pub(super) struct ProbabilityRecord {
     pub(super) event: String,
@@ -46,7 +46,7 @@ pub(super) struct ProbabilityRecord {
     pub(super) probability_high: f64,
 }
 
-/// What an input's variance does to a quantity's.
+/// Sobol indices of an input for a quantity.
 #[derive(Serialize)]
 pub(super) struct SensitivityRecord {
     pub(super) quantity: String,
@@ -62,7 +62,7 @@ pub(super) struct SensitivityRecord {
     pub(super) points_missing: usize,
 }
 
-/// What the first runs said.
+/// Statistics of the first runs.
 #[derive(Serialize)]
 pub(super) struct ConvergenceRecord {
     pub(super) quantity: String,

@@ -1,4 +1,4 @@
-"""What an uncertain soil makes of the level attitude."""
+"""The uncertainty of the heading offset on an uncertain soil."""
 
 from __future__ import annotations
 
@@ -13,11 +13,13 @@ from ._descriptions import Scenario
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeBand(_tables.Tabular):
-    """What draws of an uncertain soil say of the level attitude: arrays of shape (slopes,).
+class HeadingBand(_tables.Tabular):
+    """Heading offset over samples of an uncertain soil: arrays of shape (slopes,).
 
-    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the draws that have a level attitude on
-    that slope: 95 % of them lie between the first and the last. NaN where none has.
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the sampled soils on which the contour
+    can be held on that slope: 95 % of the values lie between the first and the last. NaN where it
+    can be held on none. (Names of columns are those of
+    version 0.1, in which samples are *draws*.)
     """
 
     yaw_deg_p2_5: Floats
@@ -45,27 +47,28 @@ class AttitudeBand(_tables.Tabular):
     energy_j_per_m_p97_5: Floats
     """Its upper end [J/m]."""
     probability_level: Floats
-    """Probability that a level attitude exists [-]: the share of the draws that have one."""
+    """Probability that a heading holds the contour [-]: the share of the samples that have one."""
     probability_level_low: Floats
-    """Lower end of its 95 % confidence interval, for the number of draws [-]."""
+    """Lower end of its 95 % confidence interval, for the number of samples [-]."""
     probability_level_high: Floats
     """Upper end of that interval [-]."""
     draws_level: Floats
-    """Draws with a level attitude."""
+    """Samples with a heading that holds the contour."""
     draws: int
-    """All draws."""
+    """All samples."""
     draws_mobile: int
-    """Draws on which the rover can move on level ground."""
+    """Samples on which the rover can move on level ground."""
     limit_slope_deg_p2_5: float | None
-    """The steepest slope [°], over the draws on which the rover can move; None where it never can."""
+    """The steepest slope [°], over the samples on which the rover can move; None where it never
+    can."""
     limit_slope_deg_p50: float | None
     """Its median [°]."""
     limit_slope_deg_p97_5: float | None
     """Its upper end [°]."""
 
     @classmethod
-    def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> AttitudeBand:
-        found, limit = _core.attitude_band(run._document, slopes, seed, samples)
+    def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> HeadingBand:
+        found, limit = _core.heading_band(run._document, slopes, seed, samples)
         del found["draws"]
         return cls(**found, **limit)
 
@@ -75,4 +78,4 @@ class AttitudeBand(_tables.Tabular):
 
     def __repr__(self) -> str:
         ends = f"{self.limit_slope_deg_p2_5}° to {self.limit_slope_deg_p97_5}°"
-        return f"<AttitudeBand over {self.draws} draws, the steepest slope is {ends}>"
+        return f"<HeadingBand over {self.draws} sampled soils, the steepest slope is {ends}>"

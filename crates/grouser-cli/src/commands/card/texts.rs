@@ -1,43 +1,43 @@
-//! What the card says in sentences.
+//! The sentences of the card.
 
 use grouser::document::columns::SLOPE;
 use grouser::studies::card::{Card, Rule};
 
-use crate::args::{CardArgs, SideWord};
+use crate::args::{CardArgs, SideChoice};
 use crate::inputs::CardInputs;
 use crate::output::rows::{four_digits, rounded_down};
 
-/// All words of a card that depend on what it is made from.
-pub(super) struct Words {
+/// All texts of a card that depend on its inputs.
+pub(super) struct Texts {
     pub(super) title: String,
-    /// On which side uphill may be.
+    /// On which side uphill can be.
     pub(super) side: &'static str,
-    /// What the numbers hang on: day, gravity, speed.
+    /// The conditions of the numbers: day, gravity, speed.
     pub(super) setting: String,
-    /// Heads the column of headings' bands, and says how many soils those are.
+    /// Heads the column of headings' bands, with the share of soils in them.
     pub(super) band: String,
     pub(super) has_bands: bool,
     /// Each verdict with its rule.
     pub(super) rule: Vec<(&'static str, String)>,
-    /// What is said of a thing, by its name.
+    /// Facts in the margin, each by its name.
     pub(super) facts: Vec<(&'static str, String)>,
     pub(super) holds_for: String,
     pub(super) leaves_out: String,
     pub(super) assumed: Vec<String>,
 }
 
-pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
+pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
     let document = &inputs.scenario.document;
     let rover = document.text("rover.name").unwrap_or("unnamed rover");
     let soil = document.text("soil.name").unwrap_or("unnamed soil");
     let is_symmetric = inputs.scenario.value.rover.is_symmetric();
     let side = match (is_symmetric, args.uphill) {
         (true, _) => "Uphill on the left or on the right: the same heading.",
-        (false, SideWord::Left) => "ONLY with uphill on the rover's LEFT.",
-        (false, SideWord::Right) => "ONLY with uphill on the rover's RIGHT.",
+        (false, SideChoice::Left) => "ONLY with uphill on the rover's LEFT.",
+        (false, SideChoice::Right) => "ONLY with uphill on the rover's RIGHT.",
     };
     let has_bands = card.draws.is_some();
-    Words {
+    Texts {
         title: format!("{rover} on {soil}"),
         side,
         setting: setting(inputs),
@@ -49,7 +49,7 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Words {
                     wheels turning alike. Nothing holds the heading by itself: correct it on the way."
             .to_owned(),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; errors of \
-                     the theory, which come on top of every band: a real rover scatters by more."
+                     the model, which come on top of every band: a real rover scatters by more."
             .to_owned(),
         assumed: assumed(inputs),
     }
@@ -83,15 +83,15 @@ fn rule(rule: &Rule, draws: Option<usize>) -> Vec<(&'static str, String)> {
     let Some(draws) = draws else {
         let margin = four_digits(SLOPE.unit.from_si(rule.margin));
         let go = format!(
-            "a slope {margin}° steeper can still be crossed level, with slip up to {go_slip} %."
+            "a heading still holds the contour of a slope {margin}° steeper, with slip up to {go_slip} %."
         );
         let no_go = format!(
-            "a slope {margin}° steeper cannot be crossed level with slip up to {stop_slip} %. {last}"
+            "no heading holds the contour of a slope {margin}° steeper with slip up to {stop_slip} %. {last}"
         );
         return vec![("GO", go), caution, ("NO-GO", no_go)];
     };
     let go = format!(
-        "on at least {go} % of {draws} drawn soils the rover crosses level, with slip up to {go_slip} %."
+        "on at least {go} % of {draws} sampled soils a heading holds the contour, with slip up to {go_slip} %."
     );
     let no_go =
         format!("on less than {stop} % of them it does so with slip up to {stop_slip} %. {last}");
@@ -103,7 +103,7 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
     let (document, value) = (&scenario.document, &scenario.value);
     let source = document.text("soil.source").unwrap_or("not stated");
     let known = match card.draws {
-        Some(draws) => format!("as its document states; {draws} draws, seed {}", args.seed),
+        Some(draws) => format!("as its document states; {draws} samples, seed {}", args.seed),
         None => "NOT STATED: no bands. The margin above stands in for it.".to_owned(),
     };
     vec![
@@ -113,11 +113,11 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
             "Rover",
             format!("{} wheels, {} kg", value.rover.wheel_count(), four_digits(value.rover.mass())),
         ),
-        ("Steepest level slope", limit(card)),
+        ("Steepest slope", limit(card)),
         (
-            "Theory",
+            "Model",
             format!(
-                "{}; loads {}; moments {}",
+                "{}; load transfer {}; wheel moments {}",
                 value.theory.name(),
                 document.text("loads").unwrap_or("unknown"),
                 document.text("moments").unwrap_or("unknown")

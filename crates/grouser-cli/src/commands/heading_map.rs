@@ -1,10 +1,10 @@
-//! `grouser attitude-map`
+//! `grouser heading-map`: the heading offset over slope, course and soil.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::{COURSE, Quantity, SLOPE, YAW, heading};
 use grouser::document::table::Table;
-use grouser::studies::attitude::{Attitude, AttitudeStudy};
-use grouser::studies::attitude_map::AttitudeMap;
+use grouser::studies::heading::{HeadingOffset, HeadingStudy};
+use grouser::studies::heading_map::HeadingMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -20,15 +20,15 @@ use crate::output::{self, Format};
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenarios = inputs::attitude_map(args)?;
-    let studies: Vec<AttitudeStudy> =
-        scenarios.iter().map(|scenario| AttitudeStudy::of(&scenario.value)).collect();
+    let scenarios = inputs::heading_map(args)?;
+    let studies: Vec<HeadingStudy> =
+        scenarios.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
     let in_si = |quantity: Quantity, list: &[f64]| {
         list.iter().map(|number| quantity.unit.to_si(*number)).collect::<Vec<_>>()
     };
     let courses = in_si(COURSE, &args.course_deg.0);
     let slopes = in_si(SLOPE, &args.slope_deg.0);
-    let map = AttitudeMap::of(&studies, &courses, &slopes)?;
+    let map = HeadingMap::of(&studies, &courses, &slopes)?;
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
     let table =
         heading::map_table(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
@@ -64,7 +64,7 @@ fn soil_name(scenario: &LoadedScenario) -> String {
     scenario.document.text("soil.name").unwrap_or("unnamed").to_owned()
 }
 
-/// What the answer was made from.
+/// The inputs of the answer.
 fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
     let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
@@ -82,20 +82,20 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     })
 }
 
-/// How far the nose points uphill of the course, and the slip, over slope and course.
+/// Heat maps of the yaw beyond the course and of the slip over slope and course.
 fn figures(
     args: &HeadingMapArgs,
-    map: &AttitudeMap,
+    map: &HeadingMap,
     soil: usize,
     name: &str,
 ) -> [(&'static str, HeatMap); 2] {
-    let figure = |title: &str, value: fn(&Attitude) -> f64| {
+    let figure = |title: &str, value: fn(&HeadingOffset) -> f64| {
         let rows = map.rows.iter().filter(|row| row.study == soil);
         let values = rows.map(|row| {
             row.cells.iter().map(|cell| cell.as_ref().ok().map(value)).collect::<Vec<_>>()
         });
         HeatMap {
-            title: format!("{title}, on {name}; grey: no attitude"),
+            title: format!("{title}, on {name}; grey: no heading holds it"),
             x_label: "slope [°]".into(),
             columns: args.slope_deg.0.clone(),
             y_label: "course, positive uphill [°]".into(),
@@ -106,10 +106,10 @@ fn figures(
     [
         (
             "crab",
-            figure("Yaw beyond the course [°]", |attitude| {
-                YAW.unit.from_si(attitude.yaw - attitude.course)
+            figure("Yaw beyond the course [°]", |heading| {
+                YAW.unit.from_si(heading.yaw - heading.course)
             }),
         ),
-        ("slip", figure("Slip ratio", |attitude| attitude.slip_ratio)),
+        ("slip", figure("Slip ratio", |heading| heading.slip_ratio)),
     ]
 }

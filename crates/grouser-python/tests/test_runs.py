@@ -1,4 +1,4 @@
-"""A simulator goes where a run goes; a batch of them goes where each goes alone."""
+"""Step-by-step simulation follows `simulate`; a batch has the results of each rover alone."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ ARC = [0.04, 0.04, 0.08, 0.08]
 def test_constant_commands_lead_where_the_run_leads() -> None:
     """Within the integrator's tolerance, 1e-6 of a way of half a metre."""
     run = gr.simulate(slope_deg=10.0, duration_s=8.0)
-    rover = gr.Simulator(slope_deg=10.0, commands="speed_m_s")
+    rover = gr.Run(slope_deg=10.0, commands="rim_speed_m_s")
     for _ in range(80):
         state = rover.step(0.06, 0.1)
-    names = gr.Simulator.STATE
+    names = gr.Run.STATE
     assert rover.time_s == pytest.approx(8.0, abs=1e-12)
     assert state == pytest.approx([getattr(run, name)[-1] for name in names], abs=1e-6)
     assert rover.energy_j == pytest.approx(run.energy_j[-1], rel=1e-6)
@@ -33,7 +33,7 @@ def test_constant_commands_lead_where_the_run_leads() -> None:
 
 
 def test_the_start_is_that_of_the_run() -> None:
-    rover, run = gr.Simulator(slope_deg=10.0), gr.simulate(slope_deg=10.0, duration_s=0.1)
+    rover, run = gr.Run(slope_deg=10.0), gr.simulate(slope_deg=10.0, duration_s=0.1)
     assert rover.state.tolist() == [getattr(run, name)[0] for name in rover.STATE]
     assert rover.wheel["sinkage_mm"].tolist() == run.wheel["sinkage_mm"][0].tolist()
     assert (rover.time_s, rover.outcome, rover.message) == (0.0, None, None)
@@ -42,7 +42,7 @@ def test_the_start_is_that_of_the_run() -> None:
 
 def test_wheel_speeds_and_rim_speeds_are_two_words_for_one_command() -> None:
     """The shearing radius of the preset is 0.11 m."""
-    rims, wheels = gr.Simulator(commands="speed_m_s"), gr.Simulator()
+    rims, wheels = gr.Run(commands="rim_speed_m_s"), gr.Run()
     one, other = rims.step(ARC, 0.5), wheels.step(np.array(ARC) / 0.11, 0.5)
     assert one == pytest.approx(other, rel=1e-12, abs=1e-12)
     assert rims.wheel["wheel_speed_rad_s"] == pytest.approx(np.array(ARC) / 0.11)
@@ -52,10 +52,10 @@ def test_equal_commands_have_equal_bits_whatever_the_company() -> None:
     slopes = np.linspace(0.0, 18.0, 7)
     random = np.random.default_rng(5)
     commands = random.uniform(-0.1, 0.1, (6, 7, 4))
-    batch = gr.SimulatorBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="speed_m_s")
+    batch = gr.RunBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="rim_speed_m_s")
     states = [batch.step(each, 0.2) for each in commands]
     for k, slope in enumerate(slopes):
-        alone = gr.Simulator(slope_deg=slope, commands="speed_m_s")
+        alone = gr.Run(slope_deg=slope, commands="rim_speed_m_s")
         for each, together in zip(commands, states):
             assert alone.step(each[k], 0.2).tolist() == together[k].tolist()
         for name, values in alone.wheel.items():
@@ -63,7 +63,7 @@ def test_equal_commands_have_equal_bits_whatever_the_company() -> None:
 
 
 def test_a_copy_goes_on_as_the_original_does() -> None:
-    rover = gr.Simulator(slope_deg=12.0, commands="speed_m_s")
+    rover = gr.Run(slope_deg=12.0, commands="rim_speed_m_s")
     for _ in range(3):
         rover.step(0.06, 0.1)
     twin, before = copy.deepcopy(rover), rover.state
@@ -74,46 +74,46 @@ def test_a_copy_goes_on_as_the_original_does() -> None:
 
 
 def test_a_reset_leads_back_to_the_start() -> None:
-    rover = gr.Simulator(slope_deg=12.0, commands="speed_m_s")
+    rover = gr.Run(slope_deg=12.0, commands="rim_speed_m_s")
     start, first = rover.state, rover.step(ARC, 0.5)
     assert rover.reset().tolist() == start.tolist() and rover.time_s == 0.0
     assert rover.step(ARC, 0.5).tolist() == first.tolist()
     turned = rover.reset(slope_deg=3.0, yaw_deg=20.0)
     assert turned[2] == pytest.approx(20.0)
-    other = gr.Simulator(slope_deg=3.0, start={"yaw_deg": 20.0}, commands="speed_m_s")
+    other = gr.Run(slope_deg=3.0, start={"yaw_deg": 20.0}, commands="rim_speed_m_s")
     assert rover.step(ARC, 0.5).tolist() == other.step(ARC, 0.5).tolist()
     assert rover.reset().tolist() == start.tolist()
 
 
 def test_a_seed_draws_the_soil_from_its_uncertainty() -> None:
-    rover = gr.Simulator(soil="toyoura-uncertain", slope_deg=12.0)
+    rover = gr.Run(soil="toyoura-uncertain", slope_deg=12.0)
     ends = []
     for seed in (1, 2, 1, None):
         rover.reset(seed=seed)
         ends.append(rover.step(0.5, 2.0).tolist())
     assert ends[0] == ends[2] and ends[0] != ends[1] and ends[3] not in ends[:3]
-    certain = gr.Simulator(soil="toyoura", slope_deg=12.0)
+    certain = gr.Run(soil="toyoura", slope_deg=12.0)
     assert certain.reset(seed=1).tolist() == certain.reset().tolist()
     assert certain.step(0.5, 2.0).tolist() == ends[3]
-    batch = gr.SimulatorBatch([gr.Scenario(soil="toyoura-uncertain", slope_deg=12.0)] * 3)
+    batch = gr.RunBatch([gr.Scenario(soil="toyoura-uncertain", slope_deg=12.0)] * 3)
     batch.reset(seed=1)
     together = batch.step(0.5, 2.0).tolist()
     assert together[:2] == ends[:2] and together[2] not in ends
 
 
 def test_a_mask_chooses_rovers() -> None:
-    batch = gr.SimulatorBatch([gr.Scenario(slope_deg=8.0)] * 3)
+    batch = gr.RunBatch([gr.Scenario(slope_deg=8.0)] * 3)
     start = batch.state
     batch.step(0.5, 0.5, mask=[True, False, True])
     assert batch.time_s.tolist() == [0.5, 0.0, 0.5]
     assert batch.state[1].tolist() == start[1].tolist()
     batch.reset(mask=[True, False, False])
     assert batch.time_s.tolist() == [0.0, 0.0, 0.5]
-    assert repr(batch) == "<SimulatorBatch of 3 rovers, 0 ended>"
+    assert repr(batch) == "<RunBatch of 3 rovers, 0 ended>"
 
 
 def test_what_becomes_of_a_rover_is_a_value() -> None:
-    rover = gr.Simulator(slope_deg=38.0, commands="speed_m_s")
+    rover = gr.Run(slope_deg=38.0, commands="rim_speed_m_s")
     for _ in range(30):
         state = rover.step(0.06, 0.1)
     assert rover.outcome == "sliding" == gr.simulate(slope_deg=38.0).outcome and rover.message
@@ -126,8 +126,8 @@ def test_what_becomes_of_a_rover_is_a_value() -> None:
 
 def test_quasi_steady_is_asked_for_and_told() -> None:
     """Without the accelerations at the start the rover gets ahead by less than a millimetre more."""
-    dynamic = gr.Simulator(slope_deg=10.0, commands="speed_m_s")
-    steady = gr.Simulator(slope_deg=10.0, commands="speed_m_s", simulation="quasi-steady")
+    dynamic = gr.Run(slope_deg=10.0, commands="rim_speed_m_s")
+    steady = gr.Run(slope_deg=10.0, commands="rim_speed_m_s", simulation="quasi-steady")
     ends = [rover.step(0.06, 5.0) for rover in (dynamic, steady)]
     assert (dynamic.simulation, steady.simulation) == ("dynamic", "quasi-steady")
     assert 0.0 < np.hypot(*(ends[0] - ends[1])[:2]) < 1e-3
@@ -148,7 +148,7 @@ def test_quasi_steady_is_asked_for_and_told() -> None:
     ],
 )
 def test_what_nothing_can_do_changes_nothing(commands: Any, dt_s: Any, name: str) -> None:
-    rover = gr.Simulator(slope_deg=10.0)
+    rover = gr.Run(slope_deg=10.0)
     before = rover.state
     with pytest.raises(gr.ParameterError) as caught:
         rover.step(commands, dt_s)
@@ -159,11 +159,11 @@ def test_what_nothing_can_do_changes_nothing(commands: Any, dt_s: Any, name: str
 def test_what_cannot_be_asked_says_what_can() -> None:
     one: Any = gr.Scenario()
     wrong: Any = "power"
-    rover = gr.SimulatorBatch([one, one])
+    rover = gr.RunBatch([one, one])
     for call in (
-        lambda: gr.SimulatorBatch(one),
-        lambda: gr.SimulatorBatch([]),
-        lambda: gr.Simulator(commands=wrong),
+        lambda: gr.RunBatch(one),
+        lambda: gr.RunBatch([]),
+        lambda: gr.Run(commands=wrong),
         lambda: rover.reset(seed=-1),
         lambda: rover.reset(seed=2**64),
         lambda: rover.reset(seed=[1]),
@@ -171,20 +171,20 @@ def test_what_cannot_be_asked_says_what_can() -> None:
         lambda: rover.reset(slope_deg=61.0),
         lambda: rover.reset(yaw_deg=[0.0, np.nan]),
         lambda: rover.reset(mask=[1, 0]),
-        lambda: gr.Simulator(slop_deg=1.0),
+        lambda: gr.Run(slop_deg=1.0),
     ):
         with pytest.raises(gr.ParameterError):
             call()
     assert rover.time_s.tolist() == [0.0, 0.0]
 
 
-def test_threads_share_a_simulator_safely() -> None:
+def test_threads_share_a_run_safely() -> None:
     """Steps of equal commands may come in any order: all of them are made, none is torn."""
-    shared = gr.SimulatorBatch([gr.Scenario(slope_deg=8.0)] * 2, commands="speed_m_s")
+    shared = gr.RunBatch([gr.Scenario(slope_deg=8.0)] * 2, commands="rim_speed_m_s")
     with ThreadPoolExecutor(4) as pool:
         for done in [pool.submit(shared.step, 0.06, 0.05) for _ in range(16)]:
             done.result()
-    alone = gr.Simulator(slope_deg=8.0, commands="speed_m_s")
+    alone = gr.Run(slope_deg=8.0, commands="rim_speed_m_s")
     for _ in range(16):
         alone.step(0.06, 0.05)
     shared.step(0.06, 0.05)

@@ -1,15 +1,15 @@
-//! `grouser attitude`
+//! `grouser heading`: the heading offset that holds the contour on a slope.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
 use grouser::document::columns::{LIMIT_SLOPE, SLOPE, YAW};
 use grouser::document::table::{Row, Table};
-use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::Answer;
-use super::attitude_band::{self, Bands};
+use super::heading_band::{self, Bands};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -21,10 +21,10 @@ use crate::output::{self, Format};
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenario = inputs::attitude(args)?;
-    let curve = AttitudeStudy::of(&scenario.value).curve()?;
+    let scenario = inputs::heading(args)?;
+    let curve = HeadingStudy::of(&scenario.value).curve()?;
     let bands = if args.uncertainty.uncertainty {
-        Some(attitude_band::draw(args, &scenario, &curve, folder.is_some())?)
+        Some(heading_band::bands(args, &scenario, &curve, folder.is_some())?)
     } else {
         None
     };
@@ -65,7 +65,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     }
 }
 
-/// What the answer was made from.
+/// The inputs of the answer.
 fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
     let mut settings = json!({
@@ -99,23 +99,23 @@ fn limit_line(limit: &Table) -> String {
     match slope {
         Some(slope) => {
             let slope = rounded_down(slope);
-            format!("steepest slope with a level attitude: {slope}°, {reason}\n")
+            format!("steepest slope on which a heading holds the contour: {slope}°, {reason}\n")
         }
-        None => format!("no level attitude on any slope: {reason}\n"),
+        None => format!("no heading holds the contour on any slope: {reason}\n"),
     }
 }
 
 /// Yaw over slope.
-fn chart(curve: &AttitudeCurve) -> Chart {
+fn chart(curve: &HeadingCurve) -> Chart {
     Chart {
-        title: "Yaw that keeps a traverse level".into(),
+        title: "Heading offset that holds the contour".into(),
         x_label: "slope [°]".into(),
         y_label: "yaw, positive uphill [°]".into(),
-        series: vec![line("attitude", curve)],
+        series: vec![line("heading offset", curve)],
     }
 }
 
-fn line(name: &str, curve: &AttitudeCurve) -> Series {
+fn line(name: &str, curve: &HeadingCurve) -> Series {
     let points = heading::curve(curve);
     Series::new(name, Style::Line, 1, points.points(SLOPE.name, YAW.name))
 }

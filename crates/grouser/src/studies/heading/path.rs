@@ -1,10 +1,10 @@
-//! Follows the curve of attitudes: predict along it, correct across it, stop where it folds.
+//! Follows the curve of heading offsets: predict along it, correct across it, stop where it folds.
 
 use std::cell::Cell;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{AttitudeStudy, STEEPEST, STRAIGHT_UP};
+use super::{HeadingStudy, STEEPEST, STRAIGHT_UP};
 use crate::contact::Slip;
 use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
@@ -30,7 +30,7 @@ pub(super) struct Point {
 /// Derivatives of the imbalances along and across the rover by (s, c, α).
 pub(super) type Gradients = [Place; 2];
 
-/// What a rover holds while it crabs by c [rad].
+/// The angle that a rover holds while it crabs by c [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Held {
     /// Its course, *χ*: the yaw is χ + c.
@@ -56,7 +56,7 @@ impl Held {
         }
     }
 
-    /// What it means that the curve folds.
+    /// Why the curve folds.
     fn reason_to_fold(self) -> &'static str {
         match self {
             Self::Course(_) => "where turning further uphill costs more thrust than it gains",
@@ -67,7 +67,7 @@ impl Held {
 
 /// The study of one course, or of one yaw.
 pub(super) struct Path<'a> {
-    study: &'a AttitudeStudy,
+    study: &'a HeadingStudy,
     held: Held,
     settled_wheels: Cell<u64>,
 }
@@ -80,13 +80,13 @@ const FIRST_STEP: f64 = 0.005;
 const SHORTEST_STEP: f64 = 1e-7;
 /// Force left over, over the weight, below which a rover counts as balanced [-].
 const BALANCED: f64 = 1e-10;
-/// Stands for c = 0⁺, where a flank law that jumps has its full force [rad].
+/// Stands for c = 0⁺, where a side-wall law that jumps has its full force [rad].
 pub(super) const JUST_TURNED: f64 = 1e-9;
 /// Wheels that slip this much no longer move the rover, or hold it [-].
 const MOST_SLIP: f64 = 0.999;
 
 impl<'a> Path<'a> {
-    pub(super) fn new(study: &'a AttitudeStudy, held: Held) -> Self {
+    pub(super) fn new(study: &'a HeadingStudy, held: Held) -> Self {
         Self { study, held, settled_wheels: Cell::new(0) }
     }
 
@@ -105,7 +105,7 @@ impl<'a> Path<'a> {
     }
 
     fn reactions(&self, place: &Place) -> Result<Vec<WheelReaction>, ReactionError> {
-        let AttitudeStudy { rover, theory, sharing, own_moments, .. } = self.study;
+        let HeadingStudy { rover, theory, sharing, own_moments, .. } = self.study;
         let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
         let slips = vec![Slip::on_test_stand(slip_ratio, -crab); rover.wheel_count()];
         self.settled_wheels.set(self.settled_wheels.get() + slips.len() as u64);
@@ -135,7 +135,7 @@ impl<'a> Path<'a> {
         self.balance(place).map(|(left_over, _)| left_over)
     }
 
-    /// Slip at which the wheels balance the weight along the rover, for a crab angle and a slope.
+    /// Slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope.
     pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, String> {
         let pull = |slip_ratio: f64| self.imbalance(&Place::new(slip_ratio, crab, slope));
         let most = pull(MOST_SLIP).map_err(|error| error.to_string())?[0];
@@ -156,7 +156,7 @@ impl<'a> Path<'a> {
         Ok(Point { place, gradients, wheels })
     }
 
-    /// The curve's first point, at c = 0⁺: slip and slope that balance there.
+    /// The curve's first point, at c = 0⁺: slip and slope in equilibrium there.
     pub(super) fn start(&self) -> Result<Point, String> {
         /// Rounds in which slip and slope settle on each other.
         const ROUNDS: usize = 100;
@@ -238,7 +238,7 @@ impl<'a> Path<'a> {
         match self.imbalance(&(here + towards * FIRST_STEP)) {
             Err(ReactionError::Tipping(_)) => "where the rover tips over".into(),
             Err(error) => format!("where {error}"),
-            Ok(_) => "where the balance of forces breaks off".into(),
+            Ok(_) => "where the equilibrium of forces ends".into(),
         }
     }
 
@@ -246,7 +246,7 @@ impl<'a> Path<'a> {
     pub(super) fn per_slope(point: &Point) -> Option<Place> {
         let [along, across] = &point.gradients;
         let tangent = along.cross(across);
-        /// Flatter than this the curve folds, and the slope tells nothing [-].
+        /// Flatter than this the curve folds, and the slope does not determine the point [-].
         const STEEP: f64 = 0.05;
         (tangent.z.abs() > STEEP * tangent.norm()).then(|| tangent / tangent.z)
     }

@@ -1,8 +1,9 @@
-//! The attitude: the yaw that keeps a traverse level on a slope ([FourWheel], Fig. 10).
+//! The heading offset that holds the contour line on a slope. [FourWheel], Fig. 10, calls it the *attitude*, others the
+//! crab angle.
 //!
 //! A rover that crosses a slope along the contour needs a side force against the weight's pull. It
 //! gets it by pointing its nose uphill: with yaw γ and all velocities along the contour, every
-//! wheel has the slip angle β = −γ. All wheels turn alike and share one slip ratio s. Level means
+//! wheel has the slip angle β = −γ. All wheels turn alike and share one slip ratio s. The contour is held where
 //!
 //! ```text
 //! ΣF_x(s, γ) = W sin α sin γ        ΣF_y(s, γ) = W sin α cos γ
@@ -16,7 +17,7 @@
 //! The curve is followed by its arc length, so that the fold is a point like any other. The yaw
 //! moment is not balanced: it is reported.
 //!
-//! A level traverse is one course among many. On a course χ, the direction of travel counted from
+//! A contour traverse has one course among many. On a course χ, the direction of travel counted from
 //! the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and the
 //! same two equations hold, at the yaw γ = χ + c. And a rover that does nothing against the slope,
 //! with its nose along the contour, drifts: it holds γ = 0 instead of a course, and χ = −c is what
@@ -37,26 +38,27 @@ use crate::soil::Soil;
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
-/// A rover and its ground, on slopes yet to be chosen.
+/// Finds heading offsets of a rover on a soil, for any slope.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AttitudeStudy {
+pub struct HeadingStudy {
     /// The rover.
     pub rover: Rover,
     /// The soil.
     pub soil: Soil,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
-    /// The theory.
+    /// The wheel–soil model.
     pub theory: Theory,
-    /// How the weight is shared.
+    /// How the weight is transferred between the wheels.
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
     pub own_moments: OwnMoments,
 }
 
-/// A balanced way along a course, level where that is 0: a point of the curve.
+/// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The
+/// course 0 is the contour.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Attitude {
+pub struct HeadingOffset {
     /// Slope, *α* [rad].
     pub slope: f64,
     /// Course, *χ* [rad]: direction of travel from the contour, positive uphill.
@@ -73,7 +75,7 @@ pub struct Attitude {
     pub settled_wheels: u64,
 }
 
-impl Attitude {
+impl HeadingOffset {
     /// Mean sinkage of the wheels [m].
     #[must_use]
     pub fn mean_sinkage(&self) -> f64 {
@@ -103,7 +105,7 @@ impl Attitude {
         thrust * wide::cos(crab) * rim_over_hub
     }
 
-    /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a level traverse.
+    /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a contour traverse.
     #[must_use]
     pub fn drift(&self) -> f64 {
         0.0 - wide::sin(self.course)
@@ -126,21 +128,21 @@ impl Attitude {
     }
 }
 
-/// Why no yaw keeps a traverse level on a slope.
+/// Why no heading holds a course on a slope.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoAttitude {
+pub enum NoHeading {
     /// The rover cannot even drive on level ground.
     #[error("the wheels cannot move the rover on level ground: {0}")]
     CannotMove(String),
     /// The slope is above the steepest that can be crossed.
-    /// (The slope is rounded down: one that is rounded up has no attitude.)
+    /// (The slope is rounded down: on one that is rounded up no heading holds the course.)
     #[error(
-        "no {}: the steepest slope is {:.2}°, {reason}",
-        if *.course == 0.0 { "level attitude" } else { "attitude on this course" },
+        "no heading holds {}: the steepest slope is {:.2}°, {reason}",
+        if *.course == 0.0 { "the contour" } else { "this course" },
         (.limit.to_degrees() * 100.0).floor() / 100.0
     )]
     TooSteep {
-        /// The course [rad]: 0 for a level one.
+        /// The course [rad]: 0 along the contour.
         course: f64,
         /// The steepest slope [rad].
         limit: f64,
@@ -149,14 +151,14 @@ pub enum NoAttitude {
     },
 }
 
-/// All attitudes of a course from level ground to the steepest slope.
+/// The heading offsets of a course, from level ground to the steepest slope.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AttitudeCurve {
-    study: AttitudeStudy,
+pub struct HeadingCurve {
+    study: HeadingStudy,
     held: Held,
     /// Points of the branch, rising; empty if the rover cannot move.
     points: Vec<Point>,
-    /// Below this slope the flank holds the rover without any crab [rad]; 0 for smooth soils' laws.
+    /// Below this slope the side walls hold the rover without any crab [rad]; 0 where the side-wall law does not jump.
     held_below: f64,
     end: String,
     settled_wheels: u64,
@@ -169,18 +171,18 @@ const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
 /// travels the other way, and is its own mirror image.
 pub const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
 
-impl AttitudeStudy {
+impl HeadingStudy {
     /// The study of a scenario's rover and soil, whatever its slope and drive.
     ///
     /// Which heading offset holds the contour on 10°, and up to which slope is there one?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
-    /// use grouser::studies::attitude::AttitudeStudy;
+    /// use grouser::studies::heading::HeadingStudy;
     /// use grouser::units::deg;
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-    /// let curve = AttitudeStudy::of(&scenario).curve()?;
+    /// let curve = HeadingStudy::of(&scenario).curve()?;
     /// assert_eq!(format!("{:.2}°", curve.at(deg(10.0))?.yaw.to_degrees()), "5.04°");
     /// assert_eq!(format!("{:.1}°", curve.limit()?.0.to_degrees()), "20.2°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -197,11 +199,11 @@ impl AttitudeStudy {
         }
     }
 
-    /// Follows the curve of level traverses from level ground to its end.
+    /// Follows the curve of contour traverses from level ground to its end.
     ///
     /// # Errors
     /// [`ParameterError`] if soil or gravity are no such things, or a wheel is steered.
-    pub fn curve(&self) -> Result<AttitudeCurve, ParameterError> {
+    pub fn curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.curve_on(0.0)
     }
 
@@ -209,7 +211,7 @@ impl AttitudeStudy {
     ///
     /// # Errors
     /// As [`curve`](Self::curve), and for a course out of its range.
-    pub fn curve_on(&self, course: f64) -> Result<AttitudeCurve, ParameterError> {
+    pub fn curve_on(&self, course: f64) -> Result<HeadingCurve, ParameterError> {
         finite("course [rad]", course)?;
         if course.abs() > STRAIGHT_UP {
             return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
@@ -217,14 +219,14 @@ impl AttitudeStudy {
         self.follow(Held::Course(course), STEEPEST)
     }
 
-    /// The level attitude on one slope [rad]: the curve is followed as far as that slope and no
-    /// further. Next to the fold, where a curve's last points are those that it was closed in on
-    /// with, the answer may differ from the whole curve's by round-off.
+    /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
+    /// far as that slope and no further. Next to the fold, where a curve's last points come from the
+    /// search for it, the answer may differ from the whole curve's by round-off.
     ///
     /// # Errors
-    /// [`ParameterError`] if soil or gravity are no such things; [`NoAttitude`] within if no yaw
-    /// keeps a traverse level there.
-    pub fn on_slope(&self, slope: f64) -> Result<Result<Attitude, NoAttitude>, ParameterError> {
+    /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
+    /// holds the contour there.
+    pub fn on_slope(&self, slope: f64) -> Result<Result<HeadingOffset, NoHeading>, ParameterError> {
         Ok(self.follow(Held::Course(0.0), slope.min(STEEPEST))?.at(slope))
     }
 
@@ -233,13 +235,13 @@ impl AttitudeStudy {
     ///
     /// # Errors
     /// As [`curve`](Self::curve).
-    pub fn drift_curve(&self) -> Result<AttitudeCurve, ParameterError> {
+    pub fn drift_curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.follow(Held::Yaw(0.0), STEEPEST)
     }
 
-    /// The curve of what is held, as far as its first point that is not below a slope, or to its
+    /// The curve of a held course or yaw, as far as its first point that is not below a slope, or to its
     /// end.
-    fn follow(&self, held: Held, slope: f64) -> Result<AttitudeCurve, ParameterError> {
+    fn follow(&self, held: Held, slope: f64) -> Result<HeadingCurve, ParameterError> {
         Site::plane(self.soil, 0.0, self.gravity).check()?;
         for mount in self.rover.mounts() {
             if mount.steering != 0.0 {
@@ -259,11 +261,11 @@ impl AttitudeStudy {
             }
         };
         let settled_wheels = path.settled_wheels();
-        Ok(AttitudeCurve { study: self.clone(), held, points, held_below, end, settled_wheels })
+        Ok(HeadingCurve { study: self.clone(), held, points, held_below, end, settled_wheels })
     }
 }
 
-impl AttitudeCurve {
+impl HeadingCurve {
     /// The course, *χ* [rad]; of a curve of drift the one it has on level ground.
     #[must_use]
     pub fn course(&self) -> f64 {
@@ -276,38 +278,38 @@ impl AttitudeCurve {
         self.settled_wheels
     }
 
-    /// The steepest slope that has an attitude [rad], and what ends the curve there.
+    /// The steepest slope on which a heading holds the course [rad], and what ends the curve there.
     ///
     /// # Errors
-    /// [`NoAttitude::CannotMove`] if there is none.
-    pub fn limit(&self) -> Result<(f64, &str), NoAttitude> {
+    /// [`NoHeading::CannotMove`] if there is none.
+    pub fn limit(&self) -> Result<(f64, &str), NoHeading> {
         match self.points.last() {
             Some(last) => Ok((last.place.z.min(STEEPEST), &self.end)),
-            None => Err(NoAttitude::CannotMove(self.end.clone())),
+            None => Err(NoHeading::CannotMove(self.end.clone())),
         }
     }
 
-    /// The attitude on a slope [rad].
+    /// The heading offset on a slope [rad].
     ///
     /// # Errors
-    /// [`NoAttitude`] if no yaw keeps the course there, or no drift holds the rover.
-    pub fn at(&self, slope: f64) -> Result<Attitude, NoAttitude> {
+    /// [`NoHeading`] if no heading holds the course there, or no drift holds the rover.
+    pub fn at(&self, slope: f64) -> Result<HeadingOffset, NoHeading> {
         let (limit, reason) = self.limit()?;
         if slope > limit {
             let reason = reason.into();
-            return Err(NoAttitude::TooSteep { course: self.course(), limit, reason });
+            return Err(NoHeading::TooSteep { course: self.course(), limit, reason });
         }
         let path = Path::new(&self.study, self.held);
         let point = if slope <= self.held_below {
-            let slip_ratio = path.slip_at(0.0, slope).map_err(NoAttitude::CannotMove)?;
+            let slip_ratio = path.slip_at(0.0, slope).map_err(NoHeading::CannotMove)?;
             let place = Place::new(slip_ratio, 0.0, slope);
-            path.point(place).map_err(|error| NoAttitude::CannotMove(error.to_string()))?
+            path.point(place).map_err(|error| NoHeading::CannotMove(error.to_string()))?
         } else {
             let above = self.points.partition_point(|point| point.place.z < slope).max(1);
             let high = &self.points[above.min(self.points.len() - 1)];
             Self::settle_on(&path, slope, &self.points[above - 1], high)
         };
-        Ok(self.attitude(&point, path.settled_wheels()))
+        Ok(self.heading(&point, path.settled_wheels()))
     }
 
     /// The curve's point on a slope, between two known ones.
@@ -334,7 +336,7 @@ impl AttitudeCurve {
                 return point;
             }
         }
-        // Close to the fold the slope no longer tells the point: go by the distance along the curve.
+        // Close to the fold the slope no longer determines the point: go by the distance along the curve.
         let Some(chord) = (high - low).try_normalize(f64::MIN_POSITIVE) else {
             return above.clone();
         };
@@ -347,17 +349,17 @@ impl AttitudeCurve {
 
     /// Points along the curve, from level ground to the steepest slope.
     #[must_use]
-    pub fn attitudes(&self) -> Vec<Attitude> {
-        self.points.iter().map(|point| self.attitude(point, 0)).collect()
+    pub fn headings(&self) -> Vec<HeadingOffset> {
+        self.points.iter().map(|point| self.heading(point, 0)).collect()
     }
 
-    fn attitude(&self, point: &Point, settled_wheels: u64) -> Attitude {
+    fn heading(&self, point: &Point, settled_wheels: u64) -> HeadingOffset {
         let study = &self.study;
         let Point { place, wheels, .. } = point;
         let forces = forces_of(wheels);
         let (force, moment) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
         let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
-        Attitude {
+        HeadingOffset {
             slope: place.z,
             course: self.held.course(crab),
             yaw: self.held.yaw(crab),

@@ -1,4 +1,4 @@
-"""Rovers led step by step, for controllers and for learning."""
+"""Step-by-step simulation of rovers, for controllers and for learning."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core
+from . import _core, _former_names
 from ._arrays import Floats, mask as mask_of, number, numbers
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError, SimulationError
 
-#: What commands may be: speeds of wheels or of their rims.
-Commands = Literal["wheel_speed_rad_s", "speed_m_s"]
+#: The quantity of the commands: speeds of wheels or of their rims.
+Commands = Literal["wheel_speed_rad_s", "rim_speed_m_s"]
 
 _SAMPLES, _WHEELS = _core.simulator_columns()
 #: Pose and velocities stand between the time and the power.
@@ -23,31 +23,32 @@ _STATE_PLACES = range(1, _SAMPLES.index("power_w"))
 _STATE = tuple(_SAMPLES[place] for place in _STATE_PLACES)
 
 
-class SimulatorBatch:
-    """Many rovers led step by step at once, on all cores and without Python's lock.
+class RunBatch:
+    """Step-by-step simulation of many rovers at once, on all cores and without Python's lock.
 
-    Each moves as a `Simulator` of its own would, bit for bit, whatever the number of cores. One whose
-    run has ended stays as it is until it is reset.
+    Each rover has the same results as a `Run` of its own, bit for bit, for any number of cores. A
+    rover whose run has ended stays as it is until it is reset.
 
     Parameters
     ----------
     scenarios : sequence of Scenario, names, paths or mappings
-        Where each rover starts, and with which soil; all rovers have the same number of wheels.
-    commands : {"wheel_speed_rad_s", "speed_m_s"}
-        What `step` is told: speeds of the wheels [rad/s], or of their rims, ω (r + h_g) [m/s].
+        The scenario of each rover; all rovers have the same number of wheels.
+    commands : {"wheel_speed_rad_s", "rim_speed_m_s"}
+        The quantity that `step` takes: speeds of the wheels [rad/s], or of their rims,
+        ω (r + h_g) [m/s].
 
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
         As `Scenario`.
     SimulationError
-        If a rover's start cannot be computed.
+        If the initial state of a rover cannot be computed.
 
     Examples
     --------
     >>> import grouser as gr
     >>> slopes = [5.0, 10.0, 15.0]
-    >>> rovers = gr.SimulatorBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="speed_m_s")
+    >>> rovers = gr.RunBatch([gr.Scenario(slope_deg=it) for it in slopes], commands="rim_speed_m_s")
     >>> state = rovers.step(0.06, 1.0)
     >>> uphill = state[:, rovers.STATE.index("y_m")].tolist()
     >>> state.shape, uphill[0] > uphill[1] > uphill[2]      # steeper slopes, more drift downhill
@@ -55,7 +56,7 @@ class SimulatorBatch:
     """
 
     STATE: ClassVar[tuple[str, ...]] = _STATE
-    """What the columns of `state` are, with their units: position in the slope frame [m], yaw [°],
+    """Names of the columns of `state`, with units: position in the slope frame [m], yaw [°],
     speeds in the body frame [m/s], yaw rate [°/s]."""
 
     def __init__(
@@ -66,9 +67,10 @@ class SimulatorBatch:
     ) -> None:
         if isinstance(scenarios, (str, Scenario)):
             raise ParameterError("scenarios is one scenario, it must be several", "scenarios")
-        if commands not in ("wheel_speed_rad_s", "speed_m_s"):
+        commands = _former_names.commands(commands)
+        if commands not in ("wheel_speed_rad_s", "rim_speed_m_s"):
             raise ParameterError(
-                f"commands is {commands!r}, it must be 'wheel_speed_rad_s' or 'speed_m_s'",
+                f"commands is {commands!r}, it must be 'wheel_speed_rad_s' or 'rim_speed_m_s'",
                 "commands",
             )
         runs = [one if isinstance(one, Scenario) else Scenario(one) for one in scenarios]
@@ -77,13 +79,13 @@ class SimulatorBatch:
         self._scenarios = tuple(runs)
         self._commands: Commands = commands
         self._native = _core.Simulators([run._document for run in runs])
-        self._look()
+        self._read_states()
 
-    def _look(self) -> None:
-        """Reads where the rovers are."""
+    def _read_states(self) -> None:
+        """Reads the states of the rovers."""
         self._rows: Floats = self._native.samples()
         self._of_wheels: Floats | None = None
-        self._words: list[tuple[str | None, str | None, str]] | None = None
+        self._statuses: list[tuple[str | None, str | None, str]] | None = None
 
     def __len__(self) -> int:
         return len(self._native)
@@ -96,17 +98,17 @@ class SimulatorBatch:
         yaw_deg: ArrayLike | None = None,
         mask: ArrayLike | None = None,
     ) -> Floats:
-        """Puts rovers at their start again.
+        """Returns rovers to their start.
 
         Parameters
         ----------
         seed : int or sequence of int, optional
-            Draws each soil from its ``[uncertainty]``, if it has one; rover k of a single seed has
-            ``seed + k``. Without it soils are as their documents say.
+            Samples each soil from its ``[uncertainty]``, if it has one; rover k of a single seed
+            has ``seed + k``. By default soils have the values of their documents.
         slope_deg, yaw_deg : array_like, shape () or (rovers,), optional
             Another slope [°] and yaw at the start [°] than the scenario's.
         mask : array_like of bool, shape (rovers,), optional
-            Which rovers; all without.
+            Which rovers; by default all.
 
         Returns
         -------
@@ -116,7 +118,7 @@ class SimulatorBatch:
         Raises
         ------
         ParameterError
-            For values out of range; then nothing has changed.
+            For values out of range; nothing changes then.
         """
         count = len(self)
         chosen = np.flatnonzero(self._mask(mask))
@@ -131,21 +133,22 @@ class SimulatorBatch:
             [slopes[k] for k in chosen],
             [yaws[k] for k in chosen],
         )
-        self._look()
+        self._read_states()
         return self.state
 
     def step(self, commands: ArrayLike, dt_s: float, *, mask: ArrayLike | None = None) -> Floats:
-        """Turns the wheels at the given speeds for a while; every wheel takes its speed at once and
-        keeps it.
+        """Simulates a step with the given speeds of the wheels. Every wheel takes its speed at
+        once and keeps it.
 
         Parameters
         ----------
         commands : array_like, shape (), (wheels,) or (rovers, wheels)
-            Speeds as ``commands`` of the constructor says [rad/s or m/s]; rims at most 10 m/s.
+            Speeds in the quantity of the constructor's ``commands`` [rad/s or m/s]; rims at most
+            10 m/s.
         dt_s : float
-            How long [s], from 1e-6 to 86400.
+            Duration of the step [s], from 1e-6 to 86400.
         mask : array_like of bool, shape (rovers,), optional
-            Which rovers go on; all without.
+            Which rovers take the step; by default all.
 
         Returns
         -------
@@ -155,8 +158,8 @@ class SimulatorBatch:
         Raises
         ------
         ParameterError
-            For commands and times that nothing can have; then nothing has changed. A motion that
-            cannot be computed is told in `outcome` as ``failed``, and the others go on.
+            For invalid commands and times; nothing changes then. A rover whose motion cannot be
+            computed has the `outcome` ``failed``, and the others continue.
         """
         shape = (len(self), len(self.wheel_names))
         array = numbers("commands", commands)
@@ -169,11 +172,11 @@ class SimulatorBatch:
             ) from None
         span = number("dt_s", dt_s)
         try:
-            are_rims = self._commands == "speed_m_s"
+            are_rims = self._commands == "rim_speed_m_s"
             self._native.step(whole, are_rims, span, self._mask(mask))
         finally:
-            # Ctrl-C may come when some have had their step.
-            self._look()
+            # Ctrl-C may come after the step of some rovers.
+            self._read_states()
         return self.state
 
     def _mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
@@ -211,91 +214,92 @@ class SimulatorBatch:
 
     @property
     def wheel(self) -> Mapping[str, Floats]:
-        """What each wheel has, by name, with the names of `Trajectory.wheel`: arrays of shape
-        (rovers, wheels); NaN where a rover has just tipped over or sunk."""
+        """Forces and motion of each wheel by name, with the names of `Trajectory.wheel`: arrays of
+        shape (rovers, wheels); NaN where a rover has just tipped over or sunk."""
         if self._of_wheels is None:
             self._of_wheels = self._native.wheel_samples()
         return MappingProxyType(dict(zip(_WHEELS, self._of_wheels.copy())))
 
-    def _told(self) -> list[tuple[str | None, str | None, str]]:
-        if self._words is None:
-            self._words = self._native.words()
-        return self._words
+    def _status(self) -> list[tuple[str | None, str | None, str]]:
+        if self._statuses is None:
+            self._statuses = self._native.statuses()
+        return self._statuses
 
     @property
     def outcome(self) -> NDArray[np.object_]:
-        """What became of each rover: None while it is under way, then ``immobilised``, ``sliding``,
+        """Outcome of each rover: None during its run, then ``immobilised``, ``sliding``,
         ``tipped_over``, or ``failed`` where the motion cannot be computed."""
-        return _objects(words[0] for words in self._told())
+        return _objects(status[0] for status in self._status())
 
     @property
     def message(self) -> NDArray[np.object_]:
-        """What that means, or None."""
-        return _objects(words[1] for words in self._told())
+        """The outcome explained, or None."""
+        return _objects(status[1] for status in self._status())
 
     @property
     def simulation(self) -> NDArray[np.object_]:
-        """How each was computed so far: ``dynamic``, ``quasi-steady`` where its scenario says so, or
-        ``fell-back`` from the second to the first."""
-        return _objects(words[2] for words in self._told())
+        """Method of each run: ``dynamic``; ``quasi-steady`` if its scenario asks for it;
+        ``fell-back`` after a fallback from quasi-steady to dynamic."""
+        return _objects(status[2] for status in self._status())
 
     @property
     def scenarios(self) -> tuple[Scenario, ...]:
-        """What the rovers start from."""
+        """The scenarios of the rovers."""
         return self._scenarios
 
-    def __copy__(self) -> SimulatorBatch:
+    def __copy__(self) -> RunBatch:
         twin = object.__new__(type(self))
         twin.__dict__.update(self.__dict__)
         twin._native = self._native.copy()
         return twin
 
-    def __deepcopy__(self, memo: object) -> SimulatorBatch:
+    def __deepcopy__(self, memo: object) -> RunBatch:
         return self.__copy__()
 
     def __reduce__(self) -> Any:
         raise TypeError(
-            f"a {type(self).__name__} on its way cannot be pickled; pickle its scenarios and "
-            "commands, or use copy.copy"
+            f"a {type(self).__name__} cannot be pickled; pickle its scenarios and commands, or use "
+            "copy.copy"
         )
 
     def __repr__(self) -> str:
         ended = sum(outcome is not None for outcome in self.outcome)
-        return f"<SimulatorBatch of {len(self)} rovers, {ended} ended>"
+        return f"<RunBatch of {len(self)} rovers, {ended} ended>"
 
 
-class Simulator:
-    """A rover led step by step: commands in, the rover after a while out.
+class Run:
+    """Step-by-step simulation of a rover: each step takes commands and returns the state after it.
 
-    It is the motion of `simulate`, by the same equations and the same integrator, cut into steps; as
-    long as the commands are those of the scenario's drive it goes where the run goes. ``copy.copy``
-    makes another that goes on as this one would, bit for bit. The scenario's duration and sample
-    interval do not matter; its drive turns the wheels until the first step.
+    The motion is that of `simulate`, with the same equations and the same integrator; with the
+    commands of the scenario's drive it follows the same path. ``copy.copy`` makes another run that
+    continues as this one would, bit for bit. The scenario's duration and record interval are not
+    used; its drive turns the wheels until the first step.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        Where it starts; the source paper's traverse without.
-    commands : {"wheel_speed_rad_s", "speed_m_s"}
-        What `step` is told: speeds of the wheels [rad/s], or of their rims, ω (r + h_g) [m/s].
+        The scenario; by default the source paper's traverse.
+    commands : {"wheel_speed_rad_s", "rim_speed_m_s"}
+        The quantity that `step` takes: speeds of the wheels [rad/s], or of their rims,
+        ω (r + h_g) [m/s].
     **changes
         Keys of the scenario with other values: ``slope_deg=15.0``. With
-        ``simulation="quasi-steady"`` velocities are those in balance, which is quicker to compute and
-        another motion: ``docs/guide/simulator.md`` says by how much.
+        ``simulation="quasi-steady"`` velocities are those of the steady state, which is faster to
+        compute and differs a little: ``docs/guide/simulator.md`` has the differences.
 
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
         As `Scenario`.
     SimulationError
-        If its start cannot be computed.
+        If the initial state cannot be computed.
 
     Examples
     --------
     Turning the nose uphill for two seconds, then straight on:
 
     >>> import grouser as gr
-    >>> rover = gr.Simulator(slope_deg=10.0, commands="speed_m_s")
+    >>> rover = gr.Run(slope_deg=10.0, commands="rim_speed_m_s")
     >>> rover.wheel_names
     ('front-left', 'rear-left', 'rear-right', 'front-right')
     >>> for _ in range(20):
@@ -308,8 +312,8 @@ class Simulator:
     """
 
     STATE: ClassVar[tuple[str, ...]] = _STATE
-    """What `state` holds, with units: position in the slope frame [m], yaw [°], speeds in the body
-    frame [m/s], yaw rate [°/s]."""
+    """Names of the entries of `state`, with units: position in the slope frame [m], yaw [°], speeds
+    in the body frame [m/s], yaw rate [°/s]."""
 
     def __init__(
         self,
@@ -321,7 +325,7 @@ class Simulator:
     ) -> None:
         unchanged = isinstance(scenario, Scenario) and not changes
         run: Any = scenario if unchanged else Scenario(scenario, **changes)
-        self._batch = SimulatorBatch([run], commands=commands)
+        self._batch = RunBatch([run], commands=commands)
 
     def reset(
         self,
@@ -330,13 +334,13 @@ class Simulator:
         slope_deg: float | None = None,
         yaw_deg: float | None = None,
     ) -> Floats:
-        """Puts the rover at its start again.
+        """Returns the rover to its start.
 
         Parameters
         ----------
         seed : int, optional
-            Draws the soil from its ``[uncertainty]``, if it has one: the same seed, the same soil.
-            Without it the soil is as its document says.
+            Samples the soil from its ``[uncertainty]``, if it has one: the same seed gives the same
+            soil. By default the soil has the values of its document.
         slope_deg, yaw_deg : float, optional
             Another slope [°] and yaw at the start [°] than the scenario's.
 
@@ -356,15 +360,16 @@ class Simulator:
         return state
 
     def step(self, commands: ArrayLike, dt_s: float) -> Floats:
-        """Turns the wheels at the given speeds for a while; every wheel takes its speed at once and
-        keeps it. A rover whose run has ended stays as it is.
+        """Simulates a step with the given speeds of the wheels. Every wheel takes its speed at
+        once and keeps it. A rover whose run has ended stays as it is.
 
         Parameters
         ----------
         commands : array_like, shape () or (wheels,)
-            Speeds as ``commands`` of the constructor says [rad/s or m/s]; rims at most 10 m/s.
+            Speeds in the quantity of the constructor's ``commands`` [rad/s or m/s]; rims at most
+            10 m/s.
         dt_s : float
-            How long [s], from 1e-6 to 86400.
+            Duration of the step [s], from 1e-6 to 86400.
 
         Returns
         -------
@@ -374,7 +379,7 @@ class Simulator:
         Raises
         ------
         ParameterError
-            For commands and times that nothing can have; then nothing has changed.
+            For invalid commands and times; nothing changes then.
         SimulationError
             If the motion cannot be computed.
         """
@@ -420,48 +425,49 @@ class Simulator:
 
     @property
     def wheel(self) -> Mapping[str, Floats]:
-        """What each wheel has, by name, with the names of `Trajectory.wheel`: arrays of shape
-        (wheels,); NaN where the rover has just tipped over or sunk."""
+        """Forces and motion of each wheel by name, with the names of `Trajectory.wheel`: arrays of
+        shape (wheels,); NaN where the rover has just tipped over or sunk."""
         rows = self._batch.wheel
         return MappingProxyType({name: values[0] for name, values in rows.items()})
 
     @property
     def outcome(self) -> str | None:
-        """What became of the rover: None while it is under way, then ``immobilised``, ``sliding``,
+        """Outcome: None during the run, then ``immobilised``, ``sliding``,
         ``tipped_over``, or ``failed`` where the motion could not be computed."""
         outcome: str | None = self._batch.outcome[0]
         return outcome
 
     @property
     def message(self) -> str | None:
-        """What that means."""
+        """The outcome explained, or None."""
         message: str | None = self._batch.message[0]
         return message
 
     @property
     def simulation(self) -> str:
-        """How it was computed so far: ``dynamic``, ``quasi-steady`` or ``fell-back``."""
+        """Method of the run: ``dynamic``, ``quasi-steady``, or ``fell-back`` from the second to the
+        first."""
         return str(self._batch.simulation[0])
 
     @property
     def scenario(self) -> Scenario:
-        """What it starts from."""
+        """The scenario of the run."""
         return self._batch.scenarios[0]
 
-    def __copy__(self) -> Simulator:
+    def __copy__(self) -> Run:
         twin = object.__new__(type(self))
         twin._batch = self._batch.__copy__()
         return twin
 
-    def __deepcopy__(self, memo: object) -> Simulator:
+    def __deepcopy__(self, memo: object) -> Run:
         return self.__copy__()
 
     def __reduce__(self) -> Any:
         return self._batch.__reduce__()
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name}={value:.4g}" for name, value in zip(_STATE, self.state))
-        return f"<Simulator at {self.time_s:.4g} s, {self.outcome or 'under way'}: {told}>"
+        state = ", ".join(f"{name}={value:.4g}" for name, value in zip(_STATE, self.state))
+        return f"<Run at {self.time_s:.4g} s, {self.outcome or 'running'}: {state}>"
 
 
 def _objects(items: Any) -> NDArray[np.object_]:
@@ -493,7 +499,7 @@ def _seeds(seed: int | Sequence[int | None] | None, count: int) -> list[int | No
 
 
 def _each(name: str, values: ArrayLike | None, count: int) -> list[float | None]:
-    """A number for each rover, or none for any."""
+    """A number for each rover, or None for all of them."""
     if values is None:
         return [None] * count
     array = numbers(name, values)

@@ -1,12 +1,12 @@
-//! `grouser attitude --uncertainty`: what the draws of an uncertain soil add to the attitude.
+//! `grouser heading --uncertainty`: quantiles of the heading offset over samples of an uncertain soil.
 
 use grouser::document::columns::heading::{self, DRAWS, DRAWS_MOBILE};
 use grouser::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, UncertainSoil};
 use grouser::soil::Soil;
-use grouser::studies::attitude::{AttitudeCurve, AttitudeStudy};
-use grouser::studies::attitude_band::{AttitudeBand, SlopeBand};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
+use grouser::studies::heading_band::{HeadingBand, SlopeBand};
 
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
@@ -15,32 +15,32 @@ use crate::inputs;
 use crate::output;
 use crate::output::rows::rounded_down;
 
-/// What the draws say.
+/// Quantiles and probabilities over the sampled soils.
 pub(crate) struct Bands {
     /// On each slope that was asked for.
     pub(crate) asked: Vec<SlopeBand>,
     /// Of the steepest slope: one row.
     pub(crate) limit: Table,
-    /// On the slopes of the charts, from level ground up; empty if nobody wants any.
+    /// On the slopes of the charts, from level ground up; empty without charts.
     along: Table,
 }
 
 /// Steepest slope of the charts [°]: the steepest that is looked at.
 const STEEPEST_DEG: u8 = 60;
-/// A band over fewer of the draws than this is not drawn [-]: it would tell of the few strong soils
-/// that are left.
+/// Charts show no band over a smaller share of the samples than this [-]: it would show only the few
+/// strong soils that are left.
 const LEAST_DRAWN: f64 = 0.5;
-/// Where the chance of a level traverse is charted until [-].
+/// The chart of the probability ends where it falls below this [-].
 const LEAST_CHANCE: f64 = 0.001;
 
-/// Draws the soils and follows the curve of each.
+/// Samples the soils and follows the curve of each.
 ///
 /// * `nominal`: the curve of the soil as its document has it
 /// * `charted`: whether there will be charts
-pub(crate) fn draw(
+pub(crate) fn bands(
     args: &HeadingArgs,
     scenario: &LoadedScenario,
-    nominal: &AttitudeCurve,
+    nominal: &HeadingCurve,
     charted: bool,
 ) -> Result<Bands, Failure> {
     let uncertain = inputs::uncertain_soil(args, scenario)?;
@@ -50,14 +50,14 @@ pub(crate) fn draw(
     let slopes: Vec<f64> = asked.iter().chain(&charted).copied().collect();
     let bar = output::progress_bar(soils.len() as u64);
     bar.set_message("soils");
-    let study = AttitudeStudy::of(&scenario.value);
-    let band = AttitudeBand::of(&study, &soils, &slopes, &|| {
+    let study = HeadingStudy::of(&scenario.value);
+    let band = HeadingBand::of(&study, &soils, &slopes, &|| {
         bar.inc(1);
         true
     });
     bar.finish_and_clear();
-    // Nobody breaks it off: Ctrl-C ends the program.
-    let band = band?.unwrap_or_else(|| unreachable!("it was not broken off"));
+    // Ctrl-C ends the program: the study is never stopped early.
+    let band = band?.unwrap_or_else(|| unreachable!("it was not stopped"));
     let (asked, along) = band.slopes.split_at(asked.len());
     Ok(Bands {
         asked: asked.to_vec(),
@@ -66,7 +66,7 @@ pub(crate) fn draw(
     })
 }
 
-/// The drawn soils.
+/// The sampled soils.
 pub(crate) fn soils(
     uncertain: &UncertainSoil,
     seed: u64,
@@ -75,35 +75,35 @@ pub(crate) fn soils(
     uncertain.draws(seed, samples).map_err(|error| {
         Failure::Usage(format!(
             "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
-             keep the draws within the ranges of their keys"
+             keep the samples within the ranges of their keys"
         ))
     })
 }
 
 /// Every degree, and the points of the nominal curve, which crowd where it bends.
-fn chart_slopes(nominal: &AttitudeCurve) -> Vec<f64> {
+fn chart_slopes(nominal: &HeadingCurve) -> Vec<f64> {
     let degrees = (0..=STEEPEST_DEG).map(|degree| SLOPE.unit.to_si(f64::from(degree)));
-    let points = nominal.attitudes().into_iter().map(|attitude| attitude.slope);
+    let points = nominal.headings().into_iter().map(|heading| heading.slope);
     let mut slopes: Vec<f64> = degrees.chain(points).collect();
     slopes.sort_by(f64::total_cmp);
     slopes
 }
 
 impl Bands {
-    /// A sentence on the steepest slope.
+    /// A line with the quantiles of the steepest slope.
     pub(crate) fn limit_line(&self) -> String {
         let ends = LIMIT_SLOPE.quantiles().map(|name| self.limit.numbers(&name)[0]);
         let [draws, draws_mobile] =
             [DRAWS, DRAWS_MOBILE].map(|name| self.limit.count(name).unwrap_or_default());
         let [Some(low), Some(median), Some(high)] = ends else {
-            return format!("no level attitude in any of {draws} draws\n");
+            return format!("no heading holds the contour in any of {draws} samples\n");
         };
         let [low, median, high] = [low, median, high].map(rounded_down);
         let stuck = match draws - draws_mobile {
             0 => String::new(),
             stuck => format!("; on {stuck} more the rover cannot move at all"),
         };
-        format!("over {draws_mobile} draws: {low}° to {high}° (95 %), median {median}°{stuck}\n")
+        format!("over {draws_mobile} samples: {low}° to {high}° (95 %), median {median}°{stuck}\n")
     }
 
     fn draws(&self) -> u64 {
@@ -129,18 +129,18 @@ impl Bands {
             .collect();
         let medians: Vec<_> = along.points(SLOPE.name, &median).collect();
         Chart {
-            title: format!("Yaw that keeps a traverse level, {} draws", self.draws()),
+            title: format!("Heading offset that holds the contour, {} samples", self.draws()),
             x_label: "slope [°]".into(),
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
-                Series::band("95 % of the draws", 6, edges),
+                Series::band("95 % of the samples", 6, edges),
                 Series::new("median", Style::Dashed, 0, medians),
                 nominal,
             ],
         }
     }
 
-    /// The chance of a level traverse over slope.
+    /// The probability of a contour traverse over slope.
     pub(crate) fn chance_chart(&self) -> Chart {
         let [level, low, high] = PROBABILITY_LEVEL.interval();
         let rows = 0..self.along.rows();
@@ -154,12 +154,12 @@ impl Bands {
             .collect();
         let chances: Vec<_> = shown.points(SLOPE.name, &level).collect();
         Chart {
-            title: format!("Probability of a level traverse, {} draws", self.draws()),
+            title: format!("Probability of a contour traverse, {} samples", self.draws()),
             x_label: "slope [°]".into(),
             y_label: "probability".into(),
             series: vec![
                 Series::band("95 % interval", 6, edges),
-                Series::new("share of the draws", Style::Line, 1, chances),
+                Series::new("share of the samples", Style::Line, 1, chances),
             ],
         }
     }

@@ -1,4 +1,4 @@
-"""Which yaw keeps a rover level, over slope, course and soil."""
+"""The heading offset that holds the contour line or another course, over slope, course and soil."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _tables
+from . import _core, _former_names, _tables
 from ._arrays import Floats, line, number, whole_number
-from ._attitude_band import AttitudeBand
+from ._heading_band import HeadingBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
 from ._studies import columns_of, scenario_of, soil_of
@@ -21,26 +21,27 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
 
-#: Fields of an `AttitudeMap`; `Attitudes` have all but the power.
-_ATTITUDE = _tables.COLUMNS["attitude"]
+#: Fields of a `HeadingMap`; `Headings` have all but the power.
+_HEADING = _tables.COLUMNS["heading"]
 #: In the order of the program's tables.
-_LEVEL = tuple(name for name in _ATTITUDE if name != "power_w")
+_HELD = tuple(name for name in _HEADING if name != "power_w")
 
 
 @dataclass(frozen=True, eq=False)
-class Attitudes(_tables.Tabular):
-    """Level attitudes: arrays of shape (slopes,), NaN where there is none."""
+class Headings(_tables.Tabular):
+    """Heading offsets that hold the contour line: arrays of shape (slopes,), NaN where none
+    does."""
 
     limit_slope_deg: float | None
-    """The steepest slope with a level attitude [°]; None where the rover cannot move."""
+    """The steepest slope on which the contour can be held [°]; None where the rover cannot move."""
     limit_message: str
     """What ends the curve there."""
     status: NDArray[np.object_]
-    """Of each slope: ``ok``, or why there is no attitude."""
+    """Of each slope: ``ok``, or why no heading offset holds the contour."""
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
-    """Yaw that keeps the course [°], positive uphill."""
+    """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
     """Slip ratio of every wheel [-]."""
     sinkage_mm: Floats
@@ -51,12 +52,12 @@ class Attitudes(_tables.Tabular):
     """Work of the wheels per metre along the course [J/m]."""
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
-    band: AttitudeBand | None = None
-    """What the draws of an uncertain soil say, where they were asked for."""
+    band: HeadingBand | None = None
+    """The same over samples of an uncertain soil, with ``uncertainty=True``; else None."""
 
     def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, ("slope_deg", *_LEVEL)), "status": self.status, **band}
+        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -69,21 +70,21 @@ class Attitudes(_tables.Tabular):
         return _tables.dataset(("slope_deg",), columns, coords)
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Draws the yaw over the slope, and the band of an uncertain soil where there is one."""
+        """Plots the yaw over the slope, with the band of an uncertain soil if there is one."""
         axes = _tables.axes_or_new(axes)
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
-            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the draws")
+            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the soils")
         axes.plot(self.slope_deg, self.yaw_deg, **style)
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("yaw, positive uphill [°]")
         return axes
 
     def __repr__(self) -> str:
-        return f"<Attitudes on {len(self.status)} slopes, the steepest is {self.limit_slope_deg}°>"
+        return f"<Headings on {len(self.status)} slopes, the steepest is {self.limit_slope_deg}°>"
 
 
-def attitude(
+def heading(
     scenario: Scenario | Source | None = None,
     /,
     *,
@@ -92,56 +93,61 @@ def attitude(
     samples: int = 500,
     seed: int = 1,
     **changes: Any,
-) -> Attitudes:
-    """The yaw that keeps a traverse level, on each slope ([FourWheel], Fig. 10).
+) -> Headings:
+    """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10).
+
+    A rover that drives straight across a slope drifts downhill. With its nose turned uphill by the
+    heading offset (the paper says *attitude*, others crab angle) it holds the contour line.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        Its rover, soil, gravity, model, loads and moments count; not its slope, drive or start.
+        Its rover, soil, gravity, model, load transfer and wheel moments are used; its slope, drive
+        and start are not.
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
     uncertainty : bool
-        Whether to draw soils as the soil's ``uncertainty`` says, and add `Attitudes.band`.
+        Whether to sample soils from the soil's ``uncertainty``, for `Headings.band`.
     samples : int
-        Number of draws, 2 to 100000.
+        Number of sampled soils, 2 to 100000.
     seed : int
-        Of the draws: the same seed, the same soils.
+        Seed of the samples: the same seed gives the same soils.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
-    Attitudes
+    Headings
 
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `Scenario`. That no yaw keeps a traverse level is a result.
+        As `Scenario`. A slope on which no heading offset holds the contour is a result, not an
+        error.
 
     Examples
     --------
     >>> import grouser as gr
-    >>> round(float(gr.attitude(slope_deg=[10.0]).yaw_deg[0]), 1)
+    >>> round(float(gr.heading(slope_deg=[10.0]).yaw_deg[0]), 1)
     5.0
-    >>> level = gr.attitude(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
+    >>> level = gr.heading(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
     >>> bool(level.band.yaw_deg_p2_5[0] < level.band.yaw_deg_p97_5[0])
     True
     """
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    found, limit, reason = _core.attitude(run._document, slopes)
+    found, limit, reason = _core.heading(run._document, slopes)
     band = None
     if uncertainty:
-        draws = whole_number("samples", samples, most=2**32 - 1)
-        band = AttitudeBand._of(run, slopes, whole_number("seed", seed), draws)
+        count = whole_number("samples", samples, most=2**32 - 1)
+        band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
     status = np.array(found.pop("status"), dtype=object)
-    return Attitudes(limit_slope_deg=limit, limit_message=reason, status=status, band=band, **found)
+    return Headings(limit_slope_deg=limit, limit_message=reason, status=status, band=band, **found)
 
 
 @dataclass(frozen=True, eq=False)
-class AttitudeMap(_tables.Tabular):
-    """Attitudes over soil, course and slope: arrays of shape (soils, courses, slopes), NaN where
-    there is none."""
+class HeadingMap(_tables.Tabular):
+    """Heading offsets over soil, course and slope: arrays of shape (soils, courses, slopes), NaN
+    where no yaw holds the course."""
 
     soil: tuple[str, ...]
     """The soils' names."""
@@ -150,9 +156,9 @@ class AttitudeMap(_tables.Tabular):
     slope_deg: Floats
     """Slopes [°]; shape (slopes,)."""
     status: NDArray[np.object_]
-    """``ok``, or why there is no attitude; shape (soils, courses, slopes)."""
+    """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
     yaw_deg: Floats
-    """Yaw that keeps the course [°], positive uphill."""
+    """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
     """Slip ratio of every wheel [-]."""
     sinkage_mm: Floats
@@ -169,7 +175,7 @@ class AttitudeMap(_tables.Tabular):
     """The steepest slope of the soil and course [°], the same on every slope."""
 
     def _columns(self) -> dict[str, Any]:
-        names = (*_LEVEL, "power_w", "limit_slope_deg")
+        names = (*_HELD, "power_w", "limit_slope_deg")
         return {**columns_of(self, names), "status": self.status}
 
     def _table(self) -> dict[str, Any]:
@@ -190,7 +196,7 @@ class AttitudeMap(_tables.Tabular):
     def plot(
         self, axes: Axes | None = None, *, soil: int = 0, name: str = "slip_ratio", **style: Any
     ) -> Axes:
-        """Draws a quantity over slope and course, for one of the soils by its place."""
+        """Plots a quantity over slope and course, for one of the soils by its index."""
         axes = _tables.axes_or_new(axes)
         mesh = axes.pcolormesh(self.slope_deg, self.course_deg, getattr(self, name)[soil], **style)
         axes.figure.colorbar(mesh, ax=axes, label=_tables.label(name))
@@ -200,44 +206,45 @@ class AttitudeMap(_tables.Tabular):
         return axes
 
     def __repr__(self) -> str:
-        return f"<AttitudeMap of {' × '.join(map(str, self.status.shape))} soils, courses, slopes>"
+        return f"<HeadingMap of {' × '.join(map(str, self.status.shape))} soils, courses, slopes>"
 
 
-def attitude_map(
+@_former_names.takes("speed_m_s")
+def heading_map(
     scenario: Scenario | Source | None = None,
     /,
     *,
     soil: Soil | Source | Sequence[Soil | Source] | None = None,
     slope_deg: ArrayLike = tuple(range(0, 25, 2)),
     course_deg: ArrayLike = tuple(range(-60, 61, 15)),
-    speed_m_s: float = 0.06,
+    rim_speed_m_s: float = 0.06,
     **changes: Any,
-) -> AttitudeMap:
-    """Attitudes over soil, course and slope.
+) -> HeadingMap:
+    """The heading offset that holds a course, over soil, course and slope.
 
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
-        As for `attitude`.
+        As for `heading`.
     soil : Soil, name, path, mapping, or a sequence of them, optional
-        The soils; the scenario's own without.
+        The soils; by default the scenario's own.
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
     course_deg : array_like, shape (courses,)
         Directions of travel from the contour [°], −90 to 90, positive uphill.
-    speed_m_s : float
+    rim_speed_m_s : float
         Rim speed [m/s], for the power.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
-    AttitudeMap
+    HeadingMap
 
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `attitude`.
+        As `heading`.
     """
     one = scenario_of(scenario, changes)
     several = isinstance(soil, Sequence) and not isinstance(soil, str)
@@ -246,10 +253,10 @@ def attitude_map(
         raise ParameterError("soil is empty, it must be at least one", "soil")
     runs = [one if it is None else one.replace(soil=soil_of(it)) for it in soils]
     slopes, courses = line("slope_deg", slope_deg), line("course_deg", course_deg)
-    speed = number("speed_m_s", speed_m_s)
-    found = _core.attitude_map([run._document for run in runs], slopes, courses, speed)
+    speed = number("rim_speed_m_s", rim_speed_m_s)
+    found = _core.heading_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
-    numbers = {name: found[name].reshape(shape) for name in (*_ATTITUDE, "limit_slope_deg")}
+    numbers = {name: found[name].reshape(shape) for name in (*_HEADING, "limit_slope_deg")}
     status = np.array(found["status"], dtype=object).reshape(shape)
     names = tuple(run.soil.name for run in runs)
-    return AttitudeMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)
+    return HeadingMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)

@@ -2,15 +2,15 @@
 
 use grouser::contact::Theory;
 use grouser::simulation::{Approach, Numerics, Scenario};
-use grouser::studies::attitude::AttitudeStudy;
-use grouser::studies::attitude_map::AttitudeMap;
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_map::HeadingMap;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use grouser::vehicle::{LoadSharing, OwnMoments};
 
 use super::given;
 
-fn study() -> AttitudeStudy {
-    AttitudeStudy {
+fn study() -> HeadingStudy {
+    HeadingStudy {
         rover: given::hakuto(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
@@ -27,7 +27,7 @@ fn degrees(list: &[f64]) -> Vec<f64> {
 #[test]
 fn course_0_is_the_level_traverse() {
     let slopes = degrees(&[0.0, 5.0, 10.0, 20.0, 25.0]);
-    let map = AttitudeMap::of(&[study()], &[0.0], &slopes).expect("courses and slopes");
+    let map = HeadingMap::of(&[study()], &[0.0], &slopes).expect("courses and slopes");
     let curve = study().curve().expect("sand");
     for (slope, cell) in slopes.iter().zip(&map.rows[0].cells) {
         assert_eq!(*cell, curve.at(*slope));
@@ -39,7 +39,7 @@ fn course_0_is_the_level_traverse() {
 #[test]
 fn a_run_that_starts_at_the_maps_yaw_keeps_its_course() {
     let (courses, slopes) = (degrees(&[-75.0, -45.0, -15.0, 20.0, 50.0]), degrees(&[4.0, 12.0]));
-    let map = AttitudeMap::of(&[study()], &courses, &slopes).expect("courses and slopes");
+    let map = HeadingMap::of(&[study()], &courses, &slopes).expect("courses and slopes");
     for row in &map.rows {
         for attitude in row.cells.iter().flatten() {
             let base = given::traverse(attitude.slope, attitude.yaw);
@@ -64,7 +64,7 @@ fn forces_balance_in_every_cell() {
     let slopes: Vec<f64> = (0..=12).map(|step| deg(2.0 * f64::from(step))).collect();
     let courses: Vec<f64> = (-6..=6).map(|step| deg(15.0 * f64::from(step))).collect();
     let study = study();
-    let map = AttitudeMap::of(std::slice::from_ref(&study), &courses, &slopes)
+    let map = HeadingMap::of(std::slice::from_ref(&study), &courses, &slopes)
         .expect("courses and slopes");
     let weight = study.rover.mass() * study.gravity;
     let mut found = 0;
@@ -93,7 +93,7 @@ fn forces_balance_in_every_cell() {
 #[test]
 fn straight_up_and_down_nothing_crabs() {
     let courses = degrees(&[-90.0, 90.0]);
-    let map = AttitudeMap::of(&[study()], &courses, &degrees(&[10.0])).expect("courses");
+    let map = HeadingMap::of(&[study()], &courses, &degrees(&[10.0])).expect("courses");
     let [down, up] = [0, 1].map(|row| map.rows[row].cells[0].as_ref().expect("it goes"));
     assert!((up.yaw - deg(90.0)).abs() < 1e-9 && (down.yaw + deg(90.0)).abs() < 1e-9);
     assert!(up.slip_ratio > 0.1 && down.slip_ratio < 0.0);
@@ -103,9 +103,9 @@ fn straight_up_and_down_nothing_crabs() {
 
 #[test]
 fn the_same_map_has_the_same_bits_for_any_number_of_threads() {
-    let soils = [study(), AttitudeStudy { soil: given::simulant_2007(), ..study() }];
+    let soils = [study(), HeadingStudy { soil: given::simulant_2007(), ..study() }];
     let map = || {
-        AttitudeMap::of(&soils, &degrees(&[-30.0, 0.0, 30.0]), &degrees(&[5.0, 15.0])).expect("map")
+        HeadingMap::of(&soils, &degrees(&[-30.0, 0.0, 30.0]), &degrees(&[5.0, 15.0])).expect("map")
     };
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let many = rayon::ThreadPoolBuilder::new().num_threads(4).build().expect("threads");
@@ -116,7 +116,7 @@ fn the_same_map_has_the_same_bits_for_any_number_of_threads() {
 #[test]
 fn a_curve_of_25_slopes_settles_a_thousand_wheels() {
     let slopes: Vec<f64> = (0..25).map(|step| deg(0.8 * f64::from(step))).collect();
-    let map = AttitudeMap::of(&[study()], &[0.0], &slopes).expect("courses and slopes");
+    let map = HeadingMap::of(&[study()], &[0.0], &slopes).expect("courses and slopes");
     // Measured: about 1400; with a fresh Jacobian in every step it were three times as many.
     let settled = map.rows[0].settled_wheels;
     assert!(settled < 1500, "{settled}");
