@@ -14,6 +14,9 @@
 //! | contact | [`contact`] | what the soil does to one wheel |
 //! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] [`site`] | numbers and things |
 //!
+//! The examples of the types take Toyoura sand and the HAKUTO rover from
+//! `examples/by_hand/hakuto.rs`, which makes both value by value.
+//!
 //! Most users take the crate `grouser`, which has these modules too, and reads documents,
 //! calibrates and studies. This crate is for those who bring their own of all that, for example
 //! inside another simulator or in a browser.

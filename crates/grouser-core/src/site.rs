@@ -6,6 +6,24 @@ use crate::terrain::{Patch, Plane, Terrain};
 use crate::units::Vec2;
 
 /// Ground under some gravity: a [`Plane`], unless it is said to be another.
+///
+/// With which force does a slope of 10° pull a rover of 6.9 kg downhill, on the Earth and on the Moon?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::site::Site;
+/// use grouser_core::terrain::{Footprint, Terrain};
+/// use grouser_core::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
+///
+/// let pull = |gravity: f64| {
+///     let site = Site::plane(hakuto::sand(), deg(10.0), gravity);
+///     let rover = Footprint { forward: Vec2::x(), half_length: 0.19, half_width: 0.24 };
+///     let weight = site.weight(6.9, &site.terrain.patch(Vec2::zeros(), rover));
+///     format!("{:.2} N", weight.uphill.y)
+/// };
+/// assert_eq!(pull(EARTH_GRAVITY), "11.75 N");
+/// assert_eq!(pull(MOON_GRAVITY), "1.94 N");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site<T: ?Sized = Plane> {
     /// Gravity, *g* [m/s²].

@@ -17,6 +17,34 @@ use crate::elementary;
 use crate::error::{ParameterError, finite, not_negative, positive};
 
 /// A homogeneous soil.
+///
+/// How heavy is Toyoura sand, and which pressure lets a plate of 8 cm width sink 2 cm into it?
+///
+/// ```
+/// use grouser_core::soil::{
+///     Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
+///     StressPeak,
+/// };
+/// use grouser_core::units::{EARTH_GRAVITY, deg};
+///
+/// let exponent = SinkageExponent::constant(1.703);
+/// let sand = Soil {
+///     cohesion: 0.0,
+///     friction_angle: deg(38.0),
+///     density: 1490.0,
+///     pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 122.727, exponent },
+///     stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
+///     shear: Shear::Isotropic { modulus: ShearModulus::constant(0.036) },
+///     exit: Exit::Ratio(1.0),
+///     bulldozing: Bulldozing::Sine,
+///     extended: Extended::OFF,
+///     rft: Rft::PUBLISHED,
+/// };
+/// let unit_weight = sand.unit_weight(EARTH_GRAVITY);
+/// assert_eq!(format!("{:.1} kN/m³", 1e-3 * unit_weight), "14.6 kN/m³");
+/// let stiffness = sand.pressure_sinkage.stiffness(0.08, sand.cohesion, unit_weight, 0.0);
+/// assert_eq!(format!("{:.1} kPa", 1e-3 * stiffness.pressure(0.02)), "13.5 kPa");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Soil {
     /// Cohesion, *c* [Pa].

@@ -18,6 +18,34 @@ pub use height_field::HeightField;
 ///
 /// Places are in the ground's own coordinates, those of a rover's position; on a plane they are
 /// measured along it.
+///
+/// Ground of your own, a round hill: how steep is it under a wheel 1 m to the side of its top?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use std::borrow::Cow;
+///
+/// use grouser_core::soil::Soil;
+/// use grouser_core::terrain::{Footprint, Patch, Terrain};
+/// use grouser_core::units::Vec2;
+///
+/// struct Hill {
+///     soil: Soil,
+/// }
+/// impl Terrain for Hill {
+///     fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
+///         let height = |place: Vec2| -0.1 * place.norm_squared();
+///         let fit = footprint.fit(&footprint.points(at).map(height));
+///         Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
+///     }
+/// }
+///
+/// let hill = Hill { soil: hakuto::sand() };
+/// let footprint = Footprint { forward: Vec2::x(), half_length: 0.05, half_width: 0.04 };
+/// let patch = hill.patch(Vec2::new(0.0, 1.0), footprint);
+/// let slope = patch.normal.z.acos();
+/// assert_eq!(format!("{:.1}°", slope.to_degrees()), "11.3°");
+/// ```
 pub trait Terrain {
     /// The ground under a wheel, or under the rover.
     ///
@@ -55,6 +83,19 @@ impl Patch<'_> {
 }
 
 /// A plane of homogeneous soil.
+///
+/// How high does a rover get that drives 2 m straight up a slope of 10°?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::terrain::{Footprint, Plane, Terrain};
+/// use grouser_core::units::{Vec2, deg};
+///
+/// let plane = Plane { soil: hakuto::sand(), slope: deg(10.0) };
+/// let footprint = Footprint { forward: Vec2::y(), half_length: 0.05, half_width: 0.04 };
+/// let patch = plane.patch(Vec2::new(0.0, 2.0), footprint);
+/// assert_eq!(format!("{:.0} mm", 1e3 * patch.height), "347 mm");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// The soil.

@@ -3,6 +3,19 @@
 use crate::error::{ParameterError, not_negative, positive};
 
 /// A rigid wheel with a flat rim.
+///
+/// At which rotation does a wheel with grousers of 1 cm have a rim speed of 6 cm/s?
+///
+/// ```
+/// use grouser_core::wheel::{Grousers, Wheel};
+///
+/// let grousers = Grousers { height: 0.010, count: 24 };
+/// let wheel = Wheel { radius: 0.10, width: 0.08, grousers: Some(grousers) };
+/// wheel.check()?;
+/// let turns_per_minute = 0.06 / wheel.shearing_radius() * 60.0 / std::f64::consts::TAU;
+/// assert_eq!(format!("{turns_per_minute:.2} rpm"), "5.21 rpm");
+/// # Ok::<(), grouser_core::error::ParameterError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wheel {
     /// Radius of the rim, without grousers, *r* [m].

@@ -15,6 +15,25 @@ use super::unit::{DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, S, UNITS, 
 use crate::statistics::{Band, Probability};
 
 /// A result, or a setting beside results, of rows of one type.
+///
+/// What is a wheel's sinkage called outside the library, and in which unit is it? And a column of your
+/// own: at which lever would the load make the torque?
+///
+/// ```
+/// use grouser_core::contact::{Settled, WheelForces};
+/// use grouser_io::columns::wheel::WHEEL;
+/// use grouser_io::columns::{Column, number};
+/// use grouser_io::unit::MM;
+///
+/// assert_eq!((WHEEL[0].name, WHEEL[0].unit.symbol), ("sinkage_mm", "mm"));
+///
+/// let lever: Column<Settled> = number("torque_lever_mm", MM, "Torque over load", |it| {
+///     it.forces.torque / it.forces.normal_force
+/// });
+/// let forces = WheelForces { torque: 0.68, normal_force: 17.0, ..WheelForces::default() };
+/// let settled = Settled { sinkage: 0.013, forces, evaluations: 1 };
+/// assert_eq!(format!("{:.1} {}", lever.number(&settled), lever.unit.symbol), "40.0 mm");
+/// ```
 #[derive(Debug)]
 pub struct Column<R> {
     /// With its unit: `sinkage_mm`.

@@ -14,6 +14,22 @@ use super::source::Source;
 use super::tree::{Node, Value};
 
 /// A file of measured wheel tests, and the wheels and soils in it.
+///
+/// With which wheels were the tests of the data set `cmu-single-wheel` made, and under which gravity?
+///
+/// ```
+/// use grouser_io::{Kind, Overrides, Source, read_data_set};
+///
+/// let source = Source::find(Kind::DataSet, "cmu-single-wheel")?;
+/// let data_set = read_data_set(&source, &Overrides::none())?.value;
+/// let radius = |case: &grouser_io::DataSetCase| {
+///     format!("{}: {:.1} mm", case.name, 1e3 * case.wheel.value.shearing_radius())
+/// };
+/// let wheels: Vec<String> = data_set.cases.iter().map(radius).collect();
+/// assert_eq!(wheels.join(", "), "smooth: 62.5 mm, grousers: 62.5 mm");
+/// assert_eq!(format!("{:.2} m/s²", data_set.gravity), "9.81 m/s²");
+/// # Ok::<(), grouser_io::DocumentError>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DataSet {
     /// The CSV file with its rows, from the folder of this document.

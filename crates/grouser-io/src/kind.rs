@@ -3,6 +3,16 @@
 use std::fmt;
 
 /// What a document describes.
+///
+/// Which rovers come with the library, and how does a document say that it describes one?
+///
+/// ```
+/// use grouser_io::{Kind, presets};
+///
+/// let rovers: Vec<&str> = presets(Kind::Rover).map(|preset| preset.name).collect();
+/// assert_eq!(rovers, ["hakuto", "hakuto-flight", "el-dorado-2"]);
+/// assert_eq!(Kind::Rover.tag(), "rover/1");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A soil, `soil/1`.

@@ -5,6 +5,19 @@ use super::tree::Companion;
 use super::uncertain_soil::UncertainSoil;
 
 /// A document that was read: its keys, and the domain's value.
+///
+/// How wide is the wheel of HAKUTO, and what is assumed about it?
+///
+/// ```
+/// use grouser_io::{Kind, Overrides, Source, read_wheel};
+///
+/// let wheel = read_wheel(&Source::find(Kind::Wheel, "hakuto")?, &Overrides::none())?;
+/// assert_eq!(format!("{:.3} m", wheel.value.width), "0.080 m");
+/// assert_eq!(wheel.document.number("width_m"), Some(0.08));
+/// assert!(wheel.assumptions[2].contains("width_m: not printed"), "{:?}", wheel.assumptions);
+/// assert!(wheel.to_toml().contains("width_m = 0.08"));
+/// # Ok::<(), grouser_io::DocumentError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded<V> {
     /// The document with every named part in its place and every default filled in.

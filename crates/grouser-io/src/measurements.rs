@@ -69,6 +69,24 @@ pub struct Measurements {
 
 /// Reads a measurement file.
 ///
+/// With which force did sand hold back a locked wheel of 125 mm diameter in three measured trials?
+///
+/// ```
+/// use std::path::Path;
+///
+/// use grouser_io::measurements::{self, Choice, Condition};
+///
+/// let file = Path::new("data/measurements/cmu_single_wheel.csv");
+/// let locked = ["wheel=smooth", "slip_angle_deg=0", "peripheral_speed_setpoint_mm_s=0"];
+/// let conditions = locked.iter().map(|text| Condition::parse(text)).collect::<Result<_, _>>()?;
+/// let tests = measurements::read(file, &Choice { conditions, ..Choice::default() })?.tests;
+///
+/// let pulls = tests.trials.iter().filter_map(|trial| trial.readings.drawbar_pull);
+/// let pulls: Vec<String> = pulls.map(|pull| format!("{:.1} N", pull.value)).collect();
+/// assert_eq!(pulls.join(", "), "-38.2 N, -39.1 N, -39.2 N");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`MeasurementError`] with file and line for whatever is not as [`columns`] says, and if no row
 /// is left.

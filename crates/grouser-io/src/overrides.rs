@@ -12,6 +12,19 @@ use super::tree::Companion;
 use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// Values that replace those of documents, applied in order before anything is checked.
+///
+/// What if the sand under a scenario's rover had 35° of friction, and the slope were one of 12°?
+///
+/// ```
+/// use grouser_io::{Overrides, Source, read_scenario};
+///
+/// let overrides = Overrides::parse(["soil.friction_angle_deg=35", "scenario.slope_deg=12"])?;
+/// let scenario = read_scenario(&Source::default_scenario(), &overrides)?.value;
+/// let plane = scenario.site.terrain;
+/// assert_eq!(format!("{:.3} rad", plane.soil.friction_angle), "0.611 rad");
+/// assert_eq!(format!("{:.3} rad", plane.slope), "0.209 rad");
+/// # Ok::<(), grouser_io::DocumentError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     all: Vec<Override>,

@@ -21,6 +21,17 @@ pub fn presets(kind: Kind) -> impl Iterator<Item = &'static Preset> {
 }
 
 /// The preset of a kind and a name, which may be the one that it had in earlier versions.
+///
+/// Where do the values of the soil `lunar-nominal` come from?
+///
+/// ```
+/// use grouser_io::{Kind, preset};
+///
+/// let soil = preset(Kind::Soil, "lunar-nominal").expect("it comes with the library");
+/// let (title, source) = soil.title_and_source();
+/// assert_eq!(title, "Lunar soil, nominal");
+/// assert!(source.starts_with("Apollo and Lunar Roving Vehicle wheel constants"));
+/// ```
 #[must_use]
 pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
     let former = FORMER_NAMES.iter().find(|(former, _)| *former == name);

@@ -13,6 +13,18 @@ use super::tree::Companion;
 use super::tree::Text;
 
 /// The source of a document.
+///
+/// What is the cohesion of a soil that is written as TOML, in a file or in memory?
+///
+/// ```
+/// use grouser_io::{Kind, Overrides, Source, preset, read_soil};
+///
+/// let sand = preset(Kind::Soil, "toyoura").expect("it comes with the library").text;
+/// let damp = sand.replace("cohesion_kpa       = 0.0", "cohesion_kpa = 0.35");
+/// let soil = read_soil(&Source::text("damp sand", damp), &Overrides::none())?.value;
+/// assert_eq!(format!("{:.0} Pa", soil.cohesion), "350 Pa");
+/// # Ok::<(), grouser_io::DocumentError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub enum Source {
     /// A document that comes with the program.

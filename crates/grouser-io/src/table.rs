@@ -7,6 +7,29 @@ pub use super::cell::{Cell, ColumnKind, Values};
 use super::columns::Column;
 
 /// Rows by their columns. As JSON it is a list of rows, an object each.
+///
+/// The sinkage of a wheel under three loads, as numbers and as JSON:
+///
+/// ```
+/// use grouser_core::contact::{Contact, Ishigami, Slip, settle};
+/// use grouser_io::columns::wheel::WHEEL;
+/// use grouser_io::table::Table;
+/// use grouser_io::{Overrides, Source, read_scenario};
+///
+/// let scenario = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+/// let (wheel, soil) = (scenario.rover.mounts()[0].unit.wheel, scenario.site.terrain.soil);
+/// let slip = Slip::on_test_stand(0.2, 0.0);
+/// let contact = Contact { wheel, soil, slip, gravity: scenario.site.gravity };
+/// let settled = [10.0, 17.0, 24.0].map(|load| settle(&Ishigami::DEFAULT, &contact, load));
+/// let settled = settled.into_iter().collect::<Result<Vec<_>, _>>()?;
+///
+/// let table = Table::of(&WHEEL, &settled).select(&["sinkage_mm"], &[0, 1, 2]);
+/// let sinkages = table.numbers("sinkage_mm").iter().flatten();
+/// let rounded: Vec<String> = sinkages.map(|sinkage| format!("{sinkage:.1} mm")).collect();
+/// assert_eq!(rounded.join(", "), "10.2 mm, 13.0 mm, 15.2 mm");
+/// assert!(serde_json::to_string(&table)?.starts_with(r#"[{"sinkage_mm":"#));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     /// Names and values, in their order; all of one length.

@@ -17,6 +17,21 @@ use crate::statistics::{Distribution, NothingAccepted};
 use grouser_core::soil::Soil;
 
 /// A soil with uncertain numbers.
+///
+/// Between which friction angles are 95 % of the sands that `toyoura-uncertain` may be?
+///
+/// ```
+/// use grouser_io::statistics::Band;
+/// use grouser_io::{Kind, Overrides, Source, read_soil};
+///
+/// let toyoura = Source::find(Kind::Soil, "toyoura-uncertain")?;
+/// let uncertain = read_soil(&toyoura, &Overrides::none())?.uncertain.expect("it is uncertain");
+/// let soils = uncertain.draws(7, 1000)?;
+/// let band = Band::of(soils.iter().map(|soil| soil.friction_angle)).expect("a thousand soils");
+/// assert_eq!(format!("{:.1}°", band.low.to_degrees()), "34.9°");
+/// assert_eq!(format!("{:.1}°", band.high.to_degrees()), "40.9°");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainSoil {
     base: Varied<Soil>,

@@ -52,6 +52,23 @@ const LOAD_TOLERANCE: f64 = 1e-12;
 /// F_z may also rise and fall while the wheel has hardly sunk and shear outweighs pressure; there
 /// the answer is one of the sinkages with F_z = W, not always the smallest.)
 ///
+/// How deep does a wheel of HAKUTO sink under 17 N, and how hard does it pull at a slip ratio of 0.2?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::contact::{Contact, Ishigami, Slip, settle};
+/// use grouser_core::units::EARTH_GRAVITY;
+///
+/// let slip = Slip::on_test_stand(0.2, 0.0);
+/// let (wheel, soil) = (hakuto::wheel(), hakuto::sand());
+/// let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
+/// let settled = settle(&Ishigami::DEFAULT, &contact, 17.0)?;
+///
+/// assert_eq!(format!("{:.1} mm", 1e3 * settled.sinkage), "13.0 mm");
+/// assert_eq!(format!("{:.2} N", settled.forces.drawbar_pull), "1.82 N");
+/// # Ok::<(), grouser_core::contact::SettleError>(())
+/// ```
+///
 /// # Errors
 /// [`SettleError::SunkToAxle`] if the soil carries less at every sinkage down to the axle;
 /// [`SettleError::BadLoad`] if the load is negative or not finite.

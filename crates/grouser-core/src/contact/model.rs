@@ -8,6 +8,31 @@ use super::load_sinkage::LoadSinkage;
 ///
 /// A theory is stateless and total: for any motion and any sinkage from 0 to the axle's depth
 /// it returns finite forces, continuous in the sinkage, and none at sinkage 0.
+///
+/// A model of your own: how deep does a wheel sink into ground that carries 2 kN for each metre of
+/// sinkage, and resists the motion with a tenth of the load?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::contact::{Contact, Slip, WheelForces, WheelSoilModel, settle};
+///
+/// struct Springs {
+///     stiffness: f64,
+/// }
+/// impl WheelSoilModel for Springs {
+///     fn forces(&self, _: &Contact, sinkage: f64) -> WheelForces {
+///         let normal_force = self.stiffness * sinkage;
+///         WheelForces { normal_force, drawbar_pull: -0.1 * normal_force, ..WheelForces::default() }
+///     }
+/// }
+///
+/// let slip = Slip::on_test_stand(0.0, 0.0);
+/// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: 9.81 };
+/// let settled = settle(&Springs { stiffness: 2e3 }, &contact, 17.0)?;
+/// assert_eq!(format!("{:.1} mm", 1e3 * settled.sinkage), "8.5 mm");
+/// assert_eq!(format!("{:.1} N", settled.forces.drawbar_pull), "-1.7 N");
+/// # Ok::<(), grouser_core::contact::SettleError>(())
+/// ```
 pub trait WheelSoilModel: Sync {
     /// The reaction of the soil on a wheel sunk by `sinkage` [m].
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;

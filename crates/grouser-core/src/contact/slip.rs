@@ -49,6 +49,18 @@ pub fn slip_angle(hub_velocity: Vec2) -> f64 {
 /// The ratios stay finite for every motion: |ω r_s| counts as at least [`CREEP_SPEED`]. For a
 /// driving wheel `forward` is 1 − s and `lateral` is (1 − s) tan β; for a braking one `forward` is
 /// 1/(1 + s).
+///
+/// How does a wheel slip whose rim runs at 6 cm/s, while its hub moves 5.4 cm/s forward and 0.5 cm/s
+/// to the right?
+///
+/// ```
+/// use grouser_core::contact::Slip;
+/// use grouser_core::units::Vec2;
+///
+/// let slip = Slip::of_motion(0.06, Vec2::new(0.054, -0.005));
+/// assert_eq!(format!("{:.2}", slip.ratio), "0.10");
+/// assert_eq!(format!("{:.1}°", slip.angle.to_degrees()), "-5.3°");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slip {
     /// Slip ratio, *s* [-].

@@ -60,6 +60,32 @@ pub struct SteppingWheel<'a> {
 }
 
 /// What decides the reaction of the soil over a step.
+///
+/// Which force does the soil put on a locked wheel of 1.7 kg that is dragged along at 5 cm/s, over a step of 2 ms?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
+/// use grouser_core::contact::{Ishigami, SteppingWheel, TimeStep};
+/// use grouser_core::units::mm;
+/// use nalgebra::{DMatrix, DVector};
+///
+/// let (duration, gravity, mass) = (2e-3, 9.81, 1.7);
+/// // Forces move the hub along x, y and z; a locked rim has no motion of its own.
+/// let inverse_mass = DMatrix::from_fn(MOTIONS, FORCES, |motion, force| {
+///     if motion == force && motion < 3 { 1.0 / mass } else { 0.0 }
+/// });
+/// let free = DVector::from_vec(vec![0.05, 0.0, -gravity * duration, 0.0]);
+/// let (damping, rest_speed) = (SINKAGE_DAMPING, REST_SPEED);
+/// let step =
+///     TimeStep { duration, gravity, damping, rest_speed, inverse_mass: &inverse_mass, free: &free };
+/// let (wheel, soil) = (hakuto::wheel(), hakuto::sand());
+/// let wheel = SteppingWheel { model: &Ishigami::DEFAULT, wheel, soil, sinkage: mm(20.0) };
+/// let stepped = step.reaction(&[wheel]);
+/// let forces = stepped.wheels[0].forces;
+/// assert_eq!(format!("{:.1} N along the wheel", forces.drawbar_pull), "-27.3 N along the wheel");
+/// assert_eq!(format!("{:.1} N upward", forces.normal_force), "26.1 N upward");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct TimeStep<'a> {
     /// Its length, *Δt* [s].

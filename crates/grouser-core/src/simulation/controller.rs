@@ -13,18 +13,27 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 /// Looks at a rover once in a while and sets the speeds of its wheels, which keep them until the
 /// next look (a zero-order hold).
 ///
-/// A closure is one, too:
+/// A closure is one, too. How far does a rover drift that measures its yaw ten times a second, and
+/// turns the wheels on its right faster while its nose is less than 5° uphill?
 ///
 /// ```
-/// # use grouser_core::simulation::{Controller, Observation};
-/// # fn takes(_: &mut impl Controller) {}
-/// // Turns the wheels on the right faster while the nose points uphill.
-/// let mut straight = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::simulation::{Observation, Run};
+/// use grouser_core::units::deg;
+///
+/// let mut steer = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
+///     let turn = 0.2 * (deg(5.0) - seen.rover().yaw);
 ///     for (rim_speed, mount) in rim_speeds.iter_mut().zip(seen.scenario().rover.mounts()) {
-///         *rim_speed = 0.06 + 0.02 * seen.rover().yaw * mount.position.y.signum();
+///         *rim_speed = 0.06 - turn * mount.position.y.signum();
 ///     }
 /// };
-/// # takes(&mut straight);
+/// let scenario = hakuto::traverse()?;
+/// let mut run = Run::with_controller(&scenario, &mut steer)?;
+/// run.advance(&mut steer, scenario.duration)?;
+/// let end = run.now().state;
+/// assert_eq!(format!("{:.1}° uphill", end.yaw.to_degrees()), "5.0° uphill");
+/// assert_eq!(format!("{:.0} mm", 1e3 * end.position.y), "-17 mm");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Controller {
     /// Sets the rim speed ω r_s of each wheel [m/s], in the mounts' order; they hold those of now.

@@ -6,6 +6,24 @@ use super::power::{self, EnergyBalance};
 use crate::vehicle::{RoverState, WheelReaction};
 
 /// The rover at one time.
+///
+/// Which wheel carries most after 10 s across a slope, and what power does its motor give?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::simulation::Run;
+///
+/// let scenario = hakuto::traverse()?;
+/// let trajectory = Run::new(&scenario)?.to_end()?;
+/// let record = &trajectory.records[100];
+/// assert_eq!(format!("{:.1} s", record.time), "10.0 s");
+/// let loads = record.wheels.iter().map(|wheel| wheel.reaction.load);
+/// let (most, load) = loads.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).expect("four wheels");
+/// assert_eq!(scenario.rover.mounts()[most].name, "rear-right");
+/// assert_eq!(format!("{load:.1} N"), "19.3 N");
+/// assert_eq!(format!("{:.0} mW", 1e3 * record.wheels[most].power()), "101 mW");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// Time since the start [s].

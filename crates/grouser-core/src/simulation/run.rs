@@ -28,18 +28,24 @@ pub const LEAST_STEP: f64 = 1e-6;
 ///
 /// A clone goes on as the original would, bit for bit.
 ///
-/// ```no_run
-/// # fn example(scenario: &grouser_core::simulation::Scenario) -> Result<(), Box<dyn std::error::Error>> {
+/// How far downhill is a rover after 20 s across a slope of 10°, and how long does it need for half a
+/// metre if the wheels on its right turn faster?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
 /// use grouser_core::simulation::Run;
-/// // To the end of the scenario:
-/// let trajectory = Run::new(scenario)?.to_end()?;
+///
+/// let scenario = hakuto::traverse()?;
+/// let trajectory = Run::new(&scenario)?.to_end()?;
+/// assert_eq!(format!("{:.0} mm", 1e3 * trajectory.last().state.position.y), "-97 mm");
+///
 /// // One command after the other, each for a tenth of a second:
-/// let mut run = Run::new(scenario)?;
-/// while run.outcome().is_none() && run.now().state.position.x < 1.0 {
-///     run.step(&[0.05, 0.05, 0.06, 0.06], 0.1)?;
+/// let mut run = Run::new(&scenario)?;
+/// while run.outcome().is_none() && run.now().state.position.x < 0.5 {
+///     run.step(&[0.055, 0.055, 0.065, 0.065], 0.1)?;
 /// }
-/// # Ok(())
-/// # }
+/// assert_eq!(format!("{:.1} s", run.now().time), "8.9 s");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone)]
 pub struct Run {

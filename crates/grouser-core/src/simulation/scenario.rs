@@ -7,6 +7,24 @@ use crate::units::Vec2;
 use crate::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState};
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
+///
+/// How much farther does the rover drift on a slope of 15° than on one of 10°, in the same 20 s?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::simulation::{Run, RunError, Scenario};
+/// use grouser_core::units::deg;
+///
+/// let on_10 = hakuto::traverse()?;
+/// let on_15 = Scenario { site: on_10.site.with_slope(deg(15.0)), ..on_10.clone() };
+/// let drift_mm = |scenario: &Scenario| -> Result<String, RunError> {
+///     let end = Run::new(scenario)?.to_end()?.last().state.position;
+///     Ok(format!("{:.0} mm downhill", -1e3 * end.y))
+/// };
+/// assert_eq!(drift_mm(&on_10)?, "97 mm downhill");
+/// assert_eq!(drift_mm(&on_15)?, "175 mm downhill");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// The rover.

@@ -6,6 +6,20 @@ use super::record::Record;
 use super::work::Work;
 
 /// A run: its records in the order of time, and what became of the rover.
+///
+/// How much energy did the motors spend for each metre, and does the energy balance close?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::simulation::Run;
+///
+/// let trajectory = Run::new(&hakuto::traverse()?)?.to_end()?;
+/// let end = trajectory.last();
+/// let per_metre = end.energy.motors / end.state.position.x;
+/// assert_eq!(format!("{per_metre:.2} J/m"), "5.87 J/m");
+/// assert!(trajectory.energy_error().abs() < 1e-5 * end.energy.motors);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     /// At the start, at every sample interval, and at the end.

@@ -3,6 +3,21 @@
 use crate::units::Vec2;
 
 /// Heights at the points of a grid, bilinear between them; beyond its edges it goes on as high as there.
+///
+/// How high is the ground half-way between the points of a grid of 2 m by 1 m, whose heights are in centimetres?
+///
+/// ```
+/// use grouser_core::terrain::HeightField;
+/// use grouser_core::units::Vec2;
+///
+/// let heights = [
+///     0.0, 1.0, 0.0, // at y = −0.5 m
+///     0.0, 2.0, 4.0, // at y = 0.5 m
+/// ];
+/// let field = HeightField::new(&heights, 3, Vec2::new(1.0, 0.5), 0.01).expect("two rows of three");
+/// let height = field.height(Vec2::new(0.5, 0.0));
+/// assert_eq!(format!("{:.1} mm", 1e3 * height), "17.5 mm");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeightField<'a> {
     /// Heights, in units of [`unit`](Self::unit): rows along x, one after the other along y.

@@ -5,6 +5,22 @@ use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 
 /// The drives that a document can name.
+///
+/// How fast must the rims turn such that a rover that crabs by 5° and slips by 0.2 goes 6 cm/s along
+/// the contour?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::units::deg;
+/// use grouser_core::vehicle::DriveLaw;
+/// use grouser_core::vehicle::drive::SlipTarget;
+///
+/// let law = DriveLaw::Eq18(SlipTarget { speed: 0.06, slip_ratio: 0.2 });
+/// let mut rim_speeds = [0.0; 4];
+/// law.rim_speeds(&hakuto::rover()?, deg(5.0), &[0.2; 4], &mut rim_speeds);
+/// assert_eq!(format!("{:.1} mm/s", 1e3 * rim_speeds[0]), "74.7 mm/s");
+/// # Ok::<(), grouser_core::error::ParameterError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum DriveLaw {
     /// Every wheel turns at the same rim speed ω r_s [m/s]: what the source's experiments did.

@@ -43,6 +43,20 @@ pub struct WheelUnit {
 }
 
 /// A wheel in its place.
+///
+/// How does a front wheel see the rover's motion at 5 cm/s straight ahead, if it is steered by 10° to the left?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::units::{Vec2, deg};
+/// use grouser_core::vehicle::Mount;
+///
+/// let front_left = Mount { steering: deg(10.0), ..hakuto::rover()?.mounts()[0].clone() };
+/// let velocity = front_left.wheel_from_body(Vec2::new(0.05, 0.0));
+/// assert_eq!(format!("{:.1} mm/s forward", 1e3 * velocity.x), "49.2 mm/s forward");
+/// assert_eq!(format!("{:.1} mm/s to the left", 1e3 * velocity.y), "-8.7 mm/s to the left");
+/// # Ok::<(), grouser_core::error::ParameterError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mount {
     /// The wheel's name, such as `front-left`.
@@ -144,6 +158,31 @@ impl RoverParts {
 }
 
 /// A rover that can stand and be moved: made by [`Rover::new`], then unchanged.
+///
+/// What do a body and four wheels of HAKUTO weigh together, and how high is their centre of mass?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::units::Vec3;
+/// use grouser_core::vehicle::{Body, Inertia, Mount, Rover, WheelUnit};
+///
+/// let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
+/// let inertia = Inertia { xx: 0.00100, yy: 0.00154, zz: 0.00100 };
+/// let unit = WheelUnit { mass: 0.422, inertia, wheel: hakuto::wheel() };
+/// let mount = |(name, x, y): (&str, f64, f64)| Mount {
+///     name: name.to_owned(),
+///     position: Vec3::new(x, y, -0.06),
+///     unit,
+///     steering: 0.0,
+/// };
+/// let left = [("front-left", 0.19, 0.24), ("rear-left", -0.17, 0.24)];
+/// let right = [("rear-right", -0.17, -0.24), ("front-right", 0.19, -0.24)];
+/// let rover = Rover::new(body, left.into_iter().chain(right).map(mount).collect())?;
+///
+/// assert_eq!(format!("{:.3} kg", rover.mass()), "6.928 kg");
+/// assert_eq!(format!("{:.1} mm", 1e3 * rover.centre_height()), "155.4 mm");
+/// # Ok::<(), grouser_core::error::ParameterError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Rover {
     parts: RoverParts,

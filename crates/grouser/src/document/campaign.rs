@@ -31,6 +31,27 @@ use crate::studies::ensemble::{Ensemble, outputs_while};
 pub use rows::STATUSES;
 
 /// A campaign that was read and checked: ready to run.
+///
+/// What is in the first row of a campaign of wheel tests?
+///
+/// ```
+/// use grouser::document::table::Cell;
+/// use grouser::document::{Kind, Overrides, Source, read_campaign};
+///
+/// let source = Source::find(Kind::Campaign, "campaign-wheel-test")?;
+/// let campaign = read_campaign(&source, &Overrides::none())?;
+/// assert_eq!(campaign.runs(), 100_000);
+/// let row = campaign.run(0);
+/// let number = |name: &str| {
+///     match &row[campaign.columns().iter().position(|column| column.name == name)?] {
+///         Cell::Float(value) => *value,
+///         _ => None,
+///     }
+/// };
+/// assert_eq!(format!("{:.2} N", number("load_n").expect("an input")), "17.41 N");
+/// assert_eq!(format!("{:.2} N", number("drawbar_pull_n").expect("a result")), "2.99 N");
+/// # Ok::<(), grouser::document::DocumentError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Campaign {
     study: Study,

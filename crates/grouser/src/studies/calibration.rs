@@ -56,6 +56,43 @@ use crate::elementary::wide;
 use crate::error::ParameterError;
 
 /// An experiment, and the parameters to estimate.
+///
+/// Which moduli of Bekker's law fit two plates, 5 and 10 cm wide, that were pressed 1 to 4 cm deep?
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use grouser::studies::calibration::plate_test::PlatePoint;
+/// use grouser::studies::calibration::{
+///     Calibration, FitSettings, Parameter, ParameterSpace, PlateCurve, PlateLaw, PlateTest, Scale,
+/// };
+/// use grouser::units::{kpa, mm};
+///
+/// // Readings made up for this example: the plate's width [mm], and its pressures [kPa]
+/// // at sinkages of 10, 20, 30 and 40 mm.
+/// let measured = [(50.0, [21.3, 45.1, 70.8, 97.4]), (100.0, [16.9, 36.3, 56.9, 77.5])];
+/// let curves = measured.map(|(width, pressures)| PlateCurve {
+///     width: mm(width),
+///     points: std::iter::zip([10.0, 20.0, 30.0, 40.0], pressures)
+///         .map(|(z, p)| PlatePoint { sinkage: mm(z), pressure: kpa(p), scatter: kpa(0.5) })
+///         .collect(),
+/// });
+/// let plates = PlateTest::new(PlateLaw::Bekker, curves.to_vec())?;
+/// let parameter = |name: &str, lower, upper, start| {
+///     Parameter { name: name.into(), lower, upper, scale: Scale::Logarithmic, start }
+/// };
+/// let space = ParameterSpace::new(vec![
+///     parameter("k_c", 1e3, 1e6, 5e4),
+///     parameter("k_phi", 1e5, 1e8, 1e6),
+///     parameter("n", 0.3, 3.0, 1.0),
+/// ])?;
+/// let calibration = Calibration::new(&plates, space)?;
+/// let fit = calibration.fit(&FitSettings::default(), &|| ControlFlow::Continue(()))?;
+/// assert_eq!(format!("k_c = {:.0} kN/m^(n+1)", 1e-3 * fit.values[0]), "k_c = 67 kN/m^(n+1)");
+/// assert_eq!(format!("k_phi = {:.0} kN/m^(n+2)", 1e-3 * fit.values[1]), "k_phi = 2009 kN/m^(n+2)");
+/// assert_eq!(format!("n = {:.2}", fit.values[2]), "n = 1.10");
+/// # Ok::<(), grouser::studies::calibration::CalibrationError>(())
+/// ```
 #[derive(Clone)]
 pub struct Calibration<'a> {
     experiment: &'a dyn Experiment,

@@ -169,6 +169,25 @@ impl CardStudy {
     /// Computes the card. Samples are shared among threads and keep their order: the result is the same for
     /// any number of threads.
     ///
+    /// Go or no-go on 5°, 10° and 20°, where nothing is known of the soil's uncertainty?
+    ///
+    /// ```
+    /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::heading::HeadingStudy;
+    /// use grouser::studies::card::{CardStudy, Rule, Verdict};
+    /// use grouser::units::deg;
+    ///
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+    /// let heading = HeadingStudy::of(&scenario);
+    /// let study = CardStudy { heading, rim_speed: 0.06, rule: Rule::DEFAULT };
+    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
+    /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
+    /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::NoGo]);
+    /// let level = card.rows[1].level.expect("10° can be crossed");
+    /// assert_eq!(format!("{:.2} W", level.power), "0.40 W");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// * `soils`: one for each sample; empty where no uncertainty is stated
     /// * `slopes`: [rad], rising
     /// * `done`: called after each sample, from any thread

@@ -39,6 +39,24 @@ pub fn yaw_error(measured: f64, predicted: f64) -> f64 {
 }
 
 /// The deviation of a run from the contour.
+///
+/// How far does a run leave the contour that starts at the yaw of the measured one?
+///
+/// ```
+/// use grouser::document::{self, Overrides, Source, experiment};
+/// use grouser::simulation::{Run, Scenario, Start};
+/// use grouser::studies::comparison::Levelness;
+///
+/// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+/// let measured = experiment::table_4()[1];
+/// let start = Start { yaw: measured.initial_yaw, ..scenario.start };
+/// let site = scenario.site.with_slope(measured.slope);
+/// let run = Run::new(&Scenario { start, site, ..scenario })?.to_end()?;
+/// let levelness = Levelness::of(&run);
+/// assert_eq!(format!("{:.1} mm", 1e3 * levelness.final_distance_error), "9.5 mm");
+/// assert_eq!(format!("{:.1} mm printed", 1e3 * measured.final_distance_error), "13.0 mm printed");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Levelness {
     /// rms(y) over the distance driven along the contour [-]: our definition of the RMS error.

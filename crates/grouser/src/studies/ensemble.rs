@@ -56,6 +56,42 @@ pub fn outputs_while<C: Send, T: Send>(
 }
 
 /// Cases with the inputs of each.
+///
+/// How deep does a wheel sink if its load is known to 2 N and the sand's friction angle to 1.5°, and
+/// which of the two matters?
+///
+/// ```
+/// use grouser::contact::{Contact, Ishigami, Slip, settle};
+/// use grouser::document::campaign::Sampling;
+/// use grouser::document::{self, Overrides, Source};
+/// use grouser::soil::Soil;
+/// use grouser::studies::ensemble::sensitivity::Sensitivity;
+/// use grouser::studies::ensemble::statistics::Summary;
+/// use grouser::studies::ensemble::{Distribution, Ensemble, Marginal, outputs};
+/// use grouser::units::deg;
+///
+/// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+/// let (wheel, sand) = (scenario.rover.mounts()[0].unit.wheel, scenario.site.terrain.soil);
+/// let load = Marginal::Normal { mean: 17.0, standard_deviation: 2.0 };
+/// let friction = Marginal::Normal { mean: deg(38.0), standard_deviation: deg(1.5) };
+/// let inputs = Distribution::of_marginals(vec![load, friction], &[])?;
+/// let ensemble = Ensemble::new(Sampling::Sobol, 128, 7, inputs, true);
+///
+/// let sinkages = outputs(0..ensemble.runs(), |run| {
+///     let values = ensemble.inputs(run).values;
+///     let soil = Soil { friction_angle: values[1], ..sand };
+///     let slip = Slip::on_test_stand(0.2, 0.0);
+///     let contact = Contact { wheel, soil, slip, gravity: scenario.site.gravity };
+///     settle(&Ishigami::DEFAULT, &contact, values[0]).ok().map(|settled| settled.sinkage)
+/// });
+/// let summary = Summary::of(&sinkages, &[0.5]).expect("the wheels settle");
+/// let sensitivity = Sensitivity::of(&sinkages, 2, 7).expect("the sinkage varies");
+/// let (mean, deviation) = (1e3 * summary.mean.value, 1e3 * summary.deviation);
+/// assert_eq!(format!("{mean:.1} ± {deviation:.1} mm"), "13.0 ± 0.7 mm");
+/// let [load, friction] = [0, 1].map(|input| sensitivity.indices[input].total.value);
+/// assert_eq!(format!("load {load:.2}, friction {friction:.2}"), "load 0.99, friction 0.00");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ensemble {
     design: Design,

@@ -173,6 +173,20 @@ pub const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
 
 impl HeadingStudy {
     /// The study of a scenario's rover and soil, whatever its slope and drive.
+    ///
+    /// Which heading offset holds the contour on 10°, and up to which slope is there one?
+    ///
+    /// ```
+    /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::heading::HeadingStudy;
+    /// use grouser::units::deg;
+    ///
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+    /// let curve = HeadingStudy::of(&scenario).curve()?;
+    /// assert_eq!(format!("{:.2}°", curve.at(deg(10.0))?.yaw.to_degrees()), "5.04°");
+    /// assert_eq!(format!("{:.1}°", curve.limit()?.0.to_degrees()), "20.2°");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn of(scenario: &Scenario) -> Self {
         Self {

@@ -58,6 +58,26 @@ impl HeadingBand {
     /// Follows the curve of each soil; `study.soil` is not used. The samples are shared among
     /// threads and keep their order: the result is the same for any number of threads.
     ///
+    /// Between which bounds is the heading offset that holds the contour on 10°, in sand that is known
+    /// only roughly?
+    ///
+    /// ```
+    /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::heading::HeadingStudy;
+    /// use grouser::studies::heading_band::HeadingBand;
+    /// use grouser::units::deg;
+    ///
+    /// let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"])?;
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?;
+    /// let soils = scenario.uncertain.expect("it is uncertain").draws(7, 50)?;
+    /// let study = HeadingStudy::of(&scenario.value);
+    /// let band = HeadingBand::of(&study, &soils, &[deg(10.0)], &|| true)?.expect("not stopped");
+    /// let yaw = band.slopes[0].yaw.expect("some samples hold the contour");
+    /// assert_eq!(format!("{:.1}°", yaw.low.to_degrees()), "2.2°");
+    /// assert_eq!(format!("{:.1}°", yaw.high.to_degrees()), "11.4°");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// * `soils`: one for each sample; at least one
     /// * `slopes`: [rad]
     /// * `go_on`: asked before each soil, from any thread; without it there is no result

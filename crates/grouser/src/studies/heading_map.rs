@@ -36,6 +36,27 @@ impl HeadingMap {
     /// Follows the curve of each course on each soil. Rows are shared among threads and keep their
     /// order: the result is the same for any number of threads.
     ///
+    /// Which heading offsets hold courses of 15° downhill, the contour, and 15° uphill, on a slope of 10°?
+    ///
+    /// ```
+    /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::heading::HeadingStudy;
+    /// use grouser::studies::heading_map::HeadingMap;
+    /// use grouser::units::deg;
+    ///
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+    /// let courses = [-15.0, 0.0, 15.0].map(deg);
+    /// let map = HeadingMap::of(&[HeadingStudy::of(&scenario)], &courses, &[deg(10.0)])?;
+    /// let crab = |place: usize| match &map.rows[place].cells[0] {
+    ///     Ok(heading) => format!("{:.2}°", (heading.yaw - heading.course).to_degrees()),
+    ///     Err(reason) => reason.to_string(),
+    /// };
+    /// assert_eq!(crab(0), "4.60°");
+    /// assert_eq!(crab(1), "5.04°");
+    /// assert_eq!(crab(2), "5.07°");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// * `studies`: one for each soil
     /// * `courses`: *χ* [rad], −π/2 to π/2
     /// * `slopes`: *α* [rad]

@@ -10,6 +10,31 @@ use crate::soil::{Shear, ShearModulus, Soil};
 use crate::vehicle::LoadSharing;
 
 /// The inputs of the study: the paper's rover, soil and drive, and its measurements.
+///
+/// How far off the contour do simulated traverses end on one slope: with the nose along the contour,
+/// and with the heading offset that was measured at the start?
+///
+/// ```
+/// use grouser::document::{self, Overrides, Source, experiment};
+/// use grouser::studies::reproduction::Plan;
+///
+/// let plan = Plan {
+///     scenario: document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value,
+///     measured: vec![experiment::table_4()[1]],
+///     wheel_load: 17.0,
+///     longitudinal_moduli: vec![0.036],
+///     slip_angles: vec![0.0],
+///     loads: vec![17.0],
+/// };
+/// let reproduction = plan.run(&mut |_| ())?;
+/// let slope = &reproduction.slopes[0];
+/// let end = |run: &grouser::simulation::Trajectory| {
+///     format!("{:.0} mm", 1e3 * run.last().state.position.y)
+/// };
+/// assert_eq!(end(&slope.uncompensated), "-97 mm");
+/// assert_eq!(end(&slope.from_measured_yaw), "10 mm");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// Rover, soil, drive and duration of every traverse; slope and start are set for each.

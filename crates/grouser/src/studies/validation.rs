@@ -9,6 +9,34 @@ use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
 use crate::wheel::Wheel;
 
 /// Measured tests, and the model to compare with them.
+///
+/// How far is the predicted drawbar pull of a smooth wheel from the measured one?
+///
+/// ```
+/// use grouser::contact::Theory;
+/// use grouser::document::measurements::{self, Choice};
+/// use grouser::document::{self, Kind, Overrides, Source};
+/// use grouser::studies::validation::ValidationStudy;
+///
+/// let source = Source::find(Kind::DataSet, "cmu-single-wheel")?;
+/// let data_set = document::read_data_set(&source, &Overrides::none())?.value;
+/// let smooth = &data_set.cases[0];
+/// let choice = Choice { conditions: smooth.conditions.clone(), ..Choice::default() };
+/// let rows = measurements::Source::preset("cmu-single-wheel").expect("it comes with the library");
+/// let tests = rows.read(&choice)?.tests;
+///
+/// let validation = ValidationStudy {
+///     tests: &tests,
+///     wheel: smooth.wheel.value,
+///     soil: smooth.soils[0].1.value,
+///     theory: Theory::Extended,
+///     gravity: data_set.gravity,
+/// }
+/// .run();
+/// let errors = validation.overall.errors.drawbar_pull.expect("it was measured");
+/// assert_eq!(format!("{:.1} N in {} cells", errors.rmse, errors.cells), "1.0 N in 36 cells");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ValidationStudy<'a> {
     /// The measured trials.

@@ -6,6 +6,31 @@ use crate::soil::Soil;
 use crate::wheel::Wheel;
 
 /// A test plan: every load with every slip angle and every slip ratio.
+///
+/// How hard does the wheel of HAKUTO pull under 17 N, and which torque does that take?
+///
+/// ```
+/// use grouser::contact::Theory;
+/// use grouser::document::{self, Overrides, Source};
+/// use grouser::studies::wheel_test::WheelTest;
+///
+/// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+/// let test = WheelTest {
+///     wheel: scenario.rover.mounts()[0].unit.wheel,
+///     soil: scenario.site.terrain.soil,
+///     gravity: scenario.site.gravity,
+///     theory: Theory::Ishigami,
+///     loads: vec![17.0],
+///     slip_angles: vec![0.0],
+///     slip_ratios: vec![0.1, 0.2, 0.4],
+/// };
+/// let forces = test.run().into_iter().map(|row| row.result.map(|settled| settled.forces));
+/// let forces = forces.collect::<Result<Vec<_>, _>>()?;
+/// let pulls: Vec<String> = forces.iter().map(|f| format!("{:.2} N", f.drawbar_pull)).collect();
+/// assert_eq!(pulls.join(", "), "0.68 N, 1.82 N, 3.60 N");
+/// assert_eq!(format!("{:.2} N·m", forces[1].torque), "0.37 N·m");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelTest {
     /// The wheel.

@@ -6,6 +6,7 @@ mod campaign_documents;
 mod card;
 mod declarations;
 mod documents;
+mod examples;
 mod extended;
 mod files;
 mod former_names;
