@@ -85,7 +85,7 @@ fn imbalance(scenario: &Scenario) -> f64 {
     let weight = scenario.rover.mass() * scenario.site.gravity;
     let miss = |attitude: Attitude| {
         let forces = forces_of(&attitude.wheels);
-        let (force, _) = dynamics::soil_resultant(&scenario.rover, &forces, scenario.own_moments);
+        let (force, _) = dynamics::soil_resultant(&scenario.rover, forces, scenario.own_moments);
         let pull = weight * attitude.slope.sin();
         let (forward, left) = (pull * attitude.yaw.sin(), pull * attitude.yaw.cos());
         (force.x - forward).hypot(force.y - left) / weight

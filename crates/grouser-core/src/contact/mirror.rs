@@ -16,6 +16,7 @@ pub(super) enum Side {
 /// A wheel that rolls backward is seen in a mirror. Where rim and hub oppose each other both
 /// views count, in the proportion of [`Slip::entering_side`](super::slip::Slip::entering_side): the theories know only one, and to
 /// switch between them would be a jump in force.
+#[inline]
 pub(super) fn from_both_sides(
     contact: &Contact,
     sinkage: f64,
