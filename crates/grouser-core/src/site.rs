@@ -5,7 +5,7 @@ use crate::soil::Soil;
 use crate::terrain::{Patch, Plane, Terrain};
 use crate::units::Vec2;
 
-/// Ground under some gravity: a [`Plane`], unless it is said to be another.
+/// Ground under some gravity: a [`Plane`], unless another terrain is named.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Site<T: ?Sized = Plane> {
     /// Gravity, *g* [m/s²].

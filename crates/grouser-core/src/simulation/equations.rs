@@ -1,4 +1,4 @@
-//! One evaluation of the motion: state in, rates out. It reads as the theory's table of contents.
+//! One evaluation of the motion: state in, rates out. It reads as a table of contents of the equations.
 
 use std::cell::{Cell, RefCell};
 
@@ -34,7 +34,7 @@ pub struct Evaluation {
     pub wheels: Vec<WheelReaction>,
 }
 
-/// Rates of change of a rover's motion, and the powers of its energy books.
+/// Rates of change of a rover's motion, and the powers of its energy balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// Velocity in the slope frame [m/s].

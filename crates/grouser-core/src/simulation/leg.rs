@@ -93,7 +93,7 @@ impl Leg<'_> {
             QuasiSteady::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
-            // A run starts steady: what its start would cost the motors is not in the books.
+            // A run starts steady: what its start would cost the motors is not in the energy balance.
             point.motors = 0.0;
             let wheels = || Ok(motion.wheels(&point));
             let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;

@@ -21,7 +21,7 @@ use crate::site::{Site, Weight};
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 
-/// What moves load from wheel to wheel.
+/// Load transfer: what moves load from wheel to wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoadSharing {
     /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll.

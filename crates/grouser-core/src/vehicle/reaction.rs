@@ -1,4 +1,4 @@
-//! All wheels settled under their share of the weight: load sharing and soil together.
+//! All wheels settled under their share of the weight: load transfer and soil together.
 
 use std::iter::repeat;
 
@@ -21,7 +21,7 @@ pub struct Ground<'a> {
     pub rover: &'a Rover,
     /// Where it is.
     pub site: &'a Site<dyn Terrain>,
-    /// The theory of the wheel-soil reaction.
+    /// The wheel–soil model.
     pub model: &'a dyn WheelSoilModel,
     /// How the weight is shared.
     pub sharing: LoadSharing,
