@@ -124,6 +124,7 @@ pub fn side_wall_load(
 /// [`CREEP_SPEED`](super::slip::CREEP_SPEED), as all forces of a wheel that comes to rest do:
 /// without that no integrator gets past a rover that rolls straight ahead.
 #[must_use]
+#[inline]
 pub fn shares(law: Bulldozing, slip: &Slip) -> (f64, f64) {
     let sin_cos = || elementary::sin_cos(slip.angle);
     match law {

@@ -122,10 +122,12 @@ impl Numerics {
 
 impl Arc {
     /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
+    #[inline]
     fn up(&self, sinkage: f64) -> f64 {
         self.set.run(Up { arc: self, sinkage })
     }
 
+    #[inline]
     pub(super) fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
         self.set.run(All { arc: self, wall, sinkage })
     }
