@@ -11,8 +11,8 @@ use anyhow::{Context, Result};
 use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{
-    count, cpu, crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, workflows,
-    workspace,
+    count, cpu, crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, wasm,
+    workflows, workspace,
 };
 
 /// A step that was taken.
@@ -41,6 +41,7 @@ pub(crate) fn run(extent: Extent) -> bool {
             let lint = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
             succeeds(workspace::cargo().args(lint))
         }),
+        step("wasm", wasm::check),
         step("tests", || {
             let kinds = ["--lib", "--bins", "--tests", "--examples"];
             tests(

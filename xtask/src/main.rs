@@ -26,6 +26,7 @@ mod schema;
 mod site;
 mod texts;
 mod tools;
+mod wasm;
 mod workflows;
 mod workspace;
 
@@ -54,6 +55,7 @@ cargo xtask CHORE
                       count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
                       --check compares what repeats, --build measures a first build instead
   crates              check licences, features and advisories of the crates that we depend on
+  wasm                check that grouser-core compiles for browsers (target wasm32-unknown-unknown)
   workflows           check the workflows of the code host
   texts               check the texts of the repository: links, hosts, paths, cited code
 ";
@@ -103,6 +105,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             python::write_times()?;
             true
         }
+        ["wasm"] => good(wasm::check()?),
         ["workflows"] => workflows::check()?,
         ["texts"] => texts::check()?,
         other => bail!("unknown chore `{}`\n\n{USAGE}", other.join(" ")),

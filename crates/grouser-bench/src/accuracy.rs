@@ -85,7 +85,7 @@ fn imbalance(scenario: &Scenario) -> f64 {
     let weight = scenario.rover.mass() * scenario.site.gravity;
     let miss = |heading: HeadingOffset| {
         let forces = forces_of(&heading.wheels);
-        let (force, _) = dynamics::soil_resultant(&scenario.rover, &forces, scenario.own_moments);
+        let (force, _) = dynamics::soil_resultant(&scenario.rover, forces, scenario.own_moments);
         let pull = weight * heading.slope.sin();
         let (forward, left) = (pull * heading.yaw.sin(), pull * heading.yaw.cos());
         (force.x - forward).hypot(force.y - left) / weight

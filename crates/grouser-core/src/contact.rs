@@ -2,11 +2,11 @@
 //!
 //! The order of reading is the order of computing. [`slip`] turns speeds into slip ratio and slip
 //! angle; [`patch`] says which arc of the rim touches the soil; [`stress`] gives the normal and
-//! shear stress along it; [`bulldozing`] the soil pushed by the flank; [`forces`] is what comes
-//! out. A theory puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is the
-//! source paper's, [`extended`] adds what small wheels need, [`bekker`] is a closed form to check
-//! them against, and [`rft`] shares nothing with any of them. [`equilibrium`] finds the sinkage at
-//! which a wheel carries its load; [`time_step`] lends the reaction to engines of rigid bodies.
+//! shear stress along it; [`bulldozing`] the soil pushed by the side wall; [`forces`] is what comes
+//! out. A wheel–soil model puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is
+//! the source paper's, [`small_wheel`] adds what small wheels need, [`bekker`] is a closed form to
+//! check them against, and [`rft`] shares nothing with any of them. [`equilibrium`] finds the sinkage
+//! at which a wheel carries its load; [`time_step`] lends the reaction to engines of rigid bodies.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
@@ -14,7 +14,6 @@
 pub mod bekker;
 pub mod bulldozing;
 pub mod equilibrium;
-pub mod extended;
 pub mod forces;
 mod gauss;
 mod inputs;
@@ -26,13 +25,13 @@ pub mod model;
 pub mod patch;
 pub mod rft;
 pub mod slip;
+pub mod small_wheel;
 pub mod stress;
 mod theory;
 pub mod time_step;
 
 pub use bekker::Bekker;
 pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
-pub use extended::Extended;
 pub use forces::WheelForces;
 pub use inputs::Contact;
 pub use ishigami::Ishigami;
@@ -42,5 +41,6 @@ pub use model::WheelSoilModel;
 pub use patch::ContactPatch;
 pub use rft::Rft;
 pub use slip::Slip;
+pub use small_wheel::SmallWheel;
 pub use theory::Theory;
 pub use time_step::{Stepped, SteppedWheel, SteppingWheel, TimeStep};

@@ -21,7 +21,7 @@ const MOST_STEPS: usize = 12;
 ///
 /// * `f`: their values, and what those come from
 /// * `size`: of a step
-/// * `is_zero`: told the values and the step that they would lead to
+/// * `is_zero`: gets the values and the step that they would lead to
 pub fn zero_near<T>(
     f: impl Fn(&Vector3<f64>) -> Option<(Vector3<f64>, T)>,
     guess: &Vector3<f64>,

@@ -7,7 +7,7 @@
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
 //! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
 //! A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
-//! [`power`] does the books of the energy.
+//! [`power`] computes the energy balance.
 
 pub mod controller;
 pub mod equations;

@@ -5,7 +5,7 @@ use crate::soil::Soil;
 use crate::terrain::{Patch, Plane, Terrain};
 use crate::units::Vec2;
 
-/// Ground under some gravity: a [`Plane`], unless it is said to be another.
+/// Ground under some gravity: a [`Plane`], unless another terrain is named.
 ///
 /// With which force does a slope of 10° pull a rover of 6.9 kg downhill, on the Earth and on the Moon?
 ///

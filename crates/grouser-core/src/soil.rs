@@ -1,17 +1,17 @@
 //! What a soil is to a wheel: how it carries, how it shears, how it is pushed aside.
 //!
-//! A [`Soil`] is a set of constants of the theories in [`contact`](crate::contact); it does no
+//! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
-pub mod extended;
 pub mod pressure_sinkage;
 pub mod rft;
+pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
-pub use extended::Extended;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
+pub use small_wheel::SmallWheel;
 
 use crate::elementary;
 use crate::error::{ParameterError, finite, not_negative, positive};
@@ -22,7 +22,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
+///     Bulldozing, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
 ///     StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
@@ -37,7 +37,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     shear: Shear::Isotropic { modulus: ShearModulus::constant(0.036) },
 ///     exit: Exit::Ratio(1.0),
 ///     bulldozing: Bulldozing::Sine,
-///     extended: Extended::OFF,
+///     small_wheel: SmallWheel::OFF,
 ///     rft: Rft::PUBLISHED,
 /// };
 /// let unit_weight = sand.unit_weight(EARTH_GRAVITY);
@@ -61,11 +61,11 @@ pub struct Soil {
     pub shear: Shear,
     /// Where the wheel leaves the soil.
     pub exit: Exit,
-    /// How soil pushed aside loads the flank.
+    /// How soil pushed aside loads the side wall.
     pub bulldozing: Bulldozing,
-    /// What the extended theory adds; the others leave it aside.
-    pub extended: Extended,
-    /// What resistive force theory asks for; the others leave it aside.
+    /// What the small-wheel model adds; the others leave it aside.
+    pub small_wheel: SmallWheel,
+    /// What resistive force theory needs; the others leave it aside.
     pub rft: Rft,
 }
 
@@ -79,14 +79,14 @@ pub struct StressPeak {
 }
 
 impl StressPeak {
-    /// The stress peak may come this near to the entry angle [-]. At 1 the theory has no stress
+    /// The stress peak may come this near to the entry angle [-]. At 1 the model has no stress
     /// anywhere, for any sinkage: the profile's height is taken at its own edge.
     pub const LARGEST_SHARE: f64 = 0.99;
 
     /// Share of the entry angle at which the normal stress peaks [-], 0 to
     /// [`LARGEST_SHARE`](Self::LARGEST_SHARE).
     ///
-    /// The slip ratio enters by its size, at most 1: in skid the classical theory keeps a₀ and a₁.
+    /// The slip ratio enters by its size, at most 1: in skid the classical model keeps a₀ and a₁.
     #[must_use]
     pub fn share(&self, slip_ratio: f64) -> f64 {
         (self.a0 + self.a1 * slip_ratio.abs().min(1.0)).clamp(0.0, Self::LARGEST_SHARE)
@@ -216,7 +216,7 @@ impl Exit {
     }
 }
 
-/// How the force of the soil pushed aside by the flank depends on the slip angle β.
+/// How the force of the soil pushed aside by the side wall depends on the slip angle β.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bulldozing {
     /// No such force.
@@ -273,7 +273,7 @@ impl Soil {
         finite("stress peak a1", self.stress_peak.a1)?;
         self.pressure_sinkage.check(self.cohesion)?;
         self.shear.check()?;
-        self.extended.check()?;
+        self.small_wheel.check()?;
         self.rft.check()?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),

@@ -17,9 +17,10 @@ pub mod load;
 pub mod reaction;
 pub mod rover;
 pub mod state;
+pub mod support_polygon;
 
 pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
-pub use reaction::{Ground, ReactionError, WheelReaction};
+pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::{Body, Inertia, Mount, MountParts, Rover, RoverParts, WheelUnit};
 pub use state::{Acceleration, RoverState};

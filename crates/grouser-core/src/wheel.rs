@@ -31,7 +31,7 @@ pub struct Wheel {
 pub struct Grousers {
     /// Height over the rim, *h_g* [m].
     pub height: f64,
-    /// How many there are, *N*. Reported; the theories here take them as dense.
+    /// How many there are, *N*. Reported; the models here take them as dense.
     pub count: u32,
 }
 

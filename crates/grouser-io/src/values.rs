@@ -122,7 +122,7 @@ impl Described for Soil {
         self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
         check_exponent(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
         self.shear.check().map_err(Misfit::at("shear"))?;
-        self.extended.check().map_err(Misfit::at("small_wheel"))?;
+        self.small_wheel.check().map_err(Misfit::at("small_wheel"))?;
         self.rft.check().map_err(Misfit::at("rft"))?;
         check_exit(self.exit).map_err(Misfit::at("exit"))?;
         self.check().map_err(Misfit::at("schema"))?;

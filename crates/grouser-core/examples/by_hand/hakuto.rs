@@ -6,7 +6,7 @@ use grouser_core::error::ParameterError;
 use grouser_core::simulation::{Motion, Numerics, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::{
-    Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil,
     StressPeak,
 };
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
@@ -34,7 +34,7 @@ pub(crate) fn sand() -> Soil {
         },
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
-        extended: Extended::OFF,
+        small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
     }
 }

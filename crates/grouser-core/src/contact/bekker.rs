@@ -1,4 +1,4 @@
-//! A closed-form theory to check others against: Bekker's rigid wheel (Bekker 1956, 1969).
+//! A closed-form model to check others against: Bekker's rigid wheel (Bekker 1956, 1969).
 //!
 //! The wheel is a plate on the front half of a parabolic arc, of contact length ℓ = √(2 r_s h).
 //! The soil does not recover behind it. With K_σ and n of the pressure-sinkage law:
@@ -22,7 +22,7 @@ use super::patch::ContactPatch;
 use crate::elementary::wide::{exp_m1, hypot};
 use crate::soil::Shear;
 
-/// Bekker's closed-form theory of a rigid wheel.
+/// Bekker's closed-form model of a rigid wheel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bekker;
 
@@ -49,10 +49,10 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
 
     // ∫ R_b over the parabola: its mean depth is 2/3 h, its mean square 8/15 h².
     let wall = WallResistance::new(soil, unit_weight);
-    let flank = length * wall.mean_over_parabola(h);
+    let wall_load = length * wall.mean_over_parabola(h);
     let (across, along) = bulldozing::shares(soil.bulldozing, slip);
-    let motion_resistance = along * flank - compaction;
-    let side_force = side_shear + across * flank;
+    let motion_resistance = along * wall_load - compaction;
+    let side_force = side_shear + across * wall_load;
     WheelForces {
         drawbar_pull: thrust + motion_resistance,
         side_force,
@@ -64,7 +64,7 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
         thrust,
         motion_resistance,
         side_force_from_shear: side_shear,
-        bulldozing_load: flank,
+        bulldozing_load: wall_load,
         max_normal_stress: pressure,
         patch: ContactPatch { max_stress: 0.0, exit: 0.0, ..ContactPatch::new(soil, r, h, 0.0) },
     }

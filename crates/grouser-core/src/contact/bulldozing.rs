@@ -1,4 +1,4 @@
-//! Soil pushed aside by the flank of a wheel that moves sideways (Hegedus 1960, Bekker).
+//! Soil pushed aside by the side wall of a wheel that moves sideways (Hegedus 1960, Bekker).
 
 use super::kernel::rule::EVEN;
 use super::kernel::{LANES, sum};
@@ -32,7 +32,7 @@ impl WallResistance {
         let (cot, tan_phi) = (soil.destructive_cot(), soil.friction());
         // X_c + φ is the complement of X_c.
         let (d_1, d_2) = (d1(cot, cot), d2(cot, tan_phi));
-        // The heap reaches cot X_c ahead of the wall and lies at the angle φ.
+        // The soil piled up reaches cot X_c ahead of the wall and lies at the angle φ.
         let heaped = match soil.bulldozing {
             Bulldozing::SineSquared => 1.0 + tan_phi * cot,
             Bulldozing::None | Bulldozing::Sign | Bulldozing::Sine => 1.0,
@@ -63,9 +63,9 @@ fn d2(cot: f64, tan_phi: f64) -> f64 {
     cot + cot * cot * tan_phi
 }
 
-/// The soil's force on the buried segment of a flank, and where it acts.
+/// The soil's force on the buried segment of a side wall, and where it acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FlankLoad {
+pub struct SideWallLoad {
     /// Full force, *F_s* [N], before any dependence on the slip angle.
     pub force: f64,
     /// Distance of its line of action below the hub [m].
@@ -78,7 +78,7 @@ pub struct FlankLoad {
 /// depth, so its resultant lies at two thirds. Source: Rankine's earth pressure.
 const CENTRE_OF_PRESSURE: f64 = 2.0 / 3.0;
 
-/// The load on a flank from the soil it pushes aside (Ishigami et al. 2007).
+/// The load on a side wall from the soil it pushes aside (Ishigami et al. 2007).
 ///
 /// ```text
 /// F_s = ∫ R_b(h(θ)) [r_s − h(θ) cos θ] dθ      h(θ) = r_s (cos θ − cos θ_f), over the buried arc
@@ -89,11 +89,11 @@ const CENTRE_OF_PRESSURE: f64 = 2.0 / 3.0;
 #[expect(clippy::inline_always, reason = "part of the kernel")]
 #[inline(always)]
 #[must_use]
-pub fn flank_load(
+pub fn side_wall_load(
     resistance: &WallResistance,
     patch: &ContactPatch,
     shearing_radius: f64,
-) -> FlankLoad {
+) -> SideWallLoad {
     let r = shearing_radius;
     let start = patch.exit.max(-patch.entry);
     let span = patch.entry - start;
@@ -111,12 +111,12 @@ pub fn flank_load(
     }
     let (force, below, ahead) = (sum(&force), sum(&below), sum(&ahead));
     if force == 0.0 {
-        return FlankLoad::default();
+        return SideWallLoad::default();
     }
-    FlankLoad { force, below_hub: below / force, ahead_of_hub: ahead / force }
+    SideWallLoad { force, below_hub: below / force, ahead_of_hub: ahead / force }
 }
 
-/// How the flank's load acts in a motion: its shares across and along the wheel [-].
+/// How the side wall's load acts in a motion: its shares across and along the wheel [-].
 ///
 /// Across, positive to the left: against the lateral motion. Along: against the travel.
 ///
@@ -124,6 +124,7 @@ pub fn flank_load(
 /// [`CREEP_SPEED`](super::slip::CREEP_SPEED), as all forces of a wheel that comes to rest do:
 /// without that no integrator gets past a rover that rolls straight ahead.
 #[must_use]
+#[inline]
 pub fn shares(law: Bulldozing, slip: &Slip) -> (f64, f64) {
     let sin_cos = || elementary::sin_cos(slip.angle);
     match law {

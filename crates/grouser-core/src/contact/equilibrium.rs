@@ -15,7 +15,7 @@ pub struct Settled {
     pub sinkage: f64,
     /// The soil's reaction there.
     pub forces: WheelForces,
-    /// How often the theory was evaluated, for F_z alone or for all forces.
+    /// How often the model was evaluated, for F_z alone or for all forces.
     pub evaluations: u32,
 }
 
@@ -165,7 +165,7 @@ fn interpolate_at_zero(points: &[Point]) -> f64 {
     x[0]
 }
 
-/// The exponent with which F_z of a theory without a load–sinkage relation grows.
+/// The exponent with which F_z of a model without a load–sinkage relation grows.
 fn growth(contact: &Contact) -> f64 {
     let Contact { wheel, soil, slip, gravity } = contact;
     let unit_weight = soil.unit_weight(*gravity);

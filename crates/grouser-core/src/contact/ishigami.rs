@@ -1,18 +1,18 @@
-//! The source paper's theory: stresses integrated along the arc (Ishigami et al. 2007).
+//! The source paper's model: stresses integrated along the arc (Ishigami et al. 2007).
 //!
 //! The stresses of [`StressField`](super::stress::StressField) act on the rim of a wheel of shearing radius *r_s* and width
-//! *b*; the soil pushed aside acts on its flank. With θ from straight down, the rim's point is
+//! *b*; the soil pushed aside acts on its side wall. With θ from straight down, the rim's point is
 //! (r_s sin θ, 0, −r_s cos θ), normal stress points to the hub and shear stress along the rim, so
 //!
 //! ```text
 //! F_x = r_s b ∫ (τ_x cos θ − σ sin θ) dθ       T   = r_s² b ∫ τ_x dθ
-//! F_y = r_s b ∫ τ_y dθ − F_s sin β             M_x = r_s² b ∫ τ_y cos θ dθ + flank
-//! F_z = r_s b ∫ (τ_x sin θ + σ cos θ) dθ       M_z = r_s² b ∫ τ_y sin θ dθ + flank
+//! F_y = r_s b ∫ τ_y dθ − F_s sin β             M_x = r_s² b ∫ τ_y cos θ dθ + wall
+//! F_z = r_s b ∫ (τ_x sin θ + σ cos θ) dθ       M_z = r_s² b ∫ τ_y sin θ dθ + wall
 //! ```
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
-use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::bulldozing::{self, SideWallLoad, WallResistance};
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
@@ -21,7 +21,7 @@ use super::mirror::from_both_sides;
 use super::model::WheelSoilModel;
 use super::stress::Response;
 
-/// The theory of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.
+/// The model of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.
 #[derive(Clone, Copy, Debug)]
 pub struct Ishigami {
     numerics: Numerics,
@@ -37,14 +37,14 @@ impl Ishigami {
     /// As many nodes as an error below 1e-6 of the load takes.
     pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
-    /// The same theory with four times as many nodes as the finest rule, to measure the error of the
+    /// The same model with four times as many nodes as the finest rule, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
         Self { numerics: Numerics::REFERENCE }
     }
 
-    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// The same model on one instruction set, or on the baseline where the processor lacks it. The
     /// bits are the same.
     #[must_use]
     pub fn on(self, set: InstructionSet) -> Self {
@@ -75,31 +75,31 @@ impl WheelSoilModel for Ishigami {
 fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
     let wall = WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
     let reaction = arc.reaction(&wall, sinkage);
-    forces(contact, &reaction, &reaction.flank)
+    forces(contact, &reaction, &reaction.side_wall)
 }
 
-/// The stresses on the rim and the load on the flank, added up.
-pub(super) fn forces(contact: &Contact, reaction: &Reaction, flank: &FlankLoad) -> WheelForces {
+/// The stresses on the rim and the load on the side wall, added up.
+pub(super) fn forces(contact: &Contact, reaction: &Reaction, wall: &SideWallLoad) -> WheelForces {
     let sums = &reaction.sums;
     let r = contact.wheel.shearing_radius();
     let area = r * contact.wheel.width;
     let (across, along) = bulldozing::shares(contact.soil.bulldozing, &contact.slip);
-    let (flank_y, flank_x) = (across * flank.force, along * flank.force);
+    let (wall_y, wall_x) = (across * wall.force, along * wall.force);
 
     let thrust = area * sums.shear_forward;
-    let motion_resistance = flank_x - area * sums.normal_back;
+    let motion_resistance = wall_x - area * sums.normal_back;
     let side_force_from_shear = area * sums.lateral;
     WheelForces {
         drawbar_pull: thrust + motion_resistance,
-        side_force: side_force_from_shear + flank_y,
+        side_force: side_force_from_shear + wall_y,
         normal_force: area * sums.up,
         torque: area * r * sums.shear,
-        overturning_moment: area * r * sums.lateral_below + flank_y * flank.below_hub,
-        aligning_moment: area * r * sums.lateral_ahead + flank_y * flank.ahead_of_hub,
+        overturning_moment: area * r * sums.lateral_below + wall_y * wall.below_hub,
+        aligning_moment: area * r * sums.lateral_ahead + wall_y * wall.ahead_of_hub,
         thrust,
         motion_resistance,
         side_force_from_shear,
-        bulldozing_load: flank.force,
+        bulldozing_load: wall.force,
         max_normal_stress: reaction.max_normal_stress,
         patch: reaction.patch,
     }

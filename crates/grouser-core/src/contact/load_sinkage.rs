@@ -6,7 +6,7 @@
 
 #![expect(clippy::inline_always, reason = "part of the kernel")]
 
-use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::bulldozing::{self, SideWallLoad, WallResistance};
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
@@ -61,7 +61,7 @@ impl LoadSinkage {
         Self { views, area }
     }
 
-    /// *F_z* [N] at a sinkage [m]: the bits of the theory's
+    /// *F_z* [N] at a sinkage [m]: the bits of the model's
     /// [`forces`](super::model::WheelSoilModel::forces).
     #[must_use]
     pub fn normal_force(&self, sinkage: f64) -> f64 {
@@ -107,12 +107,12 @@ pub(super) struct Arc {
 pub(super) struct Reaction {
     pub patch: ContactPatch,
     pub sums: StressSums,
-    /// Of a wall that is not heaped up further.
-    pub flank: FlankLoad,
+    /// Of a side wall with level soil, or with what the bulldozing law piles up.
+    pub side_wall: SideWallLoad,
     pub max_normal_stress: f64,
 }
 
-/// How a theory runs the kernel.
+/// How a model runs the kernel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Numerics {
     /// Without it, as many nodes as the contact needs.
@@ -136,10 +136,12 @@ impl Numerics {
 
 impl Arc {
     /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
+    #[inline]
     fn up(&self, sinkage: f64) -> f64 {
         self.set.run(Up { arc: self, sinkage })
     }
 
+    #[inline]
     pub(super) fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
         self.set.run(All { arc: self, wall, sinkage })
     }
@@ -173,7 +175,7 @@ impl Work for All<'_> {
         let field = self.arc.law.sunk(self.sinkage);
         Reaction {
             sums: integral::all(&field, self.arc.rule),
-            flank: bulldozing::flank_load(self.wall, &field.patch, self.arc.law.radius()),
+            side_wall: bulldozing::side_wall_load(self.wall, &field.patch, self.arc.law.radius()),
             max_normal_stress: field.max_normal(),
             patch: field.patch,
         }

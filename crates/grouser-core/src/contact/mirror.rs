@@ -10,12 +10,14 @@ pub(super) enum Side {
     Back,
 }
 
-/// The reaction for any motion, from a theory of a wheel that enters the soil with its front; none
+/// The reaction for any motion, from a model of a wheel that enters the soil with its front; none
 /// without sinkage.
 ///
 /// A wheel that rolls backward is seen in a mirror. Where rim and hub oppose each other both
-/// views count, in the proportion of [`Slip::entering_side`](super::slip::Slip::entering_side): the theories know only one, and to
+/// views count, in the proportion of
+/// [`Slip::entering_side`](super::slip::Slip::entering_side): the models know only one, and to
 /// switch between them would be a jump in force.
+#[inline]
 pub(super) fn from_both_sides(
     contact: &Contact,
     sinkage: f64,

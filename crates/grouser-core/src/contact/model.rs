@@ -1,12 +1,12 @@
-//! What a theory of the wheel-soil reaction is.
+//! The interface of a wheel–soil model.
 
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::load_sinkage::LoadSinkage;
 
-/// A theory of the wheel-soil reaction: a contact in, the wheel's forces out.
+/// A wheel–soil model: a contact in, the wheel's forces out.
 ///
-/// A theory is stateless and total: for any motion and any sinkage from 0 to the axle's depth
+/// A model is stateless and total: for any motion and any sinkage from 0 to the axle's depth
 /// it returns finite forces, continuous in the sinkage, and none at sinkage 0.
 ///
 /// A model of your own: how deep does a wheel sink into ground that carries 2 kN for each metre of
@@ -37,9 +37,9 @@ pub trait WheelSoilModel: Sync {
     /// The reaction of the soil on a wheel sunk by `sinkage` [m].
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;
 
-    /// The contact made ready for a search over sinkages, if the theory knows how.
+    /// The contact made ready for a search over sinkages, if the model knows how.
     ///
-    /// Its normal force has the bits of [`forces`](Self::forces). A theory without it is asked for
+    /// Its normal force has the bits of [`forces`](Self::forces). A model without it is asked for
     /// all its forces at every sinkage.
     fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
         let _ = contact;

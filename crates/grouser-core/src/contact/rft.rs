@@ -1,7 +1,7 @@
-//! An independent second theory: three-dimensional resistive force theory on a wheel's facets
+//! An independent second model: three-dimensional resistive force theory on a wheel's facets
 //! (Agarwal, Goldman and Kamrin, PNAS 2023).
 //!
-//! Nothing of the classical theories is used, neither pressure-sinkage law nor shear modulus: each
+//! Nothing of the classical models is used, neither pressure-sinkage law nor shear modulus: each
 //! piece of the wheel's surface is a plate in granular soil, and what it meets depends on its depth,
 //! its inclination and the direction of its motion alone. Two constants tell the soil, its unit
 //! weight and its friction, and no force is adjusted to wheels.
@@ -53,14 +53,14 @@ impl Rft {
     /// Sixteen nodes over half the arc, four across.
     pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_4, set: None };
 
-    /// The same theory with four and sixteen times as many nodes, to measure the error of the
+    /// The same model with four and sixteen times as many nodes, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
         Self { arc: &GAUSS_64, height: &GAUSS_64, set: None }
     }
 
-    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// The same model on one instruction set, or on the baseline where the processor lacks it. The
     /// bits are the same.
     #[must_use]
     pub fn on(self, set: InstructionSet) -> Self {
@@ -76,7 +76,7 @@ impl WheelSoilModel for Rft {
         let set = self.set.unwrap_or_else(InstructionSet::best);
         let half = |contact: &Contact| {
             let half = FrontHalf::new(contact, sinkage);
-            set.run(Reaction { half: &half, theory: self })
+            set.run(Reaction { half: &half, model: self })
         };
         let front = half(contact);
         let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
@@ -94,7 +94,7 @@ impl WheelSoilModel for Rft {
 /// What one half of a wheel meets.
 struct Reaction<'a> {
     half: &'a FrontHalf,
-    theory: &'a Rft,
+    model: &'a Rft,
 }
 
 impl Work for Reaction<'_> {
@@ -103,7 +103,7 @@ impl Work for Reaction<'_> {
     #[expect(clippy::inline_always, reason = "compiled once for each instruction set")]
     #[inline(always)]
     fn run(self) -> WheelForces {
-        self.half.reaction(self.theory.arc, self.theory.height)
+        self.half.reaction(self.model.arc, self.model.height)
     }
 }
 

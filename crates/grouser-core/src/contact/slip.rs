@@ -5,7 +5,7 @@ use crate::units::Vec2;
 
 /// A wheel slower than this is at rest [m/s]. Source: ours.
 ///
-/// The theories here know only ratios of speeds, so at rest they are undefined, as dry friction
+/// The models here know only ratios of speeds, so at rest they are undefined, as dry friction
 /// is. Below this speed the stresses fade linearly to none. The fastest parked rover therefore
 /// creeps at about a micrometre per second, and at the speeds of a rover the effect is 1e-9.
 pub const CREEP_SPEED: f64 = 1e-6;
@@ -44,7 +44,7 @@ pub fn slip_angle(hub_velocity: Vec2) -> f64 {
     atan2(hub_velocity.y, hypot(hub_velocity.x, CREEP_SPEED))
 }
 
-/// How a rim moves against the soil, in ratios of speeds: all that a rate-independent theory needs.
+/// How a rim moves against the soil, in ratios of speeds: all that a rate-independent model needs.
 ///
 /// The ratios stay finite for every motion: |ω r_s| counts as at least [`CREEP_SPEED`]. For a
 /// driving wheel `forward` is 1 − s and `lateral` is (1 − s) tan β; for a braking one `forward` is
@@ -192,7 +192,7 @@ mod tests {
         assert_eq!((rest.ratio, rest.angle, rest.forward, rest.lateral), (0.0, 0.0, 0.0, 0.0));
     }
 
-    /// Source: the definition of the CMU files (theory notes), at a slip angle of 60°.
+    /// Source: the definition of the CMU files (notes), at a slip angle of 60°.
     #[test]
     fn the_total_slip_knows_no_direction() {
         let total = |rim, v_x, v_y| Slip::of_motion(rim, Vec2::new(v_x, v_y)).total();

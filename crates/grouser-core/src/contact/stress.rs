@@ -11,8 +11,8 @@ use super::inputs::Contact;
 use super::patch::ContactPatch;
 use super::slip::Slip;
 use crate::elementary;
-use crate::soil::extended::SinkageGrowth;
 use crate::soil::pressure_sinkage::ScaledPressure;
+use crate::soil::small_wheel::SinkageGrowth;
 use crate::soil::{Shear, Soil};
 
 /// Stress of the soil on the rim at one angle.
@@ -74,7 +74,7 @@ pub(super) struct StressLaw {
     surface_growth: f64,
 }
 
-/// What a theory decides about a soil under a moving wheel before the stresses are known.
+/// What a model decides about a soil under a moving wheel before the stresses are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Response {
     /// Sinkage growth near the surface, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
@@ -86,7 +86,7 @@ pub(super) struct Response {
 }
 
 impl Response {
-    /// That of the classical theory.
+    /// That of the classical model.
     pub(super) fn classical(contact: &Contact) -> Self {
         Self {
             surface_growth: 1.0,

@@ -1,12 +1,12 @@
-//! The theories by name.
+//! The wheel–soil models by name.
 
 use super::bekker::Bekker;
-use super::extended::Extended;
 use super::ishigami::Ishigami;
 use super::model::WheelSoilModel;
 use super::rft::Rft;
+use super::small_wheel::SmallWheel;
 
-/// A theory that a document or a command can name.
+/// A wheel–soil model, by the name that a document or a command has for it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theory {
     /// The source paper's: stresses along the arc.
@@ -15,14 +15,14 @@ pub enum Theory {
     /// Bekker's closed form, as a cross-check.
     Bekker,
     /// The source paper's with the terms that small wheels need.
-    Extended,
+    SmallWheel,
     /// Resistive force theory on the wheel's facets, independent of the others.
     Rft,
 }
 
 impl Theory {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Ishigami, Self::Bekker, Self::Extended, Self::Rft];
+    pub const ALL: [Self; 4] = [Self::Ishigami, Self::Bekker, Self::SmallWheel, Self::Rft];
 
     /// Its name in documents and commands.
     #[must_use]
@@ -30,22 +30,22 @@ impl Theory {
         match self {
             Self::Ishigami => "ishigami",
             Self::Bekker => "bekker",
-            Self::Extended => "small-wheel",
+            Self::SmallWheel => "small-wheel",
             Self::Rft => "rft",
         }
     }
 
-    /// The theory itself.
+    /// The model itself.
     #[must_use]
     pub fn model(self) -> &'static dyn WheelSoilModel {
         static ISHIGAMI: Ishigami = Ishigami::DEFAULT;
         static BEKKER: Bekker = Bekker;
-        static EXTENDED: Extended = Extended::DEFAULT;
+        static SMALL_WHEEL: SmallWheel = SmallWheel::DEFAULT;
         static RFT: Rft = Rft::DEFAULT;
         match self {
             Self::Ishigami => &ISHIGAMI,
             Self::Bekker => &BEKKER,
-            Self::Extended => &EXTENDED,
+            Self::SmallWheel => &SMALL_WHEEL,
             Self::Rft => &RFT,
         }
     }

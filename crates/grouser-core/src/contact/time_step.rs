@@ -14,10 +14,10 @@
 //!
 //! *u°* is the motion at the end of the step without the soil, *h°* the sinkage at its start. The
 //! effective inverse mass *A* (Delassus matrix) [1/kg] says how forces change velocities: of a mechanism with Jacobians J_u, J_f and
-//! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the theory's own; what a finite
+//! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the model's own; what a finite
 //! Δt adds is backward Euler's damping, of the order of Δt.
 //!
-//! The theories have no damping of their own, and without any a wheel would bounce on the soil as on
+//! The models have no damping of their own, and without any a wheel would bounce on the soil as on
 //! a spring. The *sinkage damping* c lets all stresses grow with the rate of sinking, as in Hunt and
 //! Crossley (1975): there is no force without sinkage, no pull on a wheel that leaves, and no effect
 //! at rest.
@@ -49,7 +49,7 @@ pub const REST_SPEED: f64 = 1e-4;
 /// A wheel at the start of a step.
 #[derive(Clone, Copy)]
 pub struct SteppingWheel<'a> {
-    /// The theory.
+    /// The wheel–soil model.
     pub model: &'a dyn WheelSoilModel,
     /// The wheel.
     pub wheel: Wheel,
@@ -135,7 +135,7 @@ struct Try {
 impl TimeStep<'_> {
     /// The reaction of the soil on wheels that a mechanism couples.
     ///
-    /// Newton's method, with the theory's derivatives by differences and steps that are halved until
+    /// Newton's method, with the model's derivatives by differences and steps that are halved until
     /// they lead nearer. Where none does, the nearest is taken, and `residual` says how near that is.
     ///
     /// Wheels deeper than the axle have the forces of axle depth.
@@ -178,7 +178,7 @@ impl TimeStep<'_> {
         let SteppingWheel { model, wheel, soil, .. } = *of;
         let [v_x, v_y, v_z, rim_speed] = u.data.0[0];
         let sinkage = (of.sinkage - self.duration * v_z).clamp(0.0, wheel.shearing_radius());
-        // The theories know ratios of speeds alone: in another measure of speed, another is rest.
+        // The models know ratios of speeds alone: in another measure of speed, another is rest.
         let measure = CREEP_SPEED / self.rest_speed;
         let slip = Slip::of_motion(rim_speed * measure, Vec2::new(v_x, v_y) * measure);
         let contact = Contact { wheel, soil, slip, gravity: self.gravity };

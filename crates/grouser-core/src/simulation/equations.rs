@@ -1,4 +1,4 @@
-//! One evaluation of the motion: state in, rates out. It reads as the theory's table of contents.
+//! One evaluation of the motion: state in, rates out. It reads as a table of contents of the equations.
 
 use std::cell::{Cell, RefCell};
 
@@ -12,7 +12,7 @@ use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
-    Acceleration, OwnMoments, ReactionError, Rover, RoverState, WheelReaction, dynamics,
+    Acceleration, OwnMoments, ReactionError, Rover, RoverState, Stance, WheelReaction, dynamics,
     reaction::Ground,
 };
 
@@ -34,7 +34,7 @@ pub struct Evaluation {
     pub wheels: Vec<WheelReaction>,
 }
 
-/// Rates of change of a rover's motion, and the powers of its energy books.
+/// Rates of change of a rover's motion, and the powers of its energy balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// Velocity in the slope frame [m/s].
@@ -81,9 +81,17 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
+        self.reactions_at(state, &self.ground.stance(state))
+    }
+
+    fn reactions_at(
+        &self,
+        state: &RoverState,
+        stance: &Stance,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let slips: Vec<Slip> = self.slips(state).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
-        self.ground.reactions(state, &slips)
+        self.ground.reactions(stance, &slips)
     }
 
     /// The slip of every wheel, from the motion alone.
@@ -104,17 +112,18 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// As [`rates`](Self::rates).
     pub fn evaluate(&self, state: &RoverState) -> Result<Evaluation, ReactionError> {
-        let Ground { rover, site, own_moments, .. } = self.ground;
-        let wheels = self.reactions(state)?;
-        let acceleration =
-            dynamics::acceleration(rover, site, state, &forces_of(&wheels), own_moments);
+        let Ground { rover, own_moments, .. } = self.ground;
+        let stance = self.ground.stance(state);
+        let wheels = self.reactions_at(state, &stance)?;
+        let forces = forces_of(&wheels);
+        let acceleration = dynamics::acceleration(rover, stance.pull, state, forces, own_moments);
         let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount));
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =
             power::powers(&wheels, &self.wheel_speeds, hubs, aligning_work_rate);
         let rates = Rates {
-            velocity_slope: state.velocity_slope(),
+            velocity_slope: stance.slope_from_body * state.velocity,
             yaw_rate: state.yaw_rate,
             acceleration,
             motor_power,

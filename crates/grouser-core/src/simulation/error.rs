@@ -26,7 +26,7 @@ pub enum RunError {
     Stalled {
         /// When [s].
         time: f64,
-        /// What the integrator said.
+        /// Message of the integrator.
         reason: String,
     },
 }

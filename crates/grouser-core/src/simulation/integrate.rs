@@ -74,7 +74,7 @@ impl Rates {
 pub(super) struct Stalled {
     /// The last time that was reached [s].
     pub(super) time: f64,
-    /// What the solver said.
+    /// Message of the solver.
     pub(super) reason: String,
 }
 

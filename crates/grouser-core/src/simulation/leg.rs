@@ -93,7 +93,7 @@ impl Leg<'_> {
             QuasiSteady::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
-            // A run starts steady: what its start would cost the motors is not in the books.
+            // A run starts steady: what its start would cost the motors is not in the energy balance.
             point.motors = 0.0;
             let wheels = || Ok(motion.wheels(&point));
             let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
@@ -168,13 +168,12 @@ impl Leg<'_> {
         let rover = &reached.state;
         let state = &mut *self.state;
         (state.time, state.point) = (now, *reached);
-        if is_multiple(now, WATCH_PERIOD) {
-            let slips = equations.slips(rover);
-            state.outcome =
-                state.watch.look(self.scenario, now, rover, slips, equations.rim_speeds());
-        }
         state.slip_ratios.clear();
         state.slip_ratios.extend(equations.slips(rover).map(|slip| slip.ratio));
+        if is_multiple(now, WATCH_PERIOD) {
+            let (slip_ratios, rim_speeds) = (&state.slip_ratios, equations.rim_speeds());
+            state.outcome = state.watch.look(self.scenario, now, rover, slip_ratios, rim_speeds);
+        }
         let is_due = match self.record_only_at {
             None => is_sample_due(self.scenario, now),
             Some(time) => is_same_time(now, time),

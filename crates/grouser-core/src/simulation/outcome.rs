@@ -3,7 +3,7 @@
 /// What became of the rover.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It drove for as long as it was told to.
+    /// It drove for its whole duration.
     Completed,
     /// It no longer gets ahead.
     Immobilised {

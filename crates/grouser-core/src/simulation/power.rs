@@ -1,4 +1,4 @@
-//! The books of a run's energy: what the motors put in, and where it went.
+//! The energy balance of a run: what the motors put in, and where it went.
 
 use crate::site::Site;
 use crate::terrain::Terrain;

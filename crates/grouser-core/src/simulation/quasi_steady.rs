@@ -24,7 +24,7 @@ use crate::vehicle::state::rotation;
 use crate::vehicle::{Mount, WheelReaction};
 
 /// The velocities may lag behind their steady state by this much, over the fastest rim's speed [-]: the
-/// steady state's own motion in one settling time. Source: ours; theories err by ten times as much.
+/// steady state's own motion in one settling time. Source: ours; models err by ten times as much.
 pub const MOST_LAG: f64 = 0.01;
 /// And the steady state may change its yaw rate at most this fast, over the rate of settling [-], or
 /// yaw and velocities would not be a slow and a fast motion. Source: ours.
@@ -44,7 +44,7 @@ const RESOLVED: f64 = 1e-5;
 /// A step in time turns the rover by at most this share of a stretch [-].
 const STEP_SHARE: f64 = 0.1;
 
-/// Balances over a stretch of yaw, evenly spaced: one, two or five.
+/// Steady states over a stretch of yaw, evenly spaced: one, two or five.
 #[derive(Clone)]
 pub(super) struct Stretch {
     nodes: Vec<SteadyState>,
@@ -202,7 +202,7 @@ impl Stretch {
         Ok(stretch)
     }
 
-    /// Balances over a stretch that starts with a known one, halved until it is resolved.
+    /// Steady states over a stretch that starts with a known one, halved until it is resolved.
     fn through(
         solver: &mut SteadySolver<'_>,
         here: SteadyState,

@@ -22,7 +22,7 @@ pub const LEAST_STEP: f64 = 1e-6;
 
 /// A run of a scenario, as far as it has come.
 ///
-/// Whoever leads it, the motion is the same, by the same equations and the same integrator:
+/// The motion is the same by every way of leading it, by the same equations and the same integrator:
 /// [`to_end`](Self::to_end) by the scenario's own drive, [`advance`](Self::advance) by a
 /// [`Controller`], [`step`](Self::step) by one command after the other.
 ///

@@ -31,7 +31,7 @@ pub struct Scenario {
     pub rover: Rover,
     /// Where it drives.
     pub site: Site,
-    /// The theory of the wheel-soil reaction.
+    /// The wheel–soil model.
     pub theory: Theory,
     /// How the weight is shared.
     pub sharing: LoadSharing,

@@ -101,7 +101,7 @@ impl State {
             let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
             power::spin_energy(rover, &wheel_speeds)
         };
-        // The motors change the spin at once; the books must not lose that work.
+        // The motors change the spin at once; the energy balance must not lose that work.
         self.point.motors += spin_energy(rim_speeds) - spin_energy(&self.rim_speeds);
         if rim_speeds != self.rim_speeds {
             self.history.clear();

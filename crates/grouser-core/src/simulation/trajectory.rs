@@ -42,7 +42,7 @@ impl Trajectory {
         self.records.last().expect("a trajectory has at least its start")
     }
 
-    /// Energy that the books cannot account for [J]: motors less soil, kinetic and potential.
+    /// Energy missing from the balance [J]: motors less soil, kinetic and potential.
     #[must_use]
     pub fn energy_error(&self) -> f64 {
         let (first, last) = (&self.records[0].energy, &self.last().energy);

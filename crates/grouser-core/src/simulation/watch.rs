@@ -2,7 +2,6 @@
 
 use super::outcome::{Outcome, StuckBecause};
 use super::scenario::Scenario;
-use crate::contact::Slip;
 use crate::vehicle::RoverState;
 use crate::vehicle::kinematics::wheel_velocity;
 
@@ -31,14 +30,14 @@ pub(super) struct Watch {
 impl Watch {
     /// Looks at a rover; says what became of it once that is certain.
     ///
-    /// * `slips`: of each wheel
+    /// * `slip_ratios`: of each wheel [-]
     /// * `rim_speeds`: ω r_s of each wheel [m/s]
     pub(super) fn look(
         &mut self,
         scenario: &Scenario,
         time: f64,
         state: &RoverState,
-        slips: impl Iterator<Item = Slip>,
+        slip_ratios: &[f64],
         rim_speeds: &[f64],
     ) -> Option<Outcome> {
         let rim_sum: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
@@ -46,9 +45,9 @@ impl Watch {
         let downhill = -state.velocity_slope().y;
         let sliding = downhill > fastest_rim.max(SLIDING_SPEED);
 
-        let turning = rim_speeds.iter().zip(slips).filter(|(rim, _)| **rim != 0.0);
-        let (slip_sum, count) = turning.fold((0.0, 0), |(sum, count), (rim, slip)| {
-            (sum + rim.signum() * slip.ratio, count + 1)
+        let turning = rim_speeds.iter().zip(slip_ratios).filter(|(rim, _)| **rim != 0.0);
+        let (slip_sum, count) = turning.fold((0.0, 0), |(sum, count), (rim, slip_ratio)| {
+            (sum + rim.signum() * slip_ratio, count + 1)
         });
         let mean_slip = slip_sum / f64::from(count.max(1));
         let along_rims: f64 = rim_speeds

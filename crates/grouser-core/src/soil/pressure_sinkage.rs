@@ -34,9 +34,9 @@ pub enum PressureSinkage {
 pub struct SinkageExponent {
     /// *n₀* [-].
     pub at_zero: f64,
-    /// *n₁* [-]; 0 in the classical theory.
+    /// *n₁* [-]; 0 in the classical model.
     pub per_slip: f64,
-    /// *n₂* [-]; 0 in the classical theory.
+    /// *n₂* [-]; 0 in the classical model.
     pub per_skid: f64,
 }
 

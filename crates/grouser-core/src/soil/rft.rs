@@ -5,17 +5,17 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::error::{ParameterError, positive};
 
-/// What a soil says to resistive force theory; the other theories leave it aside.
+/// What resistive force theory needs of a soil; the other models leave it aside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rft {
-    /// Factor on the stiffness ξ that the theory computes from density and friction [-].
+    /// Factor on the stiffness ξ that the model computes from density and friction [-].
     pub scale: f64,
     /// Friction angle between the wheel and the soil [rad]; without it the soil's own, a rough wheel.
     pub surface_friction_angle: Option<f64>,
 }
 
 impl Rft {
-    /// The published theory on a rough wheel.
+    /// The published model on a rough wheel.
     pub const PUBLISHED: Self = Self { scale: 1.0, surface_friction_angle: None };
 
     /// That scale and surface friction belong to a wheel on a soil.

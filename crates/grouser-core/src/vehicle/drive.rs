@@ -34,7 +34,7 @@ pub enum DriveLaw {
     Eq18(SlipTarget),
 }
 
-/// What Eq. 18 is told.
+/// What Eq. 18 is to reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlipTarget {
     /// Speed along the contour to be held, *v_des* [m/s].
@@ -44,7 +44,7 @@ pub struct SlipTarget {
 }
 
 /// How far above its reference slip the corrected law still speeds the wheels up [-]. Beyond it a
-/// rover that digs in would be told to dig faster. Source: ours.
+/// rover that digs in would have to dig faster. Source: ours.
 pub const SLIP_MARGIN: f64 = 0.2;
 
 impl DriveLaw {

@@ -13,12 +13,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::load::{OwnMoments, slope_pull};
+use super::load::OwnMoments;
 use super::rover::Rover;
 use super::state::{Acceleration, RoverState};
 use crate::contact::WheelForces;
-use crate::site::Site;
-use crate::terrain::Terrain;
 use crate::units::Vec2;
 
 /// Forces of the soil on the rover: their sum [N] in the body frame, and their moment about the
@@ -26,9 +24,9 @@ use crate::units::Vec2;
 ///
 /// * `own_moments`: whether the wheels' aligning moments count
 #[must_use]
-pub fn soil_resultant(
+pub fn soil_resultant<'a>(
     rover: &Rover,
-    wheels: &[WheelForces],
+    wheels: impl IntoIterator<Item = &'a WheelForces>,
     own_moments: OwnMoments,
 ) -> (Vec2, f64) {
     let mut force = Vec2::zeros();
@@ -45,18 +43,20 @@ pub fn soil_resultant(
 }
 
 /// The acceleration under the soil's forces on the wheels and the weight.
+///
+/// * `pull`: that of the weight, *(G_x, G_y)* of [`slope_pull`](super::load::slope_pull) [N]
+/// * `wheels`: the soil's forces on each wheel, in the mounts' order
 #[must_use]
-pub fn acceleration(
+pub fn acceleration<'a>(
     rover: &Rover,
-    site: &Site<dyn Terrain>,
+    pull: Vec2,
     state: &RoverState,
-    wheels: &[WheelForces],
+    wheels: impl IntoIterator<Item = &'a WheelForces>,
     own_moments: OwnMoments,
 ) -> Acceleration {
     let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
-    let weight = slope_pull(rover, site, state);
-    let force = soil_force + weight;
-    let moment = soil_moment + rover.centre_of_mass().perp(&weight);
+    let force = soil_force + pull;
+    let moment = soil_moment + rover.centre_of_mass().perp(&pull);
 
     let (m, s, i) = (rover.mass(), rover.first_moment(), rover.yaw_inertia());
     let (u, v, rate) = (state.velocity.x, state.velocity.y, state.yaw_rate);

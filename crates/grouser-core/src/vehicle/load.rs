@@ -21,7 +21,7 @@ use crate::site::{Site, Weight};
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 
-/// What moves load from wheel to wheel.
+/// Load transfer: what moves load from wheel to wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoadSharing {
     /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll.
@@ -169,34 +169,13 @@ pub fn wheel_loads(
 ) -> Result<Vec<f64>, Tipping> {
     let arms = rover.load_arms();
     let foot = moments / weight;
-    if stability_margin(arms, foot) < 0.0 {
+    if rover.support_polygon().margin(foot) < 0.0 {
         return Err(Tipping);
     }
     if sharing == LoadSharing::Uniform {
         return Ok(vec![weight / arms.len() as f64; arms.len()]);
     }
     least_norm_loads(arms, foot).map(|shares| shares.iter().map(|share| share * weight).collect())
-}
-
-/// Distance [m] of a point from the edge of the wheels' support polygon, negative outside.
-///
-/// * `arms`: the wheels, seen from above [m]
-#[must_use]
-pub fn stability_margin(arms: &[Vec2], point: Vec2) -> f64 {
-    let mut margin = f64::INFINITY;
-    for from in arms {
-        for to in arms {
-            let edge = to - from;
-            let length = edge.norm();
-            let inside_of_edge = |p: &Vec2| edge.perp(&(p - from));
-            /// Wheels this near to an edge [m²] stand on it.
-            const ON_EDGE: f64 = 1e-12;
-            if length > 0.0 && arms.iter().all(|arm| inside_of_edge(arm) >= -ON_EDGE) {
-                margin = margin.min(inside_of_edge(&point) / length);
-            }
-        }
-    }
-    margin
 }
 
 /// Shares of the weight, N = max(0, a + b·d) with a plane (a, b) that makes their sum 1 and their
@@ -260,6 +239,7 @@ fn least_norm_loads(arms: &[Vec2], foot: Vec2) -> Result<Vec<f64>, Tipping> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::support_polygon::SupportPolygon;
     use super::*;
 
     fn square() -> Vec<Vec2> {
@@ -301,20 +281,15 @@ mod tests {
     }
 
     #[test]
-    fn the_margin_is_the_distance_to_the_nearest_edge() {
-        assert!((stability_margin(&square(), Vec2::new(0.7, 0.1)) - 0.3).abs() < 1e-12);
-        assert!((stability_margin(&square(), Vec2::new(0.0, -1.5)) + 0.5).abs() < 1e-12);
-    }
-
-    #[test]
     fn balance_holds_everywhere_inside_the_wheels() {
         let hexagon: Vec<Vec2> =
             (0..6).map(|k| f64::from(k).sin_cos()).map(|(x, y)| Vec2::new(x, 2.0 * y)).collect();
         for arms in [square(), hexagon] {
+            let polygon = SupportPolygon::of(&arms);
             for i in -20..=20 {
                 for j in -20..=20 {
                     let foot = Vec2::new(f64::from(i), f64::from(j)) * 0.1;
-                    if stability_margin(&arms, foot) > 1e-6 {
+                    if polygon.margin(foot) > 1e-6 {
                         check_balance(&arms, foot);
                     }
                 }

@@ -1,4 +1,4 @@
-//! All wheels settled under their share of the weight: load sharing and soil together.
+//! All wheels settled under their share of the weight: load transfer and soil together.
 
 use std::iter::repeat;
 
@@ -21,7 +21,7 @@ pub struct Ground<'a> {
     pub rover: &'a Rover,
     /// Where it is.
     pub site: &'a Site<dyn Terrain>,
-    /// The theory of the wheel-soil reaction.
+    /// The wheel–soil model.
     pub model: &'a dyn WheelSoilModel,
     /// How the weight is shared.
     pub sharing: LoadSharing,
@@ -66,16 +66,29 @@ pub enum ReactionError {
     },
 }
 
-/// Where a rover stands, and with what weight.
-struct Stance {
-    /// [m]
-    place: Vec2,
-    slope_from_body: Rotation2<f64>,
-    /// Its part into the ground [N].
-    weight: f64,
+/// Where a rover stands, and how its weight acts there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Position of the body's centre of mass, in the slope frame [m].
+    pub place: Vec2,
+    /// The rotation that takes vectors of the body frame to the slope frame.
+    pub slope_from_body: Rotation2<f64>,
+    /// The weight's part into the ground [N].
+    pub weight: f64,
+    /// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N].
+    pub pull: Vec2,
 }
 
 impl Ground<'_> {
+    /// Where the rover stands in a state, and how its weight acts there.
+    #[must_use]
+    pub fn stance(&self, state: &RoverState) -> Stance {
+        let slope_from_body = state.slope_from_body();
+        let weight = load::weight(self.rover, self.site, state, &slope_from_body);
+        let pull = load::pull(&weight, &slope_from_body);
+        Stance { place: state.position, slope_from_body, weight: weight.into, pull }
+    }
+
     /// The reaction on every wheel, in the mounts' order.
     ///
     /// Where the loads depend on the wheels' own torque or moments, loads and reactions are
@@ -85,18 +98,14 @@ impl Ground<'_> {
     /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or the turns do not agree.
     pub fn reactions(
         &self,
-        state: &RoverState,
+        stance: &Stance,
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
         let coupled = sharing == LoadSharing::QuasiStaticTorque
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
-        let slope_from_body = state.slope_from_body();
-        let weight = load::weight(rover, site, state, &slope_from_body);
-        let pull = load::pull(&weight, &slope_from_body);
-        let stance = Stance { place: state.position, slope_from_body, weight: weight.into };
-        let mut moments = load::moments(rover, pull, sharing, own_moments, &[]);
-        let mut wheels = self.settle_under(&stance, moments, slips, &[])?;
+        let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
+        let mut wheels = self.settle_under(stance, moments, slips, &[])?;
         if !coupled {
             return Ok(wheels);
         }
@@ -107,14 +116,14 @@ impl Ground<'_> {
         let scale = rover.mass() * site.gravity * reach;
         let mut change = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
-            let forces: Vec<WheelForces> = wheels.iter().map(|w| w.settled.forces).collect();
-            let next = load::moments(rover, pull, sharing, own_moments, &forces);
+            let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
+            let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);
             change = (next - moments).norm() / scale;
             if change <= AGREED {
                 return Ok(wheels);
             }
             moments = next;
-            wheels = self.settle_under(&stance, moments, slips, &wheels)?;
+            wheels = self.settle_under(stance, moments, slips, &wheels)?;
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }
@@ -129,15 +138,18 @@ impl Ground<'_> {
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, model, sharing, .. } = *self;
-        let Stance { place, slope_from_body, weight } = *stance;
+        let Stance { place, slope_from_body, weight, .. } = *stance;
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
         let settled = wheels.map(|(((&slip, load), mount), guess)| {
             let at = place + slope_from_body * mount.position.xy();
-            let soil = *site.terrain.soil(at, mount.footprint(&slope_from_body));
-            let (wheel, gravity) = (mount.unit.wheel, site.gravity);
-            let contact = Contact { wheel, soil, slip, gravity };
+            let contact = Contact {
+                wheel: mount.unit.wheel,
+                soil: site.terrain.soil(at, mount.footprint(&slope_from_body)).into_owned(),
+                slip,
+                gravity: site.gravity,
+            };
             guess
                 .map_or_else(
                     || settle(model, &contact, load),
@@ -151,7 +163,6 @@ impl Ground<'_> {
 }
 
 /// The soil's forces of each wheel.
-#[must_use]
-pub fn forces_of(wheels: &[WheelReaction]) -> Vec<WheelForces> {
-    wheels.iter().map(|wheel| wheel.settled.forces).collect()
+pub fn forces_of(wheels: &[WheelReaction]) -> impl Iterator<Item = &WheelForces> {
+    wheels.iter().map(|wheel| &wheel.settled.forces)
 }

@@ -5,6 +5,7 @@
 use nalgebra::Rotation2;
 
 use super::state::rotation;
+use super::support_polygon::SupportPolygon;
 use crate::error::{ParameterError, finite, positive};
 use crate::terrain::Footprint;
 use crate::terrain::footprint::REACH;
@@ -192,6 +193,7 @@ pub struct Rover {
     yaw_inertia: f64,
     centre_height: f64,
     load_arms: Vec<Vec2>,
+    support_polygon: SupportPolygon,
 }
 
 /// Two rovers are one if they have the same body, and on it the same wheels.
@@ -239,6 +241,7 @@ impl Rover {
             yaw_inertia: 0.0,
             centre_height: 0.0,
             load_arms: Vec::new(),
+            support_polygon: SupportPolygon::NONE,
         }
     }
 
@@ -291,12 +294,14 @@ impl Rover {
             yaw_inertia = yaw_inertia + count * unit.inertia.zz + unit.mass * spread;
         }
         let plane = mounts.iter().map(|mount| mount.position.xy());
+        let load_arms: Vec<Vec2> = plane.map(|position| position - centre.xy()).collect();
         Ok(Self {
             mass,
             first_moment,
             yaw_inertia,
             centre_height: mounts[0].shearing_radius() + centre.z - mounts[0].position.z,
-            load_arms: plane.map(|position| position - centre.xy()).collect(),
+            support_polygon: SupportPolygon::of(&load_arms),
+            load_arms,
             mounts,
             parts,
         })
@@ -318,6 +323,7 @@ impl Rover {
         for arm in &mut mirrored.load_arms {
             arm.y = -arm.y;
         }
+        mirrored.support_polygon = SupportPolygon::of(&mirrored.load_arms);
         mirrored.first_moment.y = -mirrored.first_moment.y;
         mirrored
     }
@@ -417,6 +423,12 @@ impl Rover {
     #[must_use]
     pub fn load_arms(&self) -> &[Vec2] {
         &self.load_arms
+    }
+
+    /// The polygon that the rover stands on, seen from the common centre of mass, in the body frame.
+    #[must_use]
+    pub fn support_polygon(&self) -> &SupportPolygon {
+        &self.support_polygon
     }
 }
 

@@ -61,7 +61,7 @@ impl<T: 'static> Theories<T> {
         word(Theory::Ishigami.name(), "Stresses along the arc (Ishigami et al. 2007).", nothing),
         word(Theory::Bekker.name(), "Bekker's closed form.", nothing),
         word(
-            Theory::Extended.name(),
+            Theory::SmallWheel.name(),
             "Stresses along the arc, with the terms that small wheels need.",
             nothing,
         )

@@ -11,10 +11,10 @@ use super::super::field::{
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Exit, Extended, Rft, Shear, Soil, StressPeak};
+use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
-use small_wheel::EXTENDED;
+use small_wheel::SMALL_WHEEL;
 
 pub(crate) use exit::LARGEST_EXIT_RATIO;
 pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
@@ -29,7 +29,7 @@ pub(crate) const BLANK: Soil = Soil {
     shear: Shear::Isotropic { modulus: LINEAR },
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
-    extended: Extended::OFF,
+    small_wheel: SmallWheel::OFF,
     rft: Rft::PUBLISHED,
 };
 
@@ -80,7 +80,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
         table(
             "small_wheel",
             "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
-            &At { inner: &EXTENDED, at: |soil: &mut Soil| &mut soil.extended },
+            &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
         .optional()
         .formerly("extended"),

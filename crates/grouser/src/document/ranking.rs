@@ -12,7 +12,7 @@ use super::{
     read_data_set,
 };
 use crate::contact::Theory;
-use crate::soil::Extended;
+use crate::soil::SmallWheel;
 use crate::studies::measurement::Quantity;
 use crate::studies::validation::{Validation, ValidationStudy};
 
@@ -189,7 +189,7 @@ fn rank(
         for theory in Theory::ALL {
             let for_another = soil.document.theory().is_some_and(|own| own != theory);
             // Without its terms the small-wheel model is the classical one.
-            let same = theory == Theory::Extended && soil.value.extended == Extended::OFF;
+            let same = theory == Theory::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
             if for_another || same {
                 continue;
             }

@@ -357,7 +357,7 @@ impl HeadingCurve {
         let study = &self.study;
         let Point { place, wheels, .. } = point;
         let forces = forces_of(wheels);
-        let (force, moment) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
+        let (force, moment) = dynamics::soil_resultant(&study.rover, forces, study.own_moments);
         let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
         HeadingOffset {
             slope: place.z,

@@ -29,7 +29,7 @@ use crate::wheel::Wheel;
 ///     tests: &tests,
 ///     wheel: smooth.wheel.value,
 ///     soil: smooth.soils[0].1.value,
-///     theory: Theory::Extended,
+///     theory: Theory::SmallWheel,
 ///     gravity: data_set.gravity,
 /// }
 /// .run();

@@ -148,7 +148,7 @@ fn reference_soil(case: &str) -> Soil {
         },
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
-        extended: grouser::soil::Extended::OFF,
+        small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
     }
 }

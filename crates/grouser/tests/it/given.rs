@@ -6,7 +6,7 @@ use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil,
     StressPeak,
 };
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
@@ -61,7 +61,7 @@ pub(crate) fn toyoura() -> Soil {
         },
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
-        extended: Extended::OFF,
+        small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
     }
 }
@@ -242,7 +242,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 shear,
                 exit,
                 bulldozing,
-                extended: Extended::OFF,
+                small_wheel: SmallWheel::OFF,
                 rft: Rft::PUBLISHED,
             }
         },

@@ -1,12 +1,12 @@
 //! The force integral: the same bits on every instruction set, its accuracy, and the search on it.
 
 use grouser::contact::{
-    Contact, Extended, InstructionSet, Ishigami, Slip, Theory, WheelSoilModel, settle, settle_from,
-    settle_many,
+    Contact, InstructionSet, Ishigami, Slip, SmallWheel, Theory, WheelSoilModel, settle,
+    settle_from, settle_many,
 };
 use grouser::soil::{
     Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
-    extended,
+    small_wheel,
 };
 use grouser::units::deg;
 use grouser::wheel::Wheel;
@@ -56,7 +56,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         shear,
         exit: Exit::Ratio(draw.between(0.1, 1.2)),
         bulldozing: Bulldozing::Sine,
-        extended: extended::Extended::OFF,
+        small_wheel: small_wheel::SmallWheel::OFF,
         rft: Rft::PUBLISHED,
     };
     let slip = any_slip(draw, motion);
@@ -133,12 +133,12 @@ fn bits(model: &dyn WheelSoilModel, contact: &Contact, sinkage: f64) -> Vec<u64>
 /// Terms of a small wheel's soil, so that the extended theory differs from the classical one.
 fn with_terms(contact: &Contact, draw: &mut Draw) -> Contact {
     let mut contact = *contact;
-    let terms = &mut contact.soil.extended;
+    let terms = &mut contact.soil.small_wheel;
     terms.sinkage.with_slip_angle = draw.between(0.0, 3.0);
     terms.sinkage.with_slip = draw.between(0.0, 3.0);
     terms.exit.with_slip = draw.between(0.0, 0.5);
-    terms.flank.friction = 0.5;
-    terms.heap.front = draw.between(0.0, 2.0);
+    terms.side_wall.friction = 0.5;
+    terms.mounds.bow_wave = draw.between(0.0, 2.0);
     contact
 }
 
@@ -153,7 +153,7 @@ fn every_instruction_set_gives_the_same_bits() {
         let extended = with_terms(&contact, &mut draw);
         let on = |set| {
             let mut numbers = bits(&Ishigami::DEFAULT.on(set), &contact, sinkage);
-            numbers.extend(bits(&Extended::DEFAULT.on(set), &extended, sinkage));
+            numbers.extend(bits(&SmallWheel::DEFAULT.on(set), &extended, sinkage));
             numbers
         };
         let baseline = on(InstructionSet::Baseline);
@@ -169,7 +169,7 @@ fn a_load_sinkage_relation_has_the_bits_of_the_normal_force() {
     for case in 0..5_000 {
         let contact = any_case(Theory::Ishigami, case).contact;
         let sinkage = Draw::of_case(!case).sized(1e-6, 1.0) * contact.wheel.shearing_radius();
-        for theory in [Theory::Ishigami, Theory::Extended] {
+        for theory in [Theory::Ishigami, Theory::SmallWheel] {
             let numbers = bits(theory.model(), &contact, sinkage);
             assert_eq!(numbers[2], numbers[14], "case {case}, {theory:?}: {contact:?}");
         }
@@ -183,7 +183,7 @@ fn settling_does_not_depend_on_the_guess() {
         let (contact, sinkage) = any_contact(&mut draw, Motion::Driving, false);
         // Without cohesion F_z grows with the sinkage, so that one sinkage carries the load.
         let contact = Contact { soil: Soil { cohesion: 0.0, ..contact.soil }, ..contact };
-        for theory in [Theory::Ishigami, Theory::Bekker, Theory::Extended] {
+        for theory in [Theory::Ishigami, Theory::Bekker, Theory::SmallWheel] {
             let model = theory.model();
             let load = model.forces(&contact, sinkage).normal_force;
             let cold = settle(model, &contact, load).expect("it is carried there");

@@ -56,7 +56,7 @@ fn rmse(group: &Group) -> [f64; 3] {
 
 /// How far the shipped soils are from the trials that they were fitted to, with some room for the
 /// digits of the documents. In sample: what the theory is worth at other angles is told in
-/// `docs/models/extended.md`.
+/// `docs/models/small-wheel.md`.
 #[test]
 fn the_fitted_soils_agree_with_their_trials() {
     for (kind, driven, all) in [

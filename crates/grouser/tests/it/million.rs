@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, WheelForces, settle};
 use grouser::soil::{
-    Exit, Extended, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil, StressPeak,
 };
 use grouser::units::deg;
 use grouser::wheel::{Grousers, Wheel};
@@ -124,7 +124,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
         shear,
         exit,
         bulldozing: draw.one_of(&BULLDOZING),
-        extended: Extended::OFF,
+        small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
     }
 }

@@ -55,7 +55,7 @@ fn soil_of(soil: &Value) -> Soil {
         },
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
-        extended: grouser::soil::Extended::OFF,
+        small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
     }
 }

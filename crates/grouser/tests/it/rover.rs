@@ -7,7 +7,7 @@ use grouser::contact::WheelForces;
 use grouser::site::Site;
 use grouser::terrain::{Patch, Terrain};
 use grouser::units::{EARTH_GRAVITY, Vec2, Vec3, deg};
-use grouser::vehicle::load::{stability_margin, wheel_loads};
+use grouser::vehicle::load::wheel_loads;
 use grouser::vehicle::{
     Acceleration, Body, Inertia, LoadSharing, Mount, OwnMoments, Rover, RoverState, WheelUnit,
     dynamics, load,
@@ -120,7 +120,7 @@ fn lost_in_flight(duration: f64, acceleration: impl Fn(&RoverState) -> Accelerat
 fn without_forces(state: &RoverState) -> Acceleration {
     let rover = lopsided();
     let wheels = vec![WheelForces::default(); rover.wheel_count()];
-    dynamics::acceleration(&rover, &site(0.0), state, &wheels, OwnMoments::Included)
+    dynamics::acceleration(&rover, Vec2::zeros(), state, &wheels, OwnMoments::Included)
 }
 
 /// A rover that nothing touches keeps momentum, angular momentum and energy, with its centre of mass
@@ -278,7 +278,8 @@ proptest! {
             .map(|&(x, y, moment)| wheel_force(x, y, moment))
             .collect();
         let site = site(slope);
-        let ours = dynamics::acceleration(&rover, &site, &state, &wheels, OwnMoments::Included);
+        let pull = load::slope_pull(&rover, &site, &state);
+        let ours = dynamics::acceleration(&rover, pull, &state, &wheels, OwnMoments::Included);
         let theirs = by_the_common_centre(&rover, &site, &state, &wheels);
         let size = theirs.velocity_rate.norm() + theirs.yaw_acceleration.abs() + 1.0;
         // Rounding of a 3 by 3 solution; light bodies with far wheels are the worst conditioned.
@@ -308,7 +309,7 @@ fn own_moments_turn_the_rover_only_if_they_are_included() {
     let wheels = vec![wheel_force(0.0, 0.0, 0.1); 4];
     let turning = |own_moments| {
         let state = RoverState::default();
-        dynamics::acceleration(&rover, &site(0.0), &state, &wheels, own_moments).yaw_acceleration
+        dynamics::acceleration(&rover, Vec2::zeros(), &state, &wheels, own_moments).yaw_acceleration
     };
     assert_eq!(turning(OwnMoments::Neglected), 0.0);
     // 0.4 N·m about the common centre, where the inertia is I − m c².
@@ -349,7 +350,7 @@ proptest! {
         let total: f64 = shares[..arms.len()].iter().sum();
         prop_assume!(total > 0.1);
         let foot: Vec2 = arms.iter().zip(&shares).map(|(arm, share)| arm * (*share / total)).sum();
-        prop_assume!(stability_margin(arms, foot) > 1e-6);
+        prop_assume!(rover.support_polygon().margin(foot) > 1e-6);
         let moments = foot * weight;
         let loads = wheel_loads(&rover, LoadSharing::QuasiStatic, weight, moments);
         let loads = loads.map_err(|_| TestCaseError::fail("it stands, but is said to tip"))?;
@@ -365,7 +366,7 @@ proptest! {
     #[test]
     fn equal_loads_are_equal(rover in any_rover()) {
         // Equal loads need no balance, but a rover that would tip still does.
-        prop_assume!(stability_margin(rover.load_arms(), Vec2::zeros()) > 0.0);
+        prop_assume!(rover.support_polygon().margin(Vec2::zeros()) > 0.0);
         let loads = wheel_loads(&rover, LoadSharing::Uniform, 30.0, Vec2::zeros());
         let count = rover.wheel_count();
         prop_assert_eq!(loads, Ok(vec![30.0 / count as f64; count]));

@@ -172,7 +172,7 @@ fn generic<const IS_UPRIGHT: bool>(normal: Vector, direction: Vector, lead: f64)
     [x, y, z - f3]
 }
 
-/// Σ cₖ Tₖ, in sums side by side: this is what the theory's time goes into.
+/// Σ cₖ Tₖ, in sums side by side: this is what the model's time goes into.
 #[inline(always)]
 fn weighted<const IS_UPRIGHT: bool>(coefficients: &[f64; 20], terms: &[f64; 20]) -> f64 {
     let (c, t) = (coefficients, terms);
@@ -274,7 +274,7 @@ mod tests {
         (-drag, lift)
     }
 
-    /// Two theories of the same plates from different experiments. Over every inclination and
+    /// Two models of the same plates from different experiments. Over every inclination and
     /// direction they differ by 0.16 of the stress under a plate pressed down, two fifths of the mean
     /// stress. Where plates are pushed down by 45° or more with at most 60° of tilt they are nearer.
     #[test]

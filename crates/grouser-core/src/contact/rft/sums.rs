@@ -19,7 +19,7 @@ pub(super) struct Sums {
 pub(super) enum Part {
     Rim,
     Grouser,
-    Flank,
+    SideWall,
 }
 
 /// Forces [N] and moments [N·m], for each lane's facets.
@@ -59,7 +59,7 @@ impl LaneSums {
                 self.thrust[lane] += force[0];
                 self.side_force_from_shear[lane] += force[1];
             }
-            Part::Flank => {
+            Part::SideWall => {
                 self.thrust[lane] += force[0];
                 self.bulldozing_load[lane] += push[1].abs();
             }

@@ -4,7 +4,7 @@
 //! the direction of its rim turns within an angle of δ = |slip velocity|/|ω r_s| beside the lowest
 //! point, and there the nodes have to be.
 //!
-//! Eight angles are computed side by side, as the nodes of the classical theories' kernel are
+//! Eight angles are computed side by side, as the nodes of the classical models' kernel are
 //! ([`kernel`](super::super::kernel)): loops over lanes without branches, which become vector
 //! instructions.
 
@@ -333,7 +333,7 @@ impl FrontHalf {
                     let share = facet::lead_share(met.lead) * per_stress[lane];
                     let place = [places[0][lane], across, places[1][lane]];
                     let push = scaled(normal, -met.pressure * share);
-                    sum.add(Part::Flank, lane, place, push, scaled(met.shear, share));
+                    sum.add(Part::SideWall, lane, place, push, scaled(met.shear, share));
                 }
             }
         }

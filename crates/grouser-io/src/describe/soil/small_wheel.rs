@@ -1,25 +1,25 @@
 //! Terms of the model `small-wheel`.
 
 use super::super::super::field::{At, DEG, Fill, ONE, Table, number, table};
-use grouser_core::soil::Extended;
-use grouser_core::soil::extended::{ExitShift, Flank, Heap, SinkageGrowth};
+use grouser_core::soil::SmallWheel;
+use grouser_core::soil::small_wheel::{ExitShift, Mounds, SideWall, SinkageGrowth};
 
 const DEFAULTS: Fill = Fill::Keys(&[]);
-const OFF: Extended = Extended::OFF;
+const OFF: SmallWheel = SmallWheel::OFF;
 
-pub(super) static EXTENDED: Table<Extended> = Table {
+pub(super) static SMALL_WHEEL: Table<SmallWheel> = Table {
     doc: "What a small wheel's soil does beyond the classical law. Each key is off by default.",
     fields: &[
         table(
             "sinkage",
             "How a moving wheel sinks deeper than a plate.",
-            &At { inner: &SINKAGE_GROWTH, at: |terms: &mut Extended| &mut terms.sinkage },
+            &At { inner: &SINKAGE_GROWTH, at: |terms: &mut SmallWheel| &mut terms.sinkage },
         )
         .otherwise(DEFAULTS),
         table(
             "exit",
             "How the exit moves with the motion.",
-            &At { inner: &EXIT_SHIFT, at: |terms: &mut Extended| &mut terms.exit },
+            &At { inner: &EXIT_SHIFT, at: |terms: &mut SmallWheel| &mut terms.exit },
         )
         .otherwise(DEFAULTS),
         table("interface", "Friction between wheel and soil.", &INTERFACE)
@@ -28,14 +28,14 @@ pub(super) static EXTENDED: Table<Extended> = Table {
         table(
             "side_wall",
             "The soil's load on the side wall of the wheel.",
-            &At { inner: &FLANK, at: |terms: &mut Extended| &mut terms.flank },
+            &At { inner: &SIDE_WALL, at: |terms: &mut SmallWheel| &mut terms.side_wall },
         )
         .otherwise(DEFAULTS)
         .formerly("flank"),
         table(
             "mounds",
             "Soil pushed by the width of the rim.",
-            &At { inner: &HEAP, at: |terms: &mut Extended| &mut terms.heap },
+            &At { inner: &MOUNDS, at: |terms: &mut SmallWheel| &mut terms.mounds },
         )
         .otherwise(DEFAULTS)
         .formerly("heap"),
@@ -110,19 +110,19 @@ static EXIT_SHIFT: Table<ExitShift> = Table {
     ],
 };
 
-static INTERFACE: Table<Extended> = Table {
+static INTERFACE: Table<SmallWheel> = Table {
     doc: "Friction between wheel and soil.",
     fields: &[number(
         "friction_angle_deg",
         DEG,
         1.0..=60.0,
         "Friction angle of the wheel-soil interface, δ, where below the soil's own",
-        |terms: &mut Extended| Some(terms.rim_friction_angle.get_or_insert(0.0)),
+        |terms: &mut SmallWheel| Some(terms.interface_friction_angle.get_or_insert(0.0)),
     )
     .optional()],
 };
 
-static FLANK: Table<Flank> = Table {
+static SIDE_WALL: Table<SideWall> = Table {
     doc: "The soil's load on the side wall of the wheel.",
     fields: &[
         number(
@@ -130,40 +130,48 @@ static FLANK: Table<Flank> = Table {
             ONE,
             0.0..=20.0,
             "Factor on the passive pressure, for the bow wave at the wall and for its ends",
-            |flank: &mut Flank| Some(&mut flank.pressure_factor),
+            |wall: &mut SideWall| Some(&mut wall.pressure_factor),
         )
-        .or(OFF.flank.pressure_factor),
+        .or(OFF.side_wall.pressure_factor),
         number(
             "fading",
             ONE,
             0.0..=10.0,
             "How fast the load fades with slip or skid: e^(−fading |S|)",
-            |flank: &mut Flank| Some(&mut flank.fading),
+            |wall: &mut SideWall| Some(&mut wall.fading),
         )
-        .or(OFF.flank.fading),
+        .or(OFF.side_wall.fading),
         number(
             "friction",
             ONE,
             0.0..=1.0,
             "Coefficient of friction of the side face, μ_f",
-            |flank: &mut Flank| Some(&mut flank.friction),
+            |wall: &mut SideWall| Some(&mut wall.friction),
         )
-        .or(OFF.flank.friction),
+        .or(OFF.side_wall.friction),
     ],
 };
 
-static HEAP: Table<Heap> = Table {
+static MOUNDS: Table<Mounds> = Table {
     doc: "Soil pushed by the width of the rim, as factors on b R_b(h).",
     fields: &[
-        number("bow_wave", ONE, 0.0..=20.0, "In front of a wheel that skids", |heap: &mut Heap| {
-            Some(&mut heap.front)
-        })
-        .or(OFF.heap.front)
+        number(
+            "bow_wave",
+            ONE,
+            0.0..=20.0,
+            "In front of a wheel that skids",
+            |mounds: &mut Mounds| Some(&mut mounds.bow_wave),
+        )
+        .or(OFF.mounds.bow_wave)
         .formerly("front"),
-        number("rear_mound", ONE, 0.0..=20.0, "Behind a wheel that spins", |heap: &mut Heap| {
-            Some(&mut heap.behind)
-        })
-        .or(OFF.heap.behind)
+        number(
+            "rear_mound",
+            ONE,
+            0.0..=20.0,
+            "Behind a wheel that spins",
+            |mounds: &mut Mounds| Some(&mut mounds.rear_mound),
+        )
+        .or(OFF.mounds.rear_mound)
         .formerly("behind"),
     ],
 };

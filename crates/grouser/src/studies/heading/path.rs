@@ -10,8 +10,9 @@ use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::site::Site;
+use crate::units::Vec2;
 use crate::vehicle::reaction::{Ground, forces_of};
-use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics, load};
+use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics};
 
 /// (s, c, α): slip ratio, crab angle c = γ − χ, slope.
 pub(super) type Place = Vector3<f64>;
@@ -104,7 +105,8 @@ impl<'a> Path<'a> {
         RoverState { yaw: self.held.yaw(crab), ..RoverState::default() }
     }
 
-    fn reactions(&self, place: &Place) -> Result<Vec<WheelReaction>, ReactionError> {
+    /// The wheels at a place, and the weight's pull there, in the body frame [N].
+    fn reactions(&self, place: &Place) -> Result<(Vec<WheelReaction>, Vec2), ReactionError> {
         let HeadingStudy { rover, theory, sharing, own_moments, .. } = self.study;
         let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
         let slips = vec![Slip::on_test_stand(slip_ratio, -crab); rover.wheel_count()];
@@ -116,17 +118,17 @@ impl<'a> Path<'a> {
             sharing: *sharing,
             own_moments: *own_moments,
         };
-        ground.reactions(&self.state(crab), &slips)
+        let stance = ground.stance(&self.state(crab));
+        Ok((ground.reactions(&stance, &slips)?, stance.pull))
     }
 
     /// The wheels at a place, and the forces left over there, over the weight: along and across
     /// the rover [-].
     fn balance(&self, place: &Place) -> Result<([f64; 2], Vec<WheelReaction>), ReactionError> {
         let study = self.study;
-        let wheels = self.reactions(place)?;
-        let forces = forces_of(&wheels);
-        let (soil, _) = dynamics::soil_resultant(&study.rover, &forces, study.own_moments);
-        let pull = load::slope_pull(&study.rover, &self.site(place.z), &self.state(place.y));
+        let (wheels, pull) = self.reactions(place)?;
+        let (soil, _) =
+            dynamics::soil_resultant(&study.rover, forces_of(&wheels), study.own_moments);
         let left_over = (soil + pull) / (study.rover.mass() * study.gravity);
         Ok(([left_over.x, left_over.y], wheels))
     }

@@ -1,26 +1,26 @@
-//! The constants of the extended theory ([`contact::extended`](crate::contact::extended)): what a
-//! small wheel's soil does beyond the classical law. They belong to one soil under one wheel.
+//! The constants of the small-wheel model ([`contact::small_wheel`](crate::contact::small_wheel)): what the
+//! soil under a small wheel does beyond the classical law. They belong to one soil under one wheel.
 //!
-//! Every term is off in [`Extended::OFF`], and then the theory is the classical one.
+//! Every term is off in [`SmallWheel::OFF`], and then the model is the classical one.
 
 use std::f64::consts::FRAC_PI_2;
 
 use crate::elementary::{pow, wide};
 use crate::error::{ParameterError, finite, not_negative, positive};
 
-/// The terms of the extended theory.
+/// The terms of the small-wheel model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extended {
+pub struct SmallWheel {
     /// How a moving wheel sinks deeper than a plate.
     pub sinkage: SinkageGrowth,
     /// How the exit moves with the motion.
     pub exit: ExitShift,
-    /// Friction angle between rim and soil, *δ* [rad], where it is below the soil's own.
-    pub rim_friction_angle: Option<f64>,
-    /// The soil's load on the flank.
-    pub flank: Flank,
-    /// The soil pushed in front of the wheel and behind it.
-    pub heap: Heap,
+    /// Friction angle of the wheel–soil interface, *δ* [rad], where it is below the soil's own.
+    pub interface_friction_angle: Option<f64>,
+    /// The soil's load on the side wall.
+    pub side_wall: SideWall,
+    /// The bow wave in front of the wheel and the rear mound behind it.
+    pub mounds: Mounds,
 }
 
 /// Sinkage growth, *ζ* [-]: the moving wheel meets at depth z what a plate meets at z/ζ.
@@ -38,7 +38,7 @@ pub struct SinkageGrowth {
     pub sharpness: f64,
 }
 
-/// What is added to the exit-angle ratio *λ*.
+/// What is added to the wheel sinkage ratio *λ*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitShift {
     /// Growth with slip [-].
@@ -47,10 +47,10 @@ pub struct ExitShift {
     pub with_slip_angle: f64,
 }
 
-/// The soil's load on the flank of a small wheel.
+/// The soil's load on the side wall of a small wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flank {
-    /// Factor on the passive pressure *R_b* [-], for the heap on the wall and for its ends.
+pub struct SideWall {
+    /// Factor on the passive pressure *R_b* [-], for the soil piled up at the wall and for its ends.
     pub pressure_factor: f64,
     /// How fast the load fades with slip or skid, *ζ_b* [-].
     pub fading: f64,
@@ -60,16 +60,16 @@ pub struct Flank {
 
 /// Soil pushed by the width of the rim, as factors on b R_b(h) [-].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Heap {
-    /// In front of a wheel that skids, *f_front* [-].
-    pub front: f64,
-    /// Behind a wheel that spins, *f_behind* [-].
-    pub behind: f64,
+pub struct Mounds {
+    /// Bow wave, in front of a wheel that skids, *f_front* [-].
+    pub bow_wave: f64,
+    /// Rear mound, behind a wheel that spins, *f_behind* [-].
+    pub rear_mound: f64,
 }
 
 /// The side motion at which a wheel's sinkage no longer grows in proportion to tan β [-].
 ///
-/// Source: theory notes on the CMU wheels (sin β/(cos β + 0.3)); fitted values scatter from 0.25
+/// Source: notes on the CMU wheels (sin β/(cos β + 0.3)); fitted values scatter from 0.25
 /// to 0.3.
 const ROLLING_SHARE: f64 = 0.3;
 
@@ -80,8 +80,8 @@ const ROLLING_SHARE: f64 = 0.3;
 /// the last tenth of the radius; powers of 12 to 24 fit the CMU wheels equally well.
 const END_OF_DIGGING: i32 = 16;
 
-impl Extended {
-    /// No term at all: the classical theory.
+impl SmallWheel {
+    /// No term at all: the classical model.
     pub const OFF: Self = Self {
         sinkage: SinkageGrowth {
             with_slip_angle: 0.0,
@@ -91,9 +91,9 @@ impl Extended {
             sharpness: 1.0,
         },
         exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
-        rim_friction_angle: None,
-        flank: Flank { pressure_factor: 1.0, fading: 0.0, friction: 0.0 },
-        heap: Heap { front: 0.0, behind: 0.0 },
+        interface_friction_angle: None,
+        side_wall: SideWall { pressure_factor: 1.0, fading: 0.0, friction: 0.0 },
+        mounds: Mounds { bow_wave: 0.0, rear_mound: 0.0 },
     };
 
     /// That the parameters belong to a small wheel's model.
@@ -101,7 +101,7 @@ impl Extended {
     /// # Errors
     /// [`ParameterError`] for the first one that does not.
     pub fn check(&self) -> Result<(), ParameterError> {
-        let Self { sinkage, exit, rim_friction_angle, flank, heap } = self;
+        let Self { sinkage, exit, interface_friction_angle, side_wall, mounds } = self;
         not_negative("sinkage growth with slip angle", sinkage.with_slip_angle)?;
         not_negative("sinkage growth with slip", sinkage.with_slip)?;
         not_negative("sinkage growth of a locked wheel", sinkage.locked)?;
@@ -115,22 +115,22 @@ impl Extended {
         }
         finite("exit ratio's growth with slip", exit.with_slip)?;
         finite("exit ratio's growth with slip angle", exit.with_slip_angle)?;
-        if let Some(angle) = *rim_friction_angle {
-            positive("rim friction angle [rad]", angle)?;
+        if let Some(angle) = *interface_friction_angle {
+            positive("interface friction angle [rad]", angle)?;
             if angle >= FRAC_PI_2 {
-                let name = "rim friction angle [rad]";
+                let name = "interface friction angle [rad]";
                 return Err(ParameterError::new(name, angle, "below π/2"));
             }
         }
-        not_negative("pressure factor of the flank", flank.pressure_factor)?;
-        not_negative("fading of the flank", flank.fading)?;
-        not_negative("friction of the flank", flank.friction)?;
-        not_negative("heap in front", heap.front)?;
-        not_negative("heap behind", heap.behind)
+        not_negative("pressure factor of the side wall", side_wall.pressure_factor)?;
+        not_negative("fading of the side wall", side_wall.fading)?;
+        not_negative("friction of the side wall", side_wall.friction)?;
+        not_negative("bow wave", mounds.bow_wave)?;
+        not_negative("rear mound", mounds.rear_mound)
     }
 }
 
-impl Default for Extended {
+impl Default for SmallWheel {
     fn default() -> Self {
         Self::OFF
     }
@@ -178,7 +178,7 @@ impl SinkageGrowth {
 }
 
 impl ExitShift {
-    /// The exit-angle ratio *λ* [-] of a moving wheel: at least 0, and above 1 only where the
+    /// The wheel sinkage ratio *λ* [-] of a moving wheel: at least 0, and above 1 only where the
     /// soil at rest already is.
     ///
     /// * `at_rest`: the classical *λ* [-]
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn no_growth_is_exactly_one() {
         for (total_slip, degrees) in [(-1.0, 0.0), (-0.3, 50.0), (0.0, 90.0), (1.0, 30.0)] {
-            assert_eq!(Extended::OFF.sinkage.at(total_slip, deg(degrees), 0.3), 1.0);
+            assert_eq!(SmallWheel::OFF.sinkage.at(total_slip, deg(degrees), 0.3), 1.0);
         }
     }
 

@@ -1,7 +1,7 @@
 //! What the extended theory must obey, and how well it agrees with measurements.
 
 use grouser::contact::{
-    Contact, Extended, Ishigami, SettleError, Settled, Slip, WheelSoilModel, settle,
+    Contact, Ishigami, SettleError, Settled, Slip, SmallWheel, WheelSoilModel, settle,
 };
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::soil::{self, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil};
@@ -29,7 +29,7 @@ fn cmu(kind: &str, slip: Slip) -> Contact {
 }
 
 fn settled(contact: &Contact, load: f64) -> Result<Settled, SettleError> {
-    settle(&Extended::DEFAULT, contact, load)
+    settle(&SmallWheel::DEFAULT, contact, load)
 }
 
 /// The same sand, with a stiffness that knows gravity and width: equal at 1 g and b = 50 mm.
@@ -65,10 +65,10 @@ proptest! {
     ) {
         let slip = Slip::of_motion(rim, Vec2::new(v_x, v_y));
         let soil = soil(name);
-        prop_assert_eq!(soil.extended, soil::Extended::OFF);
+        prop_assert_eq!(soil.small_wheel, soil::SmallWheel::OFF);
         let contact = Contact { wheel: wheel("cmu-grouser"), soil, slip, gravity: EARTH_GRAVITY };
         let (ours, theirs) = (
-            Extended::DEFAULT.forces(&contact, sinkage),
+            SmallWheel::DEFAULT.forces(&contact, sinkage),
             Ishigami::DEFAULT.forces(&contact, sinkage),
         );
         prop_assert_eq!(ours, theirs);
@@ -100,7 +100,7 @@ proptest! {
         share in 0.0..=1.0_f64,
     ) {
         let contact = cmu(kind, Slip::of_motion(rim, Vec2::new(v_x, v_y)));
-        let forces = Extended::DEFAULT.forces(&contact, share * contact.wheel.shearing_radius());
+        let forces = SmallWheel::DEFAULT.forces(&contact, share * contact.wheel.shearing_radius());
         for value in [
             forces.drawbar_pull, forces.side_force, forces.normal_force, forces.torque,
             forces.overturning_moment, forces.aligning_moment, forces.max_normal_stress,
@@ -140,7 +140,7 @@ proptest! {
     ) {
         let at = |v_y| {
             let contact = cmu(kind, Slip::of_motion(rim, Vec2::new(v_x, v_y)));
-            Extended::DEFAULT.forces(&contact, 0.02)
+            SmallWheel::DEFAULT.forces(&contact, 0.02)
         };
         let (left, right) = (at(v_y), at(-v_y));
         prop_assert!((left.side_force + right.side_force).abs() < 1e-9);
@@ -197,7 +197,7 @@ proptest! {
     #[test]
     fn the_soil_is_passive(kind in any_kind(), (rim, v_x, v_y) in any_motion()) {
         let contact = cmu(kind, Slip::of_motion(rim, Vec2::new(v_x, v_y)));
-        let forces = Extended::DEFAULT.forces(&contact, 0.015);
+        let forces = SmallWheel::DEFAULT.forces(&contact, 0.015);
         let turning = forces.torque * rim / contact.wheel.shearing_radius();
         let moving = forces.drawbar_pull * v_x + forces.side_force * v_y;
         // Sinking is held up from outside: a rim that climbs its own front slope gains nothing.

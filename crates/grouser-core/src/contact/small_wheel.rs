@@ -1,25 +1,26 @@
-//! The classical theory extended for small rovers: one parameter set for a wheel and a soil.
+//! The small-wheel model: the classical one with the terms that small rovers need. One parameter set
+//! serves a wheel and a soil.
 //!
 //! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to
 //! a moving wheel, and four forces more. Each term is off unless the soil sets it
-//! ([`crate::soil::extended`]); with none the theory is `ishigami`, to the last bit.
+//! ([`crate::soil::small_wheel`]); with none the model is `ishigami`, to the last bit.
 //!
 //! ```text
 //! σ   = K_σ (z/ζ)ⁿ                                     ζ(S, β): the moving wheel digs itself in
 //! λ   = λ₀ + λ_s S⁺ + λ_β |sin β|                      within 0 and 1
-//! |τ| ≤ c + σ min(tan φ, tan δ)                        friction of the rim
-//! F_s = k_f e^(−ζ_b |S|) ∫ R_b(h(θ)) [r_s − h cos θ] dθ     the flank, loaded by the heap on it
+//! |τ| ≤ c + σ min(tan φ, tan δ)                        friction of the wheel–soil interface
+//! F_s = k_f e^(−ζ_b |S|) ∫ R_b(h(θ)) [r_s − h cos θ] dθ     the side wall, loaded by the soil piled up at it
 //! X_f = μ_f |F_s sin β| u_x/√(u_x² + v_y²)             u_x = ω r_F − v_x: friction of the side face
-//! Q   = −f_front b R_b(h) S⁻ (v_x, v_y)/V              soil pushed in front of a skidding wheel
-//! X_b = f_behind b R_b(h) S⁺²                          soil pushed back by a spinning wheel
+//! Q   = −f_front b R_b(h) S⁻ (v_x, v_y)/V              bow wave in front of a skidding wheel
+//! X_b = f_behind b R_b(h) S⁺²                          rear mound behind a spinning wheel
 //! ```
 //!
-//! S is the slip by the total speed ([`Slip::total`]), S⁺ its driving part and S⁻ its skid. What
-//! each term brings, out of sample, is told in `docs/models/extended.md`.
+//! S is the slip by the total speed ([`Slip::total`]), S⁺ its driving part and S⁻ its skid.
+//! `docs/models/small-wheel.md` shows what each term brings, out of sample.
 //!
 //! [`Slip::total`]: super::slip::Slip::total
 
-use super::bulldozing::{self, FlankLoad, WallResistance};
+use super::bulldozing::{self, SideWallLoad, WallResistance};
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::ishigami;
@@ -30,30 +31,30 @@ use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
 
-/// The classical theory with the terms of [`crate::soil::Extended`].
+/// The classical model with the terms of [`crate::soil::SmallWheel`].
 #[derive(Clone, Copy, Debug)]
-pub struct Extended {
+pub struct SmallWheel {
     numerics: Numerics,
 }
 
-impl Default for Extended {
+impl Default for SmallWheel {
     fn default() -> Self {
         Self::DEFAULT
     }
 }
 
-impl Extended {
-    /// As many nodes as in the classical theory.
+impl SmallWheel {
+    /// As many nodes as in the classical model.
     pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
-    /// The same theory with four times as many nodes as the finest rule, to measure the error of the
+    /// The same model with four times as many nodes as the finest rule, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
         Self { numerics: Numerics::REFERENCE }
     }
 
-    /// The same theory on one instruction set, or on the baseline where the processor lacks it. The
+    /// The same model on one instruction set, or on the baseline where the processor lacks it. The
     /// bits are the same.
     #[must_use]
     pub fn on(self, set: InstructionSet) -> Self {
@@ -65,7 +66,7 @@ impl Extended {
     }
 }
 
-impl WheelSoilModel for Extended {
+impl WheelSoilModel for SmallWheel {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
     }
@@ -85,73 +86,73 @@ fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
     let Contact { wheel, soil, gravity, .. } = contact;
     let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
     let reaction = arc.reaction(&wall, sinkage);
-    let flank = heaped(contact, &reaction.flank);
+    let wall_load = on_side_wall(contact, &reaction.side_wall);
     let pushed = wheel.width * wall.at(sinkage);
 
     // Only the first of them carries.
-    ishigami::forces(contact, &reaction, &flank)
-        + face_friction(contact, &flank)
-        + soil_in_front(contact, pushed, sinkage)
-        + soil_behind(contact, pushed)
+    ishigami::forces(contact, &reaction, &wall_load)
+        + face_friction(contact, &wall_load)
+        + bow_wave(contact, pushed, sinkage)
+        + rear_mound(contact, pushed)
 }
 
 /// What the soil makes of a wheel's motion.
 fn response(contact: &Contact) -> Response {
     let classical = Response::classical(contact);
-    let terms = &contact.soil.extended;
+    let terms = &contact.soil.small_wheel;
     let (total_slip, beta) = (contact.slip.total(), contact.slip.angle);
     Response {
         surface_growth: terms.sinkage.at_the_surface(total_slip, beta),
         exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
         friction: terms
-            .rim_friction_angle
+            .interface_friction_angle
             .map_or(classical.friction, |delta| classical.friction.min(wide::tan(delta))),
     }
 }
 
-/// The flank's load: larger than a bare wall's, and fading as the wheel slips or skids.
-fn heaped(contact: &Contact, bare: &FlankLoad) -> FlankLoad {
-    let terms = &contact.soil.extended.flank;
+/// The load on the side wall: larger than on a bare wall, and fading as the wheel slips or skids.
+fn on_side_wall(contact: &Contact, bare: &SideWallLoad) -> SideWallLoad {
+    let terms = &contact.soil.small_wheel.side_wall;
     let fading = elementary::exp(-terms.fading * contact.slip.total().abs());
-    FlankLoad { force: bare.force * (terms.pressure_factor * fading), ..*bare }
+    SideWallLoad { force: bare.force * (terms.pressure_factor * fading), ..*bare }
 }
 
 /// Friction of the loaded side face, along the wheel.
 ///
 /// The face slides over the soil with u_x = ω r_F − v_x at the load's line of action, r_F below
 /// the hub, and presses into it with v_y. Friction acts against the sum of both; its part across
-/// belongs to the flank's load already.
-fn face_friction(contact: &Contact, flank: &FlankLoad) -> WheelForces {
+/// belongs to the side wall's load already.
+fn face_friction(contact: &Contact, load: &SideWallLoad) -> WheelForces {
     let slip = &contact.slip;
     let (across, _) = bulldozing::shares(contact.soil.bulldozing, slip);
-    let below = flank.below_hub / contact.wheel.shearing_radius();
+    let below = load.below_hub / contact.wheel.shearing_radius();
     let sliding = slip.rim * below - slip.forward;
     let speed = wide::hypot(wide::hypot(sliding, slip.lateral), slip.creep());
     if speed == 0.0 {
         return WheelForces::default();
     }
-    let limit = contact.soil.extended.flank.friction * (across * flank.force).abs();
+    let limit = contact.soil.small_wheel.side_wall.friction * (across * load.force).abs();
     let force = limit * sliding / speed;
     WheelForces {
         drawbar_pull: force,
         thrust: force,
-        torque: force * flank.below_hub,
+        torque: force * load.below_hub,
         ..WheelForces::default()
     }
 }
 
-/// The heap in front of a skidding wheel: a wall of the rim's width and of the sinkage's height.
+/// The bow wave in front of a skidding wheel: a wall of the rim's width and of the sinkage's height.
 ///
 /// It acts against the hub's motion, at two thirds of the depth, and on the arc it has no lever
 /// about the axle.
-fn soil_in_front(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
+fn bow_wave(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
     let slip = &contact.slip;
     let travel = wide::hypot(slip.forward, slip.lateral);
     let skid = (-slip.total()).max(0.0);
     if travel == 0.0 || skid == 0.0 {
         return WheelForces::default();
     }
-    let force = contact.soil.extended.heap.front * pushed * skid;
+    let force = contact.soil.small_wheel.mounds.bow_wave * pushed * skid;
     let (along, across) = (-force * slip.forward / travel, -force * slip.lateral / travel);
     /// The pressure's centre, above the lowest point, in sinkages. Source: Rankine.
     const HEIGHT_OF_CENTRE: f64 = 1.0 / 3.0;
@@ -164,13 +165,13 @@ fn soil_in_front(contact: &Contact, pushed: f64, sinkage: f64) -> WheelForces {
     }
 }
 
-/// The heap behind a spinning wheel, against which the rim pushes itself off.
+/// The rear mound behind a spinning wheel, against which the rim pushes itself off.
 ///
-/// Its lever is the shearing radius: what the rim does on the heap the drive has to hold.
-fn soil_behind(contact: &Contact, pushed: f64) -> WheelForces {
+/// Its lever is the shearing radius: what the rim does on the mound the drive has to hold.
+fn rear_mound(contact: &Contact, pushed: f64) -> WheelForces {
     let slip = &contact.slip;
     let spin = slip.total().max(0.0);
-    let force = contact.soil.extended.heap.behind * pushed * spin * spin * slip.rim;
+    let force = contact.soil.small_wheel.mounds.rear_mound * pushed * spin * spin * slip.rim;
     WheelForces {
         drawbar_pull: force,
         thrust: force,
