@@ -2,7 +2,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
-/// What stands in a column.
+/// The kind of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// Numbers.
@@ -13,7 +13,7 @@ pub enum ColumnKind {
     Text,
 }
 
-/// What a row has at one place.
+/// The value of a row in one column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     /// A number.

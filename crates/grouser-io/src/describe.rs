@@ -12,7 +12,7 @@ pub(crate) mod wheel;
 use super::field::Rows;
 use super::kind::Kind;
 
-/// What a kind of document may say.
+/// The table of a kind of document.
 pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
     match kind {
         Kind::Soil => &soil::SOIL,

@@ -7,7 +7,7 @@ use super::describe;
 use super::kind::Kind;
 use grouser_core::contact::Theory;
 
-/// What a document says, in its own units: every named part in its place, every default filled in, keys
+/// The keys of a document in their own units: every named part in its place, every default filled in, keys
 /// in the order of its kind. Serialised it is the document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
@@ -18,7 +18,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// The document of a kind that says something checked.
+    /// The document of a kind with checked keys.
     #[must_use]
     pub fn of(kind: Kind, given: &Json) -> Self {
         let keys = describe::rows(kind).complete(given);
@@ -48,7 +48,7 @@ impl Document {
         changed
     }
 
-    /// All that it says.
+    /// All keys.
     pub(crate) fn keys(&self) -> &Json {
         &self.keys
     }
@@ -103,19 +103,19 @@ impl Document {
         self.get(path).filter(|given| given.is_f64())?.as_f64()
     }
 
-    /// What people call it.
+    /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
         self.text("name").unwrap_or_default()
     }
 
-    /// Where it says its values come from.
+    /// The stated source of its values.
     #[must_use]
     pub fn source(&self) -> &str {
         self.text("source").unwrap_or_default()
     }
 
-    /// The theory that a soil was made for, or a scenario asks for, if it says one.
+    /// The wheel–soil model that a soil was made for, or a scenario asks for, if stated.
     #[must_use]
     pub fn theory(&self) -> Option<Theory> {
         self.theory_at("model")

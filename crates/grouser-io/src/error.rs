@@ -272,7 +272,7 @@ impl DocumentError {
         self
     }
 
-    /// The same, told where another document names the one that is wrong.
+    /// The same, with the place where another document names the wrong one.
     pub(crate) fn seen_from(mut self, origin: &Origin) -> Self {
         self.parts.place = Place::of(origin);
         self

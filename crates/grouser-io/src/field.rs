@@ -56,7 +56,7 @@ pub(crate) enum Fill {
     Keys(&'static [(&'static str, Fill)]),
 }
 
-/// What a key takes, and where that goes.
+/// The type of a key's value, and its domain field.
 pub(crate) enum Shape<T: 'static> {
     /// Kind and version of a document.
     Tag,
@@ -113,7 +113,7 @@ pub(crate) struct Whole<T: 'static> {
     pub(crate) put: fn(&mut T, u64),
 }
 
-/// A word of a closed set, and what it makes of the value.
+/// A keyword of a closed set, and its effect on the domain's value.
 pub(crate) struct Keyword<T: 'static> {
     pub name: &'static str,
     /// What documents of earlier versions call it.
@@ -247,7 +247,7 @@ pub(crate) const fn whole<T>(
     field(key, doc, Shape::Whole(Whole { least, most, format, put }))
 }
 
-/// Whether something is so; it is not, if nothing is given.
+/// A flag; false without the key.
 pub(crate) const fn flag<T>(
     key: &'static str,
     doc: &'static str,
@@ -284,7 +284,7 @@ pub(crate) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
     field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
 }
 
-/// One of some words.
+/// One of some keywords.
 pub(crate) const fn words<T>(
     key: &'static str,
     doc: &'static str,
@@ -293,7 +293,7 @@ pub(crate) const fn words<T>(
     field(key, doc, Shape::Words(words))
 }
 
-/// A word, and what it makes of the value.
+/// A keyword, and its effect on the domain's value.
 pub(crate) const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Keyword<T> {
     Keyword { name, formerly: None, doc, put }
 }
@@ -431,7 +431,7 @@ pub(crate) struct Beside<P: 'static>(pub &'static dyn Inner<P>);
 
 // ---- Laws ----
 
-/// A table whose keys depend on a word in it.
+/// A table whose keys depend on a keyword in it.
 pub(crate) struct Laws<T: 'static> {
     /// What it describes.
     pub doc: &'static str,

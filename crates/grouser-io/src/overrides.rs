@@ -271,7 +271,7 @@ impl Overrides {
         Ok(())
     }
 
-    /// What was set in a document whose `source` speaks for its values.
+    /// The values set in a document that states its source.
     pub(crate) fn notes(&self, kind: Kind) -> impl Iterator<Item = String> {
         let changes = move |one: &&Override| one.kind == kind && one.changes_a_source;
         self.all.iter().filter(changes).map(|one| {

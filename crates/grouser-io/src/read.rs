@@ -129,7 +129,7 @@ pub fn written(
 }
 
 impl Preset {
-    /// What the document calls itself, and where it says its values are from.
+    /// The document's name and source.
     ///
     /// # Panics
     /// Never: every preset is read by a test.

@@ -2,7 +2,7 @@
 
 use crate::statistics::Marginal;
 
-/// What a document says is uncertain.
+/// The uncertain numbers of a document.
 #[derive(Clone, Debug, Default)]
 pub struct Stated {
     /// Rows of samples, if it has some.
@@ -13,7 +13,7 @@ pub struct Stated {
     pub correlations: Vec<Pair>,
 }
 
-/// Where rows of samples are.
+/// The place of rows of samples.
 #[derive(Clone, Debug)]
 pub enum Samples {
     /// In a CSV file, from the folder of the document.
@@ -22,7 +22,7 @@ pub enum Samples {
     Inline(String),
 }
 
-/// A number that is not known exactly.
+/// An uncertain number.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// Its key, with the tables it stands in.

@@ -42,7 +42,7 @@ pub struct Inputs {
 const LEAST_INSIDE: f64 = 0.01;
 
 impl Inputs {
-    /// Brings together what is given of some numbers, and checks it.
+    /// Collects and checks the statements on some numbers.
     ///
     /// # Errors
     /// [`DocumentError`] for keys that are no numbers, distributions outside their ranges, impossible correlations, and

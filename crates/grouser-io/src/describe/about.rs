@@ -11,12 +11,12 @@ pub(super) const fn schema<T>(tag: &'static str) -> Field<T> {
     field("schema", "Kind and version of this document.", Shape::Tag).otherwise(Fill::Keyword(tag))
 }
 
-/// What people call it.
+/// The document's name.
 pub(super) const fn name<T>() -> Field<T> {
     note("name", "What people call it.").otherwise(UNNAMED)
 }
 
-/// What a run is there to show.
+/// The purpose of a run.
 pub(super) const fn purpose<T>() -> Field<T> {
     note("name", "What it is there to show.").otherwise(UNNAMED)
 }
@@ -28,7 +28,7 @@ pub(super) const fn source<T>() -> Field<T> {
     note("source", "Where the values come from.").otherwise(NOT_STATED)
 }
 
-/// What a document says of its own source when it says nothing.
+/// The source of a document that states none.
 pub(super) const NOT_STATED: Fill = Fill::Keyword("not stated");
 
 /// Anything else.
@@ -70,7 +70,7 @@ impl<T: 'static> Theories<T> {
     ];
 }
 
-/// Gravity, that of Earth if nothing is given.
+/// Gravity; without the key, that of Earth.
 pub(super) const fn gravity<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
     number("gravity_m_s2", M_S2, 0.01..=30.0, doc, reach).or(EARTH_GRAVITY)
 }

@@ -18,7 +18,7 @@ use grouser_core::site::Site;
 use grouser_core::vehicle::drive::SlipTarget;
 use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
-/// The fastest rim [m/s]. The theories are quasi-static: this is far beyond what they know.
+/// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(crate) const FASTEST: f64 = 10.0;
 
 /// Allowed speeds of a rim, ω r_s [m/s].

@@ -19,7 +19,7 @@ use small_wheel::SMALL_WHEEL;
 pub(crate) use exit::LARGEST_EXIT_RATIO;
 pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
 
-/// A soil before its numbers are put in: without the terms of the theories that have some of their own.
+/// A soil before its numbers are put in: without the terms of single models.
 pub(crate) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,

@@ -89,7 +89,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
 };
 
 static EXIT_SHIFT: Table<ExitShift> = Table {
-    doc: "What is added to the wheel sinkage ratio λ; it stays within 0 and 1.",
+    doc: "Terms added to the wheel sinkage ratio λ, which stays within 0 and 1.",
     fields: &[
         number(
             "with_slip",
