@@ -7,16 +7,14 @@ use std::path::{Path, PathBuf};
 use grouser::document::table::Table;
 
 use crate::error::{ShardFault, StoreError};
-use crate::manifest::{self, Manifest, Part, Session};
-use crate::results::{self, MOST_STUDY_BYTES};
+use crate::manifest::{self, Manifest, Session};
+use crate::part::Part;
+use crate::place::{RUNS, STUDY};
+use crate::results::{self, Finished, MOST_STUDY_BYTES};
 use crate::shards::ShardSet;
 use crate::study::{Study, VERSION, difference};
 use crate::{place, shard, time};
 
-/// Where the shards are.
-pub(crate) const RUNS: &str = "runs";
-/// The resolved study.
-pub(crate) const STUDY: &str = "study.toml";
 const LOCK: &str = ".lock";
 
 /// A campaign's folder, open for writing and locked.
@@ -33,17 +31,6 @@ pub struct Folder {
     in_session: bool,
     /// Held as long as the folder is open; a kill releases it, too. None on disks without locks.
     lock: Option<File>,
-}
-
-/// A campaign whose shards are all there.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finished {
-    /// SHA-256 over the shards' bytes in their order: what `cat runs/*.parquet | sha256sum` prints.
-    pub digest: String,
-    /// How many shards there are.
-    pub shards: u64,
-    /// How many bytes they have.
-    pub bytes: u64,
 }
 
 impl Folder {

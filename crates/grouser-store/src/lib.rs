@@ -20,8 +20,10 @@
 
 mod error;
 mod folder;
+mod identity;
 mod manifest;
 mod merge;
+mod part;
 mod place;
 mod results;
 pub mod shard;
@@ -35,10 +37,12 @@ mod damage;
 mod tests;
 
 pub use error::{ShardFault, StoreError};
-pub use folder::{Finished, Folder};
-pub use manifest::{ColumnRecord, Manifest, Part, Session};
+pub use folder::Folder;
+pub use identity::ColumnRecord;
+pub use manifest::{Manifest, Session};
 pub use merge::merge;
-pub use results::Results;
+pub use part::Part;
+pub use results::{Finished, Results};
 pub use shards::ShardSet;
 pub use study::{Study, difference, sha256};
 

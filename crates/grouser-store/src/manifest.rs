@@ -5,14 +5,13 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
-use grouser::document::campaign::{Column, Role};
-use grouser::document::table::ColumnKind;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
 use crate::error::StoreError;
+use crate::identity::{ColumnRecord, Identity};
+use crate::part::Part;
 use crate::place;
-use crate::shard::Identity;
 use crate::shards::{Progression, ShardSet};
 use crate::study::{Study, VERSION, hex};
 
@@ -65,15 +64,6 @@ fn zeros() -> String {
     "0".repeat(HASH_DIGITS)
 }
 
-/// A part of an array of jobs: the shards whose number, divided by `of`, leaves `index` − 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Part {
-    /// From 1 to `of`.
-    pub index: u64,
-    /// How many parts there are.
-    pub of: u64,
-}
-
 /// A time in which a program computed shards.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Session {
@@ -83,56 +73,6 @@ pub struct Session {
     pub ended: Option<String>,
     /// Shards that it computed; 0 if it was killed.
     pub shards: u64,
-}
-
-/// The description of a column.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ColumnRecord {
-    /// As documents and results name it.
-    pub name: String,
-    /// `float`, `whole` or `text`.
-    pub kind: String,
-    /// `index`, `input`, `status` or `result`.
-    pub role: String,
-    /// Its unit, if it has one.
-    pub unit: Option<String>,
-}
-
-impl From<&Column> for ColumnRecord {
-    fn from(column: &Column) -> Self {
-        let kind = match column.kind {
-            ColumnKind::Float => "float",
-            ColumnKind::Whole => "whole",
-            ColumnKind::Text => "text",
-        };
-        let role = match column.role {
-            Role::Index => "index",
-            Role::Input => "input",
-            Role::Status => "status",
-            Role::Result => "result",
-        };
-        Self {
-            name: column.name.clone(),
-            kind: kind.into(),
-            role: role.into(),
-            unit: column.unit().map(str::to_owned),
-        }
-    }
-}
-
-impl Part {
-    /// Whether a shard belongs to it.
-    #[must_use]
-    pub fn has(self, shard: u64) -> bool {
-        shard % self.of == self.index - 1
-    }
-}
-
-/// As the flag is written.
-impl std::fmt::Display for Part {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}/{}", self.index, self.of)
-    }
 }
 
 impl Manifest {

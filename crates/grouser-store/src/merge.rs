@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::StoreError;
-use crate::folder::{Finished, Folder};
-use crate::results::Results;
+use crate::folder::Folder;
+use crate::results::{Finished, Results};
 use crate::shards::{Progression, ShardSet};
 use crate::study::{Study, VERSION, difference};
 

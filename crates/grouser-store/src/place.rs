@@ -6,6 +6,11 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{ShardFault, StoreError};
 
+/// Where the shards are.
+pub(crate) const RUNS: &str = "runs";
+/// The resolved study.
+pub(crate) const STUDY: &str = "study.toml";
+
 /// What names of unfinished files contain. They start with a dot, too: readers of data sets leave
 /// such files out.
 const UNFINISHED: &str = ".partial-";

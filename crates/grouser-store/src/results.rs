@@ -10,15 +10,25 @@ use parquet::errors::ParquetError;
 use sha2::{Digest as _, Sha256};
 
 use crate::error::{ShardFault, StoreError};
-use crate::folder::{Finished, RUNS, STUDY};
 use crate::manifest::Manifest;
-use crate::place;
+use crate::place::{self, RUNS, STUDY};
 use crate::shard::{self, Checked};
 use crate::shards::ShardSet;
 use crate::study::{Study, hex, sha256};
 
 /// The most bytes of a resolved study: samples are in it.
 pub(crate) const MOST_STUDY_BYTES: u64 = 1 << 30;
+
+/// A campaign whose shards are all there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finished {
+    /// SHA-256 over the shards' bytes in their order: what `cat runs/*.parquet | sha256sum` prints.
+    pub digest: String,
+    /// How many shards there are.
+    pub shards: u64,
+    /// How many bytes they have.
+    pub bytes: u64,
+}
 
 /// The results in a folder. Nothing is locked: a campaign may be writing there.
 ///

@@ -24,7 +24,7 @@ use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
 use crate::error::{ShardFault, StoreError};
-use crate::manifest::ColumnRecord;
+use crate::identity::{ColumnRecord, Identity};
 use crate::study::{Study, VERSION, hex};
 
 const SCHEMA_KEY: &str = "grouser.schema";
@@ -196,34 +196,6 @@ fn write_as<T: DataType, V>(
 }
 
 // ---- Reading ----
-
-/// What a shard's file has to say of itself.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Identity {
-    pub(crate) study_sha256: String,
-    pub(crate) version: String,
-    pub(crate) shard: u64,
-    pub(crate) rows: u64,
-    pub(crate) columns: Vec<ColumnRecord>,
-}
-
-impl Identity {
-    /// The most bytes that its file may have: numbers take eight and what Parquet adds, texts such as
-    /// reasons a kilobyte on average at most. [`encode`] writes none that is longer.
-    #[must_use]
-    pub fn most_bytes(&self) -> u64 {
-        const FILE: u64 = 1 << 20;
-        const COLUMN: u64 = 1 << 14;
-        const NUMBER: u64 = 32;
-        const TEXT: u64 = 1 << 10;
-        let texts = self.columns.iter().filter(|column| column.kind == "text").count() as u64;
-        let columns = self.columns.len() as u64;
-        let row = texts.saturating_mul(TEXT).saturating_add((columns - texts) * NUMBER);
-        let names: u64 = self.columns.iter().map(|column| column.name.len() as u64).sum();
-        let fixed = FILE + columns * COLUMN + names.saturating_mul(16);
-        self.rows.saturating_mul(row).saturating_add(fixed)
-    }
-}
 
 /// A shard's file that was checked.
 pub struct Checked {

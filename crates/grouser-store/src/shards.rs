@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::manifest::Part;
+use crate::part::Part;
 
 /// The shards of a campaign, or of one part of it: `first`, `first + step` and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

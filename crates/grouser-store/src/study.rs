@@ -7,8 +7,7 @@ use std::ops::Range;
 use grouser::document::campaign::{Campaign, Column};
 use sha2::{Digest as _, Sha256};
 
-use crate::manifest::ColumnRecord;
-use crate::shard::Identity;
+use crate::identity::{ColumnRecord, Identity};
 
 /// The version of the program: another one may compute other numbers.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -24,36 +24,20 @@
 //! becomes of it.
 
 mod path;
+mod study;
 
 use nalgebra::Vector3;
 
 use self::path::{Held, JUST_TURNED, Path, Place, Point};
-use crate::contact::Theory;
+use self::study::STEEPEST;
+pub use self::study::{HeadingStudy, STRAIGHT_UP};
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite};
 use crate::root;
 use crate::simulation::Scenario;
 use crate::site::Site;
-use crate::soil::Soil;
 use crate::vehicle::reaction::forces_of;
-use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
-
-/// Finds heading offsets of a rover on a soil, for any slope.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HeadingStudy {
-    /// The rover.
-    pub rover: Rover,
-    /// The soil.
-    pub soil: Soil,
-    /// Gravity, *g* [m/s²].
-    pub gravity: f64,
-    /// The wheel–soil model.
-    pub theory: Theory,
-    /// How the weight is transferred between the wheels.
-    pub sharing: LoadSharing,
-    /// Whether the wheels' own moments act on the rover.
-    pub own_moments: OwnMoments,
-}
+use crate::vehicle::{Mount, Rover, WheelReaction, dynamics};
 
 /// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The
 /// course 0 is the contour.
@@ -163,13 +147,6 @@ pub struct HeadingCurve {
     end: String,
     settled_wheels: u64,
 }
-
-/// The steepest slope that is looked at [rad]: 60°. Source: the documents' range.
-const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
-
-/// The farthest course from the contour [rad]: straight up or down the slope. Beyond it a rover
-/// travels the other way, and is its own mirror image.
-pub const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
 
 impl HeadingStudy {
     /// The study of a scenario's rover and soil, whatever its slope and drive.

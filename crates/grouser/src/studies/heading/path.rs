@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{HeadingStudy, STEEPEST, STRAIGHT_UP};
+use super::study::{HeadingStudy, STEEPEST, STRAIGHT_UP};
 use crate::contact::Slip;
 use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
