@@ -67,7 +67,7 @@ pub struct DataSetCase {
 }
 
 /// Reads a data set with the wheels and soils that it names; the measurements themselves are read
-/// by [`measurements::read`].
+/// by [`measurements::read`](crate::measurements::read).
 ///
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first.

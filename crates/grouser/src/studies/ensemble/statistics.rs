@@ -2,7 +2,7 @@
 //!
 //! Intervals are 95 % confidence intervals for independent samples: [`Quantile`]s without any
 //! assumption on the distribution, the mean by the central limit, a
-//! [`Probability`] by Wilson. For a Latin hypercube they are
+//! [`Probability`](super::Probability) by Wilson. For a Latin hypercube they are
 //! wide rather than narrow: its mean's variance is at most N/(N − 1) times that of independent samples
 //! (Owen 1997). For a scrambled Sobol design they are wide for every result that is smooth in its inputs;
 //! what is guaranteed is only that its variance is within a constant of that of independent samples.
