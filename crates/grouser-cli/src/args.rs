@@ -69,7 +69,7 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.
     Bench(BenchArgs),
-    /// Check documents: soils, wheels, rovers, scenarios.
+    /// Check documents: soils, wheels, rovers, scenarios, data sets, campaigns.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),

@@ -132,6 +132,7 @@ fn balanced(
 ) -> Result<LoadedScenario, Failure> {
     let source = scenario_source(command, scenario)?;
     let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
+    overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],

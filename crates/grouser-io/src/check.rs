@@ -5,6 +5,7 @@
 
 use serde_json::Value as Json;
 
+use super::describe;
 use super::error::{DocumentError, Problem};
 use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, words};
@@ -15,7 +16,19 @@ use super::tree::{Entry, Node, Origin, Value, number};
 /// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
 pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
     let root = root(kind);
-    Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
+    let todays = |path: &str| todays_key(kind, tree, prefix, path);
+    Checker { root, prefix, todays: &todays }.value(root, tree, prefix, &tree.origin)
+}
+
+/// The name of today of a key that is given by its former one.
+///
+/// * `path`: with `prefix` before it
+fn todays_key(kind: Kind, tree: &Node, prefix: &str, path: &str) -> Option<String> {
+    let inside = path.strip_prefix(prefix)?.trim_start_matches('.');
+    let mut steps: Vec<String> = inside.split('.').map(str::to_owned).collect();
+    describe::rows(kind).rename_path(&mut steps, Some(&tree.to_json()));
+    let today = steps.join(".");
+    (today != inside).then(|| join(prefix, &today))
 }
 
 /// The keys that a table of a document may have, given what it says already.
@@ -31,7 +44,7 @@ fn table_at<'s>(
     path: impl Iterator<Item = &'s str>,
 ) -> Option<&'static Json> {
     let root = root(kind);
-    let checker = Checker { root, prefix: "" };
+    let checker = Checker { root, prefix: "", todays: &|_| None };
     let (mut schema, mut node) = (root, tree);
     for step in path {
         let table = checker.choose(schema, node, "", &node.origin).ok()?;
@@ -68,6 +81,8 @@ fn law_key(tables: &[&Json]) -> &'static str {
 struct Checker<'a> {
     root: &'static Json,
     prefix: &'a str,
+    /// The name of today of a former key.
+    todays: &'a dyn Fn(&str) -> Option<String>,
 }
 
 impl Checker<'_> {
@@ -184,6 +199,11 @@ impl Checker<'_> {
         entry: &Entry,
         path: String,
     ) -> DocumentError {
+        if let Some(today) = (self.todays)(&path) {
+            let problem = Problem::GivenTwice { key: path, today };
+            return DocumentError::at(&entry.key_origin, problem)
+                .with_hint("remove one of them".to_owned());
+        }
         let key = law_key(all);
         let law = match table.entry(key).map(|entry| &entry.node.value) {
             Some(Value::String(law)) => format!(" with {key} = \"{law}\""),

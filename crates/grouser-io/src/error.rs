@@ -115,6 +115,14 @@ pub enum Problem {
         /// The key, with the tables it stands in.
         key: String,
     },
+    /// A key by its former name beside the one of today.
+    #[error("`{key}` is the former name of `{today}`, which is given too")]
+    GivenTwice {
+        /// The former key, with the tables it stands in.
+        key: String,
+        /// The key of today.
+        today: String,
+    },
     /// A key that must be there.
     #[error("`{key}` is missing")]
     MissingKey {

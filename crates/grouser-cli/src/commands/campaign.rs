@@ -58,7 +58,15 @@ fn with_command(error: &StoreError) -> String {
 fn campaign(study: &str, settings: &[String]) -> Result<Campaign, Failure> {
     let source = Source::find(Kind::Campaign, study)
         .map_err(|error| error.in_argument(format!("campaign {}", study.escape_debug())))?;
-    Ok(document::read_campaign(&source, &Overrides::parse_flags("--set", settings)?)?)
+    let overrides = Overrides::parse_flags("--set", settings)?;
+    overrides.check_kinds(&[
+        Kind::Campaign,
+        Kind::Scenario,
+        Kind::Rover,
+        Kind::Soil,
+        Kind::Wheel,
+    ])?;
+    Ok(document::read_campaign(&source, &overrides)?)
 }
 
 /// The results in a folder and the campaign that they are of.

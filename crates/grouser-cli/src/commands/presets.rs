@@ -1,4 +1,4 @@
-//! `grouser presets [NAME]`: lists presets, or prints one.: lists presets, or prints one.
+//! `grouser presets [NAME]`: lists presets, or prints one.
 
 use grouser::document::{self, Kind, Preset};
 use serde::Serialize;
@@ -37,7 +37,11 @@ fn print_preset(
     kind: Option<Kind>,
     presets: &[&'static Preset],
 ) -> Result<(), Failure> {
-    let named: Vec<_> = presets.iter().filter(|preset| preset.name == name).collect();
+    // A former name is that of the preset that has another now.
+    let is_named = |preset: &&&Preset| {
+        document::preset(preset.kind, name).is_some_and(|named| named.name == preset.name)
+    };
+    let named: Vec<_> = presets.iter().filter(is_named).collect();
     match named[..] {
         [] => {
             let hint = match document::nearest(name, presets.iter().map(|preset| preset.name)) {

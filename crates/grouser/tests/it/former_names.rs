@@ -91,7 +91,13 @@ fn a_key_by_both_its_names_is_an_error() {
     let text = "schema = \"scenario/1\"\nloads = \"uniform\"\nload_transfer = \"uniform\"\n";
     let error = document::read_scenario(&Source::text("run.toml", text), &Overrides::none())
         .expect_err("it says it twice");
-    assert!(error.to_string().contains("run.toml:2:1: unknown key `loads`"), "{error}");
+    let message = "run.toml:2:1: `loads` is the former name of `load_transfer`, which is given too";
+    assert!(error.to_string().contains(message), "{error}");
+    let text = "schema = \"scenario/1\"\ndrive = { speed_m_s = 0.1, rim_speed_m_s = 0.1 }\n";
+    let error = document::read_scenario(&Source::text("run.toml", text), &Overrides::none())
+        .expect_err("it says it twice");
+    let message = "`drive.speed_m_s` is the former name of `drive.rim_speed_m_s`";
+    assert!(error.to_string().contains(message), "{error}");
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub(super) fn html(
     page.heading("Numbers");
     page.paragraph(
         "Quantiles are over the runs that have a result; their intervals hold for any distribution. \
-         All intervals are for independent draws: those of a Latin hypercube or a Sobol design are \
+         All intervals are for independent samples: those of a Latin hypercube or a Sobol design are \
          rather too wide. Of a campaign for sensitivities, quantiles and probabilities are over the runs \
          of both independent sets, A and B.",
     );
