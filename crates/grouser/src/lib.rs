@@ -6,19 +6,20 @@
 //!
 //! # The layers
 //!
-//! A module may use those below it, never those above:
+//! A module uses those below it, never those above. The lower four come from the crate `grouser-core`; [`document`]
+//! has all of the crate `grouser-io`, and the documents and results of studies.
 //!
 //! | layer | modules | contents |
 //! |---|---|---|
-//! | 5 I/O | [`document`] | documents with units in their names, presets, results as tables |
-//! | 4 studies | [`studies`] | wheel tests, heading offsets, calibration, campaigns, the paper's comparison |
-//! | 3 simulation | [`simulation`] | a run, from its scenario to its trajectory |
-//! | 2 vehicle | [`vehicle`] | the rover: loads, motion, drives |
-//! | 1 contact | [`contact`] | what the soil does to one wheel |
-//! | 0 foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] [`site`] | what things are |
+//! | documents | [`document`] | documents with units in their names, presets, results as tables |
+//! | studies | [`studies`] | wheel tests, heading offsets, calibration, campaigns, the paper's comparison |
+//! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
+//! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
+//! | contact | [`contact`] | what the soil does to one wheel |
+//! | foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] [`site`] | what things are |
 //!
-//! Inside, everything is in SI units and radians; [`document`] converts. Below it there is no
-//! file, no clock and no printing: a [`Scenario`](simulation::Scenario) alone determines its
+//! Inside, everything is in SI units and radians; [`document`] converts. There is no file, clock or printing in the
+//! physics: a [`Scenario`](simulation::Scenario) alone determines its
 //! [`Trajectory`](simulation::Trajectory), bit for bit. What a rover does is a value (it may get
 //! stuck, slide or tip over); what cannot be computed is an error.
 //!

@@ -1,4 +1,4 @@
-//! `grouser check FILE…`: checks documents.: checks documents.
+//! `grouser check FILE…`: checks documents.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! `grouser completions SHELL`: prints a completion script.: prints a completion script.
+//! `grouser completions SHELL`: prints a completion script.
 
 use clap::CommandFactory as _;
 

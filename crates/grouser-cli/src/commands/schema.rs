@@ -1,4 +1,4 @@
-//! `grouser schema [KIND]`: prints the JSON Schema of a kind of document.: prints the JSON Schema of a kind of document.
+//! `grouser schema [KIND]`: prints the JSON Schema of a kind of document.
 
 use grouser::document::{self, Kind};
 

@@ -1,4 +1,4 @@
-//! `grouser traverse`: drives a rover across a slope.: drives a rover across a slope.
+//! `grouser traverse`: drives a rover across a slope.
 
 use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{X, Y, YAW};

@@ -1,4 +1,4 @@
-//! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.: forces and sinkage of one wheel on a test stand.
+//! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
 
 use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::table::Table;
