@@ -1,7 +1,7 @@
 //! Text from outside made safe to show: names, cells and keys of files may hold characters that steer
 //! a terminal, turn the direction of writing, or start a formula in a spreadsheet.
 //!
-//! What an application prints goes through [`visible`], what stands on one line through [`line`], a
+//! What an application prints goes through [`visible`], what stands on one line through [`line()`], a
 //! cell of CSV through [`cell`], which [`plain`] takes back. JSON escapes by itself.
 
 use std::borrow::Cow;
@@ -44,7 +44,7 @@ pub fn path(path: &Path) -> String {
     line(&path.display().to_string()).into_owned()
 }
 
-/// [`line`] with no more than some characters; what is longer ends in `…`.
+/// [`line()`] with no more than some characters; what is longer ends in `…`.
 #[must_use]
 pub fn short_line(text: &str, most: usize) -> String {
     let mut characters = text.chars();

@@ -24,7 +24,8 @@ use serde_json::json;
 use sha2::{Digest as _, Sha256};
 
 use crate::error::{ShardFault, StoreError};
-use crate::identity::{ColumnRecord, Identity};
+use crate::identity::ColumnRecord;
+pub use crate::identity::Identity;
 use crate::study::{Study, VERSION, hex};
 
 const SCHEMA_KEY: &str = "grouser.schema";
