@@ -10,6 +10,7 @@ mod wheel_test;
 
 use std::path::PathBuf;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::output::Format;
@@ -116,6 +117,17 @@ pub(crate) struct SettingArgs {
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
     #[arg(long = "gravity-m-s2", value_name = "G", allow_hyphen_values = true)]
     pub(crate) gravity: Option<String>,
+}
+
+/// The rover and the soil of a scenario.
+#[derive(Debug, Args)]
+pub(crate) struct PartArgs {
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    /// The soil: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) soil: Option<String>,
 }
 
 /// How the weight acts on the wheels.

@@ -46,8 +46,8 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
     scenario_settings(&mut overrides, &args.setting, &args.balance)?;
     let texts = [
-        ("--rover", "scenario.rover", &args.rover),
-        ("--soil", "scenario.soil", &args.soil),
+        ("--rover", "scenario.rover", &args.parts.rover),
+        ("--soil", "scenario.soil", &args.parts.soil),
         ("--drive", "scenario.drive.law", &args.drive),
         ("--start", "scenario.start.motion", &args.start),
         ("--simulation", "scenario.simulation", &args.simulation),
@@ -93,7 +93,7 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
 pub(crate) fn heading(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
     let scenario = args.scenario.as_deref();
-    let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     balanced("heading", scenario, rover, soil, &args.setting, &args.balance)
 }
 
@@ -197,7 +197,7 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     };
     let rule = Rule::from(&record);
     rule.check()?;
-    let (rover, soil) = (args.rover.as_ref(), args.soil.as_ref());
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
     if let Some(uncertain) = &scenario.uncertain {

@@ -25,9 +25,7 @@ pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), Documen
 /// * `path`: with `prefix` before it
 fn todays_key(kind: Kind, tree: &Node, prefix: &str, path: &str) -> Option<String> {
     let inside = path.strip_prefix(prefix)?.trim_start_matches('.');
-    let mut steps: Vec<String> = inside.split('.').map(str::to_owned).collect();
-    describe::rows(kind).rename_path(&mut steps, Some(&tree.to_json()));
-    let today = steps.join(".");
+    let today = describe::todays_key(kind, inside, &tree.to_json());
     (today != inside).then(|| join(prefix, &today))
 }
 

@@ -9,6 +9,8 @@ pub(crate) mod soil;
 pub(crate) mod uncertainty;
 pub(crate) mod wheel;
 
+use serde_json::Value as Json;
+
 use super::field::Rows;
 use super::kind::Kind;
 
@@ -22,4 +24,13 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::DataSet => &data_set::DATA_SET,
         Kind::Campaign => &campaign::CAMPAIGN,
     }
+}
+
+/// A dotted key by the names of today.
+///
+/// * `given`: the document, which says the laws on the way
+pub(crate) fn todays_key(kind: Kind, path: &str, given: &Json) -> String {
+    let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
+    rows(kind).rename_path(&mut steps, Some(given));
+    steps.join(".")
 }

@@ -86,9 +86,7 @@ impl Document {
 
     /// A dotted key by the names of today.
     pub(crate) fn todays_key(&self, path: &str) -> String {
-        let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
-        describe::rows(self.kind).rename_path(&mut steps, Some(&self.keys));
-        steps.join(".")
+        describe::todays_key(self.kind, path, &self.keys)
     }
 
     /// The text under a dotted key.

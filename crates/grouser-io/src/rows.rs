@@ -181,21 +181,32 @@ impl<T> Inner<T> for Table<T> {
 
 // ---- Tables of one type in values of another ----
 
-impl<T, P> Rows for At<T, P> {
+/// What allows the same keys as a table inside it.
+trait Around: Sync {
+    fn inner(&self) -> &dyn Rows;
+}
+
+impl<A: Around> Rows for A {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
-        self.inner.schema(defs)
+        self.inner().schema(defs)
     }
 
     fn complete(&self, given: &Json) -> Json {
-        self.inner.complete(given)
+        self.inner().complete(given)
     }
 
     fn rename(&self, table: &mut Node, to: Names) {
-        self.inner.rename(table, to);
+        self.inner().rename(table, to);
     }
 
     fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        self.inner.rename_path(path, table);
+        self.inner().rename_path(path, table);
+    }
+}
+
+impl<T, P> Around for At<T, P> {
+    fn inner(&self) -> &dyn Rows {
+        self.inner
     }
 }
 
@@ -209,21 +220,9 @@ impl<T, P> Inner<T> for At<T, P> {
     }
 }
 
-impl<T, P> Rows for Each<T, P> {
-    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
-        self.inner.schema(defs)
-    }
-
-    fn complete(&self, given: &Json) -> Json {
-        self.inner.complete(given)
-    }
-
-    fn rename(&self, table: &mut Node, to: Names) {
-        self.inner.rename(table, to);
-    }
-
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        self.inner.rename_path(path, table);
+impl<T, P> Around for Each<T, P> {
+    fn inner(&self) -> &dyn Rows {
+        self.inner
     }
 }
 
@@ -243,21 +242,9 @@ impl<T, P> Inner<T> for Each<T, P> {
     }
 }
 
-impl<P> Rows for Beside<P> {
-    fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
-        self.0.schema(defs)
-    }
-
-    fn complete(&self, given: &Json) -> Json {
-        self.0.complete(given)
-    }
-
-    fn rename(&self, table: &mut Node, to: Names) {
-        self.0.rename(table, to);
-    }
-
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        self.0.rename_path(path, table);
+impl<P> Around for Beside<P> {
+    fn inner(&self) -> &dyn Rows {
+        self.0
     }
 }
 

@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
 
 use super::measurements::ReadArgs;
-use super::{BalanceArgs, SettingArgs};
+use super::{BalanceArgs, PartArgs, SettingArgs};
 use crate::list::{self, Numbers};
 use crate::output::Format;
 
@@ -21,12 +21,8 @@ pub(crate) struct CardArgs {
     /// it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
-    /// The rover: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) rover: Option<String>,
-    /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) soil: Option<String>,
+    #[command(flatten)]
+    pub(crate) parts: PartArgs,
     /// The side of the rover that is uphill. On a rover that is its own mirror image it does not
     /// matter.
     #[arg(long, value_enum, default_value_t)]

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -12,12 +12,8 @@ pub(crate) struct HeadingArgs {
     /// default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
-    /// The rover: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) rover: Option<String>,
-    /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) soil: Option<String>,
+    #[command(flatten)]
+    pub(crate) parts: PartArgs,
     /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
     pub(crate) slope_deg: Numbers,

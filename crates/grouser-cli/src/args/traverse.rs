@@ -3,19 +3,15 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
-    /// The rover: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) rover: Option<String>,
-    /// The soil: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
-    pub(crate) soil: Option<String>,
+    #[command(flatten)]
+    pub(crate) parts: PartArgs,
     /// Inclination of the slope [°].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,

@@ -179,7 +179,7 @@ impl HeadingStudy {
     /// Follows the curve of contour traverses from level ground to its end.
     ///
     /// # Errors
-    /// [`ParameterError`] if soil or gravity are no such things, or a wheel is steered.
+    /// [`ParameterError`] if the soil or the gravity is not valid, or a wheel is steered.
     pub fn curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.curve_on(0.0)
     }

@@ -8,6 +8,7 @@ use super::{
     quantity, text, whole,
 };
 use crate::studies::card::{Card, CardRow, Verdict};
+use crate::studies::heading::NoHeading;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -71,8 +72,7 @@ fn status(it: &OnCard<'_>) -> String {
     match (&it.row.level, &it.card.limit) {
         (Some(_), _) => OK.to_owned(),
         (None, Ok((limit, reason))) => {
-            let limit = (limit.to_degrees() * 100.0).floor() / 100.0;
-            format!("no heading holds the contour: the steepest slope is {limit:.2}°, {reason}")
+            NoHeading::TooSteep { course: 0.0, limit: *limit, reason: reason.clone() }.to_string()
         }
         (None, Err(reason)) => reason.clone(),
     }
