@@ -125,6 +125,7 @@ impl Described for Soil {
         self.small_wheel.check().map_err(Misfit::at("small_wheel"))?;
         self.rft.check().map_err(Misfit::at("rft"))?;
         check_exit(self.exit).map_err(Misfit::at("exit"))?;
+        self.domain.check().map_err(Misfit::at("domain"))?;
         self.check().map_err(Misfit::at("schema"))?;
         Ok(self)
     }

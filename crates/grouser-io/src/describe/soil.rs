@@ -1,5 +1,6 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
+mod domain;
 mod exit;
 mod pressure_sinkage;
 mod shear;
@@ -10,8 +11,9 @@ use super::super::field::{
 };
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
+use domain::DOMAIN;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{Bulldozing, Domain, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -31,6 +33,7 @@ pub(crate) const BLANK: Soil = Soil {
     bulldozing: Bulldozing::None,
     small_wheel: SmallWheel::OFF,
     rft: Rft::PUBLISHED,
+    domain: Domain::UNSTATED,
 };
 
 pub(crate) static SOIL: Table<Soil> = Table {
@@ -88,6 +91,12 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "rft",
             "Constants of the model `rft`, resistive force theory; as published without it.",
             &At { inner: &RFT, at: |soil: &mut Soil| &mut soil.rft },
+        )
+        .optional(),
+        table(
+            "domain",
+            "The ranges within which the constants were measured or fitted; not stated without it.",
+            &At { inner: &DOMAIN, at: |soil: &mut Soil| &mut soil.domain },
         )
         .optional(),
         table(
