@@ -13,6 +13,7 @@ pub mod simulated_test;
 mod soil_family;
 pub mod study;
 pub mod validation;
+pub mod validity;
 
 pub use grouser_io::*;
 

@@ -55,8 +55,22 @@ impl Rows {
         let cells = self.0.iter().map(|row| {
             columns.iter().map(|column| row.get(*column).map_or(String::new(), short)).collect()
         });
-        let notes = if columns.contains(&FLAGS) { footnotes(&raised) } else { String::new() };
+        let notes = if columns.contains(&FLAGS) { self.footnotes() } else { String::new() };
         aligned(&header, &cells.collect::<Vec<Vec<String>>>()) + &notes
+    }
+
+    /// What the flags of the rows mean, a line each, to stand under a table.
+    pub(crate) fn footnotes(&self) -> String {
+        let line = |flag: &Flag| format!("{}: {}\n", flag.name(), flag.rule().meaning);
+        self.raised().iter().map(line).collect()
+    }
+
+    /// The first row as `load_n 17, slip_ratio 0.2`.
+    pub(crate) fn first_in_words(&self) -> String {
+        let cells = self.0.first().into_iter().flatten();
+        let cells: Vec<String> =
+            cells.map(|(key, value)| format!("{key} {}", short(value))).collect();
+        cells.join(", ")
     }
 
     /// The flags that any row has, in the order of the list.
@@ -67,11 +81,6 @@ impl Rows {
         };
         Flag::ALL.into_iter().filter(is_raised).collect()
     }
-}
-
-/// What flags mean, a line each, to stand under a table.
-pub(crate) fn footnotes(flags: &[Flag]) -> String {
-    flags.iter().map(|flag| format!("{}: {}\n", flag.name(), flag.rule().meaning)).collect()
 }
 
 /// Rows as CSV with a header; what is null or missing is an empty field.

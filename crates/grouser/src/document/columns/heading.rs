@@ -74,6 +74,9 @@ const fn status<'a>() -> [Column<OnSlope<'a>>; 2] {
 
 const SOIL: &str = "soil";
 
+/// The columns of a map that tell rows apart.
+pub const SETTINGS: [&str; 3] = [SOIL, COURSE.name, SLOPE.name];
+
 /// Columns of a map before the results.
 const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
     [
@@ -92,20 +95,18 @@ const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
         })]
 }
 
-/// The flags on each slope.
-fn findings(
-    curve: &HeadingCurve,
-    slopes: &[f64],
-    found: &[Result<HeadingOffset, NoHeading>],
-) -> Vec<Vec<Finding>> {
-    slopes.iter().zip(found).map(|(slope, found)| curve.findings(*slope, found)).collect()
+/// The flags on each slope [rad].
+#[must_use]
+pub fn findings(curve: &HeadingCurve, slopes: &[f64]) -> Vec<Vec<Finding>> {
+    slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect()
 }
 
 /// A row for each slope [rad]. Results are missing where `status` is not `ok`.
 #[must_use]
 pub fn table(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Table {
     let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
-    let findings = findings(curve, slopes, &found);
+    let pairs = slopes.iter().zip(&found);
+    let findings: Vec<_> = pairs.map(|(slope, found)| curve.findings(*slope, found)).collect();
     let rows = slopes.iter().zip(&found).zip(&findings);
     let rows = rows.map(|((slope, found), findings)| OnSlope {
         slope: *slope,

@@ -22,6 +22,9 @@ const SETTING: [Column<WheelTestRow>; 4] = [
     }),
 ];
 
+/// The columns that tell rows apart.
+pub const SETTINGS: [&str; 3] = [LOAD.name, SLIP_ANGLE.name, SLIP_RATIO.name];
+
 /// Why a row is an extrapolation.
 pub(super) const VALIDITY: [Column<WheelTestRow>; 1] =
     [flags::flags(|it| flags::names(&it.findings))];
