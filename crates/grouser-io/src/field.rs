@@ -28,6 +28,8 @@ pub(crate) struct Field<T: 'static> {
     pub key: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
+    /// The key under which its number may stand in thousands of its unit.
+    pub in_thousands: Option<&'static str>,
     /// What it is: a sentence; of a number without its unit and full stop.
     pub doc: &'static str,
     pub presence: Presence,
@@ -336,7 +338,7 @@ pub(crate) const fn part<T>(
 }
 
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, formerly: None, doc, presence: Presence::Needed, shape }
+    Field { key, formerly: None, in_thousands: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -361,6 +363,12 @@ impl<T> Field<T> {
     /// The same, which had another key in earlier versions.
     pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
         self.formerly = Some(key);
+        self
+    }
+
+    /// The same, whose number may stand under another key in thousands of its unit: newtons as kN.
+    pub(crate) const fn or_in_thousands(mut self, key: &'static str) -> Self {
+        self.in_thousands = Some(key);
         self
     }
 

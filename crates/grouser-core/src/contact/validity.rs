@@ -46,7 +46,7 @@ pub enum Flag {
     GrouserNumber,
     /// The wheel pushes harder along the ground than the soil's friction allows.
     ForceBeyondFriction,
-    /// The model has no side force.
+    /// The theory has no side force.
     NoSideForce,
     /// The model has no cohesion.
     NoCohesion,
@@ -242,7 +242,7 @@ impl Theory {
             // slip angle of 90°.
             Self::SmallWheel => Domain {
                 depth: Span::at_most(0.95),
-                slip_ratio: Span::new(-1.0, 0.9),
+                slip_ratio: Span::new(-1.0, 0.975),
                 slip_angle: Span::at_most(75.0 / 45.0 * FRAC_PI_4),
                 ..Domain::UNSTATED
             },

@@ -72,7 +72,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slip-outside",
         meaning: "The slip ratio is outside the tests of the model or of the soil's fit, or near 1.",
         quantity: "slip ratio",
-        criterion: "s is outside -0.1 to 0.9 (`ishigami`, `bekker`), -1 to 0.9 (`small-wheel`), or the soil's \
+        criterion: "s is outside -0.1 to 0.9 (`ishigami`, `bekker`), -1 to 0.975 (`small-wheel`), or the soil's \
                     `domain.slip_ratio`",
         source: "Ishigami et al. (2007): 0 to 0.8, a tenth more is ours; Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.ratio, it.domain(|domain| domain.slip_ratio))),
@@ -176,10 +176,10 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::NoSideForce,
         name: "no-side-force",
-        meaning: "The wheel moves sideways, and the model has no shear across the wheel.",
+        meaning: "The wheel moves sideways; Bekker's theory has no force across the wheel, ours is an addition.",
         quantity: "slip angle",
         criterion: "`bekker` with a slip angle",
-        source: "the model's equations",
+        source: "Bekker (1969), plane motion only",
         judge: |it| {
             let angle = it.slip?.angle.abs();
             (it.theory == Theory::Bekker).then_some((angle, NONE))
