@@ -3,12 +3,14 @@
 //! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod discrepancy;
 pub mod pressure_sinkage;
 pub mod rft;
 pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use discrepancy::Discrepancy;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 pub use small_wheel::SmallWheel;
@@ -39,6 +41,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     bulldozing: Bulldozing::Sine,
 ///     small_wheel: SmallWheel::OFF,
 ///     rft: Rft::PUBLISHED,
+///     discrepancy: None,
 /// };
 /// let unit_weight = sand.unit_weight(EARTH_GRAVITY);
 /// assert_eq!(format!("{:.1} kN/m³", 1e-3 * unit_weight), "14.6 kN/m³");
@@ -67,6 +70,8 @@ pub struct Soil {
     pub small_wheel: SmallWheel,
     /// What resistive force theory needs; the others leave it aside.
     pub rft: Rft,
+    /// What the model gets wrong, where a calibration has found it; nothing without it.
+    pub discrepancy: Option<Discrepancy>,
 }
 
 /// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
@@ -275,6 +280,7 @@ impl Soil {
         self.shear.check()?;
         self.small_wheel.check()?;
         self.rft.check()?;
+        self.discrepancy.as_ref().map_or(Ok(()), Discrepancy::check)?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

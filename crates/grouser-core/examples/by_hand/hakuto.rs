@@ -36,6 +36,7 @@ pub(crate) fn sand() -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        discrepancy: None,
     }
 }
 

@@ -1,5 +1,6 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
+mod discrepancy;
 mod exit;
 mod pressure_sinkage;
 mod shear;
@@ -10,8 +11,9 @@ use super::super::field::{
 };
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
+use discrepancy::DISCREPANCY;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{Bulldozing, Discrepancy, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -31,6 +33,7 @@ pub(crate) const BLANK: Soil = Soil {
     bulldozing: Bulldozing::None,
     small_wheel: SmallWheel::OFF,
     rft: Rft::PUBLISHED,
+    discrepancy: None,
 };
 
 pub(crate) static SOIL: Table<Soil> = Table {
@@ -88,6 +91,15 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "rft",
             "Constants of the model `rft`, resistive force theory; as published without it.",
             &At { inner: &RFT, at: |soil: &mut Soil| &mut soil.rft },
+        )
+        .optional(),
+        table(
+            "discrepancy",
+            "What the model gets wrong under one wheel, from a calibration; nothing without it.",
+            &At {
+                inner: &DISCREPANCY,
+                at: |soil: &mut Soil| soil.discrepancy.get_or_insert(Discrepancy::NONE),
+            },
         )
         .optional(),
         table(

@@ -150,6 +150,7 @@ fn reference_soil(case: &str) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
     }
 }
 

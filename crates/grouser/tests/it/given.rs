@@ -63,6 +63,7 @@ pub(crate) fn toyoura() -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        discrepancy: None,
     }
 }
 
@@ -244,6 +245,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 bulldozing,
                 small_wheel: SmallWheel::OFF,
                 rft: Rft::PUBLISHED,
+                discrepancy: None,
             }
         },
     )

@@ -58,6 +58,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         bulldozing: Bulldozing::Sine,
         small_wheel: small_wheel::SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        discrepancy: None,
     };
     let slip = any_slip(draw, motion);
     (Contact { wheel, soil, slip, gravity: 9.81 }, draw.sized(1e-3, 0.5) * radius)

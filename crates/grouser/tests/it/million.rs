@@ -126,6 +126,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
         bulldozing: draw.one_of(&BULLDOZING),
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        discrepancy: None,
     }
 }
 

@@ -57,6 +57,7 @@ fn soil_of(soil: &Value) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
     }
 }
 
