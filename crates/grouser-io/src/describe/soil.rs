@@ -1,5 +1,6 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
+mod discrepancy;
 mod domain;
 mod exit;
 mod pressure_sinkage;
@@ -11,9 +12,12 @@ use super::super::field::{
 };
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
+use discrepancy::DISCREPANCY;
 use domain::DOMAIN;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Domain, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{
+    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, SmallWheel, Soil, StressPeak,
+};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -34,6 +38,7 @@ pub(crate) const BLANK: Soil = Soil {
     small_wheel: SmallWheel::OFF,
     rft: Rft::PUBLISHED,
     domain: Domain::UNSTATED,
+    discrepancy: None,
 };
 
 pub(crate) static SOIL: Table<Soil> = Table {
@@ -97,6 +102,15 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "domain",
             "The ranges within which the constants were measured or fitted; not stated without it.",
             &At { inner: &DOMAIN, at: |soil: &mut Soil| &mut soil.domain },
+        )
+        .optional(),
+        table(
+            "discrepancy",
+            "What the model gets wrong under one wheel, from a calibration; nothing without it.",
+            &At {
+                inner: &DISCREPANCY,
+                at: |soil: &mut Soil| soil.discrepancy.get_or_insert(Discrepancy::NONE),
+            },
         )
         .optional(),
         table(

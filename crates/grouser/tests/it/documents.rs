@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
 };
 use grouser::units::deg;
 use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
@@ -150,6 +150,8 @@ fn reference_soil(case: &str) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
+        domain: Domain::UNSTATED,
     }
 }
 

@@ -5,6 +5,7 @@ mod campaign;
 mod campaign_documents;
 mod card;
 mod declarations;
+mod discrepancy;
 mod documents;
 mod examples;
 mod files;
