@@ -45,6 +45,10 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
             let meaning = format!("{:?} {:?}", campaign.columns(), campaign.run(0));
             Ok(Read { resolved, meaning, assumptions: campaign.assumptions().to_vec() })
         }
+        Kind::Prior => {
+            let resolved = document::read_priors(source, overrides)?.to_toml();
+            Ok(Read { meaning: resolved.clone(), resolved, assumptions: Vec::new() })
+        }
     }
 }
 
@@ -87,6 +91,7 @@ fn every_file_of_the_data_is_a_preset() {
         ("scenarios", Kind::Scenario),
         ("measurements", Kind::DataSet),
         ("campaigns", Kind::Campaign),
+        ("priors", Kind::Prior),
     ] {
         let entries = fs::read_dir(data.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries
