@@ -45,6 +45,8 @@ pub(crate) enum Presence {
     Optional,
     /// This value.
     Otherwise(Fill),
+    /// What the soil's priors say; without one this value, or else that something is missing.
+    Prior(Option<f64>),
 }
 
 /// A value that stands for one that a document does not have.
@@ -360,6 +362,18 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, which the soil's priors have a value for.
+    pub(crate) const fn or_prior(mut self) -> Self {
+        self.presence = Presence::Prior(None);
+        self
+    }
+
+    /// The same, with a value where there is no prior.
+    pub(crate) const fn or_prior_or(mut self, number: f64) -> Self {
+        self.presence = Presence::Prior(Some(number));
+        self
+    }
+
     /// The same, which had another key in earlier versions.
     pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
         self.formerly = Some(key);
@@ -414,7 +428,8 @@ impl<T> Table<T> {
     pub(crate) fn implied(field: &Field<T>) -> Option<Json> {
         match field.presence {
             Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
-            Presence::Needed | Presence::Optional => None,
+            Presence::Prior(Some(number)) => Some(Json::from(number)),
+            Presence::Needed | Presence::Optional | Presence::Prior(None) => None,
         }
     }
 }

@@ -4,6 +4,12 @@ use serde_json::{Map, Value as Json, json};
 
 use super::field::{Field, Form, Keyword, Laws, Number, Presence, Shape, Table, Text, Whole};
 
+/// The remark on a key that the soil's priors have a value for. The reader asks for the key where they have none.
+pub(crate) const FROM_PRIOR: &str = "from the soil's priors where it is left out";
+/// The remark on one that has a value without a prior as well.
+const FROM_PRIOR_OR_DEFAULT: &str =
+    "from the soil's priors where it is left out, or 0 where they have none";
+
 /// A table, under a law if its keys depend on one.
 pub(crate) fn of_table<T>(
     table: &Table<T>,
@@ -165,7 +171,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
         Shape::Numbers(numbers) => with_unit(field.doc, numbers.number.unit.symbol).into(),
         _ => field.doc.into(),
     };
-    if let Some(default) = Table::implied(field) {
+    if let Presence::Prior(without) = field.presence {
+        let comment = if without.is_some() { FROM_PRIOR_OR_DEFAULT } else { FROM_PRIOR };
+        schema["$comment"] = comment.into();
+    } else if let Some(default) = Table::implied(field) {
         schema["default"] = default;
     }
     schema

@@ -12,6 +12,8 @@ use super::describe::{rover, scenario, soil, wheel};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
+use super::kind::Kind;
+use super::priors;
 use super::tree::Node;
 use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
@@ -118,6 +120,10 @@ impl Described for Soil {
         soil::BLANK
     }
 
+    fn follow(&mut self, document: &Document) {
+        self.domain.assumed_values = assumed_values(Some(document));
+    }
+
     fn settled(mut self) -> Result<Self, Misfit> {
         share_angle_limit(&mut self.shear);
         self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
@@ -131,6 +137,12 @@ impl Described for Soil {
         self.check().map_err(Misfit::at("schema"))?;
         Ok(self)
     }
+}
+
+/// How many values of a soil stand in for ones that its document does not state.
+fn assumed_values(soil: Option<&Document>) -> u32 {
+    let count = soil.map_or(0, |soil| priors::assumed(soil).len());
+    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 /// A document has one limit for both axes.
@@ -291,6 +303,8 @@ impl Described for Scenario {
     fn follow(&mut self, document: &Document) {
         let of_soil = || document.theory_at("soil.model");
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        let soil = document.part(Kind::Soil, "soil");
+        self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
 
     fn settled(self) -> Result<Self, Misfit> {
@@ -344,6 +358,8 @@ impl Described for Stand {
     fn follow(&mut self, document: &Document) {
         let of_soil = || document.theory_at("soil.model");
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        let soil = document.part(Kind::Soil, "soil");
+        self.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
 
     fn settled(self) -> Result<Self, Misfit> {

@@ -36,6 +36,7 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
         Kind::Scenario => read_scenario(source, &overrides).map(drop),
         Kind::DataSet => read_data_set(source, &overrides).map(drop),
         Kind::Campaign => read_campaign(source, &overrides).map(drop),
+        Kind::Prior => read_priors(source, &overrides).map(drop),
     }?;
     Ok(kind)
 }

@@ -68,10 +68,10 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     }
 }
 
-/// The sampled soils; empty where no uncertainty is stated.
+/// The sampled soils; empty where no uncertainty is stated and no number is assumed.
 fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
     let draw = |uncertain| heading_band::soils(uncertain, args.seed, args.samples);
-    inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
+    inputs.scenario.soils_of_bands().map_or(Ok(Vec::new()), draw)
 }
 
 fn compute(

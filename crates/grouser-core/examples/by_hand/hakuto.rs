@@ -37,6 +37,7 @@ pub(crate) fn sand() -> Soil {
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
         domain: Domain::UNSTATED,
+        discrepancy: None,
     }
 }
 

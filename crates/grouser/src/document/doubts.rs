@@ -50,7 +50,7 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
             of_standing(&scenario).into_iter().map(on_soil).collect()
         }
         Kind::Scenario => of_standing(&read_scenario(source, &none)?.value),
-        Kind::Wheel | Kind::DataSet | Kind::Campaign => Vec::new(),
+        Kind::Wheel | Kind::DataSet | Kind::Campaign | Kind::Prior => Vec::new(),
     })
 }
 

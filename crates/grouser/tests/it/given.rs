@@ -64,6 +64,7 @@ pub(crate) fn toyoura() -> Soil {
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
         domain: Domain::UNSTATED,
+        discrepancy: None,
     }
 }
 
@@ -246,6 +247,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 small_wheel: SmallWheel::OFF,
                 rft: Rft::PUBLISHED,
                 domain: Domain::UNSTATED,
+                discrepancy: None,
             }
         },
     )

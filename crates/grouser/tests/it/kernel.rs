@@ -59,6 +59,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         small_wheel: small_wheel::SmallWheel::OFF,
         rft: Rft::PUBLISHED,
         domain: Domain::UNSTATED,
+        discrepancy: None,
     };
     let slip = any_slip(draw, motion);
     (Contact { wheel, soil, slip, gravity: 9.81 }, draw.sized(1e-3, 0.5) * radius)
