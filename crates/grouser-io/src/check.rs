@@ -186,7 +186,8 @@ impl Checker<'_> {
             Some((name, schema)) => {
                 let about = schema.get("description").and_then(Json::as_str).map(first_line);
                 let about = about.map(|about| {
-                    let prior = if waits_for_prior(schema) { "; the soil's priors have none" } else { "" };
+                    let prior =
+                        if waits_for_prior(schema) { "; the soil's priors have none" } else { "" };
                     about + prior
                 });
                 Err(DocumentError::at(key, Problem::MissingKey { key: join(path, name) })

@@ -21,6 +21,7 @@ use super::schema::range;
 use super::source::Source;
 use super::stated::{Pair, Parameter, Priors, Soils, Stated};
 use super::tree::{Entry, Node, Origin, Value, number};
+use crate::statistics::Marginal;
 
 /// The key of a soil under which its priors stand.
 pub(crate) const KEY: &str = "priors";
@@ -75,24 +76,63 @@ pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, D
 }
 
 /// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.
-/// (Rows of samples belong to the other numbers as they are stated: beside them those are exact.)
-///
 /// * `soil`: its resolved document
 #[must_use]
 pub fn stated_by_priors(soil: &Document) -> Stated {
-    let mut priors = soil.get(KEY).map_or_else(Priors::default, priors_of);
-    if soil.get("uncertainty.samples").is_some() {
-        priors.stated.clear();
-    }
+    let priors = soil.get(KEY).map_or_else(Priors::default, priors_of);
     let rows = priors.missing.iter().chain(&priors.stated).filter_map(|row| {
         let reference = match &*row.belief.relative_to {
             "" => 1.0,
             key => soil.number(key)?,
         };
-        let marginal = row.scaled(soil.number(&row.key), reference, &range(Kind::Soil, &row.key)?)?;
+        let marginal =
+            row.scaled(soil.number(&row.key), reference, &range(Kind::Soil, &row.key)?)?;
         Some(Parameter { key: row.key.clone(), marginal, ..Parameter::blank() })
     });
     Stated { samples: None, parameters: rows.collect(), correlations: priors.correlations }
+}
+
+/// A soil some of whose numbers were measured: they are no longer the priors'.
+///
+/// * `keys`: of those numbers
+#[must_use]
+pub fn without_priors_of(soil: &Document, keys: &[&str]) -> Document {
+    let is_kept = |row: &Json| {
+        let text = |key: &Json| key.as_str().is_some_and(|key| keys.contains(&key));
+        let between = row.get("between").and_then(Json::as_array);
+        !row.get("key").is_some_and(text) && !between.into_iter().flatten().any(text)
+    };
+    with_rows(soil, |_, rows| rows.retain(is_kept))
+}
+
+/// A soil whose numbers belong to samples that were found with them: what is the priors' stays at its value, and
+/// what is stated is exact.
+#[must_use]
+pub fn with_priors_held(soil: &Document) -> Document {
+    let held = |row: &Json| {
+        let key = row.get("key")?.as_str()?;
+        let marginal = Marginal::Normal { mean: soil.number(key)?, standard_deviation: 0.0 };
+        Some(Parameter { marginal, ..Parameter::blank() }.to_json(key))
+    };
+    with_rows(soil, |list, rows| match list {
+        "missing" => *rows = rows.iter().filter_map(held).collect(),
+        "keyword" => {}
+        _ => rows.clear(),
+    })
+}
+
+/// A soil with other rows of priors.
+///
+/// * `change`: gets the name of a list, and its rows
+fn with_rows(soil: &Document, mut change: impl FnMut(&str, &mut Vec<Json>)) -> Document {
+    soil.changed(|keys| {
+        let lists = keys.get_mut(KEY).and_then(Json::as_object_mut).into_iter().flatten();
+        for (list, rows) in lists {
+            if let Json::Array(rows) = rows {
+                change(list, rows);
+            }
+        }
+    })
 }
 
 fn priors_of(given: &Json) -> Priors {
@@ -118,13 +158,17 @@ pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let mut soil = Filled { written: tree.clone(), tree, name, is_resolved, missing: Vec::new() };
     let own = soil.take_own();
     keep(&mut kept, "missing", rows.missing.iter().map(|row| soil.takes(row, &own)));
-    keep(&mut kept, "keyword", rows.keywords.iter().map(|row| {
-        soil.takes_word(&row.key, &row.word, &row.reason)
-    }));
+    keep(
+        &mut kept,
+        "keyword",
+        rows.keywords.iter().map(|row| soil.takes_word(&row.key, &row.word, &row.reason)),
+    );
+    // Samples belong to the soil's other numbers as they are, unless its own rows say otherwise.
+    let is_exact = !is_resolved && at(&soil.written, "uncertainty.samples").is_some();
     let stated: Vec<&str> = rows
         .stated
         .iter()
-        .map(|row| if soil.is_stated(row, &own) { &*row.key } else { "" })
+        .map(|row| if !is_exact && soil.is_stated(row, &own) { &*row.key } else { "" })
         .collect();
     keep(&mut kept, "stated", stated.iter().map(|key| !key.is_empty()));
     let is_kept = |key: &String| stated.contains(&&**key) || soil.missing.contains(key);
@@ -202,7 +246,9 @@ impl Filled<'_> {
                 if is_put && !own.iter().any(|other| other == key) {
                     let (value, name) = (three_digits(median), &self.name);
                     let reason = &row.belief.reason;
-                    self.note(format!("{key}: not stated; {value}, the median of \"{name}\": {reason}"));
+                    self.note(format!(
+                        "{key}: not stated; {value}, the median of \"{name}\": {reason}"
+                    ));
                 }
                 is_put
             }),
@@ -251,7 +297,7 @@ impl Filled<'_> {
         is_meant && (unless.is_empty() || at(&self.written, unless).is_none())
     }
 
-    fn marginal(&self, row: &Parameter) -> Option<crate::statistics::Marginal> {
+    fn marginal(&self, row: &Parameter) -> Option<Marginal> {
         let reference = match &*row.belief.relative_to {
             "" => 1.0,
             key => number_at(self.tree, key)?,
@@ -386,7 +432,8 @@ fn check_row(row: &Parameter, is_missing: bool) -> Result<(), (&'static str, Pro
     if inside >= 1.0 - MOST_OUTSIDE {
         return Ok(());
     }
-    let problem = "more than 1 % of this distribution is outside the range of its key, or it is none";
+    let problem =
+        "more than 1 % of this distribution is outside the range of its key, or it is none";
     Err(("key", Problem::Conflict(problem)))
 }
 
@@ -401,8 +448,9 @@ pub(crate) fn check_reasons(tree: &Node) -> Result<(), DocumentError> {
             if !matches!(reason, Some(Value::String(reason)) if !reason.trim().is_empty()) {
                 let key = format!("{list}.{place}.reason");
                 let hint = "a prior says why it is so".to_owned();
-                return Err(DocumentError::at(&row.origin, Problem::MissingKey { key })
-                    .with_hint(hint));
+                return Err(
+                    DocumentError::at(&row.origin, Problem::MissingKey { key }).with_hint(hint)
+                );
             }
         }
     }

@@ -106,9 +106,8 @@ impl Rows {
             let path = format!("parameter.{place}");
             let key_path = format!("{path}.key");
             let origin = statement.origin(&key_path);
-            let key = numbers
-                .key(&statement.named(&parameter.key))
-                .map_err(|error| error.at(origin))?;
+            let key =
+                numbers.key(&statement.named(&parameter.key)).map_err(|error| error.at(origin))?;
             let mut others = self.keys.iter().chain(sampled);
             if statement.yields && others.any(|other| other.path == key.path) {
                 continue;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use grouser::document::{self, Source, escape};
+use grouser::document::{self, Assumed, Checked, Source, escape};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
@@ -12,10 +12,15 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut good = String::new();
     let mut worst: Option<Failure> = None;
     for path in &args.files {
-        match document::check(&Source::file(path)) {
-            Ok(kind) => {
+        match document::checked(&Source::file(path)) {
+            Ok(Checked { kind, assumed }) => {
                 // Writing to a string does not fail.
                 let _ = writeln!(good, "{}: a valid {kind} document", escape::path(path));
+                for Assumed { key, prior, value } in assumed {
+                    let value = value.map_or(String::new(), |value| format!(" = {value}"));
+                    let prior = escape::line(&prior);
+                    let _ = writeln!(good, "  not stated: {key}{value}, from \"{prior}\"");
+                }
             }
             Err(error) => {
                 let failure = Failure::from(error);

@@ -16,7 +16,11 @@ pub(crate) static PRIORS: Table<Priors> = Table {
         list(
             "missing",
             "Numbers that a soil does not state: a single answer takes the median, a band draws.",
-            &Each { inner: &OF_PRIOR, list: |all: &mut Priors| &mut all.missing, blank: Parameter::blank },
+            &Each {
+                inner: &OF_PRIOR,
+                list: |all: &mut Priors| &mut all.missing,
+                blank: Parameter::blank,
+            },
             0,
         )
         .optional(),
@@ -34,7 +38,11 @@ pub(crate) static PRIORS: Table<Priors> = Table {
         list(
             "stated",
             "How well a stated number is known, where the soil does not say: bands draw about it.",
-            &Each { inner: &OF_PRIOR, list: |all: &mut Priors| &mut all.stated, blank: Parameter::blank },
+            &Each {
+                inner: &OF_PRIOR,
+                list: |all: &mut Priors| &mut all.stated,
+                blank: Parameter::blank,
+            },
             0,
         )
         .optional(),
@@ -55,9 +63,14 @@ pub(crate) static PRIORS: Table<Priors> = Table {
 static KEYWORD: Table<KeywordPrior> = Table {
     doc: "A keyword that a soil does not state.",
     fields: &[
-        text("key", 0, "A keyword of a soil, with the tables it stands in: `bulldozing.law`.", |it, key| {
-            key.clone_into(&mut it.key);
-        }),
+        text(
+            "key",
+            0,
+            "A keyword of a soil, with the tables it stands in: `bulldozing.law`.",
+            |it, key| {
+                key.clone_into(&mut it.key);
+            },
+        ),
         text("word", 1, "The keyword that stands there.", |it: &mut KeywordPrior, word| {
             word.clone_into(&mut it.word);
         }),

@@ -43,11 +43,8 @@ pub(crate) static INLINE: Table<Stated> = Table {
 pub(crate) const PARAMETERS_DOC: &str =
     "The numbers that are not known exactly, each with its distribution.";
 
-pub(crate) const PARAMETERS: Each<Stated, Parameter> = Each {
-    inner: &OF_CAMPAIGN,
-    list: |all| &mut all.parameters,
-    blank: Parameter::blank,
-};
+pub(crate) const PARAMETERS: Each<Stated, Parameter> =
+    Each { inner: &OF_CAMPAIGN, list: |all| &mut all.parameters, blank: Parameter::blank };
 
 static OF_CAMPAIGN: Laws<Parameter> = PARAMETER;
 static OF_SOIL: Laws<Parameter> =
@@ -207,16 +204,7 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
             choose: uniform,
             table: Table {
                 doc: "Every value between two alike.",
-                fields: &[
-                    KEY_OF_PRIOR,
-                    RELATIVE_TO,
-                    LOW,
-                    HIGH,
-                    SOILS,
-                    UNLESS,
-                    REASON,
-                    SOURCE,
-                ],
+                fields: &[KEY_OF_PRIOR, RELATIVE_TO, LOW, HIGH, SOILS, UNLESS, REASON, SOURCE],
             },
         },
         Law {
@@ -241,10 +229,8 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
     ],
 };
 
-const KEY_OF_PRIOR: Field<Parameter> = Field {
-    doc: "A number of a soil, with the tables it stands in: `exit.ratio`.",
-    ..KEY
-};
+const KEY_OF_PRIOR: Field<Parameter> =
+    Field { doc: "A number of a soil, with the tables it stands in: `exit.ratio`.", ..KEY };
 const RELATIVE_TO: Field<Parameter> = text(
     "relative_to",
     0,
@@ -298,10 +284,8 @@ pub(crate) const CORRELATIONS_DOC: &str =
 pub(crate) static CORRELATIONS: Each<Stated, Pair> =
     Each { inner: &CORRELATION, list: |all| &mut all.correlations, blank: Pair::default };
 
-static CORRELATION: Table<Pair> = Table {
-    doc: "How two keys go together.",
-    fields: &[BETWEEN, CORRELATION_VALUE],
-};
+static CORRELATION: Table<Pair> =
+    Table { doc: "How two keys go together.", fields: &[BETWEEN, CORRELATION_VALUE] };
 
 /// The same with its reason.
 pub(super) static CORRELATION_OF_PRIOR: Table<Pair> = Table {

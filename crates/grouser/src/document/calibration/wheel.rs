@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::super::measurements::Measurements;
 use super::super::validation::GroupRecord;
-use super::super::{Document, SAMPLES_FILE, SoilFamily};
+use super::super::{Document, SAMPLES_FILE, SoilFamily, with_priors_held};
 use super::{DiscrepancyRecord, ParameterRecord, ProposalRecord, SamplerRecord, Solved};
 use crate::contact::Theory;
 use crate::error::ParameterError;
@@ -122,7 +122,9 @@ impl WheelProblem<'_> {
             self.measured.tests.cells.len(),
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
-        self.family.fitted(&solved.solution.fit.values, &source, self.theory, samples)
+        let fitted = self.family.fitted(&solved.solution.fit.values, &source, self.theory, samples);
+        // The samples were found with the other numbers as they are.
+        if samples.is_some() { with_priors_held(&fitted) } else { fitted }
     }
 }
 

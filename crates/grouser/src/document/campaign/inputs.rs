@@ -132,7 +132,8 @@ fn of_soil<'t>(
         let stated = stated.unwrap_or_default();
         return Ok(Some(OfSoil { stated, believed, tree: &entry.node }));
     }
-    let problem = Problem::Conflict("the soil does not say how well it is known, nor do its priors");
+    let problem =
+        Problem::Conflict("the soil does not say how well it is known, nor do its priors");
     Err(DocumentError::at(tree.origin_of("soil_uncertainty"), problem)
         .with_hint("its document needs an [uncertainty], as that of toyoura-uncertain".to_owned()))
 }
