@@ -9,6 +9,9 @@ use crate::failure::Failure;
 use crate::output;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
+    if args.flags {
+        return output::print(&document::validity::list());
+    }
     let mut good = String::new();
     let mut worst: Option<Failure> = None;
     for path in &args.files {

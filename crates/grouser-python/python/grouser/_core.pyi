@@ -33,6 +33,8 @@ __all__ = [
     "check_shard",
     "find_campaign",
     "find_document",
+    "flag_names",
+    "flags",
     "heading",
     "heading_band",
     "heading_map",
@@ -185,6 +187,8 @@ def wheel_forces(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
 ) -> tuple[_Floats, list[str]]: ...
+def flag_names(bits: Sequence[int]) -> list[str]: ...
+def flags() -> list[tuple[str, str]]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
 def rollout(
