@@ -13,6 +13,7 @@
 
 pub mod bekker;
 pub mod bulldozing;
+pub mod coulomb;
 pub mod equilibrium;
 pub mod forces;
 mod gauss;

@@ -11,7 +11,7 @@ use super::super::field::{
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::uncertainty::UNCERTAINTY;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, ShearBound, SmallWheel, Soil, StressPeak};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -27,6 +27,7 @@ pub(crate) const BLANK: Soil = Soil {
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
     shear: Shear::Isotropic { modulus: LINEAR },
+    shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
     small_wheel: SmallWheel::OFF,
@@ -60,11 +61,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "Where along the arc the normal stress peaks.",
             &At { inner: &STRESS_PEAK, at: |soil: &mut Soil| &mut soil.stress_peak },
         ),
-        table(
-            "shear",
-            "How shear stress is mobilised.",
-            &At { inner: &SHEAR, at: |soil: &mut Soil| &mut soil.shear },
-        ),
+        table("shear", "How shear stress is mobilised.", &SHEAR),
         table(
             "exit",
             "Where the wheel leaves the soil; without it, ratio = 1.0.",

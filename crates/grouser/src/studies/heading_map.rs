@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
 use crate::error::ParameterError;
 
 /// Heading offsets over slope, course and soil.
@@ -26,6 +26,8 @@ pub struct HeadingRow {
     pub course: f64,
     /// The steepest slope on which a heading holds the course [rad], and what ends the curve there.
     pub limit: Result<(f64, String), NoHeading>,
+    /// Whether the wheels or the ground end the curve; nothing where the rover cannot move.
+    pub limited_by: Option<LimitedBy>,
     /// The heading offset on each slope, or why no heading holds the course.
     pub cells: Vec<Result<HeadingOffset, NoHeading>>,
     /// How many wheels were settled for the row.
@@ -89,6 +91,7 @@ impl HeadingRow {
             study,
             course: curve.course(),
             limit: curve.limit().map(|(slope, reason)| (slope, reason.to_owned())),
+            limited_by: curve.limited_by(),
             cells,
             settled_wheels: curve.settled_wheels() + asked,
         }
