@@ -15,6 +15,7 @@
 
 pub mod bekker;
 pub mod bulldozing;
+pub mod coulomb;
 pub mod discrepancy;
 pub mod equilibrium;
 pub mod forces;

@@ -7,6 +7,7 @@ pub mod discrepancy;
 pub mod domain;
 pub mod pressure_sinkage;
 pub mod rft;
+pub mod slope;
 pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
@@ -15,6 +16,7 @@ pub use discrepancy::Discrepancy;
 pub use domain::{Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
+pub use slope::SlopeStability;
 pub use small_wheel::SmallWheel;
 
 use crate::elementary;
@@ -26,8 +28,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
-///     StressPeak,
+///     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, SmallWheel, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
@@ -39,6 +40,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 122.727, exponent },
 ///     stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
 ///     shear: Shear::Isotropic { modulus: ShearModulus::constant(0.036) },
+///     shear_bound: ShearBound::Coulomb,
 ///     exit: Exit::Ratio(1.0),
 ///     bulldozing: Bulldozing::Sine,
 ///     small_wheel: SmallWheel::OFF,
@@ -65,6 +67,8 @@ pub struct Soil {
     pub stress_peak: StressPeak,
     /// How shear stress is mobilised.
     pub shear: Shear,
+    /// What bounds it.
+    pub shear_bound: ShearBound,
     /// Where the wheel leaves the soil.
     pub exit: Exit,
     /// How soil pushed aside loads the side wall.
@@ -134,6 +138,18 @@ impl Shear {
             Self::Isotropic { modulus } => modulus.check("shear modulus [m]"),
         }
     }
+}
+
+/// Whether the shear stresses along and across a wheel, and its whole reaction, obey Coulomb's law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShearBound {
+    /// Only as far as the shear law does. [`Shear::Anisotropic`] lets the resultant exceed the strength by
+    /// √2, as in the source paper.
+    #[default]
+    None,
+    /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within what
+    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)).
+    Coulomb,
 }
 
 /// Shear deformation modulus *K* [m] as a function of the slip angle.

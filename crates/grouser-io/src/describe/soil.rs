@@ -18,7 +18,7 @@ use discrepancy::DISCREPANCY;
 use domain::DOMAIN;
 use exit::EXIT;
 use grouser_core::soil::{
-    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, SmallWheel, Soil, StressPeak,
+    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, ShearBound, SmallWheel, Soil, StressPeak,
 };
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
@@ -35,6 +35,7 @@ pub(crate) const BLANK: Soil = Soil {
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
     shear: Shear::Isotropic { modulus: LINEAR },
+    shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
     small_wheel: SmallWheel::OFF,
@@ -84,11 +85,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
             &At { inner: &STRESS_PEAK, at: |soil: &mut Soil| &mut soil.stress_peak },
         )
         .or_prior(),
-        table(
-            "shear",
-            "How shear stress is mobilised.",
-            &At { inner: &SHEAR, at: |soil: &mut Soil| &mut soil.shear },
-        ),
+        table("shear", "How shear stress is mobilised.", &SHEAR),
         table(
             "exit",
             "Where the wheel leaves the soil.",

@@ -11,6 +11,7 @@ mod examples;
 mod files;
 mod former_names;
 mod given;
+mod ground;
 mod heading_map;
 mod integration;
 mod kernel;
