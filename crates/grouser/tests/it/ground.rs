@@ -241,7 +241,10 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
         .collect();
     for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();
-        assert!(found > phi - 0.5 && found < phi + 3.0, "{name}: {found}°, φ {phi}°");
+        assert!(
+            found > phi - 0.5 && found < phi + 3.0,
+            "{name} at a yaw of {yaw}: {found}°, φ {phi}°"
+        );
     }
     let unbounded = steepest_to_park_on(given::toyoura(), Theory::Ishigami, 0.0).to_degrees();
     assert!(unbounded > 45.0, "without the bound: {unbounded}°");
