@@ -219,11 +219,12 @@ impl Described for Rover {
 
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
-        check_places(&self)?;
-        check_inertias(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
-        self.checked().map_err(|error| Misfit::new(place, error))
+        let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
+        check_places(&rover)?;
+        check_inertias(&rover)?;
+        Ok(rover)
     }
 }
 
