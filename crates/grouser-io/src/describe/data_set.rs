@@ -29,7 +29,12 @@ pub(crate) static DATA_SET: Table<Common> = Table {
             },
         ),
         gravity("Gravity where it was measured", |set| Some(&mut set.gravity)),
-        list("case", "Its parts, each with one wheel on a test stand or one rover on slopes.", &CASE, 1),
+        list(
+            "case",
+            "Its parts, each with one wheel on a test stand or one rover on slopes.",
+            &CASE,
+            1,
+        ),
     ],
 };
 

@@ -88,7 +88,11 @@ pub const COLUMNS: [SlopeColumn; 10] = [
          such column",
         -90.0..=90.0,
     ),
-    column(SLIP_RATIO, "slip ratio by the speed of the tips of the grousers: Grouser's definition", SLIP),
+    column(
+        SLIP_RATIO,
+        "slip ratio by the speed of the tips of the grousers: Grouser's definition",
+        SLIP,
+    ),
     column(
         SLIP_WITHOUT_GROUSERS,
         "instead: slip ratio by the speed of the rim without its grousers, converted when it is read",
@@ -102,11 +106,7 @@ pub const COLUMNS: [SlopeColumn; 10] = [
     column(quantity(STATUS, ONE), "rows with anything but `ok` or nothing here are left out", ANY),
 ];
 
-const fn column(
-    quantity: Quantity,
-    doc: &'static str,
-    range: RangeInclusive<f64>,
-) -> SlopeColumn {
+const fn column(quantity: Quantity, doc: &'static str, range: RangeInclusive<f64>) -> SlopeColumn {
     SlopeColumn { name: quantity.name, doc, unit: quantity.unit, range }
 }
 
@@ -184,9 +184,10 @@ impl<'a> Header<'a> {
         if names.iter().all(String::is_empty) {
             return Err(MeasurementError::whole(label, Problem::NoHeader));
         }
-        let repeated = names.iter().enumerate().find(|(place, name)| {
-            !name.is_empty() && names[..*place].contains(name)
-        });
+        let repeated = names
+            .iter()
+            .enumerate()
+            .find(|(place, name)| !name.is_empty() && names[..*place].contains(name));
         if let Some((_, name)) = repeated {
             return Err(failed(Problem::RepeatedColumn(name.clone())));
         }

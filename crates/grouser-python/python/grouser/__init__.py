@@ -46,7 +46,14 @@ from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, simulate
-from ._validation import Ranking, Validation, validate, validate_all
+from ._validation import (
+    Ranking,
+    SlopeValidation,
+    Validation,
+    validate,
+    validate_all,
+    validate_slopes,
+)
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -97,6 +104,7 @@ __all__ = [
     "simulate",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test",
 ]

@@ -65,7 +65,7 @@ pub struct RankedTheory {
 #[derive(Clone, Debug)]
 pub enum Found {
     /// Of a wheel's trials.
-    Wheel(Validation),
+    Wheel(Box<Validation>),
     /// Of a rover's slopes.
     Slope(SlopeValidation),
 }
@@ -342,7 +342,7 @@ impl Part<'_> {
                 unsettled_trials: validation.overall.unsettled,
                 driven: validation.driven.as_ref().map(GroupRecord::from),
                 overall: PartErrors::Wheel(GroupRecord::from(&validation.overall)),
-                ..self.ranked(theory, name, Found::Wheel(validation))
+                ..self.ranked(theory, name, Found::Wheel(Box::new(validation)))
             }
         };
         self.pairs().map(one).collect()
@@ -394,12 +394,18 @@ impl Part<'_> {
             reference,
         };
         match found {
-            Found::Wheel(validation) => validation.references.iter().map(|it| {
-                ranked(ReferenceRecord::from(it).map(PartErrors::Wheel), it.overall.score())
-            }).collect(),
-            Found::Slope(validation) => validation.references.iter().map(|it| {
-                ranked(ReferenceRecord::from(it).map(PartErrors::Slope), it.score())
-            }).collect(),
+            Found::Wheel(validation) => validation
+                .references
+                .iter()
+                .map(|it| {
+                    ranked(ReferenceRecord::from(it).map(PartErrors::Wheel), it.overall.score())
+                })
+                .collect(),
+            Found::Slope(validation) => validation
+                .references
+                .iter()
+                .map(|it| ranked(ReferenceRecord::from(it).map(PartErrors::Slope), it.score()))
+                .collect(),
         }
     }
 }
@@ -418,7 +424,7 @@ fn heading_study(
     gravity: f64,
 ) -> HeadingStudy {
     let (rover, soil) = (rover.value.clone(), soil.value);
-    HeadingStudy { rover, soil, theory, gravity, ..HeadingStudy::of(usual) }
+    HeadingStudy { rover, soil, gravity, theory, ..HeadingStudy::of(usual) }
 }
 
 /// Each model and each yardstick over all parts: first the models, then the yardsticks, best first.

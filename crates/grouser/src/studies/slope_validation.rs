@@ -150,7 +150,10 @@ impl SlopeValidation {
             slip_ratio: slip_ratio.map(|errors| with_aim(errors, &points)),
             yaw: errors(points.iter().map(|it| (it.point.yaw, it.yaw))),
             not_held: points.iter().filter(|it| it.not_held.is_some()).count(),
-            references: Yardstick::ALL.into_iter().filter_map(|it| reference(&points, it)).collect(),
+            references: Yardstick::ALL
+                .into_iter()
+                .filter_map(|it| reference(&points, it))
+                .collect(),
             points,
         }
     }
@@ -228,7 +231,9 @@ mod tests {
             reference.and_then(|it| it.slip_ratio).map(|it| it.rmse)
         };
         let interpolated = ((0.01 + 0.01 + 0.09) / 3.0_f64).sqrt();
-        assert!((rmse(Yardstick::Interpolation).expect("three slopes") - interpolated).abs() < 1e-12);
+        assert!(
+            (rmse(Yardstick::Interpolation).expect("three slopes") - interpolated).abs() < 1e-12
+        );
         let mean = 0.5 / 3.0;
         let deviation: f64 = [0.0, 0.1, 0.4].iter().map(|it: &f64| (it - mean).powi(2)).sum();
         assert!((rmse(Yardstick::Mean).expect("three") - (deviation / 3.0).sqrt()).abs() < 1e-12);

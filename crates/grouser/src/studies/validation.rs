@@ -180,7 +180,10 @@ fn reference(tests: &WheelTests, yardstick: Yardstick) -> Option<Reference> {
     for quantity in Quantity::ALL {
         let places = cells.iter().enumerate().filter_map(|(place, cell)| {
             let it = cell.quantities[quantity]?;
-            Some((place, Placed { series: cell.slip_angle, x: cell.total_slip, value: it.measured }))
+            Some((
+                place,
+                Placed { series: cell.slip_angle, x: cell.total_slip, value: it.measured },
+            ))
         });
         let (places, placed): (Vec<usize>, Vec<Placed>) = places.unzip();
         for (place, predicted) in places.into_iter().zip(yardstick.predict(&placed)) {

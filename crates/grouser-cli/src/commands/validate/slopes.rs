@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use grouser::document::LoadedScenario;
 use grouser::document::columns::slope;
 use grouser::document::measurements::slope_tests::SlopeTests;
 use grouser::document::measurements::{self, Choice};
 use grouser::document::table::Table;
 use grouser::document::validation::{ErrorsRecord, PartErrors, ReferenceRecord, SlopeErrorsRecord};
-use grouser::document::LoadedScenario;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::slope_validation::{SlopeValidation, SlopeValidationStudy};
 use serde::Serialize;

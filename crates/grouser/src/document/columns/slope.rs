@@ -14,9 +14,10 @@ const COLUMNS: [Column<SlopeComparison>; 6] = [
         let means = [it.point.slip_ratio, it.point.yaw];
         means.into_iter().flatten().map(|mean| mean.rows).max()
     }),
-    SLIP_RATIO.compared("Slip ratio; 1 where no heading holds a course along or up the slope", |it| {
-        beside(it.point.slip_ratio, it.slip_ratio)
-    }),
+    SLIP_RATIO
+        .compared("Slip ratio; 1 where no heading holds a course along or up the slope", |it| {
+            beside(it.point.slip_ratio, it.slip_ratio)
+        }),
     YAW.compared("Yaw that holds the course", |it| beside(it.point.yaw, it.yaw)),
     text(STATUS, "`ok`, or why no heading holds the course", |it| {
         Some(it.not_held.clone().unwrap_or_else(|| OK.to_owned()))
@@ -36,7 +37,8 @@ pub fn slopes(points: &[SlopeComparison]) -> Table {
 /// The columns of [`slopes`] for reading: only quantities that were measured.
 #[must_use]
 pub fn brief(points: &[SlopeComparison]) -> Vec<String> {
-    let is_measured = |of: fn(&SlopeComparison) -> Option<Mean>| points.iter().any(|it| of(it).is_some());
+    let is_measured =
+        |of: fn(&SlopeComparison) -> Option<Mean>| points.iter().any(|it| of(it).is_some());
     let slip = is_measured(|it| it.point.slip_ratio).then_some(SLIP_RATIO);
     let yaw = is_measured(|it| it.point.yaw).then_some(YAW);
     let measured = [slip, yaw].into_iter().flatten();

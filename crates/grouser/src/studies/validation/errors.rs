@@ -166,7 +166,8 @@ mod tests {
         assert_eq!(aim(Quantity::Sinkage, 80.0, true), Some((8.0, true)));
         assert_eq!(aim(Quantity::Torque, 800.0, true), Some((5.0, true)));
         assert_eq!(aim(Quantity::SideForce, 80.0, true), None);
-        let worse = errors(&[[20.0, 25.1], [10.0, 15.0]]).with_aim_for(Quantity::Torque, 80.0, true);
+        let worse =
+            errors(&[[20.0, 25.1], [10.0, 15.0]]).with_aim_for(Quantity::Torque, 80.0, true);
         assert_eq!(worse.aim, Some(Aim { limit: 5.0, is_met: false }));
     }
 }

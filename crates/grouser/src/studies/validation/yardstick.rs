@@ -51,7 +51,10 @@ impl Yardstick {
             }
             Self::Interpolation => {
                 let series = Series::of(all);
-                all.iter().enumerate().map(|(own, it)| of_series(&series, it).without(own)).collect()
+                all.iter()
+                    .enumerate()
+                    .map(|(own, it)| of_series(&series, it).without(own))
+                    .collect()
             }
             Self::AngleLeftOut => {
                 let series = Series::of(all);
@@ -133,7 +136,10 @@ mod tests {
     use super::*;
 
     fn placed(points: &[[f64; 3]]) -> Vec<Placed> {
-        points.iter().map(|[series, x, value]| Placed { series: *series, x: *x, value: *value }).collect()
+        points
+            .iter()
+            .map(|[series, x, value]| Placed { series: *series, x: *x, value: *value })
+            .collect()
     }
 
     /// Over a parabola x² at steps of 1 a chord over two steps is too high by 1; at the ends the
@@ -173,7 +179,13 @@ mod tests {
             angles.iter().flat_map(|angle| slips.map(|slip| plane(*angle, slip))).collect();
         let all = placed(&points);
         for (found, it) in Yardstick::AngleLeftOut.predict(&all).into_iter().zip(&all) {
-            let step = if it.series == 0.0 { 1.5 } else if it.series == 1.0 { -1.5 } else { 0.0 };
+            let step = if it.series == 0.0 {
+                1.5
+            } else if it.series == 1.0 {
+                -1.5
+            } else {
+                0.0
+            };
             let error = found.expect("there are others") - it.value - step;
             assert!(error.abs() < 1e-12, "{it:?}: {error}");
         }
