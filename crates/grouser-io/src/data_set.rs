@@ -133,7 +133,8 @@ pub fn read_data_set(
     let cases = sections.iter().zip(nodes).map(|(case, node)| case.read(node));
     let Common { file, gravity } = common;
     let value = DataSet { file, gravity, cases: cases.collect::<Result<_, _>>()? };
-    Ok(Loaded { document, value, uncertain: None, assumptions, companions: Vec::new() })
+    let (assumed, companions) = (Vec::new(), Vec::new());
+    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions })
 }
 
 impl CaseSection {

@@ -119,4 +119,6 @@ static PRESETS: &[Preset] = &[
     preset!(Campaign, "campaigns", "campaign-heading"),
     preset!(Campaign, "campaigns", "campaign-traverse"),
     preset!(Campaign, "campaigns", "campaign-wheel-test"),
+    preset!(Prior, "priors", "general"),
+    preset!(Prior, "priors", "none"),
 ];

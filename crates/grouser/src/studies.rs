@@ -11,6 +11,7 @@
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
+//! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`reproduction`] | the whole of the paper's study |
 
 pub mod calibration;
@@ -25,6 +26,7 @@ pub mod reproduction;
 pub mod simulated_test;
 pub mod slope_validation;
 pub mod validation;
+pub mod validity;
 pub mod wheel_test;
 
 pub use grouser_io::measurements::{slope_tests, wheel_tests as measurement};

@@ -61,6 +61,9 @@ pub(crate) struct ValidateArgs {
     /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
+    /// Accept no extrapolation: a cell that carries a flag of validity is an error, exit code 2.
+    #[arg(long, requires = "data")]
+    pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
     #[command(flatten)]

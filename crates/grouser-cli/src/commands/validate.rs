@@ -18,8 +18,8 @@ use grouser::studies::validation::{Reference, Validation, ValidationStudy};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::Answer;
-use crate::args::ValidateArgs;
+use super::{Answer, strict};
+use crate::args::{StrictArgs, ValidateArgs};
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
@@ -64,6 +64,9 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();
     let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
     let cells = fit::cells(&validation.cells);
+    let flags = validation.cells.iter().map(|cell| &*cell.findings);
+    let strict = StrictArgs { strict: args.strict };
+    strict::check(&strict, flags, &cells, &fit::SETTINGS)?;
     let results = Results {
         overall: &GroupRecord::from(&validation.overall),
         driven: validation.driven.as_ref().map(GroupRecord::from),
@@ -74,7 +77,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
         notes: &measured.notes,
     };
     let answer = Answer::new("validate", settings(args, data, &stand), results);
-    let text = text_of(&validation);
+    let text = text_of(&validation) + &Rows::of_table(&cells).footnotes();
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", long_rows(&validation).to_csv()?);

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use self::errors::root_mean_square;
 pub use self::errors::{Aim, Comparison, Errors, mean_score};
 pub use self::yardstick::{Placed, Yardstick};
-
+use crate::contact::validity::{self, Finding, Situation};
 use crate::contact::{SettleError, Settled, Theory};
 use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
@@ -96,6 +96,8 @@ pub struct CellComparison {
     pub unsettled: usize,
     /// Each quantity's means; `None` where it was not measured, or not in a trial that settles.
     pub quantities: PerQuantity<Option<Comparison>>,
+    /// The flags of its trials together.
+    pub findings: Vec<Finding>,
 }
 
 /// Cells judged together.
@@ -135,7 +137,31 @@ impl ValidationStudy<'_> {
         let predict = |trial: &crate::studies::measurement::Trial| {
             trial.predict(self.theory, &self.wheel, &self.soil, self.gravity)
         };
-        Validation::of(self.tests, self.tests.trials.par_iter().map(predict).collect())
+        let predictions = self.tests.trials.par_iter().map(predict).collect();
+        let mut validation = Validation::of(self.tests, predictions);
+        for (cell, comparison) in self.tests.cells.iter().zip(&mut validation.cells) {
+            let trials = cell
+                .trials
+                .iter()
+                .map(|&trial| self.situation(trial, validation.predictions[trial].as_ref().ok()));
+            comparison.findings = validity::union(trials);
+        }
+        validation
+    }
+
+    /// What the rules of validity look at in a trial.
+    fn situation<'a>(&'a self, trial: usize, settled: Option<&'a Settled>) -> Situation<'a> {
+        let trial = &self.tests.trials[trial];
+        Situation {
+            theory: self.theory,
+            wheel: &self.wheel,
+            soil: &self.soil,
+            gravity: self.gravity,
+            slope: 0.0,
+            load: Some(trial.load),
+            slip: Some(trial.slip),
+            settled,
+        }
     }
 }
 
@@ -237,6 +263,7 @@ fn beside(
         trials: cell.trials.len(),
         unsettled: 0,
         quantities: PerQuantity::from_fn(|quantity| means(tests, cell, predicted, quantity)),
+        findings: Vec::new(),
     }
 }
 

@@ -54,6 +54,7 @@ pub(super) fn html(
     for figure in figures::all(validation) {
         page.drawing(&figure.chart.to_svg(), figure.caption);
     }
+    page.flags(validation.cells.iter().flat_map(|cell| &cell.findings));
     page.heading("Assumptions in force");
     page.list(stand.soil.assumptions.iter().chain(&stand.wheel.assumptions));
     page.to_html()
