@@ -23,6 +23,7 @@ mod threads;
 mod time_step;
 mod validation;
 mod values;
+mod validity;
 mod wheels;
 
 /// The module `grouser._core`.
@@ -57,6 +58,8 @@ mod _core {
     use super::time_step::SteppingWheels;
     #[pymodule_export]
     use super::validation::{validate, validate_all, validate_slopes};
+    #[pymodule_export]
+    use super::validity::{flag_names, flags};
     #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 

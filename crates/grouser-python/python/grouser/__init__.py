@@ -38,6 +38,7 @@ from ._errors import (
     DocumentNotFoundError,
     DocumentUnreadableError,
     GrouserError,
+    OutsideDomainError,
     ParameterError,
     SimulationError,
 )
@@ -54,6 +55,7 @@ from ._validation import (
     validate_all,
     validate_slopes,
 )
+from ._validity import FLAGS, require_inside
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -72,10 +74,12 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "FLAGS",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
     "Headings",
+    "OutsideDomainError",
     "ParameterError",
     "Ranking",
     "Rollout",
@@ -99,6 +103,7 @@ __all__ = [
     "campaign",
     "heading",
     "heading_map",
+    "require_inside",
     "rollout",
     "settle",
     "simulate",

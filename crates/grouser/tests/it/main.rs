@@ -22,6 +22,7 @@ mod messages;
 mod million;
 mod mounts;
 mod paper;
+mod priors;
 mod reference;
 mod rft;
 mod rover;
