@@ -22,8 +22,8 @@ mod studies;
 mod threads;
 mod time_step;
 mod validation;
-mod values;
 mod validity;
+mod values;
 mod wheels;
 
 /// The module `grouser._core`.

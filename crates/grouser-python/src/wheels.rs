@@ -119,7 +119,12 @@ fn row(results: &[f64; WHEEL.len()], last: f64, findings: &[Finding]) -> Row {
 }
 
 /// The flags of a wheel on a test stand.
-fn findings(contact: &Contact, theory: Theory, load: f64, settled: Option<&Settled>) -> Vec<Finding> {
+fn findings(
+    contact: &Contact,
+    theory: Theory,
+    load: f64,
+    settled: Option<&Settled>,
+) -> Vec<Finding> {
     let situation = Situation {
         theory,
         wheel: &contact.wheel,

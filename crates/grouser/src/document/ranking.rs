@@ -67,7 +67,7 @@ pub enum Found {
     /// Of a wheel's trials.
     Wheel(Box<Validation>),
     /// Of a rover's slopes.
-    Slope(SlopeValidation),
+    Slope(Box<SlopeValidation>),
 }
 
 /// A prediction without physics on a part of a data set.
@@ -363,7 +363,7 @@ impl Part<'_> {
                 score: validation.score(),
                 unsettled_trials: validation.points.iter().filter(is_yaw_missing).count(),
                 overall: PartErrors::Slope(SlopeErrorsRecord::from(&validation)),
-                ..self.ranked(theory, name, Found::Slope(validation))
+                ..self.ranked(theory, name, Found::Slope(Box::new(validation)))
             })
         };
         self.pairs().map(one).collect()
