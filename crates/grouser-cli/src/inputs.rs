@@ -152,7 +152,11 @@ fn balanced(
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        "slopes are given by --slope-deg; a heading offset has no drive, start or duration",
+        if command == "validate" {
+            "slopes are those of the rows; a heading offset has no drive, start or duration"
+        } else {
+            "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+        },
     )?;
     scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in

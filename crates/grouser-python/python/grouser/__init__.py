@@ -47,7 +47,14 @@ from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, simulate
-from ._validation import Ranking, Validation, validate, validate_all
+from ._validation import (
+    Ranking,
+    SlopeValidation,
+    Validation,
+    validate,
+    validate_all,
+    validate_slopes,
+)
 from ._validity import FLAGS, require_inside
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
@@ -102,6 +109,7 @@ __all__ = [
     "simulate",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test",
 ]

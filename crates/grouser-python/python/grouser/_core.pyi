@@ -57,6 +57,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
 ]
 
@@ -228,7 +229,10 @@ def validate(
     wheel_label: str | None,
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
-def validate_all(folder: str | os.PathLike[str] | None) -> list[dict[str, Any]]: ...
+def validate_slopes(
+    data: str | os.PathLike[str], scenario: Document, conditions: Sequence[str]
+) -> dict[str, Any]: ...
+def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
 def calibrate_wheel_tests(
     data: str | os.PathLike[str],
     soil: Document,
