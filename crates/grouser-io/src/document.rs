@@ -119,6 +119,12 @@ impl Document {
         self.theory_at("model")
     }
 
+    /// The wheel–soil model that a scenario's soil was made for, if stated.
+    #[must_use]
+    pub fn theory_of_soil(&self) -> Option<Theory> {
+        self.theory_at("soil.model")
+    }
+
     pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
         let name = self.text(path)?;
         Theory::ALL.into_iter().find(|theory| theory.name() == name)

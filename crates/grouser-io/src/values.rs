@@ -235,7 +235,7 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
+        let of_soil = || document.theory_of_soil();
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
     }
 
@@ -288,7 +288,7 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
+        let of_soil = || document.theory_of_soil();
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
     }
 

@@ -3,8 +3,9 @@
 //! | study | computes |
 //! |---|---|
 //! | [`wheel_test`] | forces and sinkage on a single-wheel test stand |
+//! | [`wheel_test_band`] | the same where soil and model are uncertain |
 //! | [`heading`] | the heading offset that holds the contour on a slope |
-//! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and for an uncertain soil |
+//! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
 //! | [`validation`] | the errors of a wheel–soil model against measurements |
@@ -25,6 +26,7 @@ pub mod reproduction;
 pub mod simulated_test;
 pub mod validation;
 pub mod wheel_test;
+pub mod wheel_test_band;
 
 pub use grouser_io::measurements::wheel_tests as measurement;
 use grouser_io::statistics::random;

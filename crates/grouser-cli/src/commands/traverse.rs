@@ -20,7 +20,7 @@ const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenario = inputs::traverse(args)?;
+    let scenario = inputs::traverse(args, &args.setting)?;
     let run = Run::new(&scenario.value)?.to_end()?;
     let rover = &scenario.value.rover;
     let rows = Rows::of_table(&run::table(&run, rover));
