@@ -126,10 +126,10 @@ pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, 
     check_samples(if sampling.uncertainty { sampling.samples } else { 1 }, rows)?;
     let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
     let of_setting = |setting: &SettingArgs| {
-        let read = |soil: &Option<&String>| {
-            balanced("heading-map", scenario, rover, *soil, setting, &args.balance)
+        let read = |soil: Option<&String>| {
+            balanced("heading-map", scenario, rover, soil, setting, &args.balance)
         };
-        soils.iter().map(read).collect::<Result<Vec<_>, _>>()
+        soils.iter().copied().map(read).collect::<Result<Vec<_>, _>>()
     };
     let all = settings.iter().map(of_setting).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().flatten().collect())

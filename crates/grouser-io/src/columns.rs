@@ -117,6 +117,8 @@ pub const RIM_SPEED_SETTING: Quantity = quantity("rim_speed_setting_m_s", M_S);
 pub const PROBABILITY_LEVEL: Quantity = quantity("probability_level", ONE);
 /// The probability that the soil carries a wheel.
 pub const PROBABILITY_CARRIED: Quantity = quantity("probability_carried", ONE);
+/// The probability that a run is completed.
+pub const PROBABILITY_COMPLETED: Quantity = quantity("probability_completed", ONE);
 
 /// Ends of the names of a probability and its confidence interval.
 const INTERVAL: [&str; 3] = ["", "_low", "_high"];

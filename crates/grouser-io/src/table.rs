@@ -142,6 +142,15 @@ impl Table {
         self
     }
 
+    /// With rows that have nothing behind its own, until there are this many.
+    #[must_use]
+    pub fn padded(mut self, rows: usize) -> Self {
+        for (_, values) in &mut self.columns {
+            values.pad(rows);
+        }
+        self
+    }
+
     /// Rows of another table with these columns behind its own; an empty table becomes the other.
     pub fn append(&mut self, more: Self) {
         if self.columns.is_empty() {

@@ -12,6 +12,7 @@
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
+//! | [`traverse_band`] | a traverse where soil and model are uncertain |
 //! | [`reproduction`] | the whole of the paper's study |
 
 pub mod calibration;
@@ -24,6 +25,7 @@ pub mod heading_band;
 pub mod heading_map;
 pub mod reproduction;
 pub mod simulated_test;
+pub mod traverse_band;
 pub mod validation;
 pub mod wheel_test;
 pub mod wheel_test_band;

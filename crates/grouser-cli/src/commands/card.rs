@@ -110,19 +110,18 @@ fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
 
 /// The card's rows, or the comparison where one is asked for.
 fn table(inputs: &CardInputs, card: &Card, rows: &Table, beside: &Table) -> String {
-    let is_stated = inputs.scenario.uncertain.is_some();
     if beside.rows() > 0 {
         return Rows::of_table(beside).to_table(&card::beside_brief());
     }
     let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
-    let mut text = Rows::of_table(rows).to_table(&brief);
-    if !is_stated {
-        let bands = if card.draws.is_some() { "bands are of the models alone" } else { "no bands" };
-        text += &format!(
-            "no uncertainty of this soil is stated: {bands}; slopes are judged with a margin\n"
-        );
+    let text = Rows::of_table(rows).to_table(&brief);
+    if inputs.scenario.uncertain.is_some() {
+        return text;
     }
-    text
+    let bands = if card.draws.is_some() { "bands are of the models alone" } else { "no bands" };
+    format!(
+        "{text}no uncertainty of this soil is stated: {bands}; slopes are judged with a margin\n"
+    )
 }
 
 #[derive(Serialize)]

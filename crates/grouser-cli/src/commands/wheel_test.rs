@@ -171,7 +171,8 @@ fn chart(table: &Table, style: Style) -> Chart {
             .map(|((slip_ratio, low), (_, high))| (slip_ratio, low, high));
         let edges: Vec<_> = edges.collect();
         if !edges.is_empty() {
-            bands.push(Series::band(format!("95 %, {name}"), bands.len() + BAND_COLOUR, edges));
+            let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
+            bands.push(Series::band(format!("95 %, {name}"), colour, edges));
         }
         let points = part.points(SLIP_RATIO.name, DRAWBAR_PULL.name);
         lines.push(Series::new(name, style, lines.len(), points));
@@ -184,5 +185,5 @@ fn chart(table: &Table, style: Style) -> Chart {
     }
 }
 
-/// The first band's place among the colours: a light one.
+/// A band's place among the colours where there is one: a light one. Others have that of their line.
 const BAND_COLOUR: usize = 6;

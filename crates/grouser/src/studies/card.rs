@@ -219,7 +219,7 @@ impl CardStudy {
             draw
         };
         // In order, so that the error is always that of the first soil.
-        let draws = self.draws(samples, drawn)?;
+        let draws = Self::draws(samples, drawn)?;
         let slips_of = |draws: &[Draw]| {
             (0..slopes.len()).map(|place| slips_at(draws, place)).collect::<Vec<_>>()
         };
@@ -229,7 +229,7 @@ impl CardStudy {
             let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
             let nominal = [self.nominal()];
             let samples = if samples.is_empty() { &nominal } else { samples };
-            slips_of(&self.draws(samples, |sample| self.draw(sample, &steeper))?)
+            slips_of(&Self::draws(samples, |sample| self.draw(sample, &steeper))?)
         };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(Card {
@@ -247,7 +247,6 @@ impl CardStudy {
 
     /// The numbers of each sample, or the error of the first that has one.
     fn draws(
-        &self,
         samples: &[Sample],
         one: impl Fn(&Sample) -> Result<Draw, ParameterError> + Sync + Send,
     ) -> Result<Vec<Draw>, ParameterError> {

@@ -226,14 +226,15 @@ pub fn bands(bands: &[SlopeBand]) -> Table {
     with_bands(Table::of(&PLACE, bands), bands)
 }
 
-/// A map's table with the columns of [`BAND`] and the band of the steepest slope added.
+/// A map's table with the columns of [`BAND`] and those of [`BAND_LIMIT`] added.
 ///
 /// * `bands`: of each row of the map
 #[must_use]
 pub fn map_with_bands(table: Table, bands: &[HeadingBand]) -> Table {
     let slopes: Vec<_> = bands.iter().flat_map(|band| band.slopes.iter().map(Some)).collect();
     let limits = bands.iter().flat_map(|band| band.slopes.iter().map(move |_| Some(band)));
-    let of_limit = BAND_LIMIT.iter().filter(|column| column.name == LIMIT_SLOPE.name);
+    // How many samples there are stands in the row already.
+    let of_limit = BAND_LIMIT.iter().filter(|column| column.name != DRAWS);
     table.and(&BAND, &slopes).and(of_limit, &limits.collect::<Vec<_>>())
 }
 
