@@ -14,6 +14,7 @@ pub(crate) mod presets;
 pub(crate) mod reproduce;
 mod sampling;
 pub(crate) mod schema;
+mod strict;
 pub(crate) mod traverse;
 pub(crate) mod validate;
 pub(crate) mod wheel_test;

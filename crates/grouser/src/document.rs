@@ -6,6 +6,7 @@ pub mod campaign;
 pub mod card;
 pub mod checkpoint;
 pub mod columns;
+mod doubts;
 pub mod experiment;
 pub mod plates;
 pub mod ranking;
@@ -13,10 +14,12 @@ pub mod simulated_test;
 mod soil_family;
 pub mod study;
 pub mod validation;
+pub mod validity;
 
 pub use grouser_io::*;
 
 pub use campaign::{Campaign, read_campaign};
+pub use doubts::doubts;
 pub use soil_family::{FitKey, SoilFamily};
 
 /// Checks a document of any kind, named by its `schema`.
@@ -33,6 +36,7 @@ pub fn check(source: &Source) -> Result<Kind, DocumentError> {
         Kind::Scenario => read_scenario(source, &overrides).map(drop),
         Kind::DataSet => read_data_set(source, &overrides).map(drop),
         Kind::Campaign => read_campaign(source, &overrides).map(drop),
+        Kind::Prior => read_priors(source, &overrides).map(drop),
     }?;
     Ok(kind)
 }

@@ -52,6 +52,7 @@ pub(crate) enum KindChoice {
     Scenario,
     DataSet,
     Campaign,
+    Prior,
 }
 
 impl From<KindChoice> for Kind {
@@ -63,6 +64,7 @@ impl From<KindChoice> for Kind {
             KindChoice::Scenario => Self::Scenario,
             KindChoice::DataSet => Self::DataSet,
             KindChoice::Campaign => Self::Campaign,
+            KindChoice::Prior => Self::Prior,
         }
     }
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, UncertaintyArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
@@ -49,6 +49,8 @@ pub(crate) struct TraverseArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

@@ -4,7 +4,7 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::uncertainty::DRAWN;
-use super::{OutputArgs, SamplingArgs, SettingArgs};
+use super::{OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -31,6 +31,8 @@ pub(crate) struct WheelTestArgs {
     pub(crate) stand: StandArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

@@ -12,10 +12,14 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let mut good = String::new();
     let mut worst: Option<Failure> = None;
     for path in &args.files {
-        match document::check(&Source::file(path)) {
-            Ok(kind) => {
+        let source = Source::file(path);
+        match document::check(&source).and_then(|kind| Ok((kind, document::doubts(&source)?))) {
+            Ok((kind, doubts)) => {
                 // Writing to a string does not fail.
                 let _ = writeln!(good, "{}: a valid {kind} document", escape::path(path));
+                for doubt in doubts {
+                    let _ = writeln!(good, "  note: {}", escape::line(&doubt));
+                }
             }
             Err(error) => {
                 let failure = Failure::from(error);

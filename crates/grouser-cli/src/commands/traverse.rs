@@ -1,16 +1,17 @@
 //! `grouser traverse`: drives a rover across a slope.
 
+use grouser::contact::validity::Flag;
 use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
-use grouser::document::columns::{MODEL, X, Y, YAW};
+use grouser::document::columns::{MODEL, TIME, X, Y, YAW};
 use grouser::document::table::{Row, Table};
 use grouser::document::{LoadedScenario, escape};
-use grouser::simulation::{Outcome, Run, Trajectory};
+use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{RunBand, TraverseBand, record_times};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, sampling};
+use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -45,6 +46,9 @@ impl OfModel {
     fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
         let scenario = inputs::traverse(args, setting)?;
         let run = Run::new(&scenario.value)?.to_end()?;
+        let flags = run::each_findings(&run, &scenario.value);
+        let records = run::table(&run, &scenario.value);
+        strict::check(&args.strict, flags.iter().map(|it| &**it), &records, &[TIME.name])?;
         let UncertaintyArgs { sampling, seed } = args.uncertainty;
         if !sampling.uncertainty {
             return Ok(Self { scenario, run, band: None });
@@ -64,7 +68,7 @@ impl OfModel {
 
     /// A row for each record, with the bands at its time.
     fn rows(&self) -> Table {
-        let table = run::table(&self.run, &self.scenario.value.rover);
+        let table = run::table(&self.run, &self.scenario.value);
         match &self.band {
             Some(band) => run::with_bands(table, &band.times),
             None => table,
@@ -73,7 +77,7 @@ impl OfModel {
 
     /// The end and the means, with their bands: one row.
     fn summary(&self) -> Table {
-        let mut table = run::summary(&self.run);
+        let mut table = run::summary(&self.run, &self.scenario.value);
         if let Some(band) = &self.band {
             table = table.and(&RUN_BAND, &[Some(&band.run)]);
         }
@@ -83,7 +87,7 @@ impl OfModel {
     fn output(&self, args: &TraverseArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
         let rows = Rows::of_table(&self.rows());
         let settings = settings(args, std::slice::from_ref(self));
-        let run = RunObject { run: &self.run, rover: &self.scenario.value.rover };
+        let run = RunObject { run: &self.run, scenario: &self.scenario.value };
         let tables = self
             .band
             .as_ref()
@@ -98,7 +102,10 @@ impl OfModel {
             folder.finish()?;
         }
         match args.output.format {
-            Format::Table => output::print(&(table(&self.run) + &self.band_table())),
+            Format::Table => {
+                let flags = flag_lines(&self.run, &self.scenario.value);
+                output::print(&(table(&self.run) + &flags + &self.band_table()))
+            }
             Format::Csv => {
                 tell_end(&self.run);
                 output::print(&rows.to_csv()?)
@@ -236,6 +243,18 @@ fn table(run: &Trajectory) -> String {
         four_digits(end.time),
         four_digits(end.energy.motors),
     )
+}
+
+/// The flags of a run, a line each: since when, and what they mean.
+fn flag_lines(run: &Trajectory, scenario: &Scenario) -> String {
+    let raised = run::raised(run, scenario);
+    let names = raised.texts("flag").iter().flatten();
+    let times = raised.numbers(TIME.name).iter().flatten();
+    let line = |(name, time): (&String, &f64)| {
+        let meaning = Flag::of_name(name).map_or("", |flag| flag.rule().meaning);
+        format!("{name} since {} s: {meaning}\n", four_digits(*time))
+    };
+    names.zip(times).map(line).collect()
 }
 
 /// The paths, seen from above, each with its band if there is one.

@@ -10,7 +10,7 @@ use grouser::studies::wheel_test::WheelTest;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, sampling};
+use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, StandArgs, WheelTestArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -36,10 +36,13 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
 /// The rows of one model.
 fn of_model(args: &WheelTestArgs, stand: &StandInputs) -> Result<Table, Failure> {
     let test = plan(args, stand);
+    let found = test.run();
+    let table = columns::wheel_test::table(&found);
+    let flags = found.iter().map(|row| &*row.findings);
+    strict::check(&args.strict, flags, &table, &columns::wheel_test::SETTINGS)?;
     if let Some(trials) = args.stand.trials {
         return Ok(columns::stand::table(&on_a_stand(test, &args.stand, trials).run()));
     }
-    let table = columns::wheel_test::table(&test.run());
     if !args.sampling.uncertainty {
         return Ok(table);
     }

@@ -10,6 +10,7 @@
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 
 /// Whether to drive on a slope.
@@ -131,6 +132,8 @@ pub struct CardRow {
     pub drift: Option<f64>,
     /// Over the samples; `None` if there are none.
     pub bands: Option<CardBands>,
+    /// The flags of the contour traverse on the soil as written.
+    pub findings: Vec<Finding>,
 }
 
 /// A contour traverse.
@@ -213,6 +216,9 @@ impl CardStudy {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
         let nominal = self.draw(&self.nominal(), slopes)?;
+        let curve = self.heading.curve()?;
+        let findings: Vec<_> =
+            slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect();
         let drawn = |sample: &Sample| {
             let draw = self.draw(sample, slopes);
             done();
@@ -233,7 +239,7 @@ impl CardStudy {
         };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, &judged),
+            rows: self.rows(slopes, &nominal, &draws, &judged, &findings),
             limit: nominal.limit,
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
@@ -260,6 +266,7 @@ impl CardStudy {
         nominal: &Draw,
         draws: &[Draw],
         judged: &[Vec<Option<f64>>],
+        findings: &[Vec<Finding>],
     ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
         let row = |(place, slope): (usize, &f64)| {
@@ -270,6 +277,7 @@ impl CardStudy {
                 level: nominal.levels[place],
                 drift: nominal.drifts[place],
                 bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+                findings: findings[place].clone(),
             }
         };
         slopes.iter().enumerate().map(row).collect()

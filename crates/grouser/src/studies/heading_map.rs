@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::ensemble::samples::Sample;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::heading_band::HeadingBand;
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 
 /// Heading offsets over slope, course and soil.
@@ -30,6 +31,8 @@ pub struct HeadingRow {
     pub limit: Result<(f64, String), NoHeading>,
     /// The heading offset on each slope, or why no heading holds the course.
     pub cells: Vec<Result<HeadingOffset, NoHeading>>,
+    /// The flags of each.
+    pub findings: Vec<Vec<Finding>>,
     /// How many wheels were settled for the row.
     pub settled_wheels: u64,
 }
@@ -112,12 +115,15 @@ impl HeadingMap {
 impl HeadingRow {
     fn of(study: usize, curve: &HeadingCurve, slopes: &[f64]) -> Self {
         let cells: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
+        let findings = slopes.iter().zip(&cells).map(|(slope, cell)| curve.findings(*slope, cell));
+        let findings = findings.collect();
         let asked: u64 = cells.iter().flatten().map(|heading| heading.settled_wheels).sum();
         Self {
             study,
             course: curve.course(),
             limit: curve.limit().map(|(slope, reason)| (slope, reason.to_owned())),
             cells,
+            findings,
             settled_wheels: curve.settled_wheels() + asked,
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
 };
 use grouser::units::deg;
 use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
@@ -44,6 +44,10 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
             // A row of each: what a campaign means is what it computes.
             let meaning = format!("{:?} {:?}", campaign.columns(), campaign.run(0));
             Ok(Read { resolved, meaning, assumptions: campaign.assumptions().to_vec() })
+        }
+        Kind::Prior => {
+            let resolved = document::read_priors(source, overrides)?.to_toml();
+            Ok(Read { meaning: resolved.clone(), resolved, assumptions: Vec::new() })
         }
     }
 }
@@ -87,6 +91,7 @@ fn every_file_of_the_data_is_a_preset() {
         ("scenarios", Kind::Scenario),
         ("measurements", Kind::DataSet),
         ("campaigns", Kind::Campaign),
+        ("priors", Kind::Prior),
     ] {
         let entries = fs::read_dir(data.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries
@@ -150,6 +155,8 @@ fn reference_soil(case: &str) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
+        domain: Domain::UNSTATED,
     }
 }
 

@@ -98,19 +98,20 @@ const LONGITUDINAL_GROWTH: Field<Shear> =
     number("longitudinal_per_rad_m", M_PER_RAD, -1.0..=1.0, GROWTH, |law: &mut Shear| {
         Some(per_radian(longitudinal(law)))
     })
-    .or(0.0);
+    .or_prior_or(0.0);
 const LATERAL: Field<Shear> = number(
     "lateral_m",
     M,
     SMALLEST_MODULUS..=LARGEST_MODULUS,
     "Modulus across the wheel at zero slip angle, K_y",
-    |law| Some(at_zero(lateral(law)?)),
-);
+    |law: &mut Shear| Some(at_zero(lateral(law)?)),
+)
+.or_prior();
 const LATERAL_GROWTH: Field<Shear> =
     number("lateral_per_rad_m", M_PER_RAD, -1.0..=1.0, GROWTH, |law: &mut Shear| {
         Some(per_radian(lateral(law)?))
     })
-    .or(0.0);
+    .or_prior_or(0.0);
 const GROWTH: &str = "Its growth with the slip angle";
 const SQUARE: &str = "Its growth with the square of the slip angle";
 
