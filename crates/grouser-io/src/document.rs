@@ -120,7 +120,15 @@ impl Document {
         self.theory_at("model")
     }
 
-    pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
+    /// The wheel–soil model that a scenario's soil was made for, if stated.
+    #[must_use]
+    pub fn theory_of_soil(&self) -> Option<Theory> {
+        self.theory_at("soil.model")
+    }
+
+    /// The wheel–soil model that stands under a dotted key, if there is one.
+    #[must_use]
+    pub fn theory_at(&self, path: &str) -> Option<Theory> {
         let name = self.text(path)?;
         Theory::ALL.into_iter().find(|theory| theory.name() == name)
     }
