@@ -104,6 +104,14 @@ pub(crate) struct OutputArgs {
     pub(crate) force: bool,
 }
 
+/// Whether extrapolations are accepted.
+#[derive(Debug, Args)]
+pub(crate) struct StrictArgs {
+    /// Accept no extrapolation: a result that carries a flag of validity is an error, exit code 2.
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
 /// Overrides that most commands take.
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {

@@ -122,6 +122,16 @@ pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, 
     soils.into_iter().map(read).collect()
 }
 
+/// The scenario whose rover, soil and load transfer `validate` takes on slopes.
+pub(crate) fn on_slopes(
+    rover: &String,
+    soil: &String,
+    setting: &SettingArgs,
+) -> Result<LoadedScenario, Failure> {
+    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
+    balanced("validate", None, Some(rover), Some(soil), setting, &balance)
+}
+
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--slope-deg", slopes, &range)

@@ -3,6 +3,8 @@
 //! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod discrepancy;
+pub mod domain;
 pub mod pressure_sinkage;
 pub mod rft;
 pub mod slope;
@@ -10,6 +12,8 @@ pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use discrepancy::Discrepancy;
+pub use domain::{Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 pub use slope::SlopeStability;
@@ -24,7 +28,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
 ///     SinkageExponent, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
@@ -42,6 +46,8 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     bulldozing: Bulldozing::Sine,
 ///     small_wheel: SmallWheel::OFF,
 ///     rft: Rft::PUBLISHED,
+///     domain: Domain::UNSTATED,
+///     discrepancy: None,
 /// };
 /// let unit_weight = sand.unit_weight(EARTH_GRAVITY);
 /// assert_eq!(format!("{:.1} kN/m³", 1e-3 * unit_weight), "14.6 kN/m³");
@@ -72,6 +78,10 @@ pub struct Soil {
     pub small_wheel: SmallWheel,
     /// What resistive force theory needs; the others leave it aside.
     pub rft: Rft,
+    /// For which wheels, loads and motions the constants are known to hold. No model looks at it.
+    pub domain: Domain,
+    /// What the model gets wrong, where a calibration has found it; nothing without it.
+    pub discrepancy: Option<Discrepancy>,
 }
 
 /// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
@@ -292,6 +302,8 @@ impl Soil {
         self.shear.check()?;
         self.small_wheel.check()?;
         self.rft.check()?;
+        self.domain.check()?;
+        self.discrepancy.as_ref().map_or(Ok(()), Discrepancy::check)?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

@@ -5,6 +5,7 @@ use serde_json::{Map, Value as Json};
 
 use super::describe;
 use super::kind::Kind;
+use super::priors::KEY as PRIORS;
 use grouser_core::contact::Theory;
 
 /// The keys of a document in their own units: every named part in its place, every default filled in, keys
@@ -130,7 +131,7 @@ impl Document {
         to_toml(self)
     }
 
-    /// The dotted keys of all its numbers, entries of lists by their place.
+    /// The dotted keys of all its numbers, entries of lists by their place; those of priors are no numbers of a soil.
     pub(crate) fn number_keys(&self) -> Vec<String> {
         number_keys(&self.keys)
     }
@@ -138,7 +139,10 @@ impl Document {
 
 fn number_keys(given: &Json) -> Vec<String> {
     let mut children: Vec<(String, &Json)> = match given {
-        Json::Object(keys) => keys.iter().map(|(key, given)| (key.clone(), given)).collect(),
+        Json::Object(keys) => {
+            let own = keys.iter().filter(|(key, _)| *key != PRIORS);
+            own.map(|(key, given)| (key.clone(), given)).collect()
+        }
         Json::Array(all) => {
             all.iter().enumerate().map(|(place, given)| (place.to_string(), given)).collect()
         }

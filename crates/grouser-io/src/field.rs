@@ -28,6 +28,8 @@ pub(crate) struct Field<T: 'static> {
     pub key: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
+    /// The key under which its number may stand in thousands of its unit.
+    pub in_thousands: Option<&'static str>,
     /// What it is: a sentence; of a number without its unit and full stop.
     pub doc: &'static str,
     pub presence: Presence,
@@ -45,6 +47,8 @@ pub(crate) enum Presence {
     Otherwise(Fill),
     /// The keyword that goes with the one of another key of the table.
     Follows(&'static str, &'static [(&'static str, &'static str)]),
+    /// What the soil's priors say; without one this value, or else that something is missing.
+    Prior(Option<f64>),
 }
 
 /// A value that stands for one that a document does not have.
@@ -374,7 +378,7 @@ pub(crate) const fn part<T>(
 }
 
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, formerly: None, doc, presence: Presence::Needed, shape }
+    Field { key, formerly: None, in_thousands: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -406,9 +410,27 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, which the soil's priors have a value for.
+    pub(crate) const fn or_prior(mut self) -> Self {
+        self.presence = Presence::Prior(None);
+        self
+    }
+
+    /// The same, with a value where there is no prior.
+    pub(crate) const fn or_prior_or(mut self, number: f64) -> Self {
+        self.presence = Presence::Prior(Some(number));
+        self
+    }
+
     /// The same, which had another key in earlier versions.
     pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
         self.formerly = Some(key);
+        self
+    }
+
+    /// The same, whose number may stand under another key in thousands of its unit: newtons as kN.
+    pub(crate) const fn or_in_thousands(mut self, key: &'static str) -> Self {
+        self.in_thousands = Some(key);
         self
     }
 
@@ -460,7 +482,11 @@ impl<T> Table<T> {
     pub(crate) fn implied(field: &Field<T>) -> Option<Json> {
         match field.presence {
             Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
-            Presence::Needed | Presence::Optional | Presence::Follows(..) => None,
+            Presence::Prior(Some(number)) => Some(Json::from(number)),
+            Presence::Needed
+            | Presence::Optional
+            | Presence::Follows(..)
+            | Presence::Prior(None) => None,
         }
     }
 }

@@ -136,6 +136,26 @@ impl<T> Table<T> {
     }
 }
 
+impl<T> Table<T> {
+    /// Numbers in thousands of a unit, under the keys that say so, as numbers in the unit. One under both its keys
+    /// stays, and is reported as unknown.
+    fn from_thousands(&self, table: &mut Node) {
+        for field in self.fields {
+            let Some(key) = field.in_thousands else { continue };
+            if table.entry(field.key).is_some() {
+                continue;
+            }
+            let Some(entry) = table.entry_mut(key) else { continue };
+            match &mut entry.node.value {
+                Value::Float(number) => *number *= 1e3,
+                Value::Integer(number) => entry.node.value = Value::Float(*number as f64 * 1e3),
+                _ => {}
+            }
+            field.key.clone_into(&mut entry.key);
+        }
+    }
+}
+
 impl<T> Rows for Table<T> {
     fn schema(&self, defs: &mut serde_json::Map<String, Json>) -> Json {
         json_schema::of_table(self, None, defs)
@@ -163,6 +183,9 @@ impl<T> Rows for Table<T> {
             Names::Today => field.key,
             Names::Former => field.formerly.unwrap_or(field.key),
         };
+        if to == Names::Today {
+            self.from_thousands(table);
+        }
         // A key under both its names stays unknown by the former one, and is reported so.
         let is_there = |field: &&Field<T>| table.entry(named(field)).is_some();
         let there: Vec<_> = self.fields.iter().filter(is_there).map(named).collect();

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
@@ -48,6 +48,8 @@ pub(crate) struct TraverseArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

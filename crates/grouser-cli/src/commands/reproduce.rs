@@ -2,9 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use grouser::contact::validity::Finding;
 use grouser::document::columns::run::table as run_table;
 use grouser::document::{self, LoadedScenario, Overrides, Source, escape, experiment, file};
-use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError};
+use grouser::simulation::Scenario;
+use grouser::studies::reproduction::{Plan, Reproduction, ReproductionError, SlopeRuns};
+use grouser::studies::validity::RoverOnSlope;
 
 use crate::args::ReproduceArgs;
 use crate::failure::Failure;
@@ -152,6 +155,7 @@ fn write_report(
     page.heading("Along a run");
     draw(&mut page, folder)?;
     draw(&mut page, folder)?;
+    page.flags(&findings(study, &scenario.value));
     closing(&mut page, scenario);
 
     for table in &all_tables {
@@ -159,8 +163,9 @@ fn write_report(
     }
     for runs in &study.slopes {
         let slope = runs.measured.slope.to_degrees().round();
+        let on_slope = on_slope(&scenario.value, runs);
         let mut add = |name: &str, run: &grouser::simulation::Trajectory| {
-            let rows = Rows::of_table(&run_table(run, rover)).to_csv()?;
+            let rows = Rows::of_table(&run_table(run, &on_slope)).to_csv()?;
             folder.add(format!("data/traverse-{slope}deg-{name}.csv"), rows);
             Ok::<(), Failure>(())
         };
@@ -174,6 +179,27 @@ fn write_report(
     folder.add_document("scenario.toml", scenario);
     folder.add(REPORT, page.to_html());
     Ok(())
+}
+
+/// The scenario of the traverses on a slope.
+fn on_slope(scenario: &Scenario, runs: &SlopeRuns) -> Scenario {
+    Scenario { site: scenario.site.with_slope(runs.measured.slope), ..scenario.clone() }
+}
+
+/// The flags of all wheel tests and traverses of the study.
+fn findings(study: &Reproduction, scenario: &Scenario) -> Vec<Finding> {
+    let curves = study.wheel_curves.iter().flat_map(|curve| &curve.rows);
+    let tests = curves.chain(&study.by_slip_angle).chain(&study.by_load);
+    let tests = tests.flat_map(|row| row.findings.clone());
+    let runs = study.slopes.iter().flat_map(|runs| {
+        let scenario = on_slope(scenario, runs);
+        let all =
+            [&runs.uncompensated, &runs.from_measured_yaw, &runs.from_measured_yaw_with_torque];
+        let all = all.into_iter().chain(&runs.compensated);
+        let raised = all.flat_map(|run| RoverOnSlope::of(&scenario).over(run));
+        raised.map(|raised| raised.finding).collect::<Vec<_>>()
+    });
+    tests.chain(runs).collect()
 }
 
 fn opening(page: &mut Page, study: &Reproduction) {

@@ -6,8 +6,8 @@ use grouser_core::error::ParameterError;
 use grouser_core::simulation::{Motion, Numerics, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::{
-    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent,
-    SlopeStability, SmallWheel, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, SlopeStability, SmallWheel, Soil, StressPeak,
 };
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser_core::vehicle::{
@@ -37,6 +37,8 @@ pub(crate) fn sand() -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        domain: Domain::UNSTATED,
+        discrepancy: None,
     }
 }
 

@@ -101,8 +101,8 @@ impl Soil {
 #[cfg(test)]
 mod tests {
     use super::super::{
-        Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent,
-        SmallWheel, StressPeak,
+        Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+        SinkageExponent, SmallWheel, StressPeak,
     };
     use super::*;
     use crate::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, deg, kpa};
@@ -121,6 +121,8 @@ mod tests {
             bulldozing: Bulldozing::None,
             small_wheel: SmallWheel::OFF,
             rft: Rft::PUBLISHED,
+            domain: Domain::UNSTATED,
+            discrepancy: None,
         }
     }
 

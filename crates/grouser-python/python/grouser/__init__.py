@@ -38,6 +38,7 @@ from ._errors import (
     DocumentNotFoundError,
     DocumentUnreadableError,
     GrouserError,
+    OutsideDomainError,
     ParameterError,
     SimulationError,
 )
@@ -47,6 +48,7 @@ from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, simulate
 from ._validation import Ranking, Validation, validate, validate_all
+from ._validity import FLAGS, require_inside
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -65,10 +67,12 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "FLAGS",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
     "Headings",
+    "OutsideDomainError",
     "ParameterError",
     "Ranking",
     "Rollout",
@@ -92,6 +96,7 @@ __all__ = [
     "campaign",
     "heading",
     "heading_map",
+    "require_inside",
     "rollout",
     "settle",
     "simulate",

@@ -43,6 +43,11 @@ class Validation(_tables.Tabular):
     notes: tuple[str, ...]
     """Remarks on the file."""
 
+    @property
+    def flags(self) -> Any:
+        """Why each cell is an extrapolation: names of `FLAGS`, joined by ``;``."""
+        return self.cells["flags"]
+
     def _table(self) -> Mapping[str, Any]:
         return self.trials
 

@@ -8,6 +8,7 @@
 
 use super::ensemble::{Band, Probability, outputs};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
@@ -129,6 +130,8 @@ pub struct CardRow {
     pub drift: Option<f64>,
     /// Over the samples; `None` where no uncertainty is stated.
     pub bands: Option<CardBands>,
+    /// The flags of the contour traverse on the soil as written.
+    pub findings: Vec<Finding>,
 }
 
 /// A contour traverse.
@@ -210,6 +213,9 @@ impl CardStudy {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
         let nominal = self.draw(&self.heading.soil, slopes)?;
+        let curve = self.heading.curve()?;
+        let findings: Vec<_> =
+            slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect();
         let drawn = |soil: &Soil| {
             let draw = self.draw(soil, slopes);
             done();
@@ -227,7 +233,7 @@ impl CardStudy {
         };
         let limits = draws.iter().filter_map(|draw| draw.limit.as_ref().ok());
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, &judged),
+            rows: self.rows(slopes, &nominal, &draws, &judged, &findings),
             limit: nominal.limit,
             limit_band: Band::of(limits.map(|(slope, _)| *slope)),
             draws: (!draws.is_empty()).then_some(draws.len()),
@@ -240,6 +246,7 @@ impl CardStudy {
         nominal: &Draw,
         draws: &[Draw],
         judged: &[Vec<Option<f64>>],
+        findings: &[Vec<Finding>],
     ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
         let ground = self.heading.ground_limit();
@@ -257,6 +264,7 @@ impl CardStudy {
                 refusal: nominal.refusals[place].clone(),
                 drift: nominal.drifts[place],
                 bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+                findings: findings[place].clone(),
             }
         };
         slopes.iter().enumerate().map(row).collect()

@@ -34,6 +34,8 @@ use nalgebra::Vector3;
 
 use self::path::{Held, JUST_TURNED, Path, Place, Point};
 pub use self::study::{HeadingStudy, STRAIGHT_UP};
+use super::validity::RoverOnSlope;
+use crate::contact::validity::Finding;
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite};
 use crate::root;
@@ -398,6 +400,14 @@ impl HeadingCurve {
         let rise = |share: f64| along(share).map_or(-1.0, |point| point.place.z - slope);
         let nearest = if share < 0.5 { below } else { above };
         along(root::between(rise, 0.0, 1.0, 1e-13)).unwrap_or_else(|| nearest.clone())
+    }
+
+    /// The flags of what was found on a slope [rad]; without a heading, those that need no motion.
+    #[must_use]
+    pub fn findings(&self, slope: f64, found: &Result<HeadingOffset, NoHeading>) -> Vec<Finding> {
+        let HeadingStudy { rover, soil, gravity, theory, .. } = &self.study;
+        let on_slope = RoverOnSlope { rover, soil, gravity: *gravity, theory: *theory, slope };
+        on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
     }
 
     /// Points along the curve, from level ground to the steepest slope.

@@ -6,6 +6,7 @@
 use rayon::prelude::*;
 
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 
 /// Heading offsets over slope, course and soil.
@@ -30,6 +31,8 @@ pub struct HeadingRow {
     pub limited_by: Option<LimitedBy>,
     /// The heading offset on each slope, or why no heading holds the course.
     pub cells: Vec<Result<HeadingOffset, NoHeading>>,
+    /// The flags of each.
+    pub findings: Vec<Vec<Finding>>,
     /// How many wheels were settled for the row.
     pub settled_wheels: u64,
 }
@@ -86,6 +89,8 @@ impl HeadingMap {
 impl HeadingRow {
     fn of(study: usize, curve: &HeadingCurve, slopes: &[f64]) -> Self {
         let cells: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
+        let findings = slopes.iter().zip(&cells).map(|(slope, cell)| curve.findings(*slope, cell));
+        let findings = findings.collect();
         let asked: u64 = cells.iter().flatten().map(|heading| heading.settled_wheels).sum();
         Self {
             study,
@@ -93,6 +98,7 @@ impl HeadingRow {
             limit: curve.limit().map(|(slope, reason)| (slope, reason.to_owned())),
             limited_by: curve.limited_by(),
             cells,
+            findings,
             settled_wheels: curve.settled_wheels() + asked,
         }
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent,
     SlopeStability, Soil,
 };
 use grouser::units::deg;
@@ -45,6 +45,10 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
             // A row of each: what a campaign means is what it computes.
             let meaning = format!("{:?} {:?}", campaign.columns(), campaign.run(0));
             Ok(Read { resolved, meaning, assumptions: campaign.assumptions().to_vec() })
+        }
+        Kind::Prior => {
+            let resolved = document::read_priors(source, overrides)?.to_toml();
+            Ok(Read { meaning: resolved.clone(), resolved, assumptions: Vec::new() })
         }
     }
 }
@@ -88,6 +92,7 @@ fn every_file_of_the_data_is_a_preset() {
         ("scenarios", Kind::Scenario),
         ("measurements", Kind::DataSet),
         ("campaigns", Kind::Campaign),
+        ("priors", Kind::Prior),
     ] {
         let entries = fs::read_dir(data.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries
@@ -104,8 +109,13 @@ fn every_file_of_the_data_is_a_preset() {
 }
 
 fn soil(name: &str) -> Soil {
+    soil_with(name, &[])
+}
+
+fn soil_with(name: &str, settings: &[&str]) -> Soil {
     let source = Source::find(Kind::Soil, name).expect("a preset");
-    document::read_soil(&source, &Overrides::none()).expect("it is read").value
+    let overrides = Overrides::parse(settings).expect("they are written so");
+    document::read_soil(&source, &overrides).expect("it is read").value
 }
 
 fn wheel(name: &str) -> Wheel {
@@ -152,6 +162,8 @@ fn reference_soil(case: &str) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
+        domain: Domain::UNSTATED,
     }
 }
 
@@ -171,7 +183,18 @@ fn check_constants(soil: &Soil, reference: &Soil) {
 fn presets_have_the_constants_of_the_reference() {
     check_constants(&soil("toyoura"), &reference_soil("toyoura_17n"));
     check_constants(&soil("simulant-2007"), &reference_soil("simulant_2007"));
-    check_constants(&soil("lunar-nominal"), &reference_soil("lunar_nominal"));
+    // What the reference assumes, and the preset leaves to priors.
+    let lunar = soil_with(
+        "lunar-nominal",
+        &[
+            "soil.stress_peak={ a0 = 0.4, a1 = 0.15 }",
+            "soil.exit.ratio=1",
+            "soil.shear.lateral_m=0.018",
+            "soil.shear.longitudinal_per_rad_m=0",
+            "soil.shear.lateral_per_rad_m=0",
+        ],
+    );
+    check_constants(&lunar, &reference_soil("lunar_nominal"));
     let grousers = Some(Grousers { height: 0.010, count: 24 });
     assert_eq!(wheel("hakuto"), Wheel { radius: 0.10, width: 0.08, grousers });
     assert_eq!(wheel("jfr-2007"), Wheel { radius: 0.092, width: 0.107, grousers: None });
@@ -508,7 +531,7 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
     for (from, to, message) in [
         ("cohesion_kpa ", "cohesion_pka ", "hint: did you mean `cohesion_kpa`?"),
         ("cohesion_kpa ", "cohesion ", "unknown key `cohesion`\n"),
-        ("cohesion_kpa       = 0.0", "", ":1:1: `cohesion_kpa` is missing"),
+        ("friction_angle_deg = 38.0", "", ":1:1: `friction_angle_deg` is missing"),
         ("= 38.0", "= \"38.0\"", "`friction_angle_deg` is the text \"38.0\", it must be a number"),
         ("= 38.0", "= true", "is the truth value true, it must be a number"),
         ("= 38.0", "= 2020-01-01", "is the date 2020-01-01, it must be a number"),
@@ -627,7 +650,7 @@ fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
         ("drive = { reference_slip_ratio = 0.1 }", "unknown key `drive.reference_slip_ratio`"),
         ("start.yaw_deg = 181", "`start.yaw_deg` is 181, it must be -180 to 180"),
         ("soil = \"hakuto\"", "there is no soil preset and no file called `hakuto`"),
-        ("[soil]\ndensity_kg_m3 = 1500", "`soil.cohesion_kpa` is missing"),
+        ("[soil]\ndensity_kg_m3 = 1500", "`soil.friction_angle_deg` is missing"),
         ("[rover.wheel_unit.wheel]\nradius = 1", "did you mean `radius_m`?"),
     ] {
         let error = fail(Kind::Scenario, &format!("schema = \"scenario/1\"\n{lines}\n"));
@@ -792,9 +815,10 @@ fn what_a_document_leaves_out_is_told() {
                 shear = { law = \"isotropic\", longitudinal_m = 0.02 }\n";
     let loaded = document::read_soil(&Source::text("short", text), &Overrides::none());
     let loaded = loaded.expect("all that is needed is there");
-    assert_eq!(loaded.value.exit, Exit::Ratio(1.0));
+    let Exit::Ratio(ratio) = loaded.value.exit else { panic!("it is one number") };
+    assert!((ratio - 0.293).abs() < 5e-4, "{ratio}");
     assert_eq!(loaded.value.bulldozing, Bulldozing::Sine);
-    for key in ["exit.ratio", "bulldozing.law", "source"] {
+    for key in ["exit.ratio", "shear.longitudinal_per_rad_m", "bulldozing.law", "source"] {
         let start = format!("soil unnamed: {key}: not");
         assert!(loaded.assumptions.iter().any(|one| one.starts_with(&start)), "{key}");
     }

@@ -6,8 +6,8 @@ use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent,
-    SmallWheel, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, SmallWheel, Soil, StressPeak,
 };
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
@@ -64,6 +64,8 @@ pub(crate) fn toyoura() -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        domain: Domain::UNSTATED,
+        discrepancy: None,
     }
 }
 
@@ -255,6 +257,8 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 bulldozing,
                 small_wheel: SmallWheel::OFF,
                 rft: Rft::PUBLISHED,
+                domain: Domain::UNSTATED,
+                discrepancy: None,
             }
         },
     )

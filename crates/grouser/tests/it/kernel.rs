@@ -5,8 +5,8 @@ use grouser::contact::{
     settle_from, settle_many,
 };
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, Soil,
-    StressPeak, small_wheel,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, Soil, StressPeak, small_wheel,
 };
 use grouser::units::deg;
 use grouser::wheel::Wheel;
@@ -59,6 +59,8 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         bulldozing: Bulldozing::Sine,
         small_wheel: small_wheel::SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        domain: Domain::UNSTATED,
+        discrepancy: None,
     };
     let slip = any_slip(draw, motion);
     (Contact { wheel, soil, slip, gravity: 9.81 }, draw.sized(1e-3, 0.5) * radius)

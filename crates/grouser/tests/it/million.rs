@@ -7,8 +7,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, WheelForces, settle};
 use grouser::soil::{
-    Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, SmallWheel, Soil,
-    StressPeak,
+    Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent,
+    SmallWheel, Soil, StressPeak,
 };
 use grouser::units::deg;
 use grouser::wheel::{Grousers, Wheel};
@@ -128,6 +128,8 @@ fn any_soil(draw: &mut Draw) -> Soil {
         bulldozing: draw.one_of(&BULLDOZING),
         small_wheel: SmallWheel::OFF,
         rft: Rft::PUBLISHED,
+        domain: Domain::UNSTATED,
+        discrepancy: None,
     }
 }
 

@@ -4,7 +4,8 @@ use grouser::contact::{Contact, Ishigami, Settled, Slip, Theory, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    StressPeak,
 };
 use grouser::studies::comparison::Levelness;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
@@ -58,6 +59,8 @@ fn soil_of(soil: &Value) -> Soil {
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
+        discrepancy: None,
+        domain: Domain::UNSTATED,
     }
 }
 

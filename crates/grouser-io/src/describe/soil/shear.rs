@@ -122,19 +122,20 @@ const LONGITUDINAL_GROWTH: Field<Soil> =
     number("longitudinal_per_rad_m", M_PER_RAD, -1.0..=1.0, GROWTH, |soil: &mut Soil| {
         Some(per_radian(longitudinal(soil)))
     })
-    .or(0.0);
+    .or_prior_or(0.0);
 const LATERAL: Field<Soil> = number(
     "lateral_m",
     M,
     SMALLEST_MODULUS..=LARGEST_MODULUS,
     "Modulus across the wheel at zero slip angle, K_y",
-    |soil| Some(at_zero(lateral(soil)?)),
-);
+    |soil: &mut Soil| Some(at_zero(lateral(soil)?)),
+)
+.or_prior();
 const LATERAL_GROWTH: Field<Soil> =
     number("lateral_per_rad_m", M_PER_RAD, -1.0..=1.0, GROWTH, |soil: &mut Soil| {
         Some(per_radian(lateral(soil)?))
     })
-    .or(0.0);
+    .or_prior_or(0.0);
 const GROWTH: &str = "Its growth with the slip angle";
 const SQUARE: &str = "Its growth with the square of the slip angle";
 

@@ -1,18 +1,21 @@
 //! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
 
+use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
-use super::super::table::{Cell, ColumnKind};
+use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
 use super::super::{Document, Misfit, Node};
 use super::table::{Column, Role};
+use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
+use crate::studies::validity::RoverOnSlope;
 use crate::vehicle::DriveLaw;
 use grouser_io::campaign::{Stand, Study};
 
@@ -66,8 +69,8 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
     }
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     let words: &[&str] = match study {
-        Study::Traverse => &["status", "reason", "outcome", "simulation"],
-        Study::Heading | Study::WheelTest => &["status", "reason"],
+        Study::Traverse => &["status", "reason", "outcome", "simulation", FLAGS],
+        Study::Heading | Study::WheelTest => &["status", "reason", FLAGS],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let names: Vec<&str> = match study {
@@ -160,7 +163,13 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         _ => None,
     };
     let held_row = Held { heading: &heading, rover: &scenario.rover, rim_speed };
-    Ok(cells([Cell::Text(None)], &held(), &held_row).collect())
+    let flags = RoverOnSlope::of(scenario).findings(heading.wheels.iter());
+    Ok(cells([Cell::Text(None), joined(&flags)], &held(), &held_row).collect())
+}
+
+/// Flags as one text: shards have no lists.
+fn joined(findings: &[Finding]) -> Cell {
+    Cell::text(names_of(findings).join(BETWEEN_NAMES))
 }
 
 /// Words, then the results of a row.
@@ -181,6 +190,9 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::Text(run.outcome.reason()),
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
+        joined(
+            &RoverOnSlope::of(scenario).over(&run).iter().map(|it| it.finding).collect::<Vec<_>>(),
+        ),
     ];
     Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect())
 }
@@ -193,5 +205,15 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         };
         Failure { status, reason: error.to_string() }
     })?;
-    Ok(cells([Cell::Text(None)], &WHEEL, &settled).collect())
+    let situation = Situation {
+        theory,
+        wheel: &contact.wheel,
+        soil: &contact.soil,
+        gravity: contact.gravity,
+        slope: 0.0,
+        load: Some(load),
+        slip: Some(contact.slip),
+        settled: Some(&settled),
+    };
+    Ok(cells([Cell::Text(None), joined(&situation.findings())], &WHEEL, &settled).collect())
 }

@@ -2,6 +2,7 @@
 
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, M_PER_M};
+use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
     Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW,
@@ -29,7 +30,7 @@ struct OnCard<'a> {
     card: &'a Card,
 }
 
-const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
+const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
     [
         SLOPE.given("Slope", |it| Some(it.row.slope)),
         text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
@@ -63,6 +64,7 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
         text(STATUS, "`ok`, or why no heading holds the contour on the soil as written", |it| {
             Some(status(it))
         }),
+        flags::flags(|it| flags::names(&it.row.findings)),
     ]
 }
 
@@ -82,7 +84,7 @@ pub fn table(card: &Card) -> Table {
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name]
+    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name, FLAGS]
         .map(String::from)
         .into()
 }
@@ -96,7 +98,8 @@ pub fn bands_brief() -> Vec<String> {
         high
     });
     let [slope, verdict, level] = [SLOPE.name, VERDICT, PROBABILITY_LEVEL.name].map(String::from);
-    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level]
+    let flags = FLAGS.to_owned();
+    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level, flags]
 }
 
 /// How many samples the card has, and the steepest slope: one row.
