@@ -28,7 +28,8 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, SmallWheel, Soil, StressPeak,
+///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+///     SinkageExponent, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
