@@ -45,9 +45,11 @@ pub struct SinkageGrowth {
     pub sharpness: f64,
 }
 
-/// What is added to the wheel sinkage ratio *λ*.
+/// How the wheel sinkage ratio *λ* moves with the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitShift {
+    /// Share of λ that a wheel spinning on the spot has lost [-].
+    pub fading: f64,
     /// Growth with slip [-].
     pub with_slip: f64,
     /// Growth with |sin β| [-].
@@ -100,7 +102,7 @@ impl SmallWheel {
             locked: 0.0,
             sharpness: 1.0,
         },
-        exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
+        exit: ExitShift { fading: 0.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 1.0 },
         side_wall: SideWall { pressure_factor: 1.0, fading: 0.0, friction: 0.0 },
         mounds: Mounds { bow_wave: 0.0, rear_mound: 0.0 },
@@ -122,7 +124,7 @@ impl SmallWheel {
             locked: 4.1,
             sharpness: 4.0,
         },
-        exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
+        exit: ExitShift { fading: 1.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 2.0 / 3.0 },
         side_wall: SideWall { pressure_factor: 5.2, fading: 0.6, friction: 0.2 },
         mounds: Mounds { bow_wave: 2.5, rear_mound: 0.85 },
@@ -146,6 +148,7 @@ impl SmallWheel {
             let name = "sharpness of the sinkage growth";
             return Err(ParameterError::new(name, sinkage.sharpness, "finite and at least 1"));
         }
+        not_negative("fading of the exit ratio", exit.fading)?;
         finite("exit ratio's growth with slip", exit.with_slip)?;
         finite("exit ratio's growth with slip angle", exit.with_slip_angle)?;
         if let Some(angle) = interface.friction_angle {
@@ -220,14 +223,18 @@ impl ExitShift {
     /// The wheel sinkage ratio *λ* [-] of a moving wheel: at least 0, and above 1 only where the
     /// soil at rest already is.
     ///
-    /// * `at_rest`: the classical *λ* [-]
+    /// ```text
+    /// λ = λ₀ (1 − fading S⁺) + with_slip S⁺ + with_slip_angle |sin β|
+    /// ```
+    ///
+    /// * `at_rest`: the classical *λ₀* [-]
     /// * `total_slip`: *S* [-], −1 to 1
     /// * `slip_angle`: *β* [rad]
     #[must_use]
     pub fn ratio(&self, at_rest: f64, total_slip: f64, slip_angle: f64) -> f64 {
-        let shift = self.with_slip * total_slip.clamp(0.0, 1.0)
-            + self.with_slip_angle * wide::sin(slip_angle).abs();
-        (at_rest + shift).clamp(0.0, at_rest.max(1.0))
+        let spin = total_slip.clamp(0.0, 1.0);
+        let shift = self.with_slip * spin + self.with_slip_angle * wide::sin(slip_angle).abs();
+        (at_rest * (1.0 - self.fading * spin) + shift).clamp(0.0, at_rest.max(1.0))
     }
 }
 
