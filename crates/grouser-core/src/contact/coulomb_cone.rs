@@ -19,6 +19,9 @@
 //! the wheel it is the buried segment of one side wall, taken as a parabola: h(l) = h (1 − l²/a²),
 //! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact.
 //!
+//! [`coulomb`](super::coulomb) has a tighter bound, by bare wedges, for soils that state it; the
+//! small-wheel model keeps within both, for its mounds and its side wall are of piled-up soil.
+//!
 //! On a slope the wedges resist less against being pushed downhill ([`Soil::on_slope`]), and not at
 //! all where it is as steep as the angle of friction: a rover on cohesionless soil holds on no
 //! steeper slope.
@@ -29,6 +32,7 @@
 //! [`Bulldozing::SineSquared`]: crate::soil::Bulldozing::SineSquared
 //! [`Soil::on_slope`]: crate::soil::Soil::on_slope
 
+use super::coulomb::shrunk;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use crate::elementary::wide;
@@ -70,9 +74,5 @@ pub(super) fn within_the_cone(contact: &Contact, forces: WheelForces, sinkage: f
     if asked <= most {
         return forces;
     }
-    WheelForces {
-        normal_force: forces.normal_force,
-        max_normal_stress: forces.max_normal_stress,
-        ..forces * (most / asked)
-    }
+    shrunk(forces, most / asked)
 }

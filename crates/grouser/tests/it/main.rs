@@ -1,15 +1,18 @@
 //! The claims of the library, tested from outside.
 
+mod bands;
 mod calibration;
 mod campaign;
 mod campaign_documents;
 mod card;
 mod declarations;
+mod discrepancy;
 mod documents;
 mod examples;
 mod files;
 mod former_names;
 mod given;
+mod ground;
 mod heading_map;
 mod integration;
 mod kernel;
@@ -21,6 +24,7 @@ mod messages;
 mod million;
 mod mounts;
 mod paper;
+mod priors;
 mod reference;
 mod rft;
 mod rover;
@@ -32,3 +36,4 @@ mod time_step;
 mod uncertain_documents;
 mod uncertainty;
 mod units;
+mod validity;

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::super::error::{DocumentError, Problem};
 use super::super::uncertainty::{Inputs, Stated, Statement};
 use super::super::varied::{Key, NoNumber, Numbers};
-use super::super::{Document, Kind, Misfit, Node, stated_of};
+use super::super::{Document, Kind, Misfit, Node, stated_by_priors, stated_of};
 use super::rows::Base;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::{Ensemble, Matrix};
@@ -61,10 +61,17 @@ pub(super) fn prepare(
     };
     let of_soil = if settings.soil_uncertainty { of_soil(document, place, tree)? } else { None };
     let mut statements = Vec::new();
-    if let Some((stated, tree)) = &of_soil {
-        statements.push(Statement { stated, tree, table: "uncertainty.", prefix: "soil." });
+    if let Some(OfSoil { stated, tree, .. }) = &of_soil {
+        let (table, prefix) = ("uncertainty.", SOIL);
+        statements.push(Statement { stated, tree, table, prefix, yields: false });
     }
-    statements.push(Statement { stated: &settings.uncertain, tree, table: "", prefix: "" });
+    let (stated, table, prefix) = (&settings.uncertain, "", "");
+    statements.push(Statement { stated, tree, table, prefix, yields: false });
+    // Last, as what gives way comes after what does not.
+    if let Some(OfSoil { believed, tree, .. }) = &of_soil {
+        let (table, prefix) = ("priors.", SOIL);
+        statements.push(Statement { stated: believed, tree, table, prefix, yields: true });
+    }
     let numbers = StudyNumbers { study: settings.study, base: base.numbers() };
     let inputs = Inputs::read(&numbers, &statements)?.cut();
     check_design(settings, &inputs, tree)?;
@@ -99,19 +106,34 @@ fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError
     Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
 }
 
-/// The uncertainty of the base's own soil, and the soil's tree.
+/// What keys of the base's soil begin with.
+const SOIL: &str = "soil.";
+
+/// The uncertainty of the base's own soil.
+struct OfSoil<'t> {
+    /// What it states.
+    stated: Stated,
+    /// What its priors have besides.
+    believed: Stated,
+    tree: &'t Node,
+}
+
+/// The uncertainty of the base's own soil.
 fn of_soil<'t>(
     document: &Document,
     place: &str,
     tree: &'t Node,
-) -> Result<Option<(Stated, &'t Node)>, DocumentError> {
+) -> Result<Option<OfSoil<'t>>, DocumentError> {
     let soil = document.part(Kind::Soil, &format!("{place}.soil"));
     let entry = tree.entry(place).and_then(|base| base.node.entry("soil"));
     let (Some(soil), Some(entry)) = (soil, entry) else { return Ok(None) };
-    if let Some(stated) = stated_of(&soil, &entry.node)? {
-        return Ok(Some((stated, &entry.node)));
+    let (stated, believed) = (stated_of(&soil, &entry.node)?, stated_by_priors(&soil));
+    if stated.is_some() || !believed.parameters.is_empty() {
+        let stated = stated.unwrap_or_default();
+        return Ok(Some(OfSoil { stated, believed, tree: &entry.node }));
     }
-    let problem = Problem::Conflict("the soil does not say how well it is known");
+    let problem =
+        Problem::Conflict("the soil does not say how well it is known, nor do its priors");
     Err(DocumentError::at(tree.origin_of("soil_uncertainty"), problem)
         .with_hint("its document needs an [uncertainty], as that of toyoura-uncertain".to_owned()))
 }
@@ -187,7 +209,7 @@ fn resolved(
     inputs: &Inputs,
 ) -> Document {
     let (mut parameters, mut correlations) = (Vec::new(), Vec::new());
-    for Statement { stated, prefix, .. } in statements {
+    for Statement { stated, prefix, .. } in statements.iter().filter(|it| !it.yields) {
         let table = if prefix.is_empty() { "" } else { &*format!("{place}.soil.uncertainty.") };
         let all = |key: &str| document.get(&format!("{table}{key}")).and_then(Json::as_array);
         for (given, parameter) in all("parameter").into_iter().flatten().zip(&stated.parameters) {
@@ -203,6 +225,22 @@ fn resolved(
             let mut given = given.clone();
             given["between"] = json!(pair.between.each_ref().map(|key| format!("{prefix}{key}")));
             correlations.push(given);
+        }
+    }
+    for Statement { stated, prefix, .. } in statements.iter().filter(|it| it.yields) {
+        for parameter in &stated.parameters {
+            let key = format!("{prefix}{}", parameter.key);
+            let kept = inputs.keys[..inputs.parameters].get(parameters.len());
+            if kept.is_some_and(|kept| kept.path == key) {
+                parameters.push(parameter.to_json(&key));
+            }
+        }
+        let is_kept = |key: &str| inputs.keys[..inputs.parameters].iter().any(|it| it.path == key);
+        for pair in &stated.correlations {
+            let between = pair.between.each_ref().map(|key| format!("{prefix}{key}"));
+            if between.iter().all(|key| is_kept(key)) {
+                correlations.push(json!({ "between": between, "value": pair.value }));
+            }
         }
     }
     document.changed(|keys| {
