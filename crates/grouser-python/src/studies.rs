@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use grouser::document::columns::flags::{self, FLAGS};
-use grouser::document::columns::run::{ENERGY_ERROR, RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,

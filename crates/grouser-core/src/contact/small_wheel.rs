@@ -21,7 +21,6 @@
 //! [`Slip::total`]: super::slip::Slip::total
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
-use super::coulomb::bounded;
 use super::coulomb_cone;
 use super::forces::WheelForces;
 use super::inputs::Contact;
@@ -96,7 +95,7 @@ fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
         + face_friction(contact, &wall_load)
         + bow_wave(contact, pushed, sinkage)
         + rear_mound(contact, pushed);
-    coulomb_cone::within_the_cone(contact, bounded(contact, sinkage, forces), sinkage)
+    coulomb_cone::within_the_cone(contact, forces, sinkage)
 }
 
 /// What the soil makes of a wheel's motion.

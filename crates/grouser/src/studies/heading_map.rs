@@ -5,7 +5,9 @@
 
 use rayon::prelude::*;
 
+use super::ensemble::samples::Sample;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
+use super::heading_band::HeadingBand;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 

@@ -241,7 +241,7 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
         .par_iter()
         .map(|((_, soil, theory), yaw)| steepest_to_park_on(*soil, *theory, *yaw).to_degrees())
         .collect();
-    for (((name, soil, _), _), found) in places.iter().zip(found) {
+    for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();
         assert!(
             found > phi - 0.5 && found < phi + 3.0,
