@@ -120,7 +120,15 @@ impl Document {
         self.theory_at("model")
     }
 
-    pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
+    /// The wheel–soil model that a scenario's soil was made for, if stated.
+    #[must_use]
+    pub fn theory_of_soil(&self) -> Option<Theory> {
+        self.theory_at("soil.model")
+    }
+
+    /// The wheel–soil model that stands under a dotted key, if there is one.
+    #[must_use]
+    pub fn theory_at(&self, path: &str) -> Option<Theory> {
         let name = self.text(path)?;
         Theory::ALL.into_iter().find(|theory| theory.name() == name)
     }
@@ -151,6 +159,8 @@ fn number_keys(given: &Json) -> Vec<String> {
     if given.is_object() {
         children.sort_by(|one, other| one.0.cmp(&other.0));
     }
+    // The ends of a domain's ranges are no numbers of what is described: nothing is computed from them.
+    children.retain(|(key, _)| key != "domain");
     let keys = children.into_iter().flat_map(|(key, given)| {
         if given.is_f64() {
             return vec![key];

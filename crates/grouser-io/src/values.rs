@@ -219,11 +219,12 @@ impl Described for Rover {
 
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
-        check_places(&self)?;
-        check_inertias(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
-        self.checked().map_err(|error| Misfit::new(place, error))
+        let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
+        check_places(&rover)?;
+        check_inertias(&rover)?;
+        Ok(rover)
     }
 }
 
@@ -301,7 +302,7 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
+        let of_soil = || document.theory_of_soil();
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
         let soil = document.part(Kind::Soil, "soil");
         self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
@@ -371,7 +372,7 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
+        let of_soil = || document.theory_of_soil();
         self.theory = document.theory().or_else(of_soil).unwrap_or_default();
         let soil = document.part(Kind::Soil, "soil");
         self.soil.domain.assumed_values = assumed_values(soil.as_ref());

@@ -95,6 +95,7 @@ def test_an_uncertain_soil_has_a_band() -> None:
     assert (band.yaw_deg_p2_5[:2] <= band.yaw_deg_p50[:2]).all()
     assert band.probability_level.tolist()[::2] == [1.0, 0.0]
     assert np.isnan(band.yaw_deg_p50).tolist() == [False, False, True]
+    assert band.slip_ratio_p2_5[2] == 1.0 and np.isnan(band.energy_j_per_m_p2_5[2])
     assert band.limit_slope_deg_p2_5 is not None and band.limit_slope_deg_p97_5 is not None
     assert band.limit_slope_deg_p2_5 < band.limit_slope_deg_p97_5
     data = level.to_xarray()
@@ -102,6 +103,20 @@ def test_an_uncertain_soil_has_a_band() -> None:
     assert level.to_pandas().shape[0] == 3 and level.plot().get_legend_handles_labels()[1]
     empty = gr.heading(soil="toyoura-uncertain", slope_deg=[], uncertainty=True, samples=2)
     assert empty.band is not None and empty.band.yaw_deg_p50.shape == (0,)
+
+
+def test_models_alone_have_a_band_and_one_of_them_has_none() -> None:
+    settings = {"load_n": 17, "slip_ratio": [0.1, 0.4], "uncertainty": True, "samples": 12}
+    spread, alone = gr.wheel_test(**settings), gr.wheel_test(**settings, model="rft")  # type: ignore[call-overload]
+    assert spread.band is not None and alone.band is not None
+    assert (spread.band.drawbar_pull_n_p2_5 < spread.band.drawbar_pull_n_p97_5).all()
+    assert (alone.band.drawbar_pull_n_p2_5 == alone.wheels.drawbar_pull_n).all()
+    assert (alone.band.drawbar_pull_n_p97_5 == alone.wheels.drawbar_pull_n).all()
+    assert spread.to_xarray().torque_nm_p97_5.attrs["units"] == "N·m" and spread.plot()
+    run = gr.simulate(duration_s=1.0, uncertainty=True, samples=6)
+    assert run.band is not None and run.band.run["probability_completed"] == 1.0
+    assert run.band.y_m_p2_5[-1] <= run.y_m[-1] <= run.band.y_m_p97_5[-1]
+    assert run.band.to_pandas().shape[0] == run.time_s.size
 
 
 def test_a_simulated_stand_scatters_about_the_theory() -> None:
@@ -216,8 +231,8 @@ def test_what_cannot_be_asked_says_what_can() -> None:
         gr.rollout(duration_s=0.0)
     with pytest.raises(gr.ParameterError, match=r"do not broadcast: slope_deg \(2,\)"):
         gr.rollout(slope_deg=[1.0, 2.0], yaw_deg=[1.0, 2.0, 3.0])
-    with pytest.raises(gr.ParameterError, match="how well its values are known"):
-        gr.heading(uncertainty=True)
+    with pytest.raises(gr.ParameterError, match="readings with noise"):
+        gr.wheel_test(load_n=10, slip_ratio=0.1, trials=2, uncertainty=True)  # type: ignore[call-overload]
     with pytest.raises(gr.ParameterError, match="samples is 1, it must be"):
         gr.heading(soil="toyoura-uncertain", uncertainty=True, samples=1)
     with pytest.raises(gr.ParameterError, match="trials is 0"):

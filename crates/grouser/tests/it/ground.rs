@@ -10,6 +10,7 @@ use grouser::site::Site;
 use grouser::soil::{Shear, ShearBound, SlopeStability, Soil};
 use grouser::studies::card::{CardStudy, Rule, Verdict};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::{HeadingStudy, LimitedBy, NoHeading};
 use grouser::units::{
     EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, STEEPEST_SLOPE, Vec2, deg, kpa, mm,
@@ -107,9 +108,10 @@ fn a_card_says_no_go_where_the_ground_slides() {
     let rule = Rule { go_slip_ratio: 0.9, no_go_slip_ratio: 0.95, ..Rule::DEFAULT };
     let slopes = [ground - deg(12.0), ground + deg(0.1)];
     // Of the samples, all hold the contour; the soil as written does not stand.
-    let samples = [Soil { friction_angle: deg(45.0), ..soil }];
-    let card = CardStudy { heading, rim_speed: 0.06, rule }.card(&samples, &slopes, &|| ());
-    let card = card.expect("a card");
+    let soil = Soil { friction_angle: deg(45.0), ..soil };
+    let samples = [Sample { soil, theory: Theory::Ishigami }];
+    let study = CardStudy { heading, rim_speed: 0.06, rule, is_soil_uncertain: true };
+    let card = study.card(&samples, &slopes, &|| ()).expect("a card");
     assert_eq!(card.rows[1].verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));
     assert_ne!(card.rows[0].verdict, Verdict::NoGo);
@@ -239,9 +241,12 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
         .par_iter()
         .map(|((_, soil, theory), yaw)| steepest_to_park_on(*soil, *theory, *yaw).to_degrees())
         .collect();
-    for (((name, soil, _), _), found) in places.iter().zip(found) {
+    for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();
-        assert!(found > phi - 0.5 && found < phi + 3.0, "{name}: {found}°, φ {phi}°");
+        assert!(
+            found > phi - 0.5 && found < phi + 3.0,
+            "{name} at a yaw of {yaw}: {found}°, φ {phi}°"
+        );
     }
     let unbounded = steepest_to_park_on(given::toyoura(), Theory::Ishigami, 0.0).to_degrees();
     assert!(unbounded > 45.0, "without the bound: {unbounded}°");

@@ -69,8 +69,8 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
     }
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     let words: &[&str] = match study {
-        Study::Traverse => &["status", "reason", "outcome", "simulation", FLAGS],
-        Study::Heading | Study::WheelTest => &["status", "reason", FLAGS],
+        Study::Traverse => &["status", "reason", "outcome", "simulation"],
+        Study::Heading | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let names: Vec<&str> = match study {
@@ -79,6 +79,7 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
+    all.push(Column::new(FLAGS, ColumnKind::Text, Role::Status));
     all
 }
 
@@ -164,7 +165,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     };
     let held_row = Held { heading: &heading, rover: &scenario.rover, rim_speed };
     let flags = RoverOnSlope::of(scenario).findings(heading.wheels.iter());
-    Ok(cells([Cell::Text(None), joined(&flags)], &held(), &held_row).collect())
+    Ok(cells([Cell::Text(None)], &held(), &held_row).chain([joined(&flags)]).collect())
 }
 
 /// Flags as one text: shards have no lists.
@@ -190,11 +191,10 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::Text(run.outcome.reason()),
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
-        joined(
-            &RoverOnSlope::of(scenario).over(&run).iter().map(|it| it.finding).collect::<Vec<_>>(),
-        ),
     ];
-    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect())
+    let raised = RoverOnSlope::of(scenario).over(&run);
+    let flags = joined(&raised.iter().map(|it| it.finding).collect::<Vec<_>>());
+    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).chain([flags]).collect())
 }
 
 fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
@@ -215,5 +215,6 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         slip: Some(contact.slip),
         settled: Some(&settled),
     };
-    Ok(cells([Cell::Text(None), joined(&situation.findings())], &WHEEL, &settled).collect())
+    let flags = joined(&situation.findings());
+    Ok(cells([Cell::Text(None)], &WHEEL, &settled).chain([flags]).collect())
 }
