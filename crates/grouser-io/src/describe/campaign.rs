@@ -102,7 +102,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
         field(
             "model_uncertainty",
             "Whether the wheel-soil model of each run is drawn, too, by the weights of the models; not where the base names its model.",
-            Shape::Flag(|all, yes| all.model_uncertainty = yes),
+            Shape::Flag(|all: &mut Settings, yes| all.model_uncertainty = yes),
         )
         .optional(),
         part(
