@@ -224,7 +224,10 @@ fn a_traverse_has_bands_over_time_and_at_its_end() {
             assert!(low <= value && value <= high, "{word}: {band}");
         }
     }
-    assert_eq!((&json["band"]["probability_completed"], &json["band"]["draws"]), (&json!(1.0), &json!(6)));
+    assert_eq!(
+        (&json["band"]["probability_completed"], &json["band"]["draws"]),
+        (&json!(1.0), &json!(6))
+    );
     assert!(number(&json["band"]["y_m_p2_5"]) < number(&json["band"]["y_m_p97_5"]));
     let csv = place.read("run/traverse.csv");
     assert_eq!(csv.lines().count(), bands.len() + 1);
