@@ -159,7 +159,7 @@ pub(crate) fn uncertain_soil<'s>(
         let name = escape::line(scenario.document.text("soil.name").unwrap_or("unnamed"));
         return Err(Failure::Usage(format!(
             "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
-             hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
+             hint: its priors are none: give its document an [uncertainty] section, or leave out priors = \"none\"; \
              docs/guide/uncertainty.md explains how"
         )));
     };

@@ -192,7 +192,7 @@ def test_what_cannot_be_asked_says_what_can() -> None:
     with pytest.raises(gr.ParameterError, match=r"do not broadcast: slope_deg \(2,\)"):
         gr.rollout(slope_deg=[1.0, 2.0], yaw_deg=[1.0, 2.0, 3.0])
     with pytest.raises(gr.ParameterError, match="how well its values are known"):
-        gr.heading(uncertainty=True)
+        gr.heading(soil=gr.Soil("toyoura", priors="none"), uncertainty=True)
     with pytest.raises(gr.ParameterError, match="samples is 1, it must be"):
         gr.heading(soil="toyoura-uncertain", uncertainty=True, samples=1)
     with pytest.raises(gr.ParameterError, match="trials is 0"):
