@@ -13,6 +13,7 @@ pub(crate) mod import;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
 pub(crate) mod schema;
+mod strict;
 pub(crate) mod traverse;
 pub(crate) mod validate;
 pub(crate) mod wheel_test;

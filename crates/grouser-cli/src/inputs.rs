@@ -59,7 +59,7 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     }
     let numbers = [
         ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
-        ("--yaw-deg", "scenario.start.yaw_deg", &args.yaw_deg),
+        ("--yaw-deg", yaw_key(args.yaw_deg.as_deref()), &args.yaw_deg),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
         (
             "--reference-slip-ratio",
@@ -89,6 +89,12 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
+/// What `--yaw-deg` sets: the yaw at the start, or as a list of pairs the yaw over time.
+fn yaw_key(value: Option<&str>) -> &'static str {
+    let is_list = value.is_some_and(|value| value.trim_start().starts_with('['));
+    if is_list { "scenario.drive.yaw_deg" } else { "scenario.start.yaw_deg" }
+}
+
 /// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
 pub(crate) fn heading(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
@@ -116,6 +122,16 @@ pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, 
     soils.into_iter().map(read).collect()
 }
 
+/// The scenario whose rover, soil and load transfer `validate` takes on slopes.
+pub(crate) fn on_slopes(
+    rover: &String,
+    soil: &String,
+    setting: &SettingArgs,
+) -> Result<LoadedScenario, Failure> {
+    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
+    balanced("validate", None, Some(rover), Some(soil), setting, &balance)
+}
+
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--slope-deg", slopes, &range)
@@ -136,7 +152,11 @@ fn balanced(
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        "slopes are given by --slope-deg; a heading offset has no drive, start or duration",
+        if command == "validate" {
+            "slopes are those of the rows; a heading offset has no drive, start or duration"
+        } else {
+            "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+        },
     )?;
     scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in

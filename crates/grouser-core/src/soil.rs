@@ -3,14 +3,20 @@
 //! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod discrepancy;
+pub mod domain;
 pub mod pressure_sinkage;
 pub mod rft;
+pub mod slope;
 pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use discrepancy::Discrepancy;
+pub use domain::{Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
+pub use slope::SlopeStability;
 pub use small_wheel::SmallWheel;
 
 use crate::elementary;
@@ -22,8 +28,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
-///     StressPeak,
+///     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, SmallWheel, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
@@ -35,10 +40,13 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 122.727, exponent },
 ///     stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
 ///     shear: Shear::Isotropic { modulus: ShearModulus::constant(0.036) },
+///     shear_bound: ShearBound::Coulomb,
 ///     exit: Exit::Ratio(1.0),
 ///     bulldozing: Bulldozing::Sine,
 ///     small_wheel: SmallWheel::OFF,
 ///     rft: Rft::PUBLISHED,
+///     domain: Domain::UNSTATED,
+///     discrepancy: None,
 /// };
 /// let unit_weight = sand.unit_weight(EARTH_GRAVITY);
 /// assert_eq!(format!("{:.1} kN/m³", 1e-3 * unit_weight), "14.6 kN/m³");
@@ -59,6 +67,8 @@ pub struct Soil {
     pub stress_peak: StressPeak,
     /// How shear stress is mobilised.
     pub shear: Shear,
+    /// What bounds it.
+    pub shear_bound: ShearBound,
     /// Where the wheel leaves the soil.
     pub exit: Exit,
     /// How soil pushed aside loads the side wall.
@@ -67,6 +77,10 @@ pub struct Soil {
     pub small_wheel: SmallWheel,
     /// What resistive force theory needs; the others leave it aside.
     pub rft: Rft,
+    /// For which wheels, loads and motions the constants are known to hold. No model looks at it.
+    pub domain: Domain,
+    /// What the model gets wrong, where a calibration has found it; nothing without it.
+    pub discrepancy: Option<Discrepancy>,
 }
 
 /// Where the normal stress peaks: *θ_m* = (a₀ + a₁ |s|) *θ_f* (Wong and Reece 1967).
@@ -124,6 +138,18 @@ impl Shear {
             Self::Isotropic { modulus } => modulus.check("shear modulus [m]"),
         }
     }
+}
+
+/// Whether the shear stresses along and across a wheel, and its whole reaction, obey Coulomb's law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShearBound {
+    /// Only as far as the shear law does. [`Shear::Anisotropic`] lets the resultant exceed the strength by
+    /// √2, as in the source paper.
+    #[default]
+    None,
+    /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within what
+    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)).
+    Coulomb,
 }
 
 /// Shear deformation modulus *K* [m] as a function of the slip angle.
@@ -275,6 +301,8 @@ impl Soil {
         self.shear.check()?;
         self.small_wheel.check()?;
         self.rft.check()?;
+        self.domain.check()?;
+        self.discrepancy.as_ref().map_or(Ok(()), Discrepancy::check)?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
             Exit::QuadraticInSlip { at_zero, per_slip, per_slip_squared } => {

@@ -6,6 +6,7 @@
 //! or number by number. A quantity with a band over samples is one column too: the table has a column for each
 //! of its quantiles.
 
+pub mod flags;
 pub mod wheel;
 
 use serde::ser::SerializeMap;
@@ -64,6 +65,7 @@ enum Value<R> {
     Compared(fn(&R) -> [Option<f64>; 3]),
     Whole(fn(&R) -> Option<usize>),
     Text(fn(&R) -> Option<String>),
+    Words(fn(&R) -> Vec<&'static str>),
 }
 
 /// A name with a unit that columns of several tables have.
@@ -255,6 +257,15 @@ pub const fn text<R>(
     quantity(name, ONE).column(doc, Value::Text(of))
 }
 
+/// A column of names of a closed list.
+pub const fn words<R>(
+    name: &'static str,
+    doc: &'static str,
+    of: fn(&R) -> Vec<&'static str>,
+) -> Column<R> {
+    quantity(name, ONE).column(doc, Value::Words(of))
+}
+
 impl<R> Column<R> {
     /// Its names in a table: one, or one for each quantile.
     #[must_use]
@@ -286,6 +297,7 @@ impl<R> Column<R> {
         match self.value {
             Value::Whole(_) => ColumnKind::Whole,
             Value::Text(_) => ColumnKind::Text,
+            Value::Words(_) => ColumnKind::Words,
             _ => ColumnKind::Float,
         }
     }
@@ -298,7 +310,7 @@ impl<R> Column<R> {
             _ => match self.cell(Some(row), 0) {
                 Cell::Float(value) => value.unwrap_or(f64::NAN),
                 Cell::Whole(value) => value.map_or(f64::NAN, |count| count as f64),
-                Cell::Text(_) => f64::NAN,
+                Cell::Text(_) | Cell::Words(_) => f64::NAN,
             },
         }
     }
@@ -322,6 +334,7 @@ impl<R> Column<R> {
             Value::Compared(of) => float(of(row)[end]),
             Value::Whole(of) => Cell::Whole(of(row).map(|count| count as u64)),
             Value::Text(of) => Cell::Text(of(row)),
+            Value::Words(of) => Cell::Words(of(row)),
         }
     }
 

@@ -18,6 +18,7 @@ pub(crate) fn of_table<T>(
 ) -> Json {
     let mut properties = Map::new();
     let mut needed: Vec<&str> = Vec::new();
+    let mut thousands = Map::new();
     if let Some((key, word, may_be_left_out)) = law {
         properties.insert(key.to_owned(), word);
         needed.extend((!may_be_left_out).then_some(key));
@@ -25,6 +26,7 @@ pub(crate) fn of_table<T>(
     for field in table.fields {
         properties.insert(field.key.to_owned(), of_field(field, defs));
         needed.extend(matches!(field.presence, Presence::Needed).then_some(field.key));
+        thousands.extend(field.in_thousands.map(|key| (key.to_owned(), field.key.into())));
     }
     let mut schema = json!({
         "type": "object",
@@ -35,7 +37,54 @@ pub(crate) fn of_table<T>(
     if !needed.is_empty() {
         schema["required"] = needed.into();
     }
+    if !thousands.is_empty() {
+        schema[IN_THOUSANDS] = thousands.into();
+    }
     schema
+}
+
+/// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of the number.
+const IN_THOUSANDS: &str = "x-in-thousands";
+
+/// The schema for editors: where numbers may stand in thousands of a unit, with those keys too. (The reader has turned
+/// them into the others before it checks.)
+pub(crate) fn with_thousands(schema: &mut Json) {
+    match schema {
+        Json::Array(all) => all.iter_mut().for_each(with_thousands),
+        Json::Object(keys) => {
+            keys.values_mut().for_each(with_thousands);
+            let Some(Json::Object(thousands)) = keys.shift_remove(IN_THOUSANDS) else { return };
+            for (key, of) in thousands {
+                let Some(of) = of.as_str() else { continue };
+                add_thousands(keys, &key, of);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn add_thousands(table: &mut Map<String, Json>, key: &str, of: &str) {
+    let mut number = table["properties"][of].clone();
+    for end in ["minimum", "exclusiveMinimum", "maximum"] {
+        if let Some(value) = number.get(end).and_then(Json::as_f64) {
+            number[end] = (value / 1e3).into();
+        }
+    }
+    let doc = number["description"].as_str().unwrap_or_default().replace("[N", "[kN");
+    number["description"] = doc.into();
+    table["properties"][key] = number;
+    if let Some(Json::Array(needed)) = table.get_mut("required") {
+        needed.retain(|needed| needed != of);
+    }
+    let one_of_both = json!({
+        "if": { "required": [key] },
+        "then": { "not": { "required": [of] } },
+        "else": { "required": [of] },
+    });
+    match table.get_mut("allOf") {
+        Some(Json::Array(all)) => all.push(one_of_both),
+        _ => drop(table.insert("allOf".to_owned(), json!([one_of_both]))),
+    }
 }
 
 /// A table for each law.
@@ -95,6 +144,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                 json!({ "anyOf": [described(number, one), described(list, each)] })
             }
         },
+        Shape::Pairs(pairs) => {
+            let pair = list_of(&of_number(&pairs.range()), 2, Some(2));
+            list_of(&pair, 1, None)
+        }
         Shape::Inner(inner) => inner.schema(defs),
         Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
         Shape::Part(kind, inner) => {

@@ -3,7 +3,7 @@
 
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
-pub use super::cell::{Cell, ColumnKind, Values};
+pub use super::cell::{BETWEEN_NAMES, Cell, ColumnKind, Values};
 use super::columns::Column;
 
 /// Rows by their columns. As JSON it is a list of rows, an object each.
@@ -69,6 +69,15 @@ impl Table {
     pub fn texts(&self, name: &str) -> &[Option<String>] {
         match self.column(name) {
             Some(Values::Text(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// The lists of names in a column; none if it has none.
+    #[must_use]
+    pub fn words(&self, name: &str) -> &[Vec<&'static str>] {
+        match self.column(name) {
+            Some(Values::Words(values)) => values,
             _ => &[],
         }
     }

@@ -8,7 +8,6 @@ use grouser::document::calibration::{
     AimError, AimWords, PlateProblem, STEPS, Solved, WheelProblem, fit_notes, samples_csv, sampling,
 };
 use grouser::document::measurements::{self, Choice, MeasurementError};
-use grouser::document::validation::GroupRecord;
 use grouser::document::{self, Companion, FitKey, SAMPLES_FILE, SoilFamily, plates};
 use grouser::studies::calibration::diagnostics::correlations_of;
 use grouser::studies::calibration::{CalibrationError, Fit, Observer, PosteriorState, Sampling};
@@ -180,8 +179,10 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     let notes = [measured.notes.clone(), notes].concat();
     let dict = solved_to_python(py, &found.solved, &found.soil, &family, notes)?;
     dict.set_item("validation", validation_to_python(py, &measured, &found.validation)?)?;
-    let groups = found.left_out.iter().map(|group: &GroupRecord| record_to_python(py, group));
+    let groups = found.left_out.iter().map(|group| record_to_python(py, group));
     dict.set_item("cross_validation", PyList::new(py, groups.collect::<PyResult<Vec<_>>>()?)?)?;
+    let overall = found.left_out_overall.as_ref().map(|it| record_to_python(py, it)).transpose()?;
+    dict.set_item("cross_validation_overall", overall)?;
     dict.set_item("target", target)?;
     dict.set_item("proposals", columns(py, &found.proposals)?)?;
     Ok(dict)
@@ -239,6 +240,7 @@ fn solved_to_python<'py>(
     let dict = PyDict::new(py);
     dict.set_item("parameters", columns(py, &solved.records)?)?;
     dict.set_item("discrepancies", columns(py, &solved.discrepancies)?)?;
+    dict.set_item("correlation_lengths", columns(py, &solved.correlation_lengths)?)?;
     dict.set_item("cannot_tell_apart", &solved.unidentifiable)?;
     dict.set_item(
         "sampler",
@@ -253,8 +255,9 @@ fn solved_to_python<'py>(
     let mut companions = Vec::new();
     let (samples, correlations) = match &solution.posterior {
         Some(posterior) => {
-            let content = samples_csv(family, posterior);
-            companions.push(Companion { name: SAMPLES_FILE.to_owned(), content });
+            let content = samples_csv(family, solved);
+            let name = SAMPLES_FILE.to_owned();
+            companions.extend(content.map(|content| Companion { name, content }));
             let rows: Vec<Vec<f64>> =
                 posterior.samples.rows().map(|row| row[..solved.records.len()].to_vec()).collect();
             (Some(PyArray2::from_vec2(py, &rows)?), posterior.samples.correlations())

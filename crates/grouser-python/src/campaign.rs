@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use grouser::document::campaign::{Campaign, Frequencies, QuantityStatistics};
-use grouser::document::table::{Cell, Table, Values};
+use grouser::document::table::{BETWEEN_NAMES, Cell, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::studies::ensemble::sensitivity::SobolIndex;
 use grouser::studies::ensemble::statistics::{Estimate, Quantile, Summary};
@@ -118,6 +118,7 @@ pub(crate) fn campaign_row<'py>(
             Cell::Float(value) => dict.set_item(name, value)?,
             Cell::Whole(value) => dict.set_item(name, value)?,
             Cell::Text(value) => dict.set_item(name, value)?,
+            Cell::Words(names) => dict.set_item(name, names)?,
         }
     }
     Ok(dict)
@@ -266,6 +267,10 @@ fn columns_of(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
                 dict.set_item(name, PyArray1::from_iter(py, values))?;
             }
             Values::Text(values) => dict.set_item(name, PyList::new(py, values)?)?,
+            Values::Words(values) => {
+                let texts = values.iter().map(|names| names.join(BETWEEN_NAMES));
+                dict.set_item(name, PyList::new(py, texts.collect::<Vec<_>>())?)?;
+            }
         }
     }
     Ok(dict)

@@ -6,6 +6,7 @@ pub mod campaign;
 pub mod card;
 pub mod checkpoint;
 pub mod columns;
+mod doubts;
 pub mod experiment;
 pub mod plates;
 pub mod ranking;
@@ -13,10 +14,12 @@ pub mod simulated_test;
 mod soil_family;
 pub mod study;
 pub mod validation;
+pub mod validity;
 
 pub use grouser_io::*;
 
 pub use campaign::{Campaign, read_campaign};
+pub use doubts::doubts;
 pub use soil_family::{FitKey, SoilFamily};
 
 /// Checks a document of any kind, named by its `schema`.

@@ -7,10 +7,11 @@
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and for an uncertain soil |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
-//! | [`validation`] | the errors of a wheel–soil model against measurements |
+//! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
+//! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`reproduction`] | the whole of the paper's study |
 
 pub mod calibration;
@@ -23,8 +24,10 @@ pub mod heading_band;
 pub mod heading_map;
 pub mod reproduction;
 pub mod simulated_test;
+pub mod slope_validation;
 pub mod validation;
+pub mod validity;
 pub mod wheel_test;
 
-pub use grouser_io::measurements::wheel_tests as measurement;
+pub use grouser_io::measurements::{slope_tests, wheel_tests as measurement};
 use grouser_io::statistics::random;

@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
 
 use super::measurements::ReadArgs;
-use super::{BalanceArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, PartArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 use crate::output::Format;
 
@@ -49,6 +49,8 @@ pub(crate) struct CardArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -23,6 +23,8 @@ pub(crate) struct HeadingArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }
@@ -55,6 +57,8 @@ pub(crate) struct HeadingMapArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{OutputArgs, SettingArgs};
+use super::{OutputArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -28,6 +28,8 @@ pub(crate) struct WheelTestArgs {
     pub(crate) stand: StandArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

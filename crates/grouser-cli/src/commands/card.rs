@@ -20,7 +20,7 @@ use grouser_page::{Sheet, markup};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, heading_band};
+use super::{Answer, heading_band, strict};
 use crate::args::{CardArgs, SideChoice};
 use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
@@ -41,7 +41,11 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     };
     let soils = soils(args, &inputs)?;
     let card = compute(args, &inputs, &soils, &measured)?;
-    let rows = shown(&card::table(&card), &measured);
+    let all = card::table(&card);
+    let flags = card.rows.iter().map(|row| &*row.findings);
+    let held = card.rows.iter().take_while(|row| row.level.is_some()).count();
+    strict::check(&args.strict, flags.take(held), &all, &[SLOPE.name])?;
+    let rows = shown(&all, &measured);
     let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
         let sheet = layout::draw(&texts::of(args, &inputs, &card), &rows, &measured);

@@ -8,8 +8,8 @@ use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
 use super::heading_band::{self, Bands};
+use super::{Answer, strict};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -30,6 +30,10 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     };
     let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
+    if args.strict.strict {
+        let flags = heading::findings(&curve, &slopes);
+        strict::check(&args.strict, flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+    }
     if let Some(bands) = &bands {
         table = heading::with_bands(table, &bands.asked);
     }

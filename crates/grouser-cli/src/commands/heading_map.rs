@@ -8,7 +8,7 @@ use grouser::studies::heading_map::HeadingMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
+use super::{Answer, strict};
 use crate::args::HeadingMapArgs;
 use crate::chart::HeatMap;
 use crate::failure::Failure;
@@ -32,6 +32,8 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
     let table =
         heading::map_table(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
+    let flags = map.rows.iter().flat_map(|row| &row.findings);
+    strict::check(&args.strict, flags.map(|it| &**it), &table, &heading::SETTINGS)?;
     let rows = Rows::of_table(&table);
     let answer = Answer::new(command, settings(args, &scenarios), Results { rows: &table });
     if let Some(mut folder) = folder {

@@ -1,12 +1,13 @@
 //! `grouser traverse`: drives a rover across a slope.
 
+use grouser::contact::validity::Flag;
 use grouser::document::columns::run::{self, RunObject};
-use grouser::document::columns::{X, Y, YAW};
+use grouser::document::columns::{TIME, X, Y, YAW};
 use grouser::document::escape;
-use grouser::simulation::{Outcome, Run, Trajectory};
+use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use serde_json::json;
 
-use super::Answer;
+use super::{Answer, strict};
 use crate::args::TraverseArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -22,9 +23,13 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let scenario = inputs::traverse(args)?;
     let run = Run::new(&scenario.value)?.to_end()?;
-    let rover = &scenario.value.rover;
-    let rows = Rows::of_table(&run::table(&run, rover));
-    let object = RunObject { run: &run, rover };
+    let samples = run::table(&run, &scenario.value);
+    if args.strict.strict {
+        let flags = run::each_findings(&run, &scenario.value);
+        strict::check(&args.strict, flags.iter().map(|it| &**it), &samples, &[TIME.name])?;
+    }
+    let rows = Rows::of_table(&samples);
+    let object = RunObject { run: &run, scenario: &scenario.value };
     let answer = Answer::new("traverse", json!({ "scenario": scenario.document }), object);
     if let Some(mut folder) = folder {
         folder.add("traverse.json", answer.to_text());
@@ -34,7 +39,7 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&table(&run)),
+        Format::Table => output::print(&table(&run, &scenario.value)),
         Format::Csv => {
             tell_end(&run);
             output::print(&rows.to_csv()?)
@@ -58,7 +63,7 @@ fn reason(run: &Trajectory) -> String {
 }
 
 /// Some of the records with the means of their wheels, and the outcome.
-fn table(run: &Trajectory) -> String {
+fn table(run: &Trajectory, scenario: &Scenario) -> String {
     let samples = run::brief(run, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
@@ -73,12 +78,25 @@ fn table(run: &Trajectory) -> String {
         four_digits(last.unwrap_or(f64::NAN))
     });
     format!(
-        "{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
+        "{}{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
         Rows::of_table(&samples).to_table(&names),
+        flag_lines(run, scenario),
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),
     )
+}
+
+/// The flags of a run, a line each: since when, and what they mean.
+fn flag_lines(run: &Trajectory, scenario: &Scenario) -> String {
+    let raised = run::raised(run, scenario);
+    let names = raised.texts("flag").iter().flatten();
+    let times = raised.numbers(TIME.name).iter().flatten();
+    let line = |(name, time): (&String, &f64)| {
+        let meaning = Flag::of_name(name).map_or("", |flag| flag.rule().meaning);
+        format!("{name} since {} s: {meaning}\n", four_digits(*time))
+    };
+    names.zip(times).map(line).collect()
 }
 
 /// The path, seen from above.

@@ -8,7 +8,7 @@ use grouser::studies::wheel_test::WheelTest;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
+use super::{Answer, strict};
 use crate::args::{StandArgs, WheelTestArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
@@ -45,7 +45,10 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     });
     match args.stand.trials {
         None => {
-            let table = columns::wheel_test::table(&test.run());
+            let found = test.run();
+            let table = columns::wheel_test::table(&found);
+            let flags = found.iter().map(|row| &*row.findings);
+            strict::check(&args.strict, flags, &table, &columns::wheel_test::SETTINGS)?;
             let brief = columns::wheel_test::brief();
             output_results(
                 args,
@@ -65,6 +68,10 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
                 "noise_nm": args.stand.noise_nm,
                 "seed": args.stand.seed,
             });
+            let rows = test.run();
+            let flags = rows.iter().map(|row| &*row.findings);
+            let without_noise = columns::wheel_test::table(&rows);
+            strict::check(&args.strict, flags, &without_noise, &columns::wheel_test::SETTINGS)?;
             let table = columns::stand::table(&on_a_stand(test, &args.stand, trials).run());
             let brief = columns::stand::brief();
             output_results(

@@ -2,6 +2,7 @@
 
 use std::f64::consts::LN_10;
 
+use super::discrepancy;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::load_sinkage::LoadSinkage;
@@ -51,6 +52,9 @@ const LOAD_TOLERANCE: f64 = 1e-12;
 /// wheels on strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil
 /// F_z may also rise and fall while the wheel has hardly sunk and shear outweighs pressure; there
 /// the answer is one of the sinkages with F_z = W, not always the smallest.)
+///
+/// Where the soil has a [`Discrepancy`](crate::soil::Discrepancy), it is added to what the model
+/// finds.
 ///
 /// How deep does a wheel of HAKUTO sink under 17 N, and how hard does it pull at a slip ratio of 0.2?
 ///
@@ -138,7 +142,11 @@ fn settle_near(
         root::bracketed(|x| search.excess(x), low, high, 0.0, LOAD_TOLERANCE).0
     };
     let (sinkage, forces) = search.reaction(log_sinkage);
-    Ok(Settled { sinkage, forces, evaluations: search.evaluations })
+    Ok(Settled {
+        sinkage: discrepancy::corrected_sinkage(contact, sinkage),
+        forces: discrepancy::corrected(contact, forces),
+        evaluations: search.evaluations,
+    })
 }
 
 /// A point of the search: ln h and ln(F_z/W).

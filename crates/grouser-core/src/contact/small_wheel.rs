@@ -21,6 +21,7 @@
 //! [`Slip::total`]: super::slip::Slip::total
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::ishigami;
@@ -90,10 +91,11 @@ fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
     let pushed = wheel.width * wall.at(sinkage);
 
     // Only the first of them carries.
-    ishigami::forces(contact, &reaction, &wall_load)
+    let forces = ishigami::forces(contact, &reaction, &wall_load)
         + face_friction(contact, &wall_load)
         + bow_wave(contact, pushed, sinkage)
-        + rear_mound(contact, pushed)
+        + rear_mound(contact, pushed);
+    bounded(contact, sinkage, forces)
 }
 
 /// What the soil makes of a wheel's motion.

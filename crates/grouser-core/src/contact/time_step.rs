@@ -24,6 +24,7 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
+use super::discrepancy;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::model::WheelSoilModel;
@@ -183,7 +184,8 @@ impl TimeStep<'_> {
         let slip = Slip::of_motion(rim_speed * measure, Vec2::new(v_x, v_y) * measure);
         let contact = Contact { wheel, soil, slip, gravity: self.gravity };
         let growth = (1.0 - self.damping * v_z).max(0.0);
-        SteppedWheel { sinkage, slip, forces: model.forces(&contact, sinkage) * growth }
+        let forces = discrepancy::corrected(&contact, model.forces(&contact, sinkage));
+        SteppedWheel { sinkage, slip, forces: forces * growth }
     }
 
     /// Derivatives of the residual by the motion: I − Δt A ∂f/∂u.

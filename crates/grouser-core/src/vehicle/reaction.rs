@@ -102,7 +102,7 @@ impl Ground<'_> {
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
-        let coupled = sharing == LoadSharing::QuasiStaticTorque
+        let coupled = sharing.has_torque()
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
         let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
         let mut wheels = self.settle_under(stance, moments, slips, &[])?;

@@ -1,5 +1,7 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
+mod discrepancy;
+mod domain;
 mod exit;
 mod pressure_sinkage;
 mod shear;
@@ -12,8 +14,12 @@ use super::super::kind::Kind;
 use super::about::{assumed, date, model, name, notes, schema, source};
 use super::prior::PRIORS;
 use super::uncertainty::UNCERTAINTY;
+use discrepancy::DISCREPANCY;
+use domain::DOMAIN;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{
+    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, ShearBound, SmallWheel, Soil, StressPeak,
+};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -29,10 +35,13 @@ pub(crate) const BLANK: Soil = Soil {
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
     shear: Shear::Isotropic { modulus: LINEAR },
+    shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
     small_wheel: SmallWheel::OFF,
     rft: Rft::PUBLISHED,
+    domain: Domain::UNSTATED,
+    discrepancy: None,
 };
 
 pub(crate) static SOIL: Table<Soil> = Table {
@@ -76,11 +85,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
             &At { inner: &STRESS_PEAK, at: |soil: &mut Soil| &mut soil.stress_peak },
         )
         .or_prior(),
-        table(
-            "shear",
-            "How shear stress is mobilised.",
-            &At { inner: &SHEAR, at: |soil: &mut Soil| &mut soil.shear },
-        ),
+        table("shear", "How shear stress is mobilised.", &SHEAR),
         table(
             "exit",
             "Where the wheel leaves the soil.",
@@ -104,6 +109,21 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "rft",
             "Constants of the model `rft`, resistive force theory; as published without it.",
             &At { inner: &RFT, at: |soil: &mut Soil| &mut soil.rft },
+        )
+        .optional(),
+        table(
+            "domain",
+            "The ranges within which the constants were measured or fitted; not stated without it.",
+            &At { inner: &DOMAIN, at: |soil: &mut Soil| &mut soil.domain },
+        )
+        .optional(),
+        table(
+            "discrepancy",
+            "What the model gets wrong under one wheel, from a calibration; nothing without it.",
+            &At {
+                inner: &DISCREPANCY,
+                at: |soil: &mut Soil| soil.discrepancy.get_or_insert(Discrepancy::NONE),
+            },
         )
         .optional(),
         table(

@@ -38,6 +38,7 @@ from ._errors import (
     DocumentNotFoundError,
     DocumentUnreadableError,
     GrouserError,
+    OutsideDomainError,
     ParameterError,
     SimulationError,
 )
@@ -46,7 +47,15 @@ from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, simulate
-from ._validation import Ranking, Validation, validate, validate_all
+from ._validation import (
+    Ranking,
+    SlopeValidation,
+    Validation,
+    validate,
+    validate_all,
+    validate_slopes,
+)
+from ._validity import FLAGS, require_inside
 from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -65,10 +74,12 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "FLAGS",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
     "Headings",
+    "OutsideDomainError",
     "ParameterError",
     "Ranking",
     "Rollout",
@@ -92,11 +103,13 @@ __all__ = [
     "campaign",
     "heading",
     "heading_map",
+    "require_inside",
     "rollout",
     "settle",
     "simulate",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test",
 ]

@@ -90,6 +90,10 @@ class Calibration(_tables.Tabular):
     discrepancies: Mapping[str, Any]
     """Model discrepancy: standard deviation of the errors beyond the scatter of repeated trials.
     Columns ``channel``, ``fit``, ``mean``, ``std`` over the measured quantities, in their units."""
+    correlation_lengths: Mapping[str, Any]
+    """The distance over which discrepancies stay alike: columns ``along``, ``fit``, ``mean``,
+    ``std``, a row for the slip by the total speed and one for the slip angle [°]. Plate tests have
+    none."""
     outcome: str
     """``determined``; ``open`` if the problem is underdetermined: some keys are unidentifiable from
     these data; ``not_mixed`` if the sampler has not converged; ``not_settled`` if least squares has
@@ -114,7 +118,11 @@ class Calibration(_tables.Tabular):
     """Errors of the fitted model; None for plate tests."""
     cross_validation: tuple[Mapping[str, Any], ...] = ()
     """With ``cross_validate=True``, errors at each slip angle of a fit without that angle, as
-    groups of a `Validation`."""
+    groups of a `Validation`; with samples also, for each quantity, ``coverage_50`` and
+    ``coverage_95``, the shares of cells within the predictive bands, and ``interval_score`` of the
+    95 % bands, in the quantity's unit."""
+    cross_validation_overall: Mapping[str, Any] | None = None
+    """The same of all left-out cells together; None without ``cross_validate=True``."""
     target: str | None = None
     """The prediction whose uncertainty the proposed tests should reduce."""
     proposals: Mapping[str, Any] | None = None
@@ -367,6 +375,7 @@ def calibrate(
         **_common(found),
         validation=validation_of(found["validation"]),
         cross_validation=tuple(found["cross_validation"]),
+        cross_validation_overall=found["cross_validation_overall"],
         target=found["target"],
         proposals=found["proposals"],
     )
@@ -426,7 +435,14 @@ def _common(found: dict[str, Any]) -> dict[str, Any]:
     parameters = found["parameters"]
     reasons = [*found["notes"], *found["cannot_tell_apart"]]
     is_determined = found["outcome"] == "determined"
-    names = ("samples", "correlations", "discrepancies", "searches", "searches_that_agree")
+    names = (
+        "samples",
+        "correlations",
+        "discrepancies",
+        "correlation_lengths",
+        "searches",
+        "searches_that_agree",
+    )
     soil = Soil.__new__(Soil)
     soil._take(found["soil"])
     return {

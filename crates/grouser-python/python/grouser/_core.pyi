@@ -33,6 +33,8 @@ __all__ = [
     "check_shard",
     "find_campaign",
     "find_document",
+    "flag_names",
+    "flags",
     "heading",
     "heading_band",
     "heading_map",
@@ -55,6 +57,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
 ]
 
@@ -185,6 +188,8 @@ def wheel_forces(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
 ) -> tuple[_Floats, list[str]]: ...
+def flag_names(bits: Sequence[int]) -> list[str]: ...
+def flags() -> list[tuple[str, str]]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
 def rollout(
@@ -224,7 +229,10 @@ def validate(
     wheel_label: str | None,
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
-def validate_all(folder: str | os.PathLike[str] | None) -> list[dict[str, Any]]: ...
+def validate_slopes(
+    data: str | os.PathLike[str], scenario: Document, conditions: Sequence[str]
+) -> dict[str, Any]: ...
+def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
 def calibrate_wheel_tests(
     data: str | os.PathLike[str],
     soil: Document,

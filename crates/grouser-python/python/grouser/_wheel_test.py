@@ -37,6 +37,11 @@ class WheelTest(_tables.Tabular):
     wheels: Settled
     """Sinkage and forces; fields of shape (loads, angles, ratios)."""
 
+    @property
+    def flags(self) -> NDArray[np.object_]:
+        """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
+        return self.wheels.flags
+
     def _table(self) -> dict[str, Any]:
         return {**self.wheels._table(), "status": self.wheels.messages}
 

@@ -1,6 +1,8 @@
 //! Results of a calibration as records for tables, JSON and CSV.
 
 mod aim;
+mod handed_on;
+mod left_out;
 mod plates;
 mod solved;
 mod wheel;
@@ -8,9 +10,11 @@ mod wheel;
 use serde::Serialize;
 
 pub use aim::{AimError, AimWords, MOST_CANDIDATES};
+pub use handed_on::samples_csv;
+pub use left_out::{CoverageRecord, LeftOutRecord};
 pub use plates::{PlateFound, PlateProblem, PlateRecord, PlateResults};
 pub use solved::{
-    DiscrepancyRecord, STEPS, SamplerRecord, Solved, fit_notes, samples_csv, sampling,
+    DiscrepancyRecord, LengthRecord, STEPS, SamplerRecord, Solved, fit_notes, sampling,
 };
 pub use wheel::{WheelFound, WheelProblem, WheelResults};
 

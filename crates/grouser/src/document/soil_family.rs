@@ -11,6 +11,9 @@ use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::studies::calibration::{Parameter, Scale};
 
+/// The key of what a model gets wrong in a soil.
+pub(super) const DISCREPANCY: &str = "discrepancy";
+
 /// A soil's document, and the keys to fit.
 #[derive(Clone, Debug)]
 pub struct SoilFamily {
@@ -90,7 +93,11 @@ impl SoilFamily {
 
     /// * `starts`: of the first keys; the others start from the document's values
     fn starting(base: &Document, fitted: &[FitKey], starts: &[f64]) -> Result<Self, String> {
-        let document = without_uncertainty(base);
+        let mut document = without_uncertainty(base);
+        // What an earlier calibration found wrong belongs to other values.
+        if !fitted.iter().any(|key| key.path.starts_with(DISCREPANCY)) {
+            document = document.changed(|keys| drop(keys.shift_remove(DISCREPANCY)));
+        }
         let base = Varied { value: Soil::of(&document), document };
         let (mut keys, mut parameters) = (Vec::<Key>::new(), Vec::new());
         for (place, FitKey { path, bounds }) in fitted.iter().enumerate() {

@@ -6,12 +6,13 @@
 //! [`ParameterSpace`] to search. An observation y_i of channel k, the mean over repeated trials, is taken as
 //!
 //! ```text
-//! y_i = f_i(θ) + N(0, s_i² + δ_k²)
+//! y_i = f_i(θ) + δ_i + N(0, s_i²)
 //! ```
 //!
-//! with the scatter s_i of the trials, which is known, and a model discrepancy δ_k, which is estimated
-//! along with θ: no model is exact, and more trials of an inexact model must not narrow its parameters
-//! without limit. Discrepancies are taken as independent from one observation to the next.
+//! with the scatter s_i of the trials, which is known, and the model's discrepancy δ_i, which is
+//! estimated along with θ: no model is exact, and more trials of an inexact model must not narrow its
+//! parameters without limit. A discrepancy is normal, with a standard deviation for each channel, and
+//! those of wheels at similar slips and slip angles are correlated ([`errors`]).
 //!
 //! The order of work, each step on its own:
 //!
@@ -21,7 +22,8 @@
 //! 3. [`diagnostics`]: convergence of the sampler, and summaries of the samples;
 //! 4. [`identifiability`]: parameters that these data do not determine;
 //! 5. [`design`]: which run to make next;
-//! 6. [`cross_validation`]: the same fit with some measurements left out.
+//! 6. [`handed_on`]: what a sample hands on to predictions, its discrepancy included;
+//! 7. [`cross_validation`]: the same fit with some measurements left out.
 //!
 //! [`solution`] takes the first four at once, and [`WheelCalibration`] all of them.
 //!
@@ -31,8 +33,10 @@ pub mod cross_validation;
 pub mod design;
 pub mod diagnostics;
 mod ensemble;
+pub mod errors;
 pub mod experiment;
 pub mod fit;
+pub mod handed_on;
 pub mod identifiability;
 mod least_squares;
 pub mod parameter;
@@ -43,17 +47,17 @@ pub mod solution;
 pub mod wheel_calibration;
 pub mod wheel_test;
 
-pub use experiment::{Channel, Experiment, Observation, Regime};
+pub use experiment::{Channel, Experiment, Observation, Place, Regime, Site};
 pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
 pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
 pub use posterior::{Advanced, PosteriorState, SamplerSettings};
 pub use solution::{Observer, Posterior, Sampling, Solution, Work};
-pub use wheel_calibration::{WheelCalibration, WheelFindings};
+pub use wheel_calibration::{LeftOutGroup, WheelCalibration, WheelFindings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
 
-use crate::elementary::wide;
 use crate::error::ParameterError;
+use errors::Errors;
 
 /// An experiment, and the parameters to estimate.
 ///
@@ -98,6 +102,7 @@ pub struct Calibration<'a> {
     experiment: &'a dyn Experiment,
     space: ParameterSpace,
     discrepancies: ParameterSpace,
+    errors: Errors,
 }
 
 /// The most observations that are fitted. Thirty-six cells of wheel tests with seventeen keys take a
@@ -199,8 +204,11 @@ impl<'a> Calibration<'a> {
                 return Err(CalibrationError::BadObservation { number, value, scatter });
             }
         }
-        let discrepancies = ParameterSpace::new(experiment::discrepancies(experiment))?;
-        Ok(Self { experiment, space, discrepancies })
+        let errors = Errors::of(experiment);
+        let mut discrepancies = experiment::discrepancies(experiment);
+        discrepancies.extend_from_slice(errors.lengths());
+        let discrepancies = ParameterSpace::new(discrepancies)?;
+        Ok(Self { experiment, space, discrepancies, errors })
     }
 
     /// The experiment.
@@ -215,7 +223,8 @@ impl<'a> Calibration<'a> {
         &self.space
     }
 
-    /// The model discrepancies δ, one for each channel, as parameters with priors of their own.
+    /// What describes the model discrepancies, as parameters with priors of their own: a standard
+    /// deviation for each channel, then the correlation lengths, where there are any.
     #[must_use]
     pub fn discrepancies(&self) -> &ParameterSpace {
         &self.discrepancies
@@ -234,11 +243,10 @@ impl<'a> Calibration<'a> {
         predictions.iter().all(|prediction| prediction.is_finite()).then_some(predictions)
     }
 
-    /// Variances of all observations about the model, s² + δ².
-    fn variances(&self, discrepancies: &[f64]) -> Vec<f64> {
-        let observations = self.experiment.observations().iter();
-        let variance = |one: &Observation| one.scatter.powi(2) + discrepancies[one.channel].powi(2);
-        observations.map(variance).collect()
+    /// The errors of the observations about the model.
+    #[must_use]
+    pub fn errors(&self) -> &Errors {
+        &self.errors
     }
 
     /// Logarithm of the posterior's density in coordinates, up to a constant.
@@ -250,15 +258,10 @@ impl<'a> Calibration<'a> {
         let Some(predictions) = self.predictions(&self.space.values(parameters)) else {
             return f64::NEG_INFINITY;
         };
-        let variances = self.variances(&self.discrepancies.values(discrepancies));
-        let observations = self.experiment.observations();
-        let mut log_density = ParameterSpace::log_prior(coordinates);
-        for ((observation, prediction), variance) in
-            observations.iter().zip(predictions).zip(variances)
-        {
-            let residual = observation.value - prediction;
-            log_density -= 0.5 * (residual * residual / variance + wide::ln(variance));
-        }
+        let residuals = errors::residuals(self.experiment.observations(), &predictions);
+        let found = self.discrepancies.values(discrepancies);
+        let log_density =
+            ParameterSpace::log_prior(coordinates) + self.errors.log_density(&residuals, &found);
         if log_density.is_finite() { log_density } else { f64::NEG_INFINITY }
     }
 }

@@ -8,6 +8,7 @@
 
 use super::ensemble::{Band, Probability, outputs};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::Soil;
 
@@ -122,11 +123,15 @@ pub struct CardRow {
     pub verdict: Verdict,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
+    /// Why no heading holds the contour on the soil as written; nothing where one does.
+    pub refusal: Option<String>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
     /// the contour [-]; `None` where the rover slides.
     pub drift: Option<f64>,
     /// Over the samples; `None` where no uncertainty is stated.
     pub bands: Option<CardBands>,
+    /// The flags of the contour traverse on the soil as written.
+    pub findings: Vec<Finding>,
 }
 
 /// A contour traverse.
@@ -162,6 +167,7 @@ struct Draw {
     limit: Result<(f64, String), String>,
     /// On each slope.
     levels: Vec<Option<Level>>,
+    refusals: Vec<Option<String>>,
     drifts: Vec<Option<f64>>,
 }
 
@@ -207,6 +213,9 @@ impl CardStudy {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
         let nominal = self.draw(&self.heading.soil, slopes)?;
+        let curve = self.heading.curve()?;
+        let findings: Vec<_> =
+            slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect();
         let drawn = |soil: &Soil| {
             let draw = self.draw(soil, slopes);
             done();
@@ -224,7 +233,7 @@ impl CardStudy {
         };
         let limits = draws.iter().filter_map(|draw| draw.limit.as_ref().ok());
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, &judged),
+            rows: self.rows(slopes, &nominal, &draws, &judged, &findings),
             limit: nominal.limit,
             limit_band: Band::of(limits.map(|(slope, _)| *slope)),
             draws: (!draws.is_empty()).then_some(draws.len()),
@@ -237,16 +246,25 @@ impl CardStudy {
         nominal: &Draw,
         draws: &[Draw],
         judged: &[Vec<Option<f64>>],
+        findings: &[Vec<Finding>],
     ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
+        let ground = self.heading.ground_limit();
         let row = |(place, slope): (usize, &f64)| {
-            worst = worst.max(self.rule.verdict(&judged[place]));
+            // Ground that slides by itself is no place to drive, whatever samples of it would hold.
+            let verdict = match *slope > ground {
+                true => Verdict::NoGo,
+                false => self.rule.verdict(&judged[place]),
+            };
+            worst = worst.max(verdict);
             CardRow {
                 slope: *slope,
                 verdict: worst,
                 level: nominal.levels[place],
+                refusal: nominal.refusals[place].clone(),
                 drift: nominal.drifts[place],
                 bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+                findings: findings[place].clone(),
             }
         };
         slopes.iter().enumerate().map(row).collect()
@@ -266,6 +284,10 @@ impl CardStudy {
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
+            refusals: slopes
+                .iter()
+                .map(|slope| Some(level.at(*slope).err()?.to_string()))
+                .collect(),
             levels: slopes.iter().map(|slope| on(&level, *slope).as_ref().map(keep)).collect(),
             drifts: slopes.iter().map(|slope| Some(on(&drift, *slope)?.drift())).collect(),
         })

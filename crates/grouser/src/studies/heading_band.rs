@@ -137,7 +137,11 @@ impl Sample {
         };
         let on_slope = |slope: &f64| match curve.at(*slope) {
             Ok(heading) => Some(keep(heading)),
-            Err(NoHeading::CannotMove(_) | NoHeading::TooSteep { .. }) => None,
+            Err(
+                NoHeading::CannotMove(_)
+                | NoHeading::TooSteep { .. }
+                | NoHeading::GroundStrength { .. },
+            ) => None,
         };
         Self {
             limit: curve.limit().ok().map(|(slope, _)| slope),

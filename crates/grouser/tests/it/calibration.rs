@@ -574,8 +574,8 @@ fn trials_left_out_of_an_exact_test_are_predicted_exactly() {
     let tests = wheel_tests(1, 0.0);
     let setup = Setup { resolution: Resolution::Trials, ..setup() };
     let settings = FitSettings { patience: 20, ..FitSettings::default() };
-    let left_out =
-        leave_one_angle_out(&tests, setup, &sand_space(), &settings, &on).expect("three fits");
+    let left_out = leave_one_angle_out(&tests, setup, &sand_space(), &settings, None, &on)
+        .expect("three fits");
     assert_eq!(slip_angles(&tests), [0.0, deg(15.0), deg(30.0)]);
     assert_eq!(left_out.len(), 3);
     for one in left_out {

@@ -1,6 +1,8 @@
 //! The report of a calibration: text, page, figures.
 
-use grouser::document::calibration::{ParameterRecord, Solved, WheelFound, samples_csv};
+use grouser::document::calibration::{
+    LeftOutRecord, ParameterRecord, Solved, WheelFound, samples_csv,
+};
 use grouser::document::columns::fit::column_of;
 use grouser::document::columns::{LOAD, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::validation::GroupRecord;
@@ -51,8 +53,8 @@ pub(super) fn add_soil(
 ) -> Result<(), Failure> {
     folder.add("parameters.csv", Rows::of(&solved.records).to_csv()?);
     folder.add("soil.toml", soil.to_toml());
-    if let Some(posterior) = &solved.solution.posterior {
-        folder.add(SAMPLES_FILE, samples_csv(family, posterior));
+    if let Some(samples) = samples_csv(family, solved) {
+        folder.add(SAMPLES_FILE, samples);
     }
     Ok(())
 }
@@ -77,8 +79,14 @@ pub(super) fn text(found: &WheelFound, target: &str) -> String {
 fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
     let overall = GroupRecord::from(&found.validation.overall);
     let mut blocks = vec![errors("with the fit", &[overall])];
-    if !found.left_out.is_empty() {
-        blocks.push(errors("with the angle left out of the fit", &found.left_out));
+    let left_out: Vec<&LeftOutRecord> =
+        found.left_out.iter().chain(&found.left_out_overall).collect();
+    if !left_out.is_empty() {
+        let groups: Vec<GroupRecord> = left_out.iter().map(|it| it.errors.clone()).collect();
+        blocks.push(errors("with the angle left out of the fit", &groups));
+    }
+    if left_out.iter().any(|it| it.has_bands()) {
+        blocks.push(coverage(&left_out));
     }
     if !found.proposals.is_empty() {
         blocks.push(format!(
@@ -87,6 +95,37 @@ fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
         ));
     }
     blocks
+}
+
+/// How the bands of posteriors hold cells that they have not seen, a row for each quantity.
+fn coverage(groups: &[&LeftOutRecord]) -> String {
+    let header = [
+        SLIP_ANGLE.name,
+        "motion",
+        "quantity",
+        "cells",
+        "coverage_50",
+        "coverage_95",
+        "interval_score",
+    ];
+    let row = |group: &LeftOutRecord, quantity: Quantity| {
+        let (errors, bands) = (group.errors.errors(quantity)?, group.coverage(quantity));
+        let mut row = condition(&group.errors);
+        row.extend([column_of(quantity).name.to_owned(), errors.cells.to_string()]);
+        let shares = [bands.coverage_50?, bands.coverage_95?];
+        row.extend(shares.map(|share| format!("{share:.2}")));
+        row.push(four_digits(bands.interval_score?));
+        Some(row)
+    };
+    let rows = groups.iter().flat_map(|group| Quantity::ALL.map(|quantity| row(group, quantity)));
+    let table = aligned(&header.map(str::to_owned), &rows.flatten().collect::<Vec<_>>());
+    format!("predictive bands with the angle left out of the fit\n{table}")
+}
+
+/// Slip angle and motion of a group.
+fn condition(group: &GroupRecord) -> Vec<String> {
+    let angle = group.slip_angle().map_or("all".to_owned(), four_digits);
+    vec![angle, group.motion().to_owned()]
 }
 
 fn next_runs(found: &WheelFound) -> String {
@@ -138,7 +177,16 @@ fn discrepancies(solved: &Solved) -> String {
         .map(|it| vec![it.channel.clone(), four_digits(it.mean.unwrap_or(it.fit))]);
     let header = ["channel", "std"].map(str::to_owned);
     let table = aligned(&header, &rows.collect::<Vec<_>>());
-    format!("model discrepancy, beyond the scatter of the trials\n{table}")
+    let mut text = format!("model discrepancy, beyond the scatter of the trials\n{table}");
+    let lengths = solved.correlation_lengths.iter();
+    let lengths: Vec<Vec<String>> = lengths
+        .map(|it| vec![it.along.to_owned(), four_digits(it.mean.unwrap_or(it.fit))])
+        .collect();
+    if !lengths.is_empty() {
+        let header = ["along", "correlation_length"].map(str::to_owned);
+        text += &format!("\n{}", aligned(&header, &lengths));
+    }
+    text
 }
 
 /// Root mean square errors of groups of cells.
@@ -149,8 +197,8 @@ fn errors(what: &str, groups: &[GroupRecord]) -> String {
         let rmse = |quantity| {
             group.errors(quantity).map_or("-".to_owned(), |errors| four_digits(errors.rmse))
         };
-        let angle = group.slip_angle().map_or("all".to_owned(), four_digits);
-        let mut row = vec![angle, group.motion().to_owned(), group.0.cells.to_string()];
+        let mut row = condition(group);
+        row.push(group.0.cells.to_string());
         row.extend(Quantity::ALL.map(rmse));
         row
     };
@@ -184,8 +232,11 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
         "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
          priors uniform within the bounds (by the logarithm where a number spans decades). An \
          observation is the mean over the trials of a cell; its deviation from the model is taken \
-         as normal, with the variance of the mean between trials and that of a model discrepancy, \
-         one for each quantity of driven and of skidding wheels, which is sampled along.",
+         as normal: the scatter of that mean between trials, and a model discrepancy with one \
+         standard deviation for each quantity of driven and of skidding wheels, correlated between \
+         cells by a Matérn kernel over slip and slip angle. Deviations and correlation lengths are \
+         sampled along. Each sample in soil-samples.csv has a discrepancy drawn with it, which \
+         predictions with --uncertainty add to the model's.",
     );
     let setting = |name: &str| format!("{name}: {}", problem.settings[name]);
     page.list(["data", "data_fingerprint", "where", "model", "seed", "steps"].map(setting));

@@ -1,7 +1,8 @@
 //! The sentences of the card.
 
+use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
-use grouser::studies::card::{Card, Rule};
+use grouser::studies::card::{Card, CardRow, Rule};
 
 use crate::args::{CardArgs, SideChoice};
 use crate::inputs::CardInputs;
@@ -51,8 +52,20 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; errors of \
                      the model, which come on top of every band: a real rover scatters by more."
             .to_owned(),
-        assumed: assumed(inputs),
+        assumed: extrapolations(card).into_iter().chain(assumed(inputs)).collect(),
     }
+}
+
+/// Which flags the contour traverses carry, and from which slope on.
+fn extrapolations(card: &Card) -> Vec<String> {
+    let held = || card.rows.iter().filter(|row| row.level.is_some());
+    let carries = |row: &CardRow, flag| row.findings.iter().any(|it| it.flag == flag);
+    let line = |flag: Flag| {
+        let first = held().find(|row| carries(row, flag))?;
+        let slope = four_digits(SLOPE.unit.from_si(first.slope));
+        Some(format!("OUTSIDE ITS DOMAIN from {slope}° ({}): {}", flag.name(), flag.rule().meaning))
+    };
+    Flag::ALL.into_iter().filter_map(line).collect()
 }
 
 /// The documents' assumptions without the names of soil and rover, which stand above.

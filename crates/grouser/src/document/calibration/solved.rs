@@ -1,17 +1,13 @@
-//! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable parameters,
-//! and the samples as a table.
+//! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable parameters.
 
 use serde::Serialize;
 
-use super::super::SoilFamily;
+use super::super::columns::{SLIP_ANGLE, TOTAL_SLIP};
 use super::{ParameterRecord, channel_name, channel_unit, unidentifiable};
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
     Fit, Parameter, Posterior, PosteriorState, SamplerSettings, Sampling, Solution,
 };
-
-/// Samples that the soil's file keeps.
-const KEPT_SAMPLES: usize = 1000;
 
 /// Discrepancy between a model and measurements of one kind, beyond their scatter.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -19,6 +15,19 @@ pub struct DiscrepancyRecord {
     /// The measured quantity, and driven or skid.
     pub channel: String,
     /// With the fit, in the unit of the quantity.
+    pub fit: f64,
+    /// Mean of the posterior.
+    pub mean: Option<f64>,
+    /// Its standard deviation.
+    pub std: Option<f64>,
+}
+
+/// The distance over which discrepancies stay alike.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LengthRecord {
+    /// What the distance is in: a column of wheel tests, in whose unit all values are.
+    pub along: &'static str,
+    /// With the fit.
     pub fit: f64,
     /// Mean of the posterior.
     pub mean: Option<f64>,
@@ -69,6 +78,8 @@ pub struct Solved {
     pub records: Vec<ParameterRecord>,
     /// And for each channel.
     pub discrepancies: Vec<DiscrepancyRecord>,
+    /// Correlation lengths of the discrepancies, in slip and in slip angle; none where they are independent.
+    pub correlation_lengths: Vec<LengthRecord>,
     /// Unidentifiable parameters and combinations, a sentence for each.
     pub unidentifiable: Vec<String>,
     /// How the posterior was sampled, if it was.
@@ -95,7 +106,23 @@ impl Solved {
                 std: summary.map(|it| it.deviation * unit),
             }
         };
+        let channels = solution.channels.len();
+        let length = |(place, &fit): (usize, &f64)| {
+            let column = [TOTAL_SLIP, SLIP_ANGLE][place];
+            let summary = summary(parameters.len() + channels + place);
+            LengthRecord {
+                along: column.name,
+                fit: column.unit.from_si(fit),
+                mean: summary.map(|it| column.unit.from_si(it.mean)),
+                std: summary.map(|it| column.unit.from_si(it.deviation)),
+            }
+        };
         Self {
+            correlation_lengths: fit.discrepancies[channels..]
+                .iter()
+                .enumerate()
+                .map(length)
+                .collect(),
             records: parameters.iter().enumerate().map(record).collect(),
             discrepancies: solution.channels.iter().enumerate().map(discrepancy).collect(),
             unidentifiable: unidentifiable(parameters, &solution.identifiability),
@@ -177,17 +204,4 @@ pub fn sampling(seed: u64, steps: u64, kept: Option<PosteriorState>) -> Sampling
     let usual = SamplerSettings { seed, ..SamplerSettings::default() };
     let blocks = steps.div_ceil(usual.steps_per_block as u64);
     Sampling { settings: SamplerSettings { blocks, ..usual }, kept }
-}
-
-/// Samples of the fitted keys as CSV, in the keys' own units: the file of a soil's uncertainty.
-#[must_use]
-pub fn samples_csv(family: &SoilFamily, posterior: &Posterior) -> String {
-    let keys: Vec<&str> = family.keys().collect();
-    let mut text = keys.join(",") + "\n";
-    for row in posterior.samples.thinned(KEPT_SAMPLES) {
-        let cells = keys.iter().zip(row).map(|(_, value)| serde_json::json!(value).to_string());
-        text += &cells.collect::<Vec<String>>().join(",");
-        text.push('\n');
-    }
-    text
 }

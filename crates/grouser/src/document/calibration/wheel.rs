@@ -3,9 +3,13 @@
 use serde::Serialize;
 
 use super::super::measurements::Measurements;
+use super::super::soil_family::DISCREPANCY;
 use super::super::validation::GroupRecord;
 use super::super::{Document, SAMPLES_FILE, SoilFamily, with_priors_held};
-use super::{DiscrepancyRecord, ParameterRecord, ProposalRecord, SamplerRecord, Solved};
+use super::{
+    DiscrepancyRecord, LeftOutRecord, LengthRecord, ParameterRecord, ProposalRecord, SamplerRecord,
+    Solved, handed_on,
+};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -48,7 +52,9 @@ pub struct WheelFound {
     /// The errors with the fit.
     pub validation: Validation,
     /// The errors at each slip angle of the fit without it.
-    pub left_out: Vec<GroupRecord>,
+    pub left_out: Vec<LeftOutRecord>,
+    /// The same of all of them together, if angles were left out.
+    pub left_out_overall: Option<LeftOutRecord>,
     /// The runs to make next, the best first.
     pub proposals: Vec<ProposalRecord>,
     /// The soil of the fit.
@@ -60,13 +66,15 @@ pub struct WheelFound {
 pub struct WheelResults<'a> {
     rows: &'a [ParameterRecord],
     discrepancies: &'a [DiscrepancyRecord],
+    correlation_lengths: &'a [LengthRecord],
     #[serde(rename = "cannot_tell_apart")]
     unidentifiable: &'a [String],
     target: &'a str,
     proposals: &'a [ProposalRecord],
     overall: GroupRecord,
     driven: Option<GroupRecord>,
-    cross_validation: &'a [GroupRecord],
+    cross_validation: &'a [LeftOutRecord],
+    cross_validation_overall: &'a Option<LeftOutRecord>,
     searches_that_agree: usize,
     searches: usize,
     sampler: &'a Option<SamplerRecord>,
@@ -104,7 +112,8 @@ impl WheelProblem<'_> {
         Ok(WheelFound {
             soil: self.soil(&solved),
             validation: found.validation,
-            left_out: found.left_out.iter().map(GroupRecord::from).collect(),
+            left_out: found.left_out.iter().map(LeftOutRecord::from).collect(),
+            left_out_overall: found.left_out_overall.as_ref().map(LeftOutRecord::from),
             proposals: proposals.map(|it| ProposalRecord::new(it, candidates, unit)).collect(),
             solved,
         })
@@ -123,6 +132,10 @@ impl WheelProblem<'_> {
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
         let fitted = self.family.fitted(&solved.solution.fit.values, &source, self.theory, samples);
+        let fitted = handed_on::nominal(solved).map_or_else(
+            || fitted.clone(),
+            |none| fitted.changed(|keys| drop(keys.insert(DISCREPANCY.to_owned(), none))),
+        );
         // The samples were found with the other numbers as they are.
         if samples.is_some() { with_priors_held(&fitted) } else { fitted }
     }
@@ -138,12 +151,14 @@ impl WheelFound {
         WheelResults {
             rows: &self.solved.records,
             discrepancies: &self.solved.discrepancies,
+            correlation_lengths: &self.solved.correlation_lengths,
             unidentifiable: &self.solved.unidentifiable,
             target,
             proposals: &self.proposals,
             overall: GroupRecord::from(&self.validation.overall),
             driven: self.validation.driven.as_ref().map(GroupRecord::from),
             cross_validation: &self.left_out,
+            cross_validation_overall: &self.left_out_overall,
             searches_that_agree: searches.iter().filter(|search| search.agrees).count(),
             searches: searches.len(),
             sampler: &self.solved.sampler,

@@ -1,18 +1,21 @@
 //! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
 
+use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{self, OK};
 use super::super::error::DocumentError;
-use super::super::table::{Cell, ColumnKind};
+use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
 use super::super::{Document, Misfit, Node};
 use super::table::{Column, Role};
+use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
 use crate::simulation::{Run, Scenario};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
+use crate::studies::validity::RoverOnSlope;
 use crate::vehicle::DriveLaw;
 use grouser_io::campaign::{Stand, Study};
 
@@ -41,13 +44,16 @@ const UNFIT: &str = "not possible together";
 const NO_HEADING: &str = "no level attitude";
 /// Not even on level ground.
 const CANNOT_MOVE: &str = "cannot move";
+/// The slope is steeper than the ground stands by its own strength.
+const GROUND_STRENGTH: &str = "ground-strength";
 /// The soil carries less than the load.
 const SUNK: &str = "soil cannot carry the load";
 /// The solver gave up.
 const NOT_COMPUTED: &str = "not computed";
 
 /// All statuses of a row; `ok` first.
-pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_HEADING, CANNOT_MOVE, SUNK, NOT_COMPUTED];
+pub const STATUSES: [&str; 7] =
+    [OK, UNFIT, NO_HEADING, CANNOT_MOVE, GROUND_STRENGTH, SUNK, NOT_COMPUTED];
 
 /// Statuses of rows that could not be computed: all others are answers, or findings.
 pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
@@ -73,6 +79,7 @@ pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Colu
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
+    all.push(Column::new(FLAGS, ColumnKind::Text, Role::Status));
     all
 }
 
@@ -148,6 +155,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
             let status = match error {
                 NoHeading::CannotMove(_) => CANNOT_MOVE,
                 NoHeading::TooSteep { .. } => NO_HEADING,
+                NoHeading::GroundStrength { .. } => GROUND_STRENGTH,
             };
             Failure { status, reason: error.to_string() }
         })?;
@@ -156,7 +164,13 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         _ => None,
     };
     let held_row = Held { heading: &heading, rover: &scenario.rover, rim_speed };
-    Ok(cells([Cell::Text(None)], &held(), &held_row).collect())
+    let flags = RoverOnSlope::of(scenario).findings(heading.wheels.iter());
+    Ok(cells([Cell::Text(None)], &held(), &held_row).chain([joined(&flags)]).collect())
+}
+
+/// Flags as one text: shards have no lists.
+fn joined(findings: &[Finding]) -> Cell {
+    Cell::text(names_of(findings).join(BETWEEN_NAMES))
 }
 
 /// Words, then the results of a row.
@@ -178,7 +192,9 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
     ];
-    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect())
+    let raised = RoverOnSlope::of(scenario).over(&run);
+    let flags = joined(&raised.iter().map(|it| it.finding).collect::<Vec<_>>());
+    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).chain([flags]).collect())
 }
 
 fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
@@ -189,5 +205,16 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         };
         Failure { status, reason: error.to_string() }
     })?;
-    Ok(cells([Cell::Text(None)], &WHEEL, &settled).collect())
+    let situation = Situation {
+        theory,
+        wheel: &contact.wheel,
+        soil: &contact.soil,
+        gravity: contact.gravity,
+        slope: 0.0,
+        load: Some(load),
+        slip: Some(contact.slip),
+        settled: Some(&settled),
+    };
+    let flags = joined(&situation.findings());
+    Ok(cells([Cell::Text(None)], &WHEEL, &settled).chain([flags]).collect())
 }

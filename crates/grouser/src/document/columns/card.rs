@@ -2,13 +2,13 @@
 
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, M_PER_M};
+use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
     Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW,
     quantity, text, whole,
 };
 use crate::studies::card::{Card, CardRow, Verdict};
-use crate::studies::heading::NoHeading;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -30,7 +30,7 @@ struct OnCard<'a> {
     card: &'a Card,
 }
 
-const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
+const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
     [
         SLOPE.given("Slope", |it| Some(it.row.slope)),
         text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
@@ -64,18 +64,13 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
         text(STATUS, "`ok`, or why no heading holds the contour on the soil as written", |it| {
             Some(status(it))
         }),
+        flags::flags(|it| flags::names(&it.row.findings)),
     ]
 }
 
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
-    match (&it.row.level, &it.card.limit) {
-        (Some(_), _) => OK.to_owned(),
-        (None, Ok((limit, reason))) => {
-            NoHeading::TooSteep { course: 0.0, limit: *limit, reason: reason.clone() }.to_string()
-        }
-        (None, Err(reason)) => reason.clone(),
-    }
+    it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
 /// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and
@@ -89,7 +84,7 @@ pub fn table(card: &Card) -> Table {
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name]
+    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name, FLAGS]
         .map(String::from)
         .into()
 }
@@ -103,7 +98,8 @@ pub fn bands_brief() -> Vec<String> {
         high
     });
     let [slope, verdict, level] = [SLOPE.name, VERDICT, PROBABILITY_LEVEL.name].map(String::from);
-    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level]
+    let flags = FLAGS.to_owned();
+    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level, flags]
 }
 
 /// How many samples the card has, and the steepest slope: one row.

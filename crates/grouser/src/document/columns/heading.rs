@@ -3,11 +3,13 @@
 
 use super::super::table::Table;
 use super::super::unit::NM;
+use super::flags::{self, FLAGS};
 use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
 };
-use crate::studies::heading::{HeadingCurve, HeadingOffset, NoHeading};
+use crate::contact::validity::Finding;
+use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
@@ -51,6 +53,7 @@ pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
 struct OnSlope<'a> {
     slope: f64,
     found: &'a Result<HeadingOffset, NoHeading>,
+    findings: &'a [Finding],
     /// Of a map: the soil's name, and its row.
     soil: &'a str,
     row: Option<&'a HeadingRow>,
@@ -60,13 +63,19 @@ const fn slope<'a>() -> [Column<OnSlope<'a>>; 1] {
     [SLOPE.given("Slopes", |it| Some(it.slope))]
 }
 
-const fn status<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [text(STATUS, "`ok`, or why no heading offset holds the course", |it| {
-        Some(it.found.as_ref().map_or_else(ToString::to_string, |_| OK.into()))
-    })]
+const fn status<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        text(STATUS, "`ok`, or why no heading offset holds the course", |it| {
+            Some(it.found.as_ref().map_or_else(ToString::to_string, |_| OK.into()))
+        }),
+        flags::flags(|it| flags::names(it.findings)),
+    ]
 }
 
 const SOIL: &str = "soil";
+
+/// The columns of a map that tell rows apart.
+pub const SETTINGS: [&str; 3] = [SOIL, COURSE.name, SLOPE.name];
 
 /// Columns of a map before the results.
 const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
@@ -79,23 +88,40 @@ const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
 }
 
 /// Columns of a map after the results.
-const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [LIMIT_SLOPE
-        .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
-            it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
-        })]
+const fn limit<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        LIMIT_SLOPE
+            .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
+                it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
+            }),
+        text(LIMITED_BY, WHAT_LIMITS, |it| it.row?.limited_by.map(|by| by.name().to_owned())),
+    ]
+}
+
+/// The flags on each slope [rad].
+#[must_use]
+pub fn findings(curve: &HeadingCurve, slopes: &[f64]) -> Vec<Vec<Finding>> {
+    slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect()
 }
 
 /// A row for each slope [rad]. Results are missing where `status` is not `ok`.
 #[must_use]
 pub fn table(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Table {
     let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
-    let rows = slopes.iter().zip(&found);
-    let rows = rows.map(|(slope, found)| OnSlope { slope: *slope, found, soil: "", row: None });
+    let pairs = slopes.iter().zip(&found);
+    let findings: Vec<_> = pairs.map(|(slope, found)| curve.findings(*slope, found)).collect();
+    let rows = slopes.iter().zip(&found).zip(&findings);
+    let rows = rows.map(|((slope, found), findings)| OnSlope {
+        slope: *slope,
+        found,
+        findings,
+        soil: "",
+        row: None,
+    });
     found_table(Table::default(), &rows.collect::<Vec<_>>(), rover, None)
 }
 
-/// Slope, results and status.
+/// Slope, results, status and flags.
 fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Option<f64>) -> Table {
     let all = rows.iter().map(|row| {
         let heading = row.found.as_ref().ok()?;
@@ -115,7 +141,7 @@ fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Opt
 pub fn brief() -> Vec<String> {
     let [.., yaw_moment] = held();
     let names = [SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE].map(|it| it.name);
-    names.into_iter().chain([yaw_moment.name, STATUS]).map(String::from).collect()
+    names.into_iter().chain([yaw_moment.name, STATUS, FLAGS]).map(String::from).collect()
 }
 
 /// The heading offset over the slope, as points of a chart.
@@ -131,24 +157,30 @@ pub fn curve(curve: &HeadingCurve) -> Table {
 /// The steepest slope, and what ends the curve there: one row.
 #[must_use]
 pub fn steepest(curve: &HeadingCurve) -> Table {
-    type Limit = Result<(f64, String), String>;
-    const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
+    type Limit = (Result<(f64, String), String>, Option<LimitedBy>);
+    const LIMIT: [Column<Limit>; 3] = [
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |(it, _)| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
-        text(LIMIT_REASON, "What ends the curve there", |it| {
+        text(LIMIT_REASON, "What ends the curve there", |(it, _)| {
             Some(it.as_ref().map_or_else(Clone::clone, |(_, reason)| reason.clone()))
         }),
+        text(LIMITED_BY, WHAT_LIMITS, |(_, by)| by.map(|by| by.name().to_owned())),
     ];
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
         Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
+        Err(beyond @ NoHeading::GroundStrength { .. }) => Err(beyond.to_string()),
     };
-    Table::of(&LIMIT, &[limit])
+    Table::of(&LIMIT, &[(limit, curve.limited_by())])
 }
 
 /// What ends a curve.
 pub const LIMIT_REASON: &str = "limit_reason";
+/// The same as one of a few words.
+pub const LIMITED_BY: &str = "limited_by";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`) or the \
+     `range` of slopes";
 
 /// A row for each soil, course and slope of a map.
 ///
@@ -156,14 +188,15 @@ pub const LIMIT_REASON: &str = "limit_reason";
 /// * `rim_speed`: for the power [m/s]
 #[must_use]
 pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Table {
-    let cells = |row| {
-        let on_slope = move |(slope, found): (&f64, _)| {
-            let row: &HeadingRow = row;
-            OnSlope { slope: *slope, found, soil: &soils[row.study], row: Some(row) }
-        };
-        map.slopes.iter().zip(&row.cells).map(on_slope).collect::<Vec<_>>()
-    };
-    let rows: Vec<OnSlope<'_>> = map.rows.iter().flat_map(cells).collect();
+    let places = map.rows.iter().flat_map(|row| (0..map.slopes.len()).map(move |at| (row, at)));
+    let rows = places.map(|(row, at)| OnSlope {
+        slope: map.slopes[at],
+        found: &row.cells[at],
+        findings: &row.findings[at],
+        soil: &soils[row.study],
+        row: Some(row),
+    });
+    let rows: Vec<OnSlope<'_>> = rows.collect();
     let all: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
     let table = Table::default().and(&place(), &all);
     found_table(table, &rows, rover, Some(rim_speed)).and(&limit(), &all)
@@ -174,7 +207,7 @@ pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f
 pub fn map_brief() -> Vec<String> {
     let numbers = [COURSE, SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE, POWER];
     let names = numbers.map(|it| it.name);
-    [SOIL].into_iter().chain(names).chain([STATUS]).map(String::from).collect()
+    [SOIL].into_iter().chain(names).chain([STATUS, FLAGS]).map(String::from).collect()
 }
 
 /// Quantiles and probabilities on one slope over samples of an uncertain soil. Quantiles are over the samples with a
@@ -247,5 +280,6 @@ pub fn bands_brief() -> Vec<String> {
         name(PROBABILITY_LEVEL.name),
         name(DRAWS_LEVEL),
         name(STATUS),
+        name(FLAGS),
     ]
 }

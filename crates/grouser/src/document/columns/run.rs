@@ -4,15 +4,17 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::Table;
 use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, RAD_S};
+use super::flags;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
     Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TIME,
     X, Y, YAW, maybe, number, quantity, text,
 };
 use crate::contact::Settled;
-use crate::simulation::{Record, Trajectory, WheelRecord};
+use crate::contact::validity::Finding;
+use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
 use crate::studies::drive::Drive;
-use crate::vehicle::Rover;
+use crate::studies::validity::{Raised, RoverOnSlope};
 
 /// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
 /// frame.
@@ -75,11 +77,36 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
 /// The end of a run: columns of a campaign.
 pub(in super::super) const END: &[Column<Record>] = RECORD.split_at(4).0;
 
+/// Why a record is an extrapolation.
+const FLAGS: [Column<Vec<Finding>>; 1] = [flags::flags(|it| flags::names(it))];
+
+/// When a flag was raised first in a run.
+const RAISED: [Column<Raised>; 2] = [
+    text("flag", "Name of the flag", |it| Some(it.finding.flag.name().into())),
+    TIME.number("Time since the start at which it was raised first", |it| it.time),
+];
+
+/// The flags of each record.
+#[must_use]
+pub fn each_findings(run: &Trajectory, scenario: &Scenario) -> Vec<Vec<Finding>> {
+    let rover = RoverOnSlope::of(scenario);
+    run.records.iter().map(|record| rover.at(record)).collect()
+}
+
+/// The flags that a run raises, each with the time at which it was raised first.
+#[must_use]
+pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
+    Table::of(&RAISED, &RoverOnSlope::of(scenario).over(run))
+}
+
 /// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
 /// empty where the rover has just tipped over or sunk, and left out where no sample has any.
 #[must_use]
-pub fn table(run: &Trajectory, rover: &Rover) -> Table {
+pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
+    let rover = &scenario.rover;
     let mut table = Table::of(&RECORD, &run.records);
+    let findings = each_findings(run, scenario);
+    table = table.and(&FLAGS, &findings.iter().map(Some).collect::<Vec<_>>());
     let wheels = run.records.iter().map(|record| record.wheels.len()).max().unwrap_or(0);
     for (place, mount) in rover.mounts().iter().take(wheels).enumerate() {
         let wheels: Vec<_> = run.records.iter().map(|record| record.wheels.get(place)).collect();
@@ -126,15 +153,19 @@ pub fn brief(run: &Trajectory, lines: usize) -> Table {
 pub struct RunObject<'a> {
     /// The run.
     pub run: &'a Trajectory,
-    /// Its rover.
-    pub rover: &'a Rover,
+    /// What was run.
+    pub scenario: &'a Scenario,
 }
 
 impl Serialize for RunObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let record = |record| RecordObject { record, rover: self.rover };
+        let record = |record| RecordObject { record, scenario: self.scenario };
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
+        let over = RoverOnSlope::of(self.scenario).over(self.run);
+        let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
+        FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
+        map.serialize_entry("flags_raised", &Table::of(&RAISED, &over))?;
         map.serialize_entry("final", &record(self.run.last()))?;
         let records: Vec<RecordObject<'_>> = self.run.records.iter().map(record).collect();
         map.serialize_entry("samples", &records)?;
@@ -144,14 +175,16 @@ impl Serialize for RunObject<'_> {
 
 struct RecordObject<'a> {
     record: &'a Record,
-    rover: &'a Rover,
+    scenario: &'a Scenario,
 }
 
 impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
-        let wheels = self.record.wheels.iter().zip(self.rover.mounts());
+        let findings = RoverOnSlope::of(self.scenario).at(self.record);
+        FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
+        let wheels = self.record.wheels.iter().zip(self.scenario.rover.mounts());
         let wheels: Vec<_> =
             wheels.map(|(wheel, mount)| WheelObject { name: &mount.name, wheel }).collect();
         map.serialize_entry("wheels", &wheels)?;

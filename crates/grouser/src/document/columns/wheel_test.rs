@@ -1,6 +1,7 @@
 //! Settings of a test stand, and what a wheel does there.
 
 use super::super::table::Table;
+use super::flags::{self, FLAGS};
 use super::wheel::{ENTRY_ANGLE, WHEEL};
 use super::{
     Column, DRAWBAR_PULL, LOAD, OK, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STATUS, TORQUE,
@@ -21,11 +22,19 @@ const SETTING: [Column<WheelTestRow>; 4] = [
     }),
 ];
 
+/// The columns that tell rows apart.
+pub const SETTINGS: [&str; 3] = [LOAD.name, SLIP_ANGLE.name, SLIP_RATIO.name];
+
+/// Why a row is an extrapolation.
+pub(super) const VALIDITY: [Column<WheelTestRow>; 1] =
+    [flags::flags(|it| flags::names(&it.findings))];
+
 /// The rows of a wheel test. Results are missing where `status` is not `ok`.
 #[must_use]
 pub fn table(rows: &[WheelTestRow]) -> Table {
     let settled: Vec<Option<&Settled>> = rows.iter().map(|row| row.result.as_ref().ok()).collect();
-    Table::of(&SETTING, rows).and(&WHEEL, &settled)
+    let all: Vec<Option<&WheelTestRow>> = rows.iter().map(Some).collect();
+    Table::of(&SETTING, rows).and(&WHEEL, &settled).and(&VALIDITY, &all)
 }
 
 /// The columns of that table for reading.
@@ -41,6 +50,7 @@ pub fn brief() -> Vec<String> {
         TORQUE.name,
         ENTRY_ANGLE.name,
         STATUS,
+        FLAGS,
     ]
     .map(String::from)
     .into()

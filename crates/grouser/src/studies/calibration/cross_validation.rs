@@ -1,11 +1,20 @@
-//! Cross-validation: the errors of a fit at slip angles that it has not seen, each left out in turn.
+//! Cross-validation: the errors of a fit at slip angles that it has not seen, each left out in turn, and
+//! how often bands of its posterior hold what was measured there.
 
 use std::ops::ControlFlow;
 
+use grouser_io::statistics::quantile;
+
+use super::diagnostics::Samples;
+use super::solution::DISCARDED;
 use super::wheel_test::{Setup, WheelTestExperiment};
-use super::{Calibration, CalibrationError, Fit, FitSettings, ParameterSpace};
+use super::{
+    Advanced, Calibration, CalibrationError, Experiment as _, Fit, FitSettings, ParameterSpace,
+    SamplerSettings, handed_on,
+};
 use crate::contact::{SettleError, Settled};
-use crate::studies::measurement::WheelTests;
+use crate::studies::ensemble::outputs;
+use crate::studies::measurement::{PerQuantity, Quantity, WheelTests};
 
 /// A fit without the cells of one slip angle, and its predictions of them.
 #[derive(Clone, Debug)]
@@ -16,6 +25,77 @@ pub struct LeftOut {
     pub fit: Fit,
     /// The trials left out, by their places, each predicted at its own load and motion.
     pub predictions: Vec<(usize, Result<Settled, SettleError>)>,
+    /// The bands of the cells left out; none without sampling.
+    pub bands: Vec<LeftOutBand>,
+}
+
+/// The predicted band of one quantity in a cell that was left out, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeftOutBand {
+    /// The cell, by its place.
+    pub cell: usize,
+    /// The quantity.
+    pub quantity: Quantity,
+    /// Its mean over the trials.
+    pub measured: f64,
+    /// The values that 2.5, 25, 75 and 97.5 % of the samples lie below.
+    pub quantiles: [f64; 4],
+}
+
+/// Shares of the samples below the ends of the bands [-].
+const SHARES: [f64; 4] = [0.025, 0.25, 0.75, 0.975];
+
+/// Samples that make a band.
+const BAND_SAMPLES: usize = 400;
+
+/// How well bands hold what was measured, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coverage {
+    /// Share of the cells within their 50 % bands [-].
+    pub share_within_50: f64,
+    /// Share of the cells within their 95 % bands [-].
+    pub share_within_95: f64,
+    /// Mean interval score of the 95 % bands, in the unit of the quantity: smaller is better.
+    pub interval_score: f64,
+    /// Number of cells.
+    pub cells: usize,
+}
+
+impl Coverage {
+    /// The coverage of some bands, if there are any.
+    #[must_use]
+    pub fn of(bands: &[LeftOutBand]) -> Option<Self> {
+        let count = bands.len() as f64;
+        let share = |holds: &dyn Fn(&LeftOutBand) -> bool| {
+            bands.iter().filter(|band| holds(band)).count() as f64 / count
+        };
+        let within = |band: &LeftOutBand, low: usize, high: usize| {
+            (band.quantiles[low]..=band.quantiles[high]).contains(&band.measured)
+        };
+        (!bands.is_empty()).then(|| Self {
+            share_within_50: share(&|band| within(band, 1, 2)),
+            share_within_95: share(&|band| within(band, 0, 3)),
+            interval_score: bands.iter().map(LeftOutBand::interval_score).sum::<f64>() / count,
+            cells: bands.len(),
+        })
+    }
+}
+
+impl LeftOutBand {
+    /// Interval score of the 95 % band:
+    ///
+    /// ```text
+    /// S = (u − l) + (2/α) max(l − y, 0) + (2/α) max(y − u, 0)      α = 0.05
+    /// ```
+    ///
+    /// Source: Gneiting and Raftery (2007), Eq. 43.
+    #[must_use]
+    pub fn interval_score(&self) -> f64 {
+        const ALPHA: f64 = 0.05;
+        let [low, _, _, high] = self.quantiles;
+        let outside = (low - self.measured).max(0.0) + (self.measured - high).max(0.0);
+        high - low + 2.0 / ALPHA * outside
+    }
 }
 
 /// Slip angles of a test series, in the order of its cells.
@@ -39,7 +119,8 @@ pub fn without(tests: &WheelTests, slip_angle: f64) -> WheelTests {
 
 /// Fits without each slip angle in turn.
 ///
-/// * `observer`: called whenever a search of a fit has ended; it can stop the work
+/// * `sampler`: of the posterior without the angle, for the bands; without it there are none
+/// * `observer`: called whenever a search of a fit or a block of a posterior has ended; it can stop the work
 ///
 /// # Errors
 /// As [`Calibration::new`] and [`Calibration::fit`], of the first fit that fails.
@@ -48,8 +129,10 @@ pub fn leave_one_angle_out(
     setup: Setup,
     space: &ParameterSpace,
     settings: &FitSettings,
+    sampler: Option<&SamplerSettings>,
     observer: &(dyn Fn() -> ControlFlow<()> + Sync),
 ) -> Result<Vec<LeftOut>, CalibrationError> {
+    let all = WheelTestExperiment::new(tests, setup)?;
     let one_angle = |slip_angle: f64| {
         let experiment = WheelTestExperiment::new(&without(tests, slip_angle), setup)?;
         let fit = Calibration::new(&experiment, space.clone())?.fit(settings, observer)?;
@@ -61,7 +144,54 @@ pub fn leave_one_angle_out(
             (trial, settled)
         };
         let predictions = cells.flat_map(|cell| &cell.trials).map(predict).collect();
-        Ok(LeftOut { slip_angle, fit, predictions })
+        let is_left_out = |cell: usize| tests.cells[cell].slip_angle == slip_angle;
+        let bands = match sampler {
+            Some(sampler) => {
+                let experiment = experiment.with_scatter_about(&fit.values)?;
+                bands(&experiment, space, &fit, sampler, (&all, &is_left_out), observer)?
+            }
+            None => Vec::new(),
+        };
+        Ok(LeftOut { slip_angle, fit, predictions, bands })
     };
     slip_angles(tests).into_iter().map(one_angle).collect()
+}
+
+/// The bands of cells that an experiment has not seen.
+///
+/// * `fit`: near which its posterior is sampled
+/// * `unseen`: all cells, and which of them are asked for
+fn bands(
+    experiment: &WheelTestExperiment,
+    space: &ParameterSpace,
+    fit: &Fit,
+    sampler: &SamplerSettings,
+    (all, is_asked_for): (&WheelTestExperiment, &dyn Fn(usize) -> bool),
+    observer: &dyn Fn() -> ControlFlow<()>,
+) -> Result<Vec<LeftOutBand>, CalibrationError> {
+    let calibration = Calibration::new(experiment, space.clone())?;
+    let mut state = calibration.start_posterior(fit, sampler);
+    if calibration.advance(&mut state, sampler, &mut |_| observer())? == Advanced::Stopped {
+        return Err(CalibrationError::Interrupted);
+    }
+    let samples = Samples::of(&calibration, &state, DISCARDED);
+    let rows = samples.thinned(BAND_SAMPLES);
+    let wrong = handed_on::discrepancies(&calibration, experiment, &rows, sampler.seed);
+    let soils = handed_on::soils(experiment, &rows, &wrong);
+    let observed = all.sources().iter().zip(all.observations());
+    let asked: Vec<_> = observed.filter(|((_, cell), _)| is_asked_for(*cell)).collect();
+    let mut cells: Vec<usize> = asked.iter().map(|((_, cell), _)| *cell).collect();
+    cells.sort_unstable();
+    cells.dedup();
+    let predicted: Vec<Vec<PerQuantity<f64>>> =
+        outputs(&soils, |soil| cells.iter().map(|&cell| all.cell_readings(soil, cell)).collect());
+    let band = |(&(quantity, cell), observation): (&(Quantity, usize), &super::Observation)| {
+        let place = cells.binary_search(&cell).ok()?;
+        let mut values: Vec<f64> = predicted.iter().map(|one| one[place][quantity]).collect();
+        values.sort_by(f64::total_cmp);
+        let at = |share| quantile(&values, share).unwrap_or(f64::NAN);
+        let (measured, quantiles) = (observation.value, SHARES.map(at));
+        Some(LeftOutBand { cell, quantity, measured, quantiles })
+    };
+    Ok(asked.into_iter().filter_map(band).collect())
 }

@@ -42,6 +42,27 @@ pub struct Observation {
     pub channel: usize,
 }
 
+/// A place among slips and slip angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Slip by the total speed, *S* [-].
+    pub slip: f64,
+    /// Size of the slip angle, |*β*| [rad].
+    pub slip_angle: f64,
+}
+
+/// Where an observation lies among those whose model discrepancies are correlated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The observations that are correlated with each other, by number: one for each quantity.
+    pub family: usize,
+    /// Its motion.
+    pub site: Site,
+    /// What its discrepancy is proportional to, in the channel's unit, not 0: the load of a wheel for
+    /// its forces. It has a sign where the quantity changes it in a mirror.
+    pub weight: f64,
+}
+
 /// Measurements, and the model that predicts them.
 pub trait Experiment: Sync {
     /// The kinds of observations.
@@ -49,6 +70,11 @@ pub trait Experiment: Sync {
 
     /// The observations.
     fn observations(&self) -> &[Observation];
+
+    /// Where each observation lies; empty where their discrepancies are independent.
+    fn places(&self) -> &[Place] {
+        &[]
+    }
 
     /// Predicts each observation from parameters: finite for all values within the bounds.
     ///
@@ -67,7 +93,7 @@ const LEAST_OF_SCATTER: f64 = 0.1;
 /// scatter is known.
 const LEAST_OF_SPREAD: f64 = 1e-4;
 
-/// The model discrepancy of each channel, δ, as a parameter.
+/// The model discrepancy of each channel, δ, as a parameter: its standard deviation.
 ///
 /// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it
 /// is not distinguishable from zero) to the spread of the measured values (above which the model predicts

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::errors::{Whitener, residuals};
 use super::least_squares::{Minimum, Residuals, minimise};
 use super::parameter::{ParameterSpace, coordinate_of};
 use super::{Calibration, CalibrationError};
@@ -39,14 +40,15 @@ pub struct Fit {
     pub values: Vec<f64>,
     /// Their coordinates.
     pub coordinates: Vec<f64>,
-    /// Model discrepancy of each channel, δ, in the channel's unit.
+    /// Standard deviation of each channel's model discrepancy, δ, in the channel's unit; then the
+    /// correlation lengths, where there are any.
     pub discrepancies: Vec<f64>,
     /// Predictions of the observations.
     pub predictions: Vec<f64>,
     /// Half the weighted sum of squares, ½ Σ (y − f)²/(s² + δ²).
     pub cost: f64,
-    /// Covariance of the coordinates: inverse of JᵀJ, the prior's own information included, so that
-    /// it exists where the data determine nothing.
+    /// Covariance of the coordinates: inverse of JᵀJ with correlated errors, the prior's own
+    /// information included, so that it exists where the data determine nothing.
     pub covariance: DMatrix<f64>,
     /// The result of each search, the given start's first.
     pub searches: Vec<Search>,
@@ -94,7 +96,8 @@ impl Calibration<'_> {
     /// Weights and parameters depend on each other. The searches from all starts share weights
     /// with a tenth of the measurements' spread as discrepancy; from the best of them on, the
     /// discrepancies are found anew after each search (Paule and Mandel's equation,
-    /// Σ r²/(s² + δ²) = n less the channel's share of the parameters).
+    /// Σ r²/(s² + δ²) = n less the channel's share of the parameters). Correlated errors do not shift
+    /// the weights: the fit is the point of least squares, and they tell how well it is known.
     ///
     /// * `observer`: gets each search that has ended, in any order; it can stop the fit
     ///
@@ -184,8 +187,9 @@ impl Calibration<'_> {
         let Minimum { coordinates, cost, converged } = minimum;
         let values = self.space.values(&coordinates);
         let predictions = self.predictions(&values).ok_or_else(|| self.no_start(&[]))?;
-        let covariance =
-            Weighted::new(self, &discrepancies, Prior::Included).covariance(&coordinates);
+        let residuals = residuals(self.experiment.observations(), &predictions);
+        discrepancies.extend(self.errors.likely_lengths(&residuals, &discrepancies));
+        let covariance = Weighted::correlated(self, &discrepancies).covariance(&coordinates);
         Ok(Fit {
             values,
             coordinates,
@@ -201,7 +205,7 @@ impl Calibration<'_> {
     /// The most likely point with the prior counted, near a fit, and the covariance around it:
     /// where walkers start.
     pub(super) fn mode_near(&self, fit: &Fit) -> (Vec<f64>, DMatrix<f64>) {
-        let weighted = Weighted::new(self, &fit.discrepancies, Prior::Included);
+        let weighted = Weighted::correlated(self, &fit.discrepancies);
         let mode = minimise(&weighted, &fit.coordinates, POLISHING_PATIENCE).coordinates;
         let covariance = weighted.covariance(&mode);
         (mode, covariance)
@@ -235,7 +239,9 @@ impl Calibration<'_> {
                 exp(root::between(excess, low, high, 1e-9))
             }
         };
-        self.discrepancies.parameters().iter().enumerate().map(one_channel).collect()
+        let channels = self.experiment.channels().len();
+        let bounds = self.discrepancies.parameters()[..channels].iter();
+        bounds.enumerate().map(one_channel).collect()
     }
 }
 
@@ -264,10 +270,10 @@ enum Prior {
     Ignored,
 }
 
-/// The residuals under given discrepancies, each over its standard deviation.
+/// The residuals under given discrepancies, independent and of deviation 1.
 struct Weighted<'a> {
     calibration: &'a Calibration<'a>,
-    deviations: Vec<f64>,
+    whitener: Whitener,
     prior: Prior,
 }
 
@@ -278,9 +284,15 @@ const STEP: f64 = 1e-5;
 
 impl<'a> Weighted<'a> {
     fn new(calibration: &'a Calibration<'a>, discrepancies: &[f64], prior: Prior) -> Self {
-        let variances = calibration.variances(discrepancies);
+        let variances = calibration.errors.variances(discrepancies);
         let deviations = variances.into_iter().map(f64::sqrt).collect();
-        Self { calibration, deviations, prior }
+        Self { calibration, whitener: Whitener::independent(deviations), prior }
+    }
+
+    /// With correlated errors, and the prior.
+    fn correlated(calibration: &'a Calibration<'a>, discrepancies: &[f64]) -> Self {
+        let whitener = calibration.errors.whitener(discrepancies);
+        Self { calibration, whitener, prior: Prior::Included }
     }
 
     /// Half the sum of squares; infinite where there are no predictions.
@@ -306,14 +318,11 @@ impl Residuals for Weighted<'_> {
     fn at(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
         let calibration = self.calibration;
         let predictions = calibration.predictions(&calibration.space.values(coordinates))?;
-        let observations = calibration.experiment.observations().iter();
-        let mut residuals: Vec<f64> = observations
-            .zip(predictions)
-            .zip(&self.deviations)
-            .map(|((observation, prediction), deviation)| {
-                (prediction - observation.value) / deviation
-            })
-            .collect();
+        let observations = calibration.experiment.observations();
+        let pairs = observations.iter().zip(predictions);
+        let beyond: Vec<f64> =
+            pairs.map(|(observation, prediction)| prediction - observation.value).collect();
+        let mut residuals = self.whitener.whitened(&beyond);
         if self.prior == Prior::Included {
             residuals.extend(coordinates.iter().map(|&coordinate| prior_residual(coordinate)));
         }

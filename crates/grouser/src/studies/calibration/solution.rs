@@ -7,9 +7,10 @@ use super::diagnostics::{Samples, Summary};
 use super::identifiability::Identifiability;
 use super::{Advanced, Calibration, CalibrationError, Channel, Fit};
 use super::{FitSettings, PosteriorState, SamplerSettings};
+use crate::soil::Discrepancy;
 
 /// Share of the steps discarded as burn-in [-].
-const DISCARDED: f64 = 0.5;
+pub(super) const DISCARDED: f64 = 0.5;
 
 /// Chains agree well enough below this R-hat [-]. Source: Gelman and others, Bayesian Data
 /// Analysis, 3rd ed., section 11.5, ask for 1.1; Vehtari and others (2021) for 1.01.
@@ -90,9 +91,21 @@ pub struct Posterior {
     pub walkers: usize,
     /// Share of the proposed moves that were made [-].
     pub acceptance: f64,
+    /// What the model gets wrong, for each row that is [`kept`](Self::kept); none where the
+    /// experiment has no wheel.
+    pub discrepancies: Vec<Discrepancy>,
 }
 
+/// Samples that are handed on to predictions.
+const KEPT: usize = 1000;
+
 impl Posterior {
+    /// The rows that are handed on to predictions.
+    #[must_use]
+    pub fn kept(&self) -> Vec<&[f64]> {
+        self.samples.thinned(KEPT)
+    }
+
     /// The largest R-hat of all values [-].
     #[must_use]
     pub fn worst_r_hat(&self) -> f64 {
@@ -165,6 +178,7 @@ impl Calibration<'_> {
             walkers: settings.walkers_for(self.dimension()),
             settings,
             acceptance: state.acceptance(),
+            discrepancies: Vec::new(),
         })
     }
 }

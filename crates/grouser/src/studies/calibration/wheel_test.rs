@@ -1,7 +1,8 @@
 //! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test series.
 
-use super::experiment::{Channel, Experiment, Observation, Regime};
+use super::experiment::{Channel, Experiment, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
+use crate::contact::discrepancy::sense_of_rolling;
 use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
 use crate::elementary::wide::ln;
 use crate::error::{ParameterError, finite, not_negative};
@@ -43,6 +44,7 @@ pub struct WheelTestExperiment<'a> {
     observations: Vec<Observation>,
     /// The quantity and the cell of each observation.
     sources: Vec<(Quantity, usize)>,
+    places: Vec<Place>,
     /// The runs to predict, cell by cell.
     runs: Vec<Vec<Run>>,
 }
@@ -90,6 +92,7 @@ impl<'a> WheelTestExperiment<'a> {
             channels: Vec::new(),
             observations: Vec::new(),
             sources: Vec::new(),
+            places: Vec::new(),
             runs: tests.cells.iter().map(runs).collect(),
         };
         experiment.observe_all(None);
@@ -154,6 +157,18 @@ impl<'a> WheelTestExperiment<'a> {
         }
     }
 
+    /// What the stand would read in a cell, the mean over its runs.
+    #[must_use]
+    pub fn cell_readings(&self, soil: &Soil, cell: usize) -> PerQuantity<f64> {
+        let runs = self.runs[cell].iter();
+        let readings: Vec<PerQuantity<f64>> =
+            runs.map(|run| self.readings(soil, run.slip, run.load)).collect();
+        let count = (readings.len() as f64).max(1.0);
+        PerQuantity::from_fn(|quantity| {
+            readings.iter().map(|reading| reading[quantity]).sum::<f64>() / count
+        })
+    }
+
     /// Makes all observations anew.
     ///
     /// * `reference`: predicts the differences between trials that are no scatter
@@ -171,6 +186,43 @@ impl<'a> WheelTestExperiment<'a> {
                 self.observe(quantity, regime, &expected);
             }
         }
+        self.places = self.places_of_observations();
+    }
+
+    /// Where each observation lies, and what its discrepancy is proportional to.
+    fn places_of_observations(&self) -> Vec<Place> {
+        let mut families: Vec<Quantity> = Vec::new();
+        let place = |(&(quantity, cell), observation): (&(Quantity, usize), &Observation)| {
+            let family = families.iter().position(|one| *one == quantity).unwrap_or_else(|| {
+                families.push(quantity);
+                families.len() - 1
+            });
+            let run = mean_run(&self.runs[cell]);
+            let site = Site {
+                slip: run.slip.total(),
+                slip_angle: self.tests.cells[cell].slip_angle.abs(),
+            };
+            Place { family, site, weight: self.weight(quantity, &run, observation.value) }
+        };
+        self.sources.iter().zip(&self.observations).map(place).collect()
+    }
+
+    /// What a discrepancy of a quantity is proportional to, as [`crate::contact::discrepancy`] adds
+    /// it: in the quantity's SI unit.
+    ///
+    /// * `read`: the observation's value
+    fn weight(&self, quantity: Quantity, run: &Run, read: f64) -> f64 {
+        let sense = sense_of_rolling(&run.slip);
+        let rolling = sense.abs().max(LEAST_SENSE).copysign(sense);
+        let radius = self.setup.wheel.shearing_radius();
+        let weight = match quantity {
+            Quantity::DrawbarPull => run.load * rolling,
+            Quantity::SideForce => run.load.copysign(run.slip.angle),
+            Quantity::Torque => run.load * radius * rolling,
+            Quantity::Sinkage => read.max(LEAST_SINKAGE * radius),
+        };
+        // An unloaded wheel has no discrepancy: nearly none, so that it can be divided by.
+        weight.abs().max(f64::MIN_POSITIVE).copysign(weight)
     }
 
     /// Adds the observations of a quantity, if there are any.
@@ -229,12 +281,24 @@ fn repeats_of(
     }
 }
 
+/// A locked wheel that is dragged sideways rolls this much at least, for the weight of its
+/// discrepancy [-]: what a stand reads there is no symmetry of the soil's.
+const LEAST_SENSE: f64 = 0.3;
+
+/// A sinkage counts as this share of the radius at least, for the weight of its discrepancy [-].
+const LEAST_SINKAGE: f64 = 0.02;
+
 fn runs_of(tests: &WheelTests, cell: &Cell, resolution: Resolution) -> Vec<Run> {
     let trials = cell.trials.iter().map(|&trial| &tests.trials[trial]);
     let runs: Vec<Run> = trials.map(|trial| Run { slip: trial.slip, load: trial.load }).collect();
     if resolution == Resolution::Trials || runs.len() < 2 {
         return runs;
     }
+    vec![mean_run(&runs)]
+}
+
+/// The mean load and motion of some runs.
+fn mean_run(runs: &[Run]) -> Run {
     let mean = |of: &dyn Fn(&Run) -> f64| runs.iter().map(of).sum::<f64>() / runs.len() as f64;
     let slip = Slip {
         ratio: mean(&|run| run.slip.ratio),
@@ -245,7 +309,7 @@ fn runs_of(tests: &WheelTests, cell: &Cell, resolution: Resolution) -> Vec<Run> 
         sideways: mean(&|run| run.slip.sideways),
         entering_side: mean(&|run| run.slip.entering_side),
     };
-    vec![Run { slip, load: mean(&|run| run.load) }]
+    Run { slip, load: mean(&|run| run.load) }
 }
 
 impl Experiment for WheelTestExperiment<'_> {
@@ -257,18 +321,15 @@ impl Experiment for WheelTestExperiment<'_> {
         &self.observations
     }
 
+    fn places(&self) -> &[Place] {
+        &self.places
+    }
+
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
         let soil = self.soil(values)?;
         soil.check()?;
-        let of_cell = |runs: &Vec<Run>| {
-            let readings: Vec<PerQuantity<f64>> =
-                runs.iter().map(|run| self.readings(&soil, run.slip, run.load)).collect();
-            let count = (readings.len() as f64).max(1.0);
-            PerQuantity::from_fn(|quantity| {
-                readings.iter().map(|reading| reading[quantity]).sum::<f64>() / count
-            })
-        };
-        let cells: Vec<PerQuantity<f64>> = self.runs.iter().map(of_cell).collect();
+        let cells: Vec<PerQuantity<f64>> =
+            (0..self.runs.len()).map(|cell| self.cell_readings(&soil, cell)).collect();
         for (prediction, &(quantity, cell)) in predictions.iter_mut().zip(&self.sources) {
             *prediction = cells[cell][quantity];
         }

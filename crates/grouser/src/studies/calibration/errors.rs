@@ -1,0 +1,398 @@
+//! The errors of observations about a model: the scatter of their trials, and a discrepancy of the
+//! model that is alike at motions that are alike.
+//!
+//! The discrepancies of a channel have a standard deviation δ. Two of them in one family, at slips S
+//! and S' and slip angles β and β', are correlated by
+//!
+//! ```text
+//! ρ = κ(|S − S'|/ℓ_S) κ(||β| − |β'||/ℓ_β)      κ(x) = (1 + √3 x) e^(−√3 x)
+//! Cov(y_i, y_j) = s_i² [i = j] + δ_i f_i δ_j f_j ρ_ij
+//! ```
+//!
+//! with one correlation length ℓ_S in slip and one ℓ_β in slip angle for all families: a Gaussian
+//! process with a Matérn kernel (Rasmussen and Williams 2006, Eq. 4.17), as Kennedy and O'Hagan
+//! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a wheel under twice the load is mistaken
+//! about twice the force. With both lengths near zero the discrepancies are independent, as they are
+//! where observations have no place.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::experiment::{Experiment, Observation, Place, Site};
+use super::parameter::{Parameter, Scale};
+use crate::elementary::exp;
+use crate::elementary::wide::{ln, powi};
+use crate::units::deg;
+
+/// Correlation lengths in slip [-]: from less than any two settings differ, to the whole range.
+const SLIP_LENGTHS: [f64; 2] = [0.05, 2.0];
+
+/// Where the search for that length starts [-].
+const START_SLIP_LENGTH: f64 = 0.5;
+
+/// Correlation lengths in slip angle [°], likewise.
+const ANGLE_LENGTHS: [f64; 2] = [3.0, 90.0];
+
+/// Where the search for that length starts [°].
+const START_ANGLE_LENGTH: f64 = 20.0;
+
+/// Observations at one place differ by this share of the discrepancy's variance at least [-], so that
+/// their covariance can be inverted.
+const JITTER: f64 = 1e-8;
+
+/// Lengths tried for a fit, each over its range.
+const LENGTHS_TRIED: i32 = 10;
+
+/// The errors of an experiment's observations.
+#[derive(Clone, Debug, Default)]
+pub struct Errors {
+    scatters: Vec<f64>,
+    channels: Vec<usize>,
+    /// Each observation's discrepancy, in units of its channel's δ.
+    weights: Vec<f64>,
+    /// Of each channel, the weight at which a discrepancy is δ.
+    usual_weights: Vec<f64>,
+    /// Observations whose discrepancies are correlated; none if all are independent.
+    families: Vec<Vec<usize>>,
+    /// Where the observations are, each place once.
+    sites: Vec<Site>,
+    /// The site of each observation.
+    site_of: Vec<usize>,
+    /// Number of channels: the lengths stand after their deviations.
+    channel_count: usize,
+    lengths: Vec<Parameter>,
+}
+
+/// The distances over which discrepancies stay alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lengths {
+    /// In slip [-].
+    pub slip: f64,
+    /// In slip angle [rad]; infinite where all observations have the same.
+    pub slip_angle: f64,
+}
+
+impl Lengths {
+    /// Correlation of the discrepancies at two sites [-].
+    #[must_use]
+    pub fn correlation(&self, one: &Site, other: &Site) -> f64 {
+        matern((one.slip - other.slip).abs() / self.slip)
+            * matern((one.slip_angle - other.slip_angle).abs() / self.slip_angle)
+    }
+}
+
+/// Matérn's correlation of order 3/2 at a distance in units of its length [-].
+fn matern(distance: f64) -> f64 {
+    let x = 3.0_f64.sqrt() * distance;
+    (1.0 + x) * exp(-x)
+}
+
+/// The inverse of a family's covariance, as its factor.
+struct Family<'a> {
+    members: &'a [usize],
+    factor: Cholesky<f64, Dyn>,
+}
+
+impl Errors {
+    /// The errors of an experiment.
+    #[must_use]
+    pub fn of(experiment: &dyn Experiment) -> Self {
+        let observations = experiment.observations();
+        let channels: Vec<usize> = observations.iter().map(|one| one.channel).collect();
+        let channel_count = experiment.channels().len();
+        let scatters = observations.iter().map(|one| one.scatter).collect();
+        let places = experiment.places();
+        let mut errors = Self { scatters, channels, channel_count, ..Self::default() };
+        errors.weights = vec![1.0; observations.len()];
+        if places.is_empty() {
+            return errors;
+        }
+        errors.weigh(places);
+        for (number, place) in places.iter().enumerate() {
+            if place.family >= errors.families.len() {
+                errors.families.resize(place.family + 1, Vec::new());
+            }
+            errors.families[place.family].push(number);
+            let site = place.site;
+            let known = errors.sites.iter().position(|one| *one == site);
+            errors.site_of.push(known.unwrap_or_else(|| {
+                errors.sites.push(site);
+                errors.sites.len() - 1
+            }));
+        }
+        errors.lengths = lengths_to_find(&errors.sites);
+        errors
+    }
+
+    /// Weights relative to the root mean square of their channel.
+    fn weigh(&mut self, places: &[Place]) {
+        for channel in 0..self.channel_count {
+            let usual = root_mean_square(places, &self.channels, channel);
+            self.usual_weights.push(usual);
+            for (number, place) in places.iter().enumerate() {
+                if self.channels[number] == channel {
+                    self.weights[number] = place.weight / usual;
+                }
+            }
+        }
+    }
+
+    /// The weight at which a discrepancy is δ, in the channel's unit; 1 where observations have no
+    /// place.
+    #[must_use]
+    pub fn usual_weight(&self, channel: usize) -> f64 {
+        self.usual_weights.get(channel).copied().unwrap_or(1.0)
+    }
+
+    /// The correlation lengths, as parameters with priors uniform by the logarithm.
+    #[must_use]
+    pub fn lengths(&self) -> &[Parameter] {
+        &self.lengths
+    }
+
+    /// * `found`: the channels' deviations, then the correlation lengths
+    #[must_use]
+    pub fn lengths_in(&self, found: &[f64]) -> Lengths {
+        let mut lengths = found[self.channel_count..].iter().copied();
+        Lengths {
+            slip: lengths.next().unwrap_or(f64::INFINITY),
+            slip_angle: lengths.next().unwrap_or(f64::INFINITY),
+        }
+    }
+
+    /// Standard deviation of each observation's discrepancy, δ f.
+    fn deviations(&self, found: &[f64]) -> Vec<f64> {
+        let each = self.channels.iter().zip(&self.weights);
+        each.map(|(&channel, weight)| found[channel] * weight).collect()
+    }
+
+    /// Variances of all observations about the model, s² + δ² f².
+    #[must_use]
+    pub fn variances(&self, found: &[f64]) -> Vec<f64> {
+        let each = self.scatters.iter().zip(self.deviations(found));
+        each.map(|(scatter, deviation)| scatter.powi(2) + deviation.powi(2)).collect()
+    }
+
+    /// Logarithm of the density of residuals, up to a constant.
+    #[must_use]
+    pub fn log_density(&self, residuals: &[f64], found: &[f64]) -> f64 {
+        if self.families.is_empty() {
+            let each = residuals.iter().zip(self.variances(found));
+            return each.map(|(r, variance)| -0.5 * (r * r / variance + ln(variance))).sum();
+        }
+        let Some(families) = self.factored(found) else { return f64::NEG_INFINITY };
+        families.iter().map(|family| family.log_density(residuals)).sum()
+    }
+
+    /// Independent residuals of deviation 1 that say the same as correlated ones.
+    #[must_use]
+    pub(super) fn whitener(&self, found: &[f64]) -> Whitener {
+        let deviations = self.variances(found).into_iter().map(f64::sqrt).collect();
+        let factors = self.factored(found).unwrap_or_default();
+        let factors = factors.into_iter().map(|one| (one.members.to_vec(), one.factor.unpack()));
+        Whitener { deviations, factors: factors.collect() }
+    }
+
+    /// The covariance of each family, factored; `None` where that cannot be.
+    fn factored(&self, found: &[f64]) -> Option<Vec<Family<'_>>> {
+        let lengths = self.lengths_in(found);
+        let deviations = self.deviations(found);
+        let correlations = self.correlations(&lengths);
+        let family = |members: &'_ Vec<usize>| {
+            let mut covariance = DMatrix::zeros(members.len(), members.len());
+            for (j, &other) in members.iter().enumerate() {
+                for (i, &one) in members.iter().enumerate().skip(j) {
+                    covariance[(i, j)] = deviations[one]
+                        * deviations[other]
+                        * correlations[(self.site_of[one], self.site_of[other])];
+                }
+                covariance[(j, j)] +=
+                    self.scatters[other].powi(2) + JITTER * deviations[other].powi(2);
+            }
+            covariance.cholesky()
+        };
+        self.families
+            .iter()
+            .map(|members| Some(Family { members, factor: family(members)? }))
+            .collect()
+    }
+
+    fn correlations(&self, lengths: &Lengths) -> DMatrix<f64> {
+        let mut correlations = DMatrix::identity(self.sites.len(), self.sites.len());
+        for (j, other) in self.sites.iter().enumerate() {
+            for (i, one) in self.sites.iter().enumerate().skip(j + 1) {
+                let correlation = lengths.correlation(one, other);
+                correlations[(i, j)] = correlation;
+                correlations[(j, i)] = correlation;
+            }
+        }
+        correlations
+    }
+
+    /// The most likely correlation lengths of residuals, for given deviations: the best of a grid.
+    ///
+    /// * `found`: the channels' deviations
+    #[must_use]
+    pub(super) fn likely_lengths(&self, residuals: &[f64], found: &[f64]) -> Vec<f64> {
+        let tried = |parameter: &Parameter| -> Vec<f64> {
+            let at = |step: i32| f64::from(step) / f64::from(LENGTHS_TRIED);
+            (0..=LENGTHS_TRIED).map(|step| parameter.value_at(at(step))).collect()
+        };
+        let mut grid: Vec<Vec<f64>> = vec![Vec::new()];
+        for length in &self.lengths {
+            let longer = |shorter: &Vec<f64>| {
+                let add = |value: f64| [shorter.as_slice(), &[value]].concat();
+                tried(length).into_iter().map(add).collect::<Vec<_>>()
+            };
+            grid = grid.iter().flat_map(longer).collect();
+        }
+        let density = |lengths: &Vec<f64>| {
+            self.log_density(residuals, &[&found[..self.channel_count], lengths].concat())
+        };
+        let densities: Vec<f64> = grid.iter().map(density).collect();
+        let best = (0..grid.len()).max_by(|&i, &j| densities[i].total_cmp(&densities[j]));
+        best.map(|best| grid[best].clone()).unwrap_or_default()
+    }
+
+    /// Discrepancies at sites, in units of their deviations: drawn given the residuals of some
+    /// members of a family.
+    ///
+    /// * `counts`: whether an observation tells of these sites
+    /// * `numbers`: normal ones, one for each site
+    #[must_use]
+    pub(super) fn drawn(
+        &self,
+        family: usize,
+        sites: &[Site],
+        residuals: &[f64],
+        found: &[f64],
+        counts: &dyn Fn(&Site) -> bool,
+        numbers: &[f64],
+    ) -> Drawn {
+        let lengths = self.lengths_in(found);
+        let deviations = self.deviations(found);
+        let members: Vec<usize> = self.families[family]
+            .iter()
+            .copied()
+            .filter(|&one| counts(&self.sites[self.site_of[one]]))
+            .collect();
+        let site = |one: usize| &self.sites[self.site_of[one]];
+        let covariance = DMatrix::from_fn(members.len(), members.len(), |i, j| {
+            let (one, other) = (members[i], members[j]);
+            let scatter = self.scatters[one].powi(2) + JITTER * deviations[one].powi(2);
+            let both = deviations[one] * deviations[other];
+            both * lengths.correlation(site(one), site(other)) + if i == j { scatter } else { 0.0 }
+        });
+        let prior = DMatrix::from_fn(sites.len(), sites.len(), |i, j| {
+            lengths.correlation(&sites[i], &sites[j]) + if i == j { JITTER } else { 0.0 }
+        });
+        let across = DMatrix::from_fn(sites.len(), members.len(), |i, j| {
+            deviations[members[j]] * lengths.correlation(&sites[i], site(members[j]))
+        });
+        let (mean, spread) = match covariance.cholesky() {
+            Some(factor) if !members.is_empty() => {
+                let read = DVector::from_iterator(
+                    members.len(),
+                    members.iter().map(|&one| residuals[one]),
+                );
+                let left = &prior - &across * factor.solve(&across.transpose());
+                (&across * factor.solve(&read), left)
+            }
+            _ => (DVector::zeros(sites.len()), prior),
+        };
+        Drawn { mean: mean.iter().copied().collect(), deviation: deviation_of(spread, numbers) }
+    }
+}
+
+/// A draw: what is expected, and the random part.
+pub(super) struct Drawn {
+    pub(super) mean: Vec<f64>,
+    pub(super) deviation: Vec<f64>,
+}
+
+/// Numbers of a covariance from independent ones.
+fn deviation_of(covariance: DMatrix<f64>, numbers: &[f64]) -> Vec<f64> {
+    let size = covariance.nrows();
+    let mut jitter = JITTER;
+    // Rounding may leave a covariance that is not quite positive.
+    let factor = loop {
+        let raised = &covariance + DMatrix::identity(size, size) * jitter;
+        if let Some(factor) = raised.cholesky() {
+            break factor;
+        }
+        jitter *= 10.0;
+    };
+    let away = factor.l() * DVector::from_column_slice(&numbers[..size]);
+    away.iter().copied().collect()
+}
+
+impl Family<'_> {
+    fn log_density(&self, residuals: &[f64]) -> f64 {
+        let mut own = DVector::from_iterator(
+            self.members.len(),
+            self.members.iter().map(|&one| residuals[one]),
+        );
+        let factor = self.factor.l_dirty();
+        let solved = factor.solve_lower_triangular_mut(&mut own);
+        if !solved {
+            return f64::NEG_INFINITY;
+        }
+        let logarithms: f64 = factor.diagonal().iter().map(|&one| ln(one)).sum();
+        -0.5 * own.norm_squared() - logarithms
+    }
+}
+
+/// Turns residuals into independent ones of deviation 1.
+pub(super) struct Whitener {
+    deviations: Vec<f64>,
+    factors: Vec<(Vec<usize>, DMatrix<f64>)>,
+}
+
+impl Whitener {
+    /// Of each residual on its own, without its correlations.
+    pub(super) fn independent(deviations: Vec<f64>) -> Self {
+        Self { deviations, factors: Vec::new() }
+    }
+
+    pub(super) fn whitened(&self, residuals: &[f64]) -> Vec<f64> {
+        let each = residuals.iter().zip(&self.deviations);
+        let mut white: Vec<f64> = each.map(|(residual, deviation)| residual / deviation).collect();
+        for (members, factor) in &self.factors {
+            let own = members.iter().map(|&one| residuals[one]);
+            let mut own = DVector::from_iterator(members.len(), own);
+            if factor.solve_lower_triangular_mut(&mut own) {
+                for (&one, value) in members.iter().zip(own.iter()) {
+                    white[one] = *value;
+                }
+            }
+        }
+        white
+    }
+}
+
+/// Root mean square of a channel's weights.
+fn root_mean_square(places: &[Place], channels: &[usize], channel: usize) -> f64 {
+    let own = || places.iter().zip(channels).filter(|(_, one)| **one == channel);
+    let squares: f64 = own().map(|(place, _)| powi(place.weight, 2)).sum();
+    (squares / (own().count() as f64).max(1.0)).sqrt().max(f64::MIN_POSITIVE)
+}
+
+/// The lengths that observations at some sites can tell.
+fn lengths_to_find(sites: &[Site]) -> Vec<Parameter> {
+    let parameter = |name: &str, [lower, upper]: [f64; 2], start: f64| Parameter {
+        name: name.to_owned(),
+        lower,
+        upper,
+        scale: Scale::Logarithmic,
+        start,
+    };
+    let slip = parameter("correlation length in slip", SLIP_LENGTHS, START_SLIP_LENGTH);
+    let angles = ANGLE_LENGTHS.map(deg);
+    let angle = parameter("correlation length in slip angle", angles, deg(START_ANGLE_LENGTH));
+    let has_angles = sites.iter().any(|site| site.slip_angle != sites[0].slip_angle);
+    if has_angles { vec![slip, angle] } else { vec![slip] }
+}
+
+/// What was measured beyond what was predicted.
+pub(super) fn residuals(observations: &[Observation], predictions: &[f64]) -> Vec<f64> {
+    observations.iter().zip(predictions).map(|(one, prediction)| one.value - prediction).collect()
+}
