@@ -28,7 +28,8 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent, SmallWheel, Soil, StressPeak,
+///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+///     SinkageExponent, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
@@ -282,6 +283,26 @@ impl Soil {
     pub(crate) fn friction(&self) -> f64 {
         let (sin, cos) = elementary::sin_cos(self.friction_angle);
         sin / cos
+    }
+
+    /// The same soil on a slope, where wedges of it resist less against being pushed downhill.
+    ///
+    /// ```text
+    /// share = cos³ α √(1 − tan² α/tan² φ)
+    /// ```
+    ///
+    /// of the resistance on level ground, and none from the angle of friction on. It is the difference of
+    /// Rankine's passive and active pressure below a surface inclined by α, over the same on level
+    /// ground. At α = φ the ground itself is about to slide, and nothing lies safe in front of a wheel.
+    ///
+    /// * `steepness`: tan α [-], of the slope on which the wheel stands
+    #[must_use]
+    pub fn on_slope(&self, steepness: f64) -> Self {
+        let used = steepness / self.friction();
+        // cos² α = 1/(1 + tan² α)
+        let cos_squared = 1.0 / (1.0 + steepness * steepness);
+        let wedge_share = cos_squared * (cos_squared * (1.0 - used * used).max(0.0)).sqrt();
+        Self { small_wheel: SmallWheel { wedge_share, ..self.small_wheel }, ..*self }
     }
 
     /// That the constants belong to a soil at all. (Documents have narrower ranges of their own.)

@@ -45,10 +45,10 @@ pub(crate) enum Presence {
     Optional,
     /// This value.
     Otherwise(Fill),
-    /// What the soil's priors say; without one this value, or else that something is missing.
-    Prior(Option<f64>),
     /// The keyword that goes with the one of another key of the table.
     Follows(&'static str, &'static [(&'static str, &'static str)]),
+    /// What the soil's priors say; without one this value, or else that something is missing.
+    Prior(Option<f64>),
 }
 
 /// A value that stands for one that a document does not have.
@@ -400,6 +400,16 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, with the keyword that goes with another key's for documents that leave it out.
+    pub(crate) const fn following(
+        mut self,
+        key: &'static str,
+        words: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        self.presence = Presence::Follows(key, words);
+        self
+    }
+
     /// The same, which the soil's priors have a value for.
     pub(crate) const fn or_prior(mut self) -> Self {
         self.presence = Presence::Prior(None);
@@ -409,16 +419,6 @@ impl<T> Field<T> {
     /// The same, with a value where there is no prior.
     pub(crate) const fn or_prior_or(mut self, number: f64) -> Self {
         self.presence = Presence::Prior(Some(number));
-        self
-    }
-
-    /// The same, with the keyword that goes with another key's for documents that leave it out.
-    pub(crate) const fn following(
-        mut self,
-        key: &'static str,
-        words: &'static [(&'static str, &'static str)],
-    ) -> Self {
-        self.presence = Presence::Follows(key, words);
         self
     }
 
@@ -485,8 +485,8 @@ impl<T> Table<T> {
             Presence::Prior(Some(number)) => Some(Json::from(number)),
             Presence::Needed
             | Presence::Optional
-            | Presence::Prior(None)
-            | Presence::Follows(..) => None,
+            | Presence::Follows(..)
+            | Presence::Prior(None) => None,
         }
     }
 }

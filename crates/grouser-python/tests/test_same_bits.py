@@ -86,6 +86,49 @@ def test_validate(program: Program) -> None:
         assert same(found.cells[name], answer["cells"], name), name
 
 
+def test_bands_of_a_wheel_test(program: Program) -> None:
+    rows = program(
+        "wheel-test", "--soil", "toyoura-uncertain", "--load-n", "10,17", "--slip-angle-deg", "0,15",
+        "--slip-ratio", "0:0.4:0.2", "--uncertainty", "--samples", "30", "--seed", "9",
+    )["rows"]  # fmt: skip
+    ratios = [row["slip_ratio"] for row in rows[:3]]
+    test = gr.wheel_test(
+        "toyoura-uncertain", load_n=[10, 17], slip_angle_deg=[0, 15], slip_ratio=ratios,
+        uncertainty=True, samples=30, seed=9,
+    )  # fmt: skip
+    table = test.to_pandas()
+    for name in rows[0].keys() - {"status"}:
+        assert same(table[name], rows, name), name
+
+
+def test_bands_of_a_map(program: Program) -> None:
+    rows = program(
+        "heading-map", "--soil", "toyoura,toyoura-uncertain", "--course-deg", "0,90",
+        "--slope-deg", "5,21.5", "--uncertainty", "--samples", "20",
+    )["rows"]  # fmt: skip
+    found = gr.heading_map(
+        soil=["toyoura", "toyoura-uncertain"], course_deg=[0, 90], slope_deg=[5, 21.5],
+        uncertainty=True, samples=20,
+    )  # fmt: skip
+    table = found.to_pandas()
+    for name in rows[0].keys() - {"status", "soil"}:
+        assert same(table[name], rows, name), name
+
+
+def test_bands_of_a_traverse(program: Program) -> None:
+    answer = program(
+        "traverse", "--soil", "toyoura-uncertain", "--slope-deg", "12", "--duration-s", "2",
+        "--uncertainty", "--samples", "9", "--seed", "3",
+    )  # fmt: skip
+    run = gr.simulate(
+        name="traverse", soil="toyoura-uncertain", slope_deg=12, duration_s=2,
+        uncertainty=True, samples=9, seed=3,
+    )  # fmt: skip
+    assert run.band is not None and run.band.run == answer["band"]
+    for name in answer["bands"][0]:
+        assert same(getattr(run.band, name), answer["bands"], name), name
+
+
 def test_heading_on_an_uncertain_soil(program: Program) -> None:
     answer = program(
         "heading", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
@@ -44,6 +44,8 @@ pub(crate) struct TraverseArgs {
     /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
+    #[command(flatten)]
+    pub(crate) uncertainty: UncertaintyArgs,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]

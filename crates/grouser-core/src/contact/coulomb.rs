@@ -56,7 +56,7 @@ pub fn most_resistance(contact: &Contact, sinkage: f64, forces: &WheelForces) ->
 }
 
 /// All that goes with the horizontal force, by a factor [-].
-fn shrunk(forces: WheelForces, factor: f64) -> WheelForces {
+pub(super) fn shrunk(forces: WheelForces, factor: f64) -> WheelForces {
     let WheelForces { normal_force, bulldozing_load, max_normal_stress, .. } = forces;
     WheelForces { normal_force, bulldozing_load, max_normal_stress, ..forces * factor }
 }

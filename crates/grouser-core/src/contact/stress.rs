@@ -12,7 +12,6 @@ use super::patch::ContactPatch;
 use super::slip::Slip;
 use crate::elementary;
 use crate::soil::pressure_sinkage::ScaledPressure;
-use crate::soil::small_wheel::SinkageGrowth;
 use crate::soil::{Shear, ShearBound, Soil};
 
 /// Stress of the soil on the rim at one angle.
@@ -71,14 +70,13 @@ pub(super) struct StressLaw {
     /// θ_m/θ_f [-].
     peak_share: f64,
     exit_ratio: f64,
-    surface_growth: f64,
 }
 
 /// What a model decides about a soil under a moving wheel before the stresses are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Response {
-    /// Sinkage growth near the surface, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
-    pub(super) surface_growth: f64,
+    /// Sinkage growth, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
+    pub(super) sinkage_growth: f64,
     /// Exit-angle ratio, *λ* [-].
     pub(super) exit_ratio: f64,
     /// Coefficient of friction between rim and soil [-].
@@ -89,7 +87,7 @@ impl Response {
     /// That of the classical model.
     pub(super) fn classical(contact: &Contact) -> Self {
         Self {
-            surface_growth: 1.0,
+            sinkage_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
             friction: contact.soil.friction(),
         }
@@ -109,14 +107,14 @@ impl StressLaw {
             radius,
             slip: *slip,
             pressure: at_scale,
-            scale: scale / radius,
+            // σ = K (z/ζ)ⁿ
+            scale: scale * response.sinkage_growth / radius,
             exponent,
             cohesion: soil.cohesion,
             friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
             peak_share: soil.stress_peak.share(slip.ratio),
             exit_ratio: response.exit_ratio,
-            surface_growth: response.surface_growth,
         }
     }
 
@@ -132,18 +130,13 @@ impl StressLaw {
         let patch = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
         let ContactPatch { entry, max_stress, exit } = patch;
         let (ahead, behind) = (entry - max_stress, max_stress - exit);
-        let mut scale = self.scale;
-        if self.surface_growth != 1.0 {
-            // σ = K (z/ζ)ⁿ
-            scale *= SinkageGrowth::at_depth(self.surface_growth, depth);
-        }
         // The height of the surface is the depth: no need to ask the angle.
         let height = depth.clamp(0.0, 2.0);
         StressField {
             patch,
             entry_sin: (height * (2.0 - height)).sqrt(),
             entry_height: height,
-            per_scale: 1.0 / scale,
+            per_scale: 1.0 / self.scale,
             squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
             law: *self,
         }
@@ -160,7 +153,7 @@ impl StressLaw {
     pub(super) fn shallow(&self) -> (f64, f64) {
         let (n, front) = (self.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
-        let scale = self.scale * self.radius * self.surface_growth;
+        let scale = self.scale * self.radius;
         let profile = elementary::pow(front * (2.0 - front * node) / scale, n) / (n + 1.0);
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
         (self.pressure * arc, n + 0.5)

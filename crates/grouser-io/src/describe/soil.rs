@@ -27,7 +27,7 @@ use small_wheel::SMALL_WHEEL;
 pub(crate) use exit::LARGEST_EXIT_RATIO;
 pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
 
-/// A soil before its numbers are put in: without the terms of single models.
+/// A soil before its numbers are put in: the terms of single models have their general values.
 pub(crate) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
@@ -38,7 +38,7 @@ pub(crate) const BLANK: Soil = Soil {
     shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
-    small_wheel: SmallWheel::OFF,
+    small_wheel: SmallWheel::GENERAL,
     rft: Rft::PUBLISHED,
     domain: Domain::UNSTATED,
     discrepancy: None,
@@ -100,7 +100,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .or_prior(),
         table(
             "small_wheel",
-            "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
+            "Terms of the model `small-wheel`, for one wheel on this soil; general values without it.",
             &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
         .optional()

@@ -5,7 +5,9 @@
 
 use rayon::prelude::*;
 
+use super::ensemble::samples::Sample;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
+use super::heading_band::HeadingBand;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 
@@ -83,6 +85,32 @@ impl HeadingMap {
         // Collected in order, so that the error is always that of the first row.
         let rows = all.into_iter().collect::<Result<Vec<HeadingRow>, ParameterError>>()?;
         Ok(Self { slopes: slopes.to_vec(), rows })
+    }
+}
+
+impl HeadingMap {
+    /// Bands of each row over the samples of its soil, in the order of the rows; `None` if `go_on` was false before the
+    /// end.
+    ///
+    /// * `samples`: of each study, at least one
+    /// * `go_on`: asked before each curve, from any thread
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first invalid soil.
+    ///
+    /// # Panics
+    /// If a study has no samples.
+    pub fn bands(
+        &self,
+        studies: &[HeadingStudy],
+        samples: &[Vec<Sample>],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<HeadingBand>>, ParameterError> {
+        let band = |row: &HeadingRow| {
+            let (study, samples) = (&studies[row.study], &samples[row.study]);
+            HeadingBand::on_course(study, row.course, samples, &self.slopes, go_on)
+        };
+        self.rows.iter().map(band).collect::<Result<Option<Vec<_>>, _>>()
     }
 }
 

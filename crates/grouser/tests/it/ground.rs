@@ -10,6 +10,7 @@ use grouser::site::Site;
 use grouser::soil::{Shear, ShearBound, SlopeStability, Soil};
 use grouser::studies::card::{CardStudy, Rule, Verdict};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::{HeadingStudy, LimitedBy, NoHeading};
 use grouser::units::{
     EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, STEEPEST_SLOPE, Vec2, deg, kpa, mm,
@@ -107,9 +108,10 @@ fn a_card_says_no_go_where_the_ground_slides() {
     let rule = Rule { go_slip_ratio: 0.9, no_go_slip_ratio: 0.95, ..Rule::DEFAULT };
     let slopes = [ground - deg(12.0), ground + deg(0.1)];
     // Of the samples, all hold the contour; the soil as written does not stand.
-    let samples = [Soil { friction_angle: deg(45.0), ..soil }];
-    let card = CardStudy { heading, rim_speed: 0.06, rule }.card(&samples, &slopes, &|| ());
-    let card = card.expect("a card");
+    let soil = Soil { friction_angle: deg(45.0), ..soil };
+    let samples = [Sample { soil, theory: Theory::Ishigami }];
+    let study = CardStudy { heading, rim_speed: 0.06, rule, is_soil_uncertain: true };
+    let card = study.card(&samples, &slopes, &|| ()).expect("a card");
     assert_eq!(card.rows[1].verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));
     assert_ne!(card.rows[0].verdict, Verdict::NoGo);
@@ -361,6 +363,23 @@ fn the_drift_at_the_measured_yaw_is_that_of_the_independent_computation() {
         let found = 1e3 * run(&at_measured_yaw(measured)).last().state.position.y;
         // Printed to a millimetre.
         assert!((found - drift).abs() < 1.0, "{found} mm, not {drift}");
+    }
+}
+
+/// The heading offset leaves a yaw moment over. Held against it the rover stays on the contour, whatever
+/// the load transfer.
+#[test]
+fn a_rover_held_at_its_heading_offset_holds_the_contour() {
+    for (sharing, own_moments) in [
+        (LoadSharing::QuasiStatic, OwnMoments::Neglected),
+        (LoadSharing::Complete, OwnMoments::Included),
+    ] {
+        let scenario = Scenario { sharing, own_moments, ..traverse(deg(15.0), 0.0) };
+        let curve = HeadingStudy::of(&scenario).curve().expect("sand and gravity");
+        let yaw = curve.at(deg(15.0)).expect("it can be crossed").yaw;
+        let end = run(&held(vec![(0.0, yaw)], scenario)).last().state.position;
+        // The rolling start does not slip yet as it will.
+        assert!(end.y.abs() < 1e-4 && end.x > 0.8, "{sharing:?}: {end}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
+mod bands;
 mod calibration;
 mod campaign;
 mod campaign_documents;

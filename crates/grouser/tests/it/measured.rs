@@ -1,11 +1,17 @@
 //! The measurements that come with the program, and theories beside them.
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use grouser::contact::Theory;
+use grouser::contact::{Contact, Slip, Theory, settle};
 use grouser::document::measurements::{self, Choice, Condition, Measurements};
-use grouser::document::{self, Kind, Overrides, Source, Tested};
+use grouser::document::{self, FitKey, Kind, Overrides, SoilFamily, Source, Tested};
+use grouser::soil::Soil;
+use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
+use grouser::studies::calibration::{
+    Calibration, FitSettings, ParameterSpace, Resolution, WheelTestExperiment,
+};
 use grouser::studies::measurement::Quantity;
 use grouser::studies::slope_tests::SlopeTests;
 use grouser::studies::validation::{Group, Validation, ValidationStudy};
@@ -61,8 +67,8 @@ fn rmse(group: &Group) -> [f64; 3] {
 #[test]
 fn the_fitted_soils_agree_with_their_trials() {
     for (kind, driven, all) in [
-        ("smooth", [0.65, 0.75, 0.80], [1.20, 0.85, 1.15]),
-        ("grouser", [0.75, 1.20, 1.40], [0.80, 1.15, 1.45]),
+        ("smooth", [0.75, 0.80, 0.95], [1.20, 0.85, 1.30]),
+        ("grouser", [0.85, 0.95, 1.70], [0.95, 1.00, 1.45]),
     ] {
         let measured = trials(kind);
         let validation = validation(&measured, kind, &format!("cmu-direct90-{kind}"));
@@ -74,6 +80,75 @@ fn the_fitted_soils_agree_with_their_trials() {
             for (found, limit) in rmse(group).into_iter().zip(limits) {
                 assert!(found < limit, "{kind}: {found} is not below {limit}");
             }
+        }
+    }
+}
+
+/// The keys that are fitted for each wheel; the other values are common to both.
+const FITTED: [&str; 9] = [
+    "soil.pressure_sinkage.k_phi",
+    "soil.stress_peak.a0",
+    "soil.exit.ratio=0:1",
+    "soil.small_wheel.sinkage.with_slip_angle",
+    "soil.small_wheel.sinkage.with_slip",
+    "soil.small_wheel.sinkage.bend",
+    "soil.small_wheel.sinkage.locked",
+    "soil.small_wheel.exit.with_slip",
+    "soil.small_wheel.exit.with_slip_angle",
+];
+
+/// An independent fit, from general values, finds the shipped soil again: at twice the load of the tests
+/// both pull and sink alike. (Sixteen values once found two soils, equally good in the tests, that pulled
+/// differently by 20 to 40 % there.)
+#[test]
+fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
+    let general = [
+        "soil.pressure_sinkage.k_phi=8e6",
+        "soil.stress_peak.a0=0.4",
+        "soil.exit.ratio=0.3",
+        "soil.small_wheel.sinkage.with_slip_angle=1.5",
+        "soil.small_wheel.sinkage.with_slip=1.5",
+        "soil.small_wheel.sinkage.bend=0.5",
+        "soil.small_wheel.sinkage.locked=3",
+        "soil.small_wheel.exit.with_slip=0",
+        "soil.small_wheel.exit.with_slip_angle=0",
+    ];
+    for kind in ["smooth", "grouser"] {
+        let find = |settings: &[String]| {
+            let source = Source::find(Kind::Soil, &format!("cmu-direct90-{kind}"));
+            let settings = Overrides::parse(settings).expect("keys of a soil");
+            document::read_soil(&source.expect("a preset"), &settings).expect("it is read")
+        };
+        let (shipped, start) = (find(&[]), find(&general.map(str::to_owned)));
+        let wheel = Source::find(Kind::Wheel, &format!("cmu-{kind}")).expect("a preset");
+        let wheel = document::read_wheel(&wheel, &Overrides::none()).expect("it is read").value;
+        let keys = FITTED.map(|key| FitKey::parse(key).expect("a key"));
+        let family = SoilFamily::new(&start.document, &keys).expect("keys of the soil");
+        let soil_of = |values: &[f64]| family.soil(values);
+        let setup = Setup {
+            wheel,
+            theory: Theory::SmallWheel,
+            gravity: EARTH_GRAVITY,
+            soil_of: &soil_of,
+            resolution: Resolution::Cells,
+            discrepancies: Discrepancies::PerRegime,
+        };
+        let experiment = WheelTestExperiment::new(&trials(kind).tests, setup).expect("tests");
+        let space = ParameterSpace::new(family.parameters().to_vec()).expect("bounds");
+        let calibration = Calibration::new(&experiment, space).expect("more cells than keys");
+        let fit = calibration.fit(&FitSettings::default(), &|| ControlFlow::Continue(()));
+        let fitted = family.soil(&fit.expect("it can be fitted").values).expect("a soil");
+        for (slip, degrees) in [(0.2, 0.0), (0.5, 0.0), (0.2, 20.0), (0.5, 20.0), (0.5, 45.0)] {
+            let slip = Slip::on_test_stand(slip, f64::to_radians(degrees));
+            let under = |soil: Soil| {
+                let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
+                settle(Theory::SmallWheel.model(), &contact, 60.0).expect("the sand carries it")
+            };
+            let (one, two) = (under(shipped.value), under(fitted));
+            let pull = (one.forces.drawbar_pull - two.forces.drawbar_pull).abs();
+            // A hundredth of the load: a seventh of the standard deviation that the fit has there.
+            assert!(pull < 0.1, "{kind}, {degrees}°: pulls differ by {pull} N");
+            assert!((one.sinkage - two.sinkage).abs() < 0.2e-3, "{kind}, {degrees}°");
         }
     }
 }

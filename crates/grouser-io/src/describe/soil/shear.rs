@@ -128,7 +128,7 @@ const LATERAL: Field<Soil> = number(
     M,
     SMALLEST_MODULUS..=LARGEST_MODULUS,
     "Modulus across the wheel at zero slip angle, K_y",
-    |soil| Some(at_zero(lateral(soil)?)),
+    |soil: &mut Soil| Some(at_zero(lateral(soil)?)),
 )
 .or_prior();
 const LATERAL_GROWTH: Field<Soil> =

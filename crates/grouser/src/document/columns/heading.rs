@@ -210,19 +210,20 @@ pub fn map_brief() -> Vec<String> {
     [SOIL].into_iter().chain(names).chain([STATUS, FLAGS]).map(String::from).collect()
 }
 
-/// Quantiles and probabilities on one slope over samples of an uncertain soil. Quantiles are over the samples with a
-/// heading that holds the contour there, and missing where no sample has one.
+/// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no heading holds the
+/// course counts as slip 1, sunk to the axles and with work without a bound, whose quantiles are missing; it has
+/// no yaw.
 pub const BAND: [Column<SlopeBand>; 7] = [
-    YAW.band("Yaw, positive uphill", |it| it.yaw),
+    YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
     SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
     ENERGY_PER_METRE
         .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
     PROBABILITY_LEVEL.probability(
-        "Probability that a heading holds the contour: the share of the samples that have one",
+        "Probability that a heading holds the course: the share of the samples that have one",
         |it| Some(it.level),
     ),
-    whole(DRAWS_LEVEL, "Samples with a heading that holds the contour", |it| {
+    whole(DRAWS_LEVEL, "Samples with a heading that holds the course", |it| {
         Some(it.level.successes)
     }),
     whole(DRAWS, "All samples", |it| Some(it.level.trials)),
@@ -238,7 +239,7 @@ pub const DRAWS_MOBILE: &str = "draws_mobile";
 /// Quantiles of the steepest slope over samples.
 pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     LIMIT_SLOPE
-        .band("The steepest slope, over the samples on which the rover can move", |it| it.limit),
+        .band("The steepest slope; 0 in a sample in which the rover cannot move", |it| it.limit),
     whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
@@ -258,6 +259,25 @@ pub fn bands(bands: &[SlopeBand]) -> Table {
     with_bands(Table::of(&PLACE, bands), bands)
 }
 
+/// A map's table with the columns of [`BAND`] and those of [`BAND_LIMIT`] added.
+///
+/// * `bands`: of each row of the map
+#[must_use]
+pub fn map_with_bands(table: Table, bands: &[HeadingBand]) -> Table {
+    let slopes: Vec<_> = bands.iter().flat_map(|band| band.slopes.iter().map(Some)).collect();
+    let limits = bands.iter().flat_map(|band| band.slopes.iter().map(move |_| Some(band)));
+    // How many samples there are stands in the row already.
+    let of_limit = BAND_LIMIT.iter().filter(|column| column.name != DRAWS);
+    table.and(&BAND, &slopes).and(of_limit, &limits.collect::<Vec<_>>())
+}
+
+/// The columns of [`map_with_bands`] for reading.
+#[must_use]
+pub fn map_bands_brief() -> Vec<String> {
+    let place = [SOIL, COURSE.name].map(String::from);
+    place.into_iter().chain(bands_brief()).collect()
+}
+
 /// Quantiles of the steepest slope over samples: one row.
 #[must_use]
 pub fn band_limit(band: &HeadingBand) -> Table {
@@ -268,7 +288,7 @@ pub fn band_limit(band: &HeadingBand) -> Table {
 #[must_use]
 pub fn bands_brief() -> Vec<String> {
     let [yaw_low, _, yaw_high] = YAW.quantiles();
-    let [_, _, slip_high] = SLIP_RATIO.quantiles();
+    let [slip_low, _, slip_high] = SLIP_RATIO.quantiles();
     let name = |it: &str| it.to_owned();
     vec![
         name(SLOPE.name),
@@ -276,6 +296,7 @@ pub fn bands_brief() -> Vec<String> {
         yaw_low,
         yaw_high,
         name(SLIP_RATIO.name),
+        slip_low,
         slip_high,
         name(PROBABILITY_LEVEL.name),
         name(DRAWS_LEVEL),
