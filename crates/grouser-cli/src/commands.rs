@@ -12,6 +12,7 @@ pub(crate) mod heading_map;
 pub(crate) mod import;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
+mod sampling;
 pub(crate) mod schema;
 mod strict;
 pub(crate) mod traverse;

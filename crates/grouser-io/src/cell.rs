@@ -112,6 +112,17 @@ impl Values {
         }
     }
 
+    /// Adds what is missing to so many, without a value.
+    pub(super) fn pad(&mut self, length: usize) {
+        let length = length.max(self.len());
+        match self {
+            Self::Float(values) => values.resize(length, None),
+            Self::Whole(values) => values.resize(length, None),
+            Self::Text(values) => values.resize(length, None),
+            Self::Words(values) => values.resize(length, Vec::new()),
+        }
+    }
+
     pub(super) fn append(&mut self, more: Self) {
         match (self, more) {
             (Self::Float(values), Self::Float(more)) => values.extend(more),

@@ -55,7 +55,7 @@ enum Value<R> {
     Maybe(fn(&R) -> Option<f64>),
     /// A reading of a stand, rounded to a ten-thousandth of its unit.
     Reading(fn(&R) -> Option<f64>),
-    /// Three columns: the quantiles of a band over samples.
+    /// Three columns: the quantiles of a band over samples; one that is infinite is not there.
     Band(fn(&R) -> Option<Band>),
     /// Three columns: a probability and its 95 % confidence interval.
     Probability(fn(&R) -> Option<Probability>),
@@ -117,9 +117,16 @@ pub const TOTAL_SLIP: Quantity = quantity("slip_ratio_total_speed", ONE);
 pub const RIM_SPEED_SETTING: Quantity = quantity("rim_speed_setting_m_s", M_S);
 /// The probability that a heading offset holds the contour.
 pub const PROBABILITY_LEVEL: Quantity = quantity("probability_level", ONE);
+/// The probability that the soil carries a wheel.
+pub const PROBABILITY_CARRIED: Quantity = quantity("probability_carried", ONE);
+/// The probability that a run is completed.
+pub const PROBABILITY_COMPLETED: Quantity = quantity("probability_completed", ONE);
 
 /// Ends of the names of a probability and its confidence interval.
 const INTERVAL: [&str; 3] = ["", "_low", "_high"];
+
+/// The wheel–soil model of a row, where there is a row for each model.
+pub const MODEL: &str = "model";
 
 /// Of rows with a result and without.
 pub const STATUS: &str = "status";
@@ -325,7 +332,10 @@ impl<R> Column<R> {
             Value::Given(of) => Cell::Float(of(row).map(|value| unit.as_given(value))),
             Value::Maybe(of) => float(of(row)),
             Value::Reading(of) => Cell::Float(of(row).map(|value| rounded(unit.from_si(value)))),
-            Value::Band(of) => float(of(row).map(|it| [it.low, it.median, it.high][end])),
+            Value::Band(of) => {
+                let quantile = of(row).map(|it| [it.low, it.median, it.high][end]);
+                float(quantile.filter(|value| value.is_finite()))
+            }
             Value::Probability(of) => float(of(row).map(|it| {
                 let (low, high) = it.interval();
                 [it.estimate(), low, high][end]

@@ -143,6 +143,23 @@ impl Table {
         self
     }
 
+    /// With a column before all others that has one word in every row.
+    #[must_use]
+    pub fn with_word(mut self, name: &str, word: &str) -> Self {
+        let words = vec![Some(word.to_owned()); self.rows()];
+        self.columns.insert(0, (name.to_owned(), Values::Text(words)));
+        self
+    }
+
+    /// With rows that have nothing behind its own, until there are this many.
+    #[must_use]
+    pub fn padded(mut self, rows: usize) -> Self {
+        for (_, values) in &mut self.columns {
+            values.pad(rows);
+        }
+        self
+    }
+
     /// Rows of another table with these columns behind its own; an empty table becomes the other.
     pub fn append(&mut self, more: Self) {
         if self.columns.is_empty() {

@@ -19,7 +19,7 @@ use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use grouser_core::vehicle::{Inertia, Mount, Rover};
+use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
 /// Values that are valid one by one, but not together.
@@ -302,8 +302,7 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
@@ -320,10 +319,25 @@ impl Described for Scenario {
             let hint = format!("the wheels are {}, in this order", names.join(", "));
             Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
         })?;
+        if run.sharing == LoadSharing::Complete && run.own_moments == OwnMoments::Neglected {
+            return Err(Misfit {
+                hint: Some(NEGLECTED_MOMENTS.to_owned()),
+                ..Misfit::new("wheel_moments", Problem::Conflict(COMPLETE))
+            });
+        }
+        if let Some(yaw) = &run.yaw {
+            yaw.check().map_err(Misfit::at("drive.yaw_deg"))?;
+        }
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
     }
 }
+
+/// What does not go together, and what to write instead.
+const COMPLETE: &str =
+    "`wheel_moments` is \"neglected\", but the complete load transfer includes them";
+const NEGLECTED_MOMENTS: &str =
+    "without them the load transfer is \"quasi-static-torque\", or the paper's \"quasi-static\"";
 
 /// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
 const MOST_SAMPLES: f64 = 1e6;
@@ -357,8 +371,7 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }

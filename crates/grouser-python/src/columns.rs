@@ -3,9 +3,10 @@
 use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
-use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::wheel_test;
 use grouser::document::table::{BETWEEN_NAMES, ColumnKind, Table, Values};
 use grouser::document::{self, Unit};
 use numpy::PyArray1;
@@ -46,6 +47,9 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("heading", declared(&held()))?;
     dict.set_item("heading_band", declared(&BAND))?;
     dict.set_item("heading_band_limit", declared(&BAND_LIMIT))?;
+    dict.set_item("wheel_test_band", declared(&wheel_test::BAND))?;
+    dict.set_item("traverse_band", declared(&RUN_BAND))?;
+    dict.set_item("traverse_band_over_time", declared(&TIME_BAND))?;
     dict.set_item("stand", declared(&TRIALS))?;
     Ok(dict)
 }

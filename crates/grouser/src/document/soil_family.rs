@@ -149,14 +149,14 @@ impl SoilFamily {
     /// The same as a calibration's result: with its source, and its samples as uncertainty.
     ///
     /// * `source`: where the fitted values come from, before the source of the others
-    /// * `theory`: that the values belong to
+    /// * `theory`: that the values belong to, if they belong to one
     /// * `samples`: name of the file of samples beside the document, if there is one
     #[must_use]
     pub fn fitted(
         &self,
         values: &[f64],
         source: &str,
-        theory: Theory,
+        theory: Option<Theory>,
         samples: Option<&str>,
     ) -> Document {
         let keys: Vec<&str> = self.keys().collect();
@@ -165,7 +165,6 @@ impl SoilFamily {
             let key = assumed.as_str().and_then(|text| text.split(':').next());
             self.keys.iter().any(|fitted| Some(&*fitted.path) == key)
         };
-        let named = document.theory().is_some() || theory != Theory::default();
         document.changed(|keys| {
             keys["name"] = format!("{}, calibrated", document.name()).into();
             keys["source"] = format!("{source}; other values: {}", document.source()).into();
@@ -176,7 +175,8 @@ impl SoilFamily {
             if let Some(Json::Array(assumed)) = keys.get_mut("assumed") {
                 assumed.retain(|one| !is_fitted(one));
             }
-            if named {
+            // Bands keep it with the greater share.
+            if let Some(theory) = theory {
                 keys.insert("model".to_owned(), theory.name().into());
             }
             if let Some(file) = samples {

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
-    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent,
+    SlopeStability, Soil,
 };
 use grouser::units::deg;
 use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
@@ -156,6 +157,7 @@ fn reference_soil(case: &str) -> Soil {
             longitudinal: modulus("longitudinal"),
             lateral: modulus("lateral"),
         },
+        shear_bound: ShearBound::None,
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
@@ -168,9 +170,10 @@ fn reference_soil(case: &str) -> Soil {
 /// All equal; the moduli to the last but one bit, which is how well the JSON is read here.
 fn check_constants(soil: &Soil, reference: &Soil) {
     let pressure_sinkage = reference.pressure_sinkage;
-    // What a preset states of its domain is no constant.
-    let domain = reference.domain;
-    assert_eq!(&Soil { pressure_sinkage, domain, ..*soil }, reference);
+    // The reference has no bound of the shear stresses, and what a preset states of its domain is no
+    // constant.
+    let (shear_bound, domain) = (reference.shear_bound, reference.domain);
+    assert_eq!(&Soil { pressure_sinkage, shear_bound, domain, ..*soil }, reference);
     let stiffness = |soil: &Soil| soil.pressure_sinkage.stiffness(0.1, soil.cohesion, 1e4, 0.0);
     let (ours, theirs) = (stiffness(soil), stiffness(reference));
     assert_eq!(ours.exponent, theirs.exponent);
@@ -268,9 +271,83 @@ fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
     assert_eq!(run.duration, 20.0);
     assert_eq!(run.theory, Theory::Ishigami);
     assert_eq!(run.drive, DriveLaw::Constant(0.06));
-    assert_eq!((run.sharing, run.own_moments), (LoadSharing::QuasiStatic, OwnMoments::Neglected));
+    assert_eq!((run.sharing, run.own_moments), (LoadSharing::Complete, OwnMoments::Included));
+    assert_eq!((run.yaw, run.stability), (None, SlopeStability::USUAL));
     assert_eq!(run.site.terrain.soil, soil("toyoura"));
     assert_eq!(run.rover.mounts()[0].name, "front-left");
+}
+
+fn scenario_with(settings: &[&str]) -> Result<document::LoadedScenario, document::DocumentError> {
+    let overrides = Overrides::parse(settings)?;
+    document::read_scenario(&Source::default_scenario(), &overrides)
+}
+
+/// The wheels' own moments follow the load transfer, and may not contradict it.
+#[test]
+fn the_complete_load_transfer_includes_the_wheels_own_moments() {
+    use grouser::vehicle::{LoadSharing::*, OwnMoments::*};
+    for (settings, expected) in [
+        (&[][..], (Complete, Included)),
+        (&["scenario.load_transfer=complete"], (Complete, Included)),
+        (&["scenario.loads=quasi-static"], (QuasiStatic, Neglected)),
+        (&["scenario.load_transfer=quasi-static-torque"], (QuasiStaticTorque, Neglected)),
+        (&["scenario.load_transfer=uniform", "scenario.moments=included"], (Uniform, Included)),
+        (&["scenario.wheel_moments=included"], (Complete, Included)),
+    ] {
+        let read = scenario_with(settings).expect("it is read");
+        assert_eq!((read.value.sharing, read.value.own_moments), expected, "{settings:?}");
+        let word = if expected.1 == Included { "included" } else { "neglected" };
+        assert_eq!(read.document.text("wheel_moments"), Some(word), "the document says it");
+    }
+    for settings in [
+        &["scenario.load_transfer=complete", "scenario.wheel_moments=neglected"][..],
+        &["scenario.wheel_moments=neglected"],
+    ] {
+        let refused = scenario_with(settings).expect_err("they contradict each other").to_string();
+        assert!(refused.contains("wheel_moments") && refused.contains("complete"), "{refused}");
+    }
+}
+
+#[test]
+fn a_scenario_takes_a_yaw_over_time_and_writes_it_again() {
+    let read = scenario_with(&["scenario.drive.yaw_deg=[[0, 3.31], [20, 0.56]]"]).expect("read");
+    let points = vec![(0.0, deg(3.31)), (20.0, deg(0.56))];
+    assert_eq!(read.value.yaw, Some(grouser::simulation::PrescribedYaw { points }));
+    let again = Source::text("resolved", &read.to_toml());
+    let again = document::read_scenario(&again, &Overrides::none()).expect("what was written");
+    assert_eq!(again.value, read.value);
+    for (wrong, message) in [
+        ("[[0, 1], [0, 2]]", "later than the one before it"),
+        ("[[0, 1, 2]]", "must have 2"),
+        ("[]", "must have 1 or more"),
+        ("[[-1, 2]]", "from 0 to a day"),
+        ("3.0", "a list"),
+        ("[[0, nan]]", "finite"),
+    ] {
+        let setting = format!("scenario.drive.yaw_deg={wrong}");
+        let refused = scenario_with(&[&setting]).expect_err(wrong).to_string();
+        assert!(refused.contains(message) && refused.contains("yaw_deg"), "{wrong}: {refused}");
+    }
+}
+
+/// A number of the table varies like any other: campaigns reach it by its place.
+#[test]
+fn the_yaw_over_time_has_keys() {
+    use grouser::document::Described;
+    let read = scenario_with(&["scenario.drive.yaw_deg=[[0, 3.31], [20, 0.56]]"]).expect("read");
+    let changed = read.value.with([("drive.yaw_deg.1.1", 2.0), ("drive.yaw_deg.1.0", 10.0)]);
+    let yaw = changed.expect("they fit").yaw.expect("it is there");
+    assert_eq!(yaw.points[1], (10.0, deg(2.0)));
+}
+
+/// What the source does not say otherwise resists within its friction; the paper's law keeps its answers.
+#[test]
+fn presets_but_toyouras_and_the_fitted_ones_are_bounded() {
+    for preset in document::presets(Kind::Soil) {
+        let is_as_published = preset.name.starts_with("toyoura") || preset.name.starts_with("cmu-");
+        let expected = if is_as_published { ShearBound::None } else { ShearBound::Coulomb };
+        assert_eq!(soil(preset.name).shear_bound, expected, "{}", preset.name);
+    }
 }
 
 #[test]

@@ -131,7 +131,8 @@ impl WheelProblem<'_> {
             self.measured.tests.cells.len(),
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
-        let fitted = self.family.fitted(&solved.solution.fit.values, &source, self.theory, samples);
+        let values = &solved.solution.fit.values;
+        let fitted = self.family.fitted(values, &source, Some(self.theory), samples);
         let fitted = handed_on::nominal(solved).map_or_else(
             || fitted.clone(),
             |none| fitted.changed(|keys| drop(keys.insert(DISCREPANCY.to_owned(), none))),

@@ -44,13 +44,16 @@ const UNFIT: &str = "not possible together";
 const NO_HEADING: &str = "no level attitude";
 /// Not even on level ground.
 const CANNOT_MOVE: &str = "cannot move";
+/// The slope is steeper than the ground stands by its own strength.
+const GROUND_STRENGTH: &str = "ground-strength";
 /// The soil carries less than the load.
 const SUNK: &str = "soil cannot carry the load";
 /// The solver gave up.
 const NOT_COMPUTED: &str = "not computed";
 
 /// All statuses of a row; `ok` first.
-pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_HEADING, CANNOT_MOVE, SUNK, NOT_COMPUTED];
+pub const STATUSES: [&str; 7] =
+    [OK, UNFIT, NO_HEADING, CANNOT_MOVE, GROUND_STRENGTH, SUNK, NOT_COMPUTED];
 
 /// Statuses of rows that could not be computed: all others are answers, or findings.
 pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
@@ -152,6 +155,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
             let status = match error {
                 NoHeading::CannotMove(_) => CANNOT_MOVE,
                 NoHeading::TooSteep { .. } => NO_HEADING,
+                NoHeading::GroundStrength { .. } => GROUND_STRENGTH,
             };
             Failure { status, reason: error.to_string() }
         })?;

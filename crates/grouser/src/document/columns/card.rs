@@ -9,7 +9,6 @@ use super::{
     quantity, text, whole,
 };
 use crate::studies::card::{Card, CardRow, Verdict};
-use crate::studies::heading::NoHeading;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -42,7 +41,9 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
         SLIP_RATIO.maybe("Slip ratio of every wheel at that yaw", |it| {
             it.row.level.map(|level| level.slip_ratio)
         }),
-        SLIP_RATIO.band("The same over the samples", |it| it.row.bands.as_ref()?.slip_ratio),
+        SLIP_RATIO.band("The same over the samples; 1 where no heading holds the contour", |it| {
+            it.row.bands.as_ref()?.slip_ratio
+        }),
         POWER.maybe("Power of the motors at that yaw", |it| it.row.level.map(|level| level.power)),
         POWER.band("The same over the samples", |it| it.row.bands.as_ref()?.power),
         DRIFT.maybe("Drift per metre travelled at yaw 0, positive downhill", |it| it.row.drift),
@@ -53,12 +54,12 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
             }),
         whole(
             DRAWS_LEVEL,
-            "Samples with a heading that holds the contour: yaw, slip and power are over them",
+            "Samples with a heading that holds the contour: yaw and power are over them",
             |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
         ),
         whole(
             "draws_held",
-            "Samples on which the rover does not slide at yaw 0: drift is over them",
+            "Samples in which the rover does not slide at yaw 0; in others the drift counts as 1",
             |it| it.row.bands.as_ref().map(|bands| bands.held.successes),
         ),
         whole(DRAWS, "All samples", |it| it.card.draws),
@@ -71,17 +72,11 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
 
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
-    match (&it.row.level, &it.card.limit) {
-        (Some(_), _) => OK.to_owned(),
-        (None, Ok((limit, reason))) => {
-            NoHeading::TooSteep { course: 0.0, limit: *limit, reason: reason.clone() }.to_string()
-        }
-        (None, Err(reason)) => reason.clone(),
-    }
+    it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
 /// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and
-/// missing where no uncertainty is stated.
+/// missing where there are none.
 #[must_use]
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();

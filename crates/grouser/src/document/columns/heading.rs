@@ -9,7 +9,7 @@ use super::{
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
 };
 use crate::contact::validity::Finding;
-use crate::studies::heading::{HeadingCurve, HeadingOffset, NoHeading};
+use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
@@ -88,11 +88,14 @@ const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
 }
 
 /// Columns of a map after the results.
-const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [LIMIT_SLOPE
-        .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
-            it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
-        })]
+const fn limit<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        LIMIT_SLOPE
+            .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
+                it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
+            }),
+        text(LIMITED_BY, WHAT_LIMITS, |it| it.row?.limited_by.map(|by| by.name().to_owned())),
+    ]
 }
 
 /// The flags on each slope [rad].
@@ -154,24 +157,30 @@ pub fn curve(curve: &HeadingCurve) -> Table {
 /// The steepest slope, and what ends the curve there: one row.
 #[must_use]
 pub fn steepest(curve: &HeadingCurve) -> Table {
-    type Limit = Result<(f64, String), String>;
-    const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
+    type Limit = (Result<(f64, String), String>, Option<LimitedBy>);
+    const LIMIT: [Column<Limit>; 3] = [
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |(it, _)| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
-        text(LIMIT_REASON, "What ends the curve there", |it| {
+        text(LIMIT_REASON, "What ends the curve there", |(it, _)| {
             Some(it.as_ref().map_or_else(Clone::clone, |(_, reason)| reason.clone()))
         }),
+        text(LIMITED_BY, WHAT_LIMITS, |(_, by)| by.map(|by| by.name().to_owned())),
     ];
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
         Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
+        Err(beyond @ NoHeading::GroundStrength { .. }) => Err(beyond.to_string()),
     };
-    Table::of(&LIMIT, &[limit])
+    Table::of(&LIMIT, &[(limit, curve.limited_by())])
 }
 
 /// What ends a curve.
 pub const LIMIT_REASON: &str = "limit_reason";
+/// The same as one of a few words.
+pub const LIMITED_BY: &str = "limited_by";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`) or the \
+     `range` of slopes";
 
 /// A row for each soil, course and slope of a map.
 ///
@@ -201,19 +210,20 @@ pub fn map_brief() -> Vec<String> {
     [SOIL].into_iter().chain(names).chain([STATUS, FLAGS]).map(String::from).collect()
 }
 
-/// Quantiles and probabilities on one slope over samples of an uncertain soil. Quantiles are over the samples with a
-/// heading that holds the contour there, and missing where no sample has one.
+/// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no heading holds the
+/// course counts as slip 1, sunk to the axles and with work without a bound, whose quantiles are missing; it has
+/// no yaw.
 pub const BAND: [Column<SlopeBand>; 7] = [
-    YAW.band("Yaw, positive uphill", |it| it.yaw),
+    YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
     SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
     ENERGY_PER_METRE
         .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
     PROBABILITY_LEVEL.probability(
-        "Probability that a heading holds the contour: the share of the samples that have one",
+        "Probability that a heading holds the course: the share of the samples that have one",
         |it| Some(it.level),
     ),
-    whole(DRAWS_LEVEL, "Samples with a heading that holds the contour", |it| {
+    whole(DRAWS_LEVEL, "Samples with a heading that holds the course", |it| {
         Some(it.level.successes)
     }),
     whole(DRAWS, "All samples", |it| Some(it.level.trials)),
@@ -229,7 +239,7 @@ pub const DRAWS_MOBILE: &str = "draws_mobile";
 /// Quantiles of the steepest slope over samples.
 pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     LIMIT_SLOPE
-        .band("The steepest slope, over the samples on which the rover can move", |it| it.limit),
+        .band("The steepest slope; 0 in a sample in which the rover cannot move", |it| it.limit),
     whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
@@ -249,6 +259,25 @@ pub fn bands(bands: &[SlopeBand]) -> Table {
     with_bands(Table::of(&PLACE, bands), bands)
 }
 
+/// A map's table with the columns of [`BAND`] and those of [`BAND_LIMIT`] added.
+///
+/// * `bands`: of each row of the map
+#[must_use]
+pub fn map_with_bands(table: Table, bands: &[HeadingBand]) -> Table {
+    let slopes: Vec<_> = bands.iter().flat_map(|band| band.slopes.iter().map(Some)).collect();
+    let limits = bands.iter().flat_map(|band| band.slopes.iter().map(move |_| Some(band)));
+    // How many samples there are stands in the row already.
+    let of_limit = BAND_LIMIT.iter().filter(|column| column.name != DRAWS);
+    table.and(&BAND, &slopes).and(of_limit, &limits.collect::<Vec<_>>())
+}
+
+/// The columns of [`map_with_bands`] for reading.
+#[must_use]
+pub fn map_bands_brief() -> Vec<String> {
+    let place = [SOIL, COURSE.name].map(String::from);
+    place.into_iter().chain(bands_brief()).collect()
+}
+
 /// Quantiles of the steepest slope over samples: one row.
 #[must_use]
 pub fn band_limit(band: &HeadingBand) -> Table {
@@ -259,7 +288,7 @@ pub fn band_limit(band: &HeadingBand) -> Table {
 #[must_use]
 pub fn bands_brief() -> Vec<String> {
     let [yaw_low, _, yaw_high] = YAW.quantiles();
-    let [_, _, slip_high] = SLIP_RATIO.quantiles();
+    let [slip_low, _, slip_high] = SLIP_RATIO.quantiles();
     let name = |it: &str| it.to_owned();
     vec![
         name(SLOPE.name),
@@ -267,6 +296,7 @@ pub fn bands_brief() -> Vec<String> {
         yaw_low,
         yaw_high,
         name(SLIP_RATIO.name),
+        slip_low,
         slip_high,
         name(PROBABILITY_LEVEL.name),
         name(DRAWS_LEVEL),
