@@ -76,7 +76,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slip-angle-outside",
         meaning: "The slip angle is outside the tests of the model or of the soil's fit.",
         quantity: "slip angle",
-        criterion: "|β| is above 45° (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
+        criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
         source: "Ishigami et al. (2007); Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.angle.abs(), it.domain(|domain| domain.slip_angle))),
     },
