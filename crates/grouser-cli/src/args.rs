@@ -6,12 +6,14 @@ mod documents;
 mod heading;
 mod measurements;
 mod traverse;
+mod uncertainty;
 mod wheel_test;
 
 use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use grouser::contact::Theory;
 
 use crate::output::Format;
 
@@ -26,6 +28,7 @@ pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
 pub(crate) use traverse::TraverseArgs;
+pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 
 /// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the heading that holds
@@ -104,19 +107,47 @@ pub(crate) struct OutputArgs {
     pub(crate) force: bool,
 }
 
-/// Overrides that most commands take.
+/// Whether extrapolations are accepted.
 #[derive(Debug, Args)]
+pub(crate) struct StrictArgs {
+    /// Accept no extrapolation: a result that carries a flag of validity is an error, exit code 2.
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+/// Overrides that most commands take.
+#[derive(Clone, Debug, Args)]
 pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
     /// The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`; without it the soil's own,
-    /// or else `ishigami`.
+    /// or else `ishigami`. `wheel-test`, `heading`, `heading-map` and `traverse` take `all`, too: the
+    /// results of each model.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
     #[arg(long = "gravity-m-s2", value_name = "G", allow_hyphen_values = true)]
     pub(crate) gravity: Option<String>,
+}
+
+/// The word for every model.
+pub(crate) const EVERY_MODEL: &str = "all";
+
+impl SettingArgs {
+    /// Whether every model is asked for.
+    pub(crate) fn has_every_model(&self) -> bool {
+        self.model.as_deref() == Some(EVERY_MODEL)
+    }
+
+    /// The settings of each model that is asked for: these alone, or those of every model by its name.
+    pub(crate) fn each_model(&self) -> Vec<Self> {
+        if !self.has_every_model() {
+            return vec![self.clone()];
+        }
+        let named = |theory: Theory| Self { model: Some(theory.name().to_owned()), ..self.clone() };
+        Theory::ALL.map(named).into()
+    }
 }
 
 /// The rover and the soil of a scenario.
@@ -133,10 +164,12 @@ pub(crate) struct PartArgs {
 /// How the weight acts on the wheels.
 #[derive(Debug, Args)]
 pub(crate) struct BalanceArgs {
-    /// Load transfer between the wheels: `quasi-static`, `quasi-static-torque` or `uniform`.
+    /// Load transfer between the wheels: `complete` (the default), `quasi-static` (the paper's),
+    /// `quasi-static-torque` or `uniform`.
     #[arg(long, alias = "loads", value_name = "LAW")]
     pub(crate) load_transfer: Option<String>,
-    /// The wheels' own overturning and aligning moments: `neglected` or `included`.
+    /// The wheels' own overturning and aligning moments: `neglected` or `included`; a complete load
+    /// transfer includes them.
     #[arg(long, alias = "moments", value_name = "WORD")]
     pub(crate) wheel_moments: Option<String>,
 }

@@ -98,6 +98,12 @@ impl From<grouser::simulation::RunError> for Failure {
     }
 }
 
+impl From<grouser::document::validity::OutsideDomain> for Failure {
+    fn from(error: grouser::document::validity::OutsideDomain) -> Self {
+        Self::Usage(error.to_string())
+    }
+}
+
 impl From<grouser::error::ParameterError> for Failure {
     fn from(error: grouser::error::ParameterError) -> Self {
         Self::Usage(escape::line(&error.to_string()).into_owned())

@@ -5,9 +5,10 @@ use std::ops::RangeInclusive;
 use grouser::contact::Theory;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil, escape,
+    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
 use grouser::studies::card::Rule;
+use grouser::studies::ensemble::samples::BandInputs;
 
 use crate::args::{
     BalanceArgs, CardArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs, TraverseArgs,
@@ -41,10 +42,15 @@ impl From<MeasurementError> for Failure {
 }
 
 /// The scenario of a traverse.
-pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
+///
+/// * `setting`: those of the arguments, with one model
+pub(crate) fn traverse(
+    args: &TraverseArgs,
+    setting: &SettingArgs,
+) -> Result<LoadedScenario, Failure> {
     let source = scenario_source("traverse", args.scenario.as_deref())?;
-    let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
-    scenario_settings(&mut overrides, &args.setting, &args.balance)?;
+    let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
+    scenario_settings(&mut overrides, setting, &args.balance)?;
     let texts = [
         ("--rover", "scenario.rover", &args.parts.rover),
         ("--soil", "scenario.soil", &args.parts.soil),
@@ -59,7 +65,7 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     }
     let numbers = [
         ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
-        ("--yaw-deg", "scenario.start.yaw_deg", &args.yaw_deg),
+        ("--yaw-deg", yaw_key(args.yaw_deg.as_deref()), &args.yaw_deg),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
         (
             "--reference-slip-ratio",
@@ -89,15 +95,27 @@ pub(crate) fn traverse(args: &TraverseArgs) -> Result<LoadedScenario, Failure> {
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
+/// What `--yaw-deg` sets: the yaw at the start, or as a list of pairs the yaw over time.
+fn yaw_key(value: Option<&str>) -> &'static str {
+    let is_list = value.is_some_and(|value| value.trim_start().starts_with('['));
+    if is_list { "scenario.drive.yaw_deg" } else { "scenario.start.yaw_deg" }
+}
+
 /// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
-pub(crate) fn heading(args: &HeadingArgs) -> Result<LoadedScenario, Failure> {
+///
+/// * `setting`: those of the arguments, with one model
+pub(crate) fn heading(
+    args: &HeadingArgs,
+    setting: &SettingArgs,
+) -> Result<LoadedScenario, Failure> {
     check_slopes(&args.slope_deg)?;
     let scenario = args.scenario.as_deref();
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
-    balanced("heading", scenario, rover, soil, &args.setting, &args.balance)
+    balanced("heading", scenario, rover, soil, setting, &args.balance)
 }
 
-/// The scenarios of a heading map, one for each soil.
+/// The scenarios of a heading map, one for each model that is asked for and soil: all soils of the first model,
+/// then those of the next.
 pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;
@@ -108,12 +126,29 @@ pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, 
     check_numbers("--rim-speed-m-s", &args.rim_speed_m_s, &study::MAP_SPEED_M_S)?;
     let soils: Vec<Option<&String>> =
         if args.soil.is_empty() { vec![None] } else { args.soil.iter().map(Some).collect() };
-    check_rows((soils.len() * args.slope_deg.0.len() * args.course_deg.0.len()) as f64)?;
+    let settings = args.setting.each_model();
+    let rows = settings.len() * soils.len() * args.slope_deg.0.len() * args.course_deg.0.len();
+    let sampling = args.uncertainty.sampling;
+    check_samples(if sampling.uncertainty { sampling.samples } else { 1 }, rows)?;
     let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
-    let read = |soil: Option<&String>| {
-        balanced("heading-map", scenario, rover, soil, &args.setting, &args.balance)
+    let of_setting = |setting: &SettingArgs| {
+        let read = |soil: Option<&String>| {
+            balanced("heading-map", scenario, rover, soil, setting, &args.balance)
+        };
+        soils.iter().copied().map(read).collect::<Result<Vec<_>, _>>()
     };
-    soils.into_iter().map(read).collect()
+    let all = settings.iter().map(of_setting).collect::<Result<Vec<_>, _>>()?;
+    Ok(all.into_iter().flatten().collect())
+}
+
+/// The scenario whose rover, soil and load transfer `validate` takes on slopes.
+pub(crate) fn on_slopes(
+    rover: &String,
+    soil: &String,
+    setting: &SettingArgs,
+) -> Result<LoadedScenario, Failure> {
+    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
+    balanced("validate", None, Some(rover), Some(soil), setting, &balance)
 }
 
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
@@ -136,7 +171,11 @@ fn balanced(
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        "slopes are given by --slope-deg; a heading offset has no drive, start or duration",
+        if command == "validate" {
+            "slopes are those of the rows; a heading offset has no drive, start or duration"
+        } else {
+            "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+        },
     )?;
     scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in
@@ -149,27 +188,17 @@ fn balanced(
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
-/// The uncertain soil of a scenario; without one, a usage error.
-pub(crate) fn uncertain_soil<'s>(
-    args: &HeadingArgs,
-    scenario: &'s LoadedScenario,
-) -> Result<&'s UncertainSoil, Failure> {
-    check_rows(f64::from(args.uncertainty.samples) * args.slope_deg.0.len() as f64)?;
-    let Some(uncertain) = &scenario.uncertain else {
-        let name = escape::line(scenario.document.text("soil.name").unwrap_or("unnamed"));
-        return Err(Failure::Usage(format!(
-            "--uncertainty: the soil \"{name}\" does not say how well its values are known\n\
-             hint: give its document an [uncertainty] section, or try --soil toyoura-uncertain; \
-             docs/guide/uncertainty.md explains how"
-        )));
-    };
-    refuse_sampled_keys(&args.setting, uncertain)?;
-    Ok(uncertain)
+/// That samples of so many rows are not more than anyone can have meant.
+pub(crate) fn check_samples(samples: u32, rows: usize) -> Result<(), Failure> {
+    check_rows(f64::from(samples) * rows as f64)
 }
 
-/// Refuses settings of keys that the samples give a value.
-fn refuse_sampled_keys(setting: &SettingArgs, uncertain: &UncertainSoil) -> Result<(), Failure> {
-    let keys: Vec<&str> = uncertain.sampled_keys().collect();
+/// Refuses settings of keys that the samples of a soil give a value.
+pub(crate) fn refuse_sampled_keys(
+    setting: &SettingArgs,
+    uncertain: Option<&UncertainSoil>,
+) -> Result<(), Failure> {
+    let keys: Vec<&str> = uncertain.into_iter().flat_map(UncertainSoil::sampled_keys).collect();
     if !keys.is_empty() {
         let hint = "every sample gives this key its own value";
         Overrides::parse_flags("--set", &setting.settings)?.refuse(Kind::Soil, &keys, hint)?;
@@ -200,9 +229,7 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
-    if let Some(uncertain) = &scenario.uncertain {
-        refuse_sampled_keys(setting, uncertain)?;
-    }
+    refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     let rim_speed = match &args.rim_speed_m_s {
         Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
         None => scenario.value.drive.nominal_rim_speed(),
@@ -225,9 +252,12 @@ pub(crate) struct StandInputs {
     pub(crate) wheel: document::LoadedWheel,
     pub(crate) gravity: f64,
     pub(crate) theory: Theory,
+    /// What its bands are drawn from.
+    pub(crate) band: BandInputs,
 }
 
-pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
+/// The stand with each model that is asked for.
+pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<Vec<StandInputs>, Failure> {
     use document::study;
     check_numbers("--load-n", &args.load_n, &study::LOAD_N)?;
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
@@ -236,7 +266,20 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<StandInputs, Failure> {
     if let Some(trials) = args.stand.trials {
         check_stand(&args.stand, trials)?;
     }
-    stand(&args.soil, &args.wheel, &args.setting)
+    let settings = args.setting.each_model();
+    if args.sampling.uncertainty {
+        let lists = [&args.load_n, &args.slip_ratio, &args.slip_angle_deg];
+        let rows: usize = lists.iter().map(|list| list.0.len()).product();
+        check_samples(args.sampling.samples, settings.len() * rows)?;
+    }
+    let each = |setting: &SettingArgs| {
+        let stand = stand(&args.soil, &args.wheel, setting)?;
+        if args.sampling.uncertainty {
+            refuse_sampled_keys(setting, stand.soil.uncertain.as_ref())?;
+        }
+        Ok(stand)
+    };
+    settings.iter().map(each).collect()
 }
 
 /// A soil and gravity [m/s²].
@@ -285,11 +328,10 @@ pub(crate) fn stand(
         &BalanceArgs { load_transfer: None, wheel_moments: None },
     )?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
-    let theory = match &setting.model {
-        Some(_) => run.theory,
-        None => soil.document.theory().unwrap_or_default(),
-    };
-    Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory })
+    let chosen = setting.model.as_ref().map(|_| run.theory);
+    let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
+    let band = BandInputs::of_soil(&soil, chosen);
+    Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory, band })
 }
 
 fn scenario_settings(

@@ -23,6 +23,8 @@ pub struct Settings {
     pub sensitivity: bool,
     /// Whether the soil's own uncertainty is sampled, too.
     pub soil_uncertainty: bool,
+    /// Whether the wheel–soil model is drawn, too.
+    pub model_uncertainty: bool,
     /// The other uncertain inputs.
     pub uncertain: Stated,
     /// The base that is varied: a scenario, or a stand.
@@ -41,6 +43,7 @@ impl Settings {
         sampling: Sampling::MonteCarlo,
         sensitivity: false,
         soil_uncertainty: false,
+        model_uncertainty: false,
         uncertain: Stated { samples: None, parameters: Vec::new(), correlations: Vec::new() },
         scenario: None,
         stand: None,

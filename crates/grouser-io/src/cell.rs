@@ -11,6 +11,8 @@ pub enum ColumnKind {
     Whole,
     /// Words and sentences.
     Text,
+    /// Names of a closed list, as many as there are.
+    Words,
 }
 
 /// The value of a row in one column.
@@ -22,6 +24,8 @@ pub enum Cell {
     Whole(Option<u64>),
     /// A word or a sentence.
     Text(Option<String>),
+    /// Names of a closed list.
+    Words(Vec<&'static str>),
 }
 
 impl Cell {
@@ -37,6 +41,7 @@ impl Cell {
             ColumnKind::Float => Self::Float(None),
             ColumnKind::Whole => Self::Whole(None),
             ColumnKind::Text => Self::Text(None),
+            ColumnKind::Words => Self::Words(Vec::new()),
         }
     }
 }
@@ -47,6 +52,7 @@ impl Serialize for Cell {
             Self::Float(value) => value.serialize(serializer),
             Self::Whole(value) => value.serialize(serializer),
             Self::Text(value) => value.serialize(serializer),
+            Self::Words(value) => value.serialize(serializer),
         }
     }
 }
@@ -60,7 +66,12 @@ pub enum Values {
     Whole(Vec<Option<u64>>),
     /// Words and sentences.
     Text(Vec<Option<String>>),
+    /// Lists of names.
+    Words(Vec<Vec<&'static str>>),
 }
+
+/// Between names where a list has to be one text.
+pub const BETWEEN_NAMES: &str = ";";
 
 impl Values {
     /// How many there are.
@@ -70,6 +81,7 @@ impl Values {
             Self::Float(values) => values.len(),
             Self::Whole(values) => values.len(),
             Self::Text(values) => values.len(),
+            Self::Words(values) => values.len(),
         }
     }
 
@@ -84,6 +96,7 @@ impl Values {
             ColumnKind::Float => Self::Float(Vec::with_capacity(length)),
             ColumnKind::Whole => Self::Whole(Vec::with_capacity(length)),
             ColumnKind::Text => Self::Text(Vec::with_capacity(length)),
+            ColumnKind::Words => Self::Words(Vec::with_capacity(length)),
         }
     }
 
@@ -93,6 +106,20 @@ impl Values {
             Self::Float(values) => Self::Float(rows.iter().map(|row| values[*row]).collect()),
             Self::Whole(values) => Self::Whole(rows.iter().map(|row| values[*row]).collect()),
             Self::Text(values) => Self::Text(rows.iter().map(|row| values[*row].clone()).collect()),
+            Self::Words(values) => {
+                Self::Words(rows.iter().map(|row| values[*row].clone()).collect())
+            }
+        }
+    }
+
+    /// Adds what is missing to so many, without a value.
+    pub(super) fn pad(&mut self, length: usize) {
+        let length = length.max(self.len());
+        match self {
+            Self::Float(values) => values.resize(length, None),
+            Self::Whole(values) => values.resize(length, None),
+            Self::Text(values) => values.resize(length, None),
+            Self::Words(values) => values.resize(length, Vec::new()),
         }
     }
 
@@ -101,6 +128,7 @@ impl Values {
             (Self::Float(values), Self::Float(more)) => values.extend(more),
             (Self::Whole(values), Self::Whole(more)) => values.extend(more),
             (Self::Text(values), Self::Text(more)) => values.extend(more),
+            (Self::Words(values), Self::Words(more)) => values.extend(more),
             _ => unreachable!("both are of one column"),
         }
     }
@@ -110,6 +138,7 @@ impl Values {
             (Self::Float(values), Cell::Float(value)) => values.push(value),
             (Self::Whole(values), Cell::Whole(value)) => values.push(value),
             (Self::Text(values), Cell::Text(value)) => values.push(value),
+            (Self::Words(values), Cell::Words(value)) => values.push(value),
             _ => unreachable!("a cell is of its column's kind"),
         }
     }
@@ -125,6 +154,7 @@ impl Values {
             Self::Float(values) => map.serialize_entry(name, &values[row]),
             Self::Whole(values) => map.serialize_entry(name, &values[row]),
             Self::Text(values) => map.serialize_entry(name, &values[row]),
+            Self::Words(values) => map.serialize_entry(name, &values[row]),
         }
     }
 }

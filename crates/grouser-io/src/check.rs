@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 
 use super::describe;
 use super::error::{DocumentError, Problem};
+use super::json_schema::FROM_PRIOR;
 use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, words};
 use super::tree::{Entry, Node, Origin, Value, number};
@@ -175,14 +176,20 @@ impl Checker<'_> {
                 None => return Err(self.unknown_key(schema, all, node, entry, path)),
             }
         }
-        let missing = keys(schema).find(|(key, _)| {
+        let missing = keys(schema).find(|(key, key_schema)| {
             // A file's own `schema` is asked for where the file is read.
-            *key != "schema" && requires(schema, key) && node.entry(key).is_none()
+            let is_needed = requires(schema, key) || waits_for_prior(key_schema);
+            *key != "schema" && is_needed && node.entry(key).is_none()
         });
         match missing {
             None => Ok(()),
             Some((name, schema)) => {
                 let about = schema.get("description").and_then(Json::as_str).map(first_line);
+                let about = about.map(|about| {
+                    let prior =
+                        if waits_for_prior(schema) { "; the soil's priors have none" } else { "" };
+                    about + prior
+                });
                 Err(DocumentError::at(key, Problem::MissingKey { key: join(path, name) })
                     .with_hint(about))
             }
@@ -351,6 +358,11 @@ fn type_in_words(schema: &Json) -> &'static str {
 fn requires(schema: &Json, key: &str) -> bool {
     let required = schema.get("required").and_then(Json::as_array);
     required.is_some_and(|keys| keys.iter().any(|required| required == key))
+}
+
+/// Whether the soil's priors have to have put a value there, if the document has none.
+fn waits_for_prior(schema: &Json) -> bool {
+    schema.get("$comment").and_then(Json::as_str) == Some(FROM_PRIOR)
 }
 
 fn join(path: &str, key: &str) -> String {

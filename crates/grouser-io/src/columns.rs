@@ -6,6 +6,7 @@
 //! or number by number. A quantity with a band over samples is one column too: the table has a column for each
 //! of its quantiles.
 
+pub mod flags;
 pub mod wheel;
 
 use serde::ser::SerializeMap;
@@ -54,7 +55,7 @@ enum Value<R> {
     Maybe(fn(&R) -> Option<f64>),
     /// A reading of a stand, rounded to a ten-thousandth of its unit.
     Reading(fn(&R) -> Option<f64>),
-    /// Three columns: the quantiles of a band over samples.
+    /// Three columns: the quantiles of a band over samples; one that is infinite is not there.
     Band(fn(&R) -> Option<Band>),
     /// Three columns: a probability and its 95 % confidence interval.
     Probability(fn(&R) -> Option<Probability>),
@@ -64,6 +65,7 @@ enum Value<R> {
     Compared(fn(&R) -> [Option<f64>; 3]),
     Whole(fn(&R) -> Option<usize>),
     Text(fn(&R) -> Option<String>),
+    Words(fn(&R) -> Vec<&'static str>),
 }
 
 /// A name with a unit that columns of several tables have.
@@ -115,9 +117,16 @@ pub const TOTAL_SLIP: Quantity = quantity("slip_ratio_total_speed", ONE);
 pub const RIM_SPEED_SETTING: Quantity = quantity("rim_speed_setting_m_s", M_S);
 /// The probability that a heading offset holds the contour.
 pub const PROBABILITY_LEVEL: Quantity = quantity("probability_level", ONE);
+/// The probability that the soil carries a wheel.
+pub const PROBABILITY_CARRIED: Quantity = quantity("probability_carried", ONE);
+/// The probability that a run is completed.
+pub const PROBABILITY_COMPLETED: Quantity = quantity("probability_completed", ONE);
 
 /// Ends of the names of a probability and its confidence interval.
 const INTERVAL: [&str; 3] = ["", "_low", "_high"];
+
+/// The wheel–soil model of a row, where there is a row for each model.
+pub const MODEL: &str = "model";
 
 /// Of rows with a result and without.
 pub const STATUS: &str = "status";
@@ -255,6 +264,15 @@ pub const fn text<R>(
     quantity(name, ONE).column(doc, Value::Text(of))
 }
 
+/// A column of names of a closed list.
+pub const fn words<R>(
+    name: &'static str,
+    doc: &'static str,
+    of: fn(&R) -> Vec<&'static str>,
+) -> Column<R> {
+    quantity(name, ONE).column(doc, Value::Words(of))
+}
+
 impl<R> Column<R> {
     /// Its names in a table: one, or one for each quantile.
     #[must_use]
@@ -286,6 +304,7 @@ impl<R> Column<R> {
         match self.value {
             Value::Whole(_) => ColumnKind::Whole,
             Value::Text(_) => ColumnKind::Text,
+            Value::Words(_) => ColumnKind::Words,
             _ => ColumnKind::Float,
         }
     }
@@ -298,7 +317,7 @@ impl<R> Column<R> {
             _ => match self.cell(Some(row), 0) {
                 Cell::Float(value) => value.unwrap_or(f64::NAN),
                 Cell::Whole(value) => value.map_or(f64::NAN, |count| count as f64),
-                Cell::Text(_) => f64::NAN,
+                Cell::Text(_) | Cell::Words(_) => f64::NAN,
             },
         }
     }
@@ -313,7 +332,10 @@ impl<R> Column<R> {
             Value::Given(of) => Cell::Float(of(row).map(|value| unit.as_given(value))),
             Value::Maybe(of) => float(of(row)),
             Value::Reading(of) => Cell::Float(of(row).map(|value| rounded(unit.from_si(value)))),
-            Value::Band(of) => float(of(row).map(|it| [it.low, it.median, it.high][end])),
+            Value::Band(of) => {
+                let quantile = of(row).map(|it| [it.low, it.median, it.high][end]);
+                float(quantile.filter(|value| value.is_finite()))
+            }
             Value::Probability(of) => float(of(row).map(|it| {
                 let (low, high) = it.interval();
                 [it.estimate(), low, high][end]
@@ -322,6 +344,7 @@ impl<R> Column<R> {
             Value::Compared(of) => float(of(row)[end]),
             Value::Whole(of) => Cell::Whole(of(row).map(|count| count as u64)),
             Value::Text(of) => Cell::Text(of(row)),
+            Value::Words(of) => Cell::Words(of(row)),
         }
     }
 

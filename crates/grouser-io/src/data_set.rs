@@ -1,4 +1,4 @@
-//! `data-set/1`: wheel, soils and gravity of a file of measurements, so that models can be compared with it.
+//! `data-set/1`: wheel or rover, soils and gravity of a file of measurements, so that models can be compared with it.
 
 use serde::Deserialize;
 
@@ -9,11 +9,14 @@ use super::kind::Kind;
 use super::loaded::Loaded;
 use super::measurements::Condition;
 use super::overrides::Overrides;
-use super::read::{LoadedSoil, LoadedWheel, Written, blame_name, read_soil, read_wheel, written};
+use super::read::{
+    LoadedRover, LoadedSoil, LoadedWheel, Written, blame_name, read_rover, read_soil, read_wheel,
+    written,
+};
 use super::source::Source;
 use super::tree::{Node, Value};
 
-/// A file of measured wheel tests, and the wheels and soils in it.
+/// A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and soils in it.
 ///
 /// With which wheels were the tests of the data set `cmu-single-wheel` made, and under which gravity?
 ///
@@ -23,9 +26,10 @@ use super::tree::{Node, Value};
 /// let source = Source::find(Kind::DataSet, "cmu-single-wheel")?;
 /// let data_set = read_data_set(&source, &Overrides::none())?.value;
 /// let radius = |case: &grouser_io::DataSetCase| {
-///     format!("{}: {:.1} mm", case.name, 1e3 * case.wheel.value.shearing_radius())
+///     let wheel = case.tested.wheel()?;
+///     Some(format!("{}: {:.1} mm", case.name, 1e3 * wheel.value.shearing_radius()))
 /// };
-/// let wheels: Vec<String> = data_set.cases.iter().map(radius).collect();
+/// let wheels: Vec<String> = data_set.cases.iter().filter_map(radius).collect();
 /// assert_eq!(wheels.join(", "), "smooth: 62.5 mm, grousers: 62.5 mm");
 /// assert_eq!(format!("{:.2} m/s²", data_set.gravity), "9.81 m/s²");
 /// # Ok::<(), grouser_io::DocumentError>(())
@@ -36,7 +40,7 @@ pub struct DataSet {
     pub file: String,
     /// Gravity where it was measured, *g* [m/s²].
     pub gravity: f64,
-    /// Its parts, each with one wheel.
+    /// Its parts, each with one wheel or one rover.
     pub cases: Vec<DataSetCase>,
 }
 
@@ -47,10 +51,13 @@ pub type LoadedDataSet = Loaded<DataSet>;
 #[derive(Deserialize)]
 struct CaseSection {
     name: String,
-    wheel: String,
+    wheel: Option<String>,
+    rover: Option<String>,
     #[serde(default, rename = "where")]
     conditions: Vec<String>,
     soils: Vec<String>,
+    #[serde(default)]
+    fitted: Vec<String>,
 }
 
 /// A part of a data set, with its documents read.
@@ -60,10 +67,49 @@ pub struct DataSetCase {
     pub name: String,
     /// Which rows of the file belong to it.
     pub conditions: Vec<Condition>,
-    /// The wheel.
-    pub wheel: LoadedWheel,
+    /// What was tested.
+    pub tested: Tested,
     /// The soils, each with the name it was found by.
     pub soils: Vec<(String, LoadedSoil)>,
+    /// The names of those of the soils that were fitted to these rows.
+    pub fitted: Vec<String>,
+}
+
+/// What a part of a data set is about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Tested {
+    /// A wheel on a test stand.
+    Wheel(Box<LoadedWheel>),
+    /// A rover on slopes.
+    Rover(Box<LoadedRover>),
+}
+
+impl Tested {
+    /// The wheel, where one was tested.
+    #[must_use]
+    pub fn wheel(&self) -> Option<&LoadedWheel> {
+        match self {
+            Self::Wheel(wheel) => Some(wheel),
+            Self::Rover(_) => None,
+        }
+    }
+
+    /// The rover, where one was tested.
+    #[must_use]
+    pub fn rover(&self) -> Option<&LoadedRover> {
+        match self {
+            Self::Rover(rover) => Some(rover),
+            Self::Wheel(_) => None,
+        }
+    }
+}
+
+impl DataSetCase {
+    /// Whether a soil was fitted to these rows, so that its errors are in sample.
+    #[must_use]
+    pub fn is_fitted(&self, soil: &str) -> bool {
+        self.fitted.iter().any(|fitted| fitted == soil)
+    }
 }
 
 /// Reads a data set with the wheels and soils that it names; the measurements themselves are read
@@ -87,7 +133,8 @@ pub fn read_data_set(
     let cases = sections.iter().zip(nodes).map(|(case, node)| case.read(node));
     let Common { file, gravity } = common;
     let value = DataSet { file, gravity, cases: cases.collect::<Result<_, _>>()? };
-    Ok(Loaded { document, value, uncertain: None, assumptions, companions: Vec::new() })
+    let (assumed, companions) = (Vec::new(), Vec::new());
+    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions })
 }
 
 impl CaseSection {
@@ -105,9 +152,31 @@ impl CaseSection {
                 read_soil(&source, &none).map_err(|error| blame_name(error, &origin, &source))?;
             Ok((name.clone(), loaded))
         };
-        let wheel = || {
-            let (source, origin) = find(Kind::Wheel, "wheel", &self.wheel)?;
-            read_wheel(&source, &none).map_err(|error| blame_name(error, &origin, &source))
+        let tested = || match (&self.wheel, &self.rover) {
+            (Some(name), None) => {
+                let (source, origin) = find(Kind::Wheel, "wheel", name)?;
+                let wheel = read_wheel(&source, &none);
+                let wheel = wheel.map_err(|error| blame_name(error, &origin, &source))?;
+                Ok(Tested::Wheel(Box::new(wheel)))
+            }
+            (None, Some(name)) => {
+                let (source, origin) = find(Kind::Rover, "rover", name)?;
+                let rover = read_rover(&source, &none);
+                let rover = rover.map_err(|error| blame_name(error, &origin, &source))?;
+                Ok(Tested::Rover(Box::new(rover)))
+            }
+            _ => Err(DocumentError::at(&node.origin, Problem::WheelOrRover)),
+        };
+        let fitted = |name: &String| {
+            if self.soils.contains(name) {
+                return Ok(name.clone());
+            }
+            let problem = Problem::NotAllowed {
+                key: "fitted".to_owned(),
+                value: name.clone(),
+                allowed: format!("one of the soils: {}", self.soils.join(", ")),
+            };
+            Err(DocumentError::at(node.origin_of("fitted"), problem))
         };
         let condition = |text: &String| {
             Condition::parse(text).map_err(|_| {
@@ -122,8 +191,9 @@ impl CaseSection {
         Ok(DataSetCase {
             name: self.name.clone(),
             conditions: self.conditions.iter().map(condition).collect::<Result<_, _>>()?,
-            wheel: wheel()?,
+            tested: tested()?,
             soils: self.soils.iter().enumerate().map(soil).collect::<Result<_, DocumentError>>()?,
+            fitted: self.fitted.iter().map(fitted).collect::<Result<_, _>>()?,
         })
     }
 }

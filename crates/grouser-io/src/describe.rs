@@ -3,6 +3,7 @@
 mod about;
 pub(crate) mod campaign;
 pub(crate) mod data_set;
+pub(crate) mod prior;
 pub(crate) mod rover;
 pub(crate) mod scenario;
 pub(crate) mod soil;
@@ -23,6 +24,7 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::Scenario => &scenario::SCENARIO,
         Kind::DataSet => &data_set::DATA_SET,
         Kind::Campaign => &campaign::CAMPAIGN,
+        Kind::Prior => &prior::PRIORS,
     }
 }
 

@@ -5,6 +5,7 @@ use serde_json::{Map, Value as Json};
 
 use super::describe;
 use super::kind::Kind;
+use super::priors::KEY as PRIORS;
 use grouser_core::contact::Theory;
 
 /// The keys of a document in their own units: every named part in its place, every default filled in, keys
@@ -119,7 +120,32 @@ impl Document {
         self.theory_at("model")
     }
 
-    pub(crate) fn theory_at(&self, path: &str) -> Option<Theory> {
+    /// The wheel–soil model that a scenario's soil was made for, if stated.
+    #[must_use]
+    pub fn theory_of_soil(&self) -> Option<Theory> {
+        self.theory_at("soil.model")
+    }
+
+    /// The wheel–soil model that a soil is computed with where nobody asks for another: that which it
+    /// was made for; without one `ishigami`, but `small-wheel` for a soil that leaves its wheel sinkage
+    /// ratio to priors: of the models it misses published wheel tests least where nothing is fitted.
+    ///
+    /// * `place`: the key of the soil, or nothing if the document is one
+    #[must_use]
+    pub fn usual_theory(&self, place: &str) -> Theory {
+        let key =
+            |key: &str| if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") };
+        let left_to_priors = || {
+            let rows = self.get(&key("priors.missing")).and_then(Json::as_array);
+            rows.is_some_and(|rows| rows.iter().any(|row| row["key"] == "exit.ratio"))
+        };
+        let usual = || if left_to_priors() { Theory::SmallWheel } else { Theory::Ishigami };
+        self.theory_at(&key("model")).unwrap_or_else(usual)
+    }
+
+    /// The wheel–soil model that stands under a dotted key, if there is one.
+    #[must_use]
+    pub fn theory_at(&self, path: &str) -> Option<Theory> {
         let name = self.text(path)?;
         Theory::ALL.into_iter().find(|theory| theory.name() == name)
     }
@@ -130,7 +156,7 @@ impl Document {
         to_toml(self)
     }
 
-    /// The dotted keys of all its numbers, entries of lists by their place.
+    /// The dotted keys of all its numbers, entries of lists by their place; those of priors are no numbers of a soil.
     pub(crate) fn number_keys(&self) -> Vec<String> {
         number_keys(&self.keys)
     }
@@ -138,7 +164,10 @@ impl Document {
 
 fn number_keys(given: &Json) -> Vec<String> {
     let mut children: Vec<(String, &Json)> = match given {
-        Json::Object(keys) => keys.iter().map(|(key, given)| (key.clone(), given)).collect(),
+        Json::Object(keys) => {
+            let own = keys.iter().filter(|(key, _)| *key != PRIORS);
+            own.map(|(key, given)| (key.clone(), given)).collect()
+        }
         Json::Array(all) => {
             all.iter().enumerate().map(|(place, given)| (place.to_string(), given)).collect()
         }
@@ -147,6 +176,8 @@ fn number_keys(given: &Json) -> Vec<String> {
     if given.is_object() {
         children.sort_by(|one, other| one.0.cmp(&other.0));
     }
+    // The ends of a domain's ranges are no numbers of what is described: nothing is computed from them.
+    children.retain(|(key, _)| key != "domain");
     let keys = children.into_iter().flat_map(|(key, given)| {
         if given.is_f64() {
             return vec![key];

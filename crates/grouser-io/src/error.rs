@@ -169,6 +169,9 @@ pub enum Problem {
         /// The allowed ones.
         allowed: String,
     },
+    /// A part of a data set that is about neither, or about both.
+    #[error("a case has either a `wheel`, tested on a stand, or a `rover`, tested on slopes")]
+    WheelOrRover,
     /// A list that is too short or too long.
     #[error("`{key}` has {count} entries, it must have {allowed}")]
     WrongLength {

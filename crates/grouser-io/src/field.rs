@@ -28,6 +28,8 @@ pub(crate) struct Field<T: 'static> {
     pub key: &'static str,
     /// What documents of earlier versions call it.
     pub formerly: Option<&'static str>,
+    /// The key under which its number may stand in thousands of its unit.
+    pub in_thousands: Option<&'static str>,
     /// What it is: a sentence; of a number without its unit and full stop.
     pub doc: &'static str,
     pub presence: Presence,
@@ -43,6 +45,10 @@ pub(crate) enum Presence {
     Optional,
     /// This value.
     Otherwise(Fill),
+    /// The keyword that goes with the one of another key of the table.
+    Follows(&'static str, &'static [(&'static str, &'static str)]),
+    /// What the soil's priors say; without one this value, or else that something is missing.
+    Prior(Option<f64>),
 }
 
 /// A value that stands for one that a document does not have.
@@ -68,6 +74,7 @@ pub(crate) enum Shape<T: 'static> {
     Words(&'static [Keyword<T>]),
     Number(Number, Reach<T>),
     Numbers(Numbers<T>),
+    Pairs(Pairs<T>),
     /// A table.
     Inner(&'static dyn Inner<T>),
     /// At least so many tables.
@@ -129,6 +136,22 @@ pub(crate) struct Numbers<T: 'static> {
     /// Makes room for as many, or for one alone.
     pub(crate) begin: fn(&mut T, Option<usize>),
     pub(crate) reach: fn(&mut T, usize) -> Option<&mut f64>,
+}
+
+/// A list of pairs of numbers, each with its own unit.
+pub(crate) struct Pairs<T: 'static> {
+    pub numbers: [Number; 2],
+    /// Makes room for as many.
+    pub(crate) begin: fn(&mut T, usize),
+    pub(crate) reach: fn(&mut T, usize) -> Option<[&mut f64; 2]>,
+}
+
+impl<T> Pairs<T> {
+    /// What either number may be, for those who do not tell the two apart.
+    pub(crate) fn range(&self) -> Number {
+        let [one, other] = self.numbers;
+        Number { least: one.least.min(other.least), most: one.most.max(other.most), ..one }
+    }
 }
 
 /// How numbers are written.
@@ -235,6 +258,25 @@ pub(crate) const fn numbers<T>(
     field(key, doc, Shape::Numbers(Numbers { number, form, begin, reach }))
 }
 
+/// A list of pairs of numbers.
+///
+/// * `units`, `ranges`: of the first and the second of each pair
+pub(crate) const fn pairs<T>(
+    key: &'static str,
+    units: [Unit; 2],
+    ranges: [RangeInclusive<f64>; 2],
+    doc: &'static str,
+    begin: fn(&mut T, usize),
+    reach: fn(&mut T, usize) -> Option<[&mut f64; 2]>,
+) -> Field<T> {
+    let [unit, other_unit] = units;
+    let (least, most) = (*ranges[0].start(), *ranges[0].end());
+    let one = Number { unit, least, most, is_open: false };
+    let (least, most) = (*ranges[1].start(), *ranges[1].end());
+    let other = Number { unit: other_unit, least, most, is_open: false };
+    field(key, doc, Shape::Pairs(Pairs { numbers: [one, other], begin, reach }))
+}
+
 /// A whole number.
 pub(crate) const fn whole<T>(
     key: &'static str,
@@ -336,7 +378,7 @@ pub(crate) const fn part<T>(
 }
 
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, formerly: None, doc, presence: Presence::Needed, shape }
+    Field { key, formerly: None, in_thousands: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -358,9 +400,37 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, with the keyword that goes with another key's for documents that leave it out.
+    pub(crate) const fn following(
+        mut self,
+        key: &'static str,
+        words: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        self.presence = Presence::Follows(key, words);
+        self
+    }
+
+    /// The same, which the soil's priors have a value for.
+    pub(crate) const fn or_prior(mut self) -> Self {
+        self.presence = Presence::Prior(None);
+        self
+    }
+
+    /// The same, with a value where there is no prior.
+    pub(crate) const fn or_prior_or(mut self, number: f64) -> Self {
+        self.presence = Presence::Prior(Some(number));
+        self
+    }
+
     /// The same, which had another key in earlier versions.
     pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
         self.formerly = Some(key);
+        self
+    }
+
+    /// The same, whose number may stand under another key in thousands of its unit: newtons as kN.
+    pub(crate) const fn or_in_thousands(mut self, key: &'static str) -> Self {
+        self.in_thousands = Some(key);
         self
     }
 
@@ -374,6 +444,12 @@ impl<T> Field<T> {
         let float = |given: &Json| given.as_f64().map_or(Json::Null, Json::from);
         match (&self.shape, given) {
             (Shape::Numbers(_), Json::Array(all)) => all.iter().map(float).collect(),
+            (Shape::Pairs(_), Json::Array(all)) => {
+                let pair = |pair: &Json| -> Json {
+                    pair.as_array().into_iter().flatten().map(float).collect()
+                };
+                all.iter().map(pair).collect()
+            }
             (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()
@@ -406,7 +482,11 @@ impl<T> Table<T> {
     pub(crate) fn implied(field: &Field<T>) -> Option<Json> {
         match field.presence {
             Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
-            Presence::Needed | Presence::Optional => None,
+            Presence::Prior(Some(number)) => Some(Json::from(number)),
+            Presence::Needed
+            | Presence::Optional
+            | Presence::Follows(..)
+            | Presence::Prior(None) => None,
         }
     }
 }

@@ -4,6 +4,12 @@ use serde_json::{Map, Value as Json, json};
 
 use super::field::{Field, Form, Keyword, Laws, Number, Presence, Shape, Table, Text, Whole};
 
+/// The remark on a key that the soil's priors have a value for. The reader asks for the key where they have none.
+pub(crate) const FROM_PRIOR: &str = "from the soil's priors where it is left out";
+/// The remark on one that has a value without a prior as well.
+const FROM_PRIOR_OR_DEFAULT: &str =
+    "from the soil's priors where it is left out, or 0 where they have none";
+
 /// A table, under a law if its keys depend on one.
 pub(crate) fn of_table<T>(
     table: &Table<T>,
@@ -12,6 +18,7 @@ pub(crate) fn of_table<T>(
 ) -> Json {
     let mut properties = Map::new();
     let mut needed: Vec<&str> = Vec::new();
+    let mut thousands = Map::new();
     if let Some((key, word, may_be_left_out)) = law {
         properties.insert(key.to_owned(), word);
         needed.extend((!may_be_left_out).then_some(key));
@@ -19,6 +26,7 @@ pub(crate) fn of_table<T>(
     for field in table.fields {
         properties.insert(field.key.to_owned(), of_field(field, defs));
         needed.extend(matches!(field.presence, Presence::Needed).then_some(field.key));
+        thousands.extend(field.in_thousands.map(|key| (key.to_owned(), field.key.into())));
     }
     let mut schema = json!({
         "type": "object",
@@ -29,7 +37,54 @@ pub(crate) fn of_table<T>(
     if !needed.is_empty() {
         schema["required"] = needed.into();
     }
+    if !thousands.is_empty() {
+        schema[IN_THOUSANDS] = thousands.into();
+    }
     schema
+}
+
+/// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of the number.
+const IN_THOUSANDS: &str = "x-in-thousands";
+
+/// The schema for editors: where numbers may stand in thousands of a unit, with those keys too. (The reader has turned
+/// them into the others before it checks.)
+pub(crate) fn with_thousands(schema: &mut Json) {
+    match schema {
+        Json::Array(all) => all.iter_mut().for_each(with_thousands),
+        Json::Object(keys) => {
+            keys.values_mut().for_each(with_thousands);
+            let Some(Json::Object(thousands)) = keys.shift_remove(IN_THOUSANDS) else { return };
+            for (key, of) in thousands {
+                let Some(of) = of.as_str() else { continue };
+                add_thousands(keys, &key, of);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn add_thousands(table: &mut Map<String, Json>, key: &str, of: &str) {
+    let mut number = table["properties"][of].clone();
+    for end in ["minimum", "exclusiveMinimum", "maximum"] {
+        if let Some(value) = number.get(end).and_then(Json::as_f64) {
+            number[end] = (value / 1e3).into();
+        }
+    }
+    let doc = number["description"].as_str().unwrap_or_default().replace("[N", "[kN");
+    number["description"] = doc.into();
+    table["properties"][key] = number;
+    if let Some(Json::Array(needed)) = table.get_mut("required") {
+        needed.retain(|needed| needed != of);
+    }
+    let one_of_both = json!({
+        "if": { "required": [key] },
+        "then": { "not": { "required": [of] } },
+        "else": { "required": [of] },
+    });
+    match table.get_mut("allOf") {
+        Some(Json::Array(all)) => all.push(one_of_both),
+        _ => drop(table.insert("allOf".to_owned(), json!([one_of_both]))),
+    }
 }
 
 /// A table for each law.
@@ -89,6 +144,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                 json!({ "anyOf": [described(number, one), described(list, each)] })
             }
         },
+        Shape::Pairs(pairs) => {
+            let pair = list_of(&of_number(&pairs.range()), 2, Some(2));
+            list_of(&pair, 1, None)
+        }
         Shape::Inner(inner) => inner.schema(defs),
         Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
         Shape::Part(kind, inner) => {
@@ -116,7 +175,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
         Shape::Numbers(numbers) => with_unit(field.doc, numbers.number.unit.symbol).into(),
         _ => field.doc.into(),
     };
-    if let Some(default) = Table::implied(field) {
+    if let Presence::Prior(without) = field.presence {
+        let comment = if without.is_some() { FROM_PRIOR_OR_DEFAULT } else { FROM_PRIOR };
+        schema["$comment"] = comment.into();
+    } else if let Some(default) = Table::implied(field) {
         schema["default"] = default;
     }
     schema

@@ -10,7 +10,7 @@ use std::fmt;
 /// use grouser_io::{Kind, presets};
 ///
 /// let rovers: Vec<&str> = presets(Kind::Rover).map(|preset| preset.name).collect();
-/// assert_eq!(rovers, ["hakuto", "hakuto-flight", "el-dorado-2"]);
+/// assert_eq!(rovers, ["hakuto", "hakuto-flight", "el-dorado-2", "mgru3"]);
 /// assert_eq!(Kind::Rover.tag(), "rover/1");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,12 +27,21 @@ pub enum Kind {
     DataSet,
     /// Many runs over what is not known exactly, `campaign/1`.
     Campaign,
+    /// What is believed of a soil's numbers that its source does not print, `prior/1`.
+    Prior,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Soil, Self::Wheel, Self::Rover, Self::Scenario, Self::DataSet, Self::Campaign];
+    pub const ALL: [Self; 7] = [
+        Self::Soil,
+        Self::Wheel,
+        Self::Rover,
+        Self::Scenario,
+        Self::DataSet,
+        Self::Campaign,
+        Self::Prior,
+    ];
 
     /// Its name in commands and overrides.
     #[must_use]
@@ -44,6 +53,7 @@ impl Kind {
             Self::Scenario => "scenario",
             Self::DataSet => "data-set",
             Self::Campaign => "campaign",
+            Self::Prior => "prior",
         }
     }
 
@@ -57,6 +67,7 @@ impl Kind {
             Self::Scenario => "scenario/1",
             Self::DataSet => "data-set/1",
             Self::Campaign => "campaign/1",
+            Self::Prior => "prior/1",
         }
     }
 
@@ -64,7 +75,10 @@ impl Kind {
     /// not.
     pub(super) const fn parts(self) -> &'static [Part] {
         match self {
-            Self::Soil | Self::Wheel | Self::DataSet => &[],
+            Self::Wheel | Self::DataSet | Self::Prior => &[],
+            Self::Soil => {
+                &[Part { kind: Self::Prior, path: &["priors"], default: Some(DEFAULT_PRIORS) }]
+            }
             Self::Rover => &[
                 Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
                 Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
@@ -92,6 +106,9 @@ impl fmt::Display for Kind {
 pub const DEFAULT_ROVER: &str = "hakuto";
 /// The soil of a scenario that names none.
 pub const DEFAULT_SOIL: &str = "toyoura";
+
+/// The priors of a soil that names none.
+pub const DEFAULT_PRIORS: &str = "general";
 
 /// A document inside another.
 pub(super) struct Part {

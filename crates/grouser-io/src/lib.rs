@@ -50,6 +50,7 @@ pub mod measurements;
 mod notes;
 mod overrides;
 mod presets;
+mod priors;
 mod read;
 mod rows;
 mod samples;
@@ -67,15 +68,18 @@ mod values;
 pub mod varied;
 
 pub use check::nearest;
-pub use data_set::{DataSet, DataSetCase, LoadedDataSet, read_data_set};
+pub use data_set::{DataSet, DataSetCase, LoadedDataSet, Tested, read_data_set};
 pub use describe::scenario::RIM_SPEED_M_S;
 pub use document::{Document, to_toml};
 pub use error::{DocumentError, Place, Problem, Spot};
 pub use gravity::{GRAVITIES, gravity};
-pub use kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
+pub use kind::{DEFAULT_PRIORS, DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 pub use loaded::{Loaded, fnv_1a};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
+pub use priors::{
+    Assumed, assumed, read_priors, stated_by_priors, with_priors_held, without_priors_of,
+};
 pub use read::{
     LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source, place_of,
     read_rover, read_scenario, read_soil, read_wheel, written,

@@ -1,6 +1,7 @@
 //! A document that was read: its keys in their own units, and the domain's value in SI.
 
 use super::document::Document;
+use super::priors::Assumed;
 use super::tree::Companion;
 use super::uncertain_soil::UncertainSoil;
 
@@ -24,15 +25,31 @@ pub struct Loaded<V> {
     pub document: Document,
     /// Its meaning, in SI units and radians.
     pub value: V,
-    /// The soils that it, or its soil, may be, if it says how well its numbers are known.
+    /// The soils that it, or its soil, may be: by what it says of how well its numbers are known, and by
+    /// priors where it does not. None for an exact soil.
     pub uncertain: Option<UncertainSoil>,
     /// What was assumed, each with the name of the document that says so.
     pub assumptions: Vec<String>,
+    /// The keys that it, or its soil, takes from priors because they are not stated; empty if all are.
+    pub assumed: Vec<Assumed>,
     /// Files that the resolved document names, to be written beside it.
     pub companions: Vec<Companion>,
 }
 
 impl<V> Loaded<V> {
+    /// The soils that it, or its soil, may be, if the document itself says how well its numbers are known.
+    #[must_use]
+    pub fn stated_uncertainty(&self) -> Option<&UncertainSoil> {
+        self.uncertain.as_ref().filter(|soils| soils.is_stated())
+    }
+
+    /// The soils that an answer has to be about that always has a band where there is a reason for one: those of
+    /// a document that says how well its numbers are known, or does not state all of them.
+    #[must_use]
+    pub fn soils_of_bands(&self) -> Option<&UncertainSoil> {
+        self.uncertain.as_ref().filter(|soils| soils.is_stated() || !self.assumed.is_empty())
+    }
+
     /// The resolved document as TOML: read again, with its [`companions`](Self::companions) beside
     /// it, it gives the same value.
     #[must_use]

@@ -11,6 +11,8 @@
 //! column, if they have the same wheel, slip angle and settings of rim speed and load; and without
 //! settings, if slip, slip angle and load are written alike.
 //!
+//! A rover on slopes has files of its own, which [`slope_tests`] reads.
+//!
 //! What `grouser wheel-test` writes is such a file. Rows whose `status` is not `ok` are left out.
 
 pub mod columns;
@@ -20,6 +22,7 @@ mod import;
 mod limits;
 mod notes;
 mod row;
+pub mod slope_tests;
 mod source;
 pub mod table;
 mod taken;

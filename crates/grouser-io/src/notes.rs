@@ -98,17 +98,11 @@ pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
         let overrides = if part.is_listed() { &none } else { overrides };
         change_each_inside(tree, part.path, &mut |inside| add(part.kind, inside, overrides));
     }
-    // A scenario or a campaign is what its author wants, and needs no source.
-    if matches!(kind, Kind::Scenario | Kind::Campaign) {
+    // A scenario or a campaign is what its author wants, and needs no source; priors have one in each row.
+    if matches!(kind, Kind::Scenario | Kind::Campaign | Kind::Prior) {
         return;
     }
     let mut assumed = assumed(tree);
-    if kind == Kind::Soil && tree.entry("exit").is_none() {
-        assumed.push("exit.ratio: not given; 1.0, as for Toyoura sand".to_owned());
-    }
-    if kind == Kind::Soil && tree.entry("bulldozing").is_none() {
-        assumed.push("bulldozing.law: not given; \"sine\", the smooth one".to_owned());
-    }
     if tree.entry("source").is_none() {
         assumed.push("source: not stated by the document".to_owned());
     }
@@ -145,6 +139,9 @@ fn put(tree: &mut Node, assumed: &[String]) {
 
 /// All assumptions, of a document and then by those inside it, each with its name before it.
 pub(crate) fn assumptions(kind: Kind, given: &Json) -> Vec<String> {
+    if kind == Kind::Prior {
+        return Vec::new();
+    }
     let text = |key: &str| given.get(key).and_then(Json::as_str).unwrap_or_default();
     let (name, source) = (text("name"), text("source"));
     let says_so = source.starts_with("assumed").then(|| format!("{kind} {name}: {source}"));

@@ -164,7 +164,11 @@ impl Overrides {
     /// # Errors
     /// [`DocumentError`] for the first that does not.
     pub fn check_kinds(&self, kinds: &[Kind]) -> Result<(), DocumentError> {
-        match self.all.iter().find(|one| !kinds.contains(&one.kind)) {
+        // What reads a soil reads its priors.
+        let is_read = |kind: Kind| {
+            kinds.contains(&kind) || (kind == Kind::Prior && kinds.contains(&Kind::Soil))
+        };
+        match self.all.iter().find(|one| !is_read(one.kind)) {
             None => Ok(()),
             Some(one) => {
                 let problem = Problem::Malformed("this command reads no such document");

@@ -15,6 +15,7 @@ use super::loaded::Loaded;
 use super::notes;
 use super::overrides::Overrides;
 use super::presets::Preset;
+use super::priors;
 use super::source::Source;
 use super::text;
 use super::tree::{Entry, Node, Origin, Value};
@@ -88,6 +89,13 @@ fn read<V: Described>(
     overrides: &Overrides,
 ) -> Result<Loaded<V>, DocumentError> {
     let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
+    let assumed = match kind {
+        Kind::Soil => priors::assumed(&document),
+        Kind::Scenario => {
+            document.part(Kind::Soil, "soil").as_ref().map_or_else(Vec::new, priors::assumed)
+        }
+        _ => Vec::new(),
+    };
     let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
     let mut companions = Vec::new();
     let uncertain = match kind {
@@ -98,7 +106,7 @@ fn read<V: Described>(
         }
         _ => None,
     };
-    Ok(Loaded { document, value, uncertain, assumptions, companions })
+    Ok(Loaded { document, value, uncertain, assumptions, assumed, companions })
 }
 
 /// A document that was found, checked and completed, but not yet understood.
@@ -153,6 +161,9 @@ fn load(
     let mut tree = text::parse(&text)?;
     check_kind(kind, &tree)?;
     complete(kind, &mut tree, overrides, prefix)?;
+    if kind == Kind::Prior {
+        priors::check_reasons(&tree)?;
+    }
     Ok(tree)
 }
 
@@ -167,13 +178,19 @@ fn complete(
     overrides.apply(kind, tree)?;
     // What was set may be a keyword, or a table, of an earlier version.
     describe::rows(kind).rename(tree, Names::Today);
+    let has = |key: &str| tree.entry(key).map(|entry| &entry.node.value);
+    let has_rows = matches!(has(priors::KEY), Some(Value::Table(_)));
     for part in kind.parts() {
         let none = Overrides::none();
         let overrides = if part.is_listed() { &none } else { overrides };
         fetch(part, part.path, tree, overrides, prefix)?;
     }
     overrides.apply_within_lists(kind, tree)?;
-    check::check(kind, tree, prefix)
+    if kind == Kind::Soil {
+        priors::fill(tree, has_rows);
+    }
+    check::check(kind, tree, prefix)?;
+    if kind == Kind::Prior { priors::check(tree) } else { Ok(()) }
 }
 
 /// Puts a named part into its place, or each of those in a list.

@@ -8,12 +8,15 @@ use std::sync::OnceLock;
 use serde_json::{Map, Value as Json};
 
 use super::describe;
+use super::json_schema;
 use super::kind::Kind;
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
 pub fn schema(kind: Kind) -> String {
-    let mut text = format!("{:#}", root(kind));
+    let mut root = root(kind).clone();
+    json_schema::with_thousands(&mut root);
+    let mut text = format!("{root:#}");
     text.push('\n');
     text
 }

@@ -3,7 +3,7 @@
 
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
-pub use super::cell::{Cell, ColumnKind, Values};
+pub use super::cell::{BETWEEN_NAMES, Cell, ColumnKind, Values};
 use super::columns::Column;
 
 /// Rows by their columns. As JSON it is a list of rows, an object each.
@@ -73,6 +73,15 @@ impl Table {
         }
     }
 
+    /// The lists of names in a column; none if it has none.
+    #[must_use]
+    pub fn words(&self, name: &str) -> &[Vec<&'static str>] {
+        match self.column(name) {
+            Some(Values::Words(values)) => values,
+            _ => &[],
+        }
+    }
+
     /// The count in the first row of a column.
     #[must_use]
     pub fn count(&self, name: &str) -> Option<u64> {
@@ -130,6 +139,23 @@ impl Table {
                 }
                 self.columns.push((format!("{prefix}{name}"), values));
             }
+        }
+        self
+    }
+
+    /// With a column before all others that has one word in every row.
+    #[must_use]
+    pub fn with_word(mut self, name: &str, word: &str) -> Self {
+        let words = vec![Some(word.to_owned()); self.rows()];
+        self.columns.insert(0, (name.to_owned(), Values::Text(words)));
+        self
+    }
+
+    /// With rows that have nothing behind its own, until there are this many.
+    #[must_use]
+    pub fn padded(mut self, rows: usize) -> Self {
+        for (_, values) in &mut self.columns {
+            values.pad(rows);
         }
         self
     }

@@ -1,4 +1,4 @@
-//! Samples soils from the `[uncertainty]` of a document.
+//! Samples soils from the `[uncertainty]` of a document, and from its priors.
 //!
 //! A sample replaces numbers of the document and passes the same checks as the document itself.
 
@@ -7,6 +7,7 @@ use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
 use super::kind::Kind;
+use super::priors::stated_by_priors;
 use super::stated::{Samples, Stated};
 use super::tree::Companion;
 use super::tree::Node;
@@ -40,6 +41,8 @@ pub struct UncertainSoil {
     /// How many are of distributions.
     parameters: usize,
     distribution: Distribution,
+    /// Whether the document itself says how well its numbers are known.
+    is_stated: bool,
 }
 
 /// The name of the samples' file beside a resolved document.
@@ -61,6 +64,13 @@ impl UncertainSoil {
     /// As [`draw`](Self::draw), for the first soil that cannot be drawn.
     pub fn draws(&self, seed: u64, count: u32) -> Result<Vec<Soil>, NothingAccepted> {
         (0..count).map(|index| self.draw(seed, index.into())).collect()
+    }
+
+    /// Whether the document itself says how well its numbers are known. Otherwise all that is known of that is its
+    /// priors'.
+    #[must_use]
+    pub fn is_stated(&self) -> bool {
+        self.is_stated
     }
 
     /// The keys that differ from sample to sample.
@@ -94,8 +104,7 @@ impl UncertainSoil {
     }
 }
 
-/// The soils that a document, or its soil, may be; none if it does not say how well it is known. The samples'
-/// file is given the name that it has beside a resolved document.
+/// The soils that a document, or its soil, may be; none if it is known exactly. The samples' file is given the name that it has beside a resolved document.
 ///
 /// * `place`: the key of the soil, or nothing
 /// * `tree`: the soil's tree
@@ -108,13 +117,20 @@ pub(crate) fn read(
     let soil =
         if place.is_empty() { Some(document.clone()) } else { document.part(Kind::Soil, place) };
     let Some(soil) = soil else { return Ok(None) };
-    let Some(stated) = stated_of(&soil, tree)? else { return Ok(None) };
+    let (stated, believed) = (stated_of(&soil, tree)?, stated_by_priors(&soil));
+    if stated.is_none() && believed.parameters.is_empty() {
+        return Ok(None);
+    }
     let base = Varied { value: Soil::of(&soil), document: without_uncertainty(&soil) };
-    let statement = Statement { stated: &stated, tree, table: "uncertainty.", prefix: "" };
-    let Inputs { keys, parameters, samples, distribution, .. } = Inputs::read(&base, &[statement])?;
-    let soils = UncertainSoil { base, keys, parameters, distribution };
+    let (own, is_stated) = (stated.clone().unwrap_or_default(), stated.is_some());
+    let statements = [
+        Statement { stated: &own, tree, table: "uncertainty.", prefix: "", yields: false },
+        Statement { stated: &believed, tree, table: "priors.", prefix: "", yields: true },
+    ];
+    let Inputs { keys, parameters, samples, distribution, .. } = Inputs::read(&base, &statements)?;
+    let soils = UncertainSoil { base, keys, parameters, distribution, is_stated };
     soils.check_first_draw(tree)?;
-    if let (Some((table, _)), Some(Samples::File(_))) = (samples, stated.samples) {
+    if let (Some((table, _)), Some(Samples::File(_))) = (samples, own.samples) {
         let name = SAMPLES_FILE.to_owned();
         *document = document.changed(|keys| {
             let soil = if place.is_empty() { Some(keys) } else { keys[place].as_object_mut() };

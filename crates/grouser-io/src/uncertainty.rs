@@ -20,6 +20,8 @@ pub struct Statement<'a> {
     pub table: &'static str,
     /// What its keys begin with among the numbers that it is about.
     pub prefix: &'static str,
+    /// Whether it gives way where another states the same key, as priors do.
+    pub yields: bool,
 }
 
 /// The uncertain numbers, checked.
@@ -51,39 +53,27 @@ impl Inputs {
         numbers: &dyn Numbers,
         statements: &[Statement<'_>],
     ) -> Result<Self, DocumentError> {
-        let mut keys: Vec<Key> = Vec::new();
-        let mut marginals = Vec::new();
-        for statement in statements {
-            for (place, parameter) in statement.stated.parameters.iter().enumerate() {
-                let path = format!("parameter.{place}");
-                let key_path = format!("{path}.key");
-                let origin = statement.origin(&key_path);
-                let key = numbers
-                    .key(&statement.named(&parameter.key))
-                    .map_err(|error| error.at(origin))?;
-                check_new(&keys, &key, origin, &format!("{}{key_path}", statement.table))?;
-                let marginal = parameter.around(key.value);
-                let is_around_value = parameter.has_no_mean();
-                check_marginal(&key, &marginal, is_around_value).map_err(|(name, problem)| {
-                    DocumentError::at(statement.origin(&format!("{path}.{name}")), problem)
-                })?;
-                keys.push(key);
-                marginals.push(marginal);
-            }
+        let mut rows = Rows::default();
+        for statement in statements.iter().filter(|it| !it.yields) {
+            rows.add(numbers, statement, &[])?;
         }
-        let correlations = correlations(statements, &keys)?;
-        let distribution = Distribution::of_marginals(marginals, &correlations);
-        let mut inputs = Self {
-            parameters: keys.len(),
+        let sampled = Sampled::read(numbers, statements, &rows.keys)?;
+        for statement in statements.iter().filter(|it| it.yields) {
+            rows.add(numbers, statement, &sampled.keys)?;
+        }
+        let correlations = correlations(statements, &rows.keys)?;
+        let mut distribution = Distribution::of_marginals(rows.marginals, &correlations)
+            .map_err(|error| contradiction(statements, error))?;
+        if let Some((table, _)) = &sampled.table {
+            distribution = distribution.and(Distribution::of_samples(table.rows().to_vec()));
+        }
+        Ok(Self {
+            parameters: rows.keys.len(),
+            keys: rows.keys.into_iter().chain(sampled.keys).collect(),
             is_correlated: !correlations.is_empty(),
-            samples: None,
-            distribution: distribution.map_err(|error| contradiction(statements, error))?,
-            keys,
-        };
-        for statement in statements {
-            inputs.add_samples(numbers, statement)?;
-        }
-        Ok(inputs)
+            samples: sampled.table,
+            distribution,
+        })
     }
 
     /// The same, each parameter cut off at the ends of its key's range.
@@ -93,38 +83,90 @@ impl Inputs {
         self.distribution = self.distribution.within(&ranges);
         self
     }
+}
 
-    fn add_samples(
+/// Keys with distributions.
+#[derive(Default)]
+struct Rows {
+    keys: Vec<Key>,
+    marginals: Vec<Marginal>,
+}
+
+impl Rows {
+    /// Adds those of a statement; of one that yields, those that are not there yet.
+    ///
+    /// * `sampled`: keys that rows of samples have
+    fn add(
         &mut self,
         numbers: &dyn Numbers,
         statement: &Statement<'_>,
+        sampled: &[Key],
     ) -> Result<(), DocumentError> {
-        let origin = statement.origin("samples");
-        let table = match &statement.stated.samples {
-            None => return Ok(()),
-            Some(_) if self.samples.is_some() => {
-                let problem = Problem::Conflict(
-                    "the soil's uncertainty is a table of samples, too: it is one or the other",
-                );
-                return Err(DocumentError::at(origin, problem));
+        for (place, parameter) in statement.stated.parameters.iter().enumerate() {
+            let path = format!("parameter.{place}");
+            let key_path = format!("{path}.key");
+            let origin = statement.origin(&key_path);
+            let key =
+                numbers.key(&statement.named(&parameter.key)).map_err(|error| error.at(origin))?;
+            let mut others = self.keys.iter().chain(sampled);
+            if statement.yields && others.any(|other| other.path == key.path) {
+                continue;
             }
-            Some(Samples::File(name)) => SampleTable::read(name, origin)?,
-            Some(Samples::Inline(csv)) => {
-                let label = format!("{}, samples", origin.text.label);
-                SampleTable::of_text(label, csv.clone())?
-            }
-        };
-        for (column, name) in table.columns().iter().enumerate() {
-            let origin = table.column_origin(column);
-            let key = numbers.key(&statement.named(name)).map_err(|error| error.at(&origin))?;
-            check_new(&self.keys, &key, &origin, "column")?;
+            check_new(&self.keys, &key, origin, &format!("{}{key_path}", statement.table))?;
+            let marginal = parameter.around(key.value);
+            let is_around_value = parameter.has_no_mean();
+            check_marginal(&key, &marginal, is_around_value).map_err(|(name, problem)| {
+                DocumentError::at(statement.origin(&format!("{path}.{name}")), problem)
+            })?;
             self.keys.push(key);
+            self.marginals.push(marginal);
         }
-        check_rows(numbers, &self.keys[self.parameters..], &table)?;
-        let rows = Distribution::of_samples(table.rows().to_vec());
-        self.distribution = std::mem::take(&mut self.distribution).and(rows);
-        self.samples = Some((table, statement.prefix));
         Ok(())
+    }
+}
+
+/// Keys with rows of samples.
+#[derive(Default)]
+struct Sampled {
+    keys: Vec<Key>,
+    table: Option<(SampleTable, &'static str)>,
+}
+
+impl Sampled {
+    /// * `others`: keys with distributions, which must be others
+    fn read(
+        numbers: &dyn Numbers,
+        statements: &[Statement<'_>],
+        others: &[Key],
+    ) -> Result<Self, DocumentError> {
+        let mut sampled = Self::default();
+        for statement in statements {
+            let origin = statement.origin("samples");
+            let table = match &statement.stated.samples {
+                None => continue,
+                Some(_) if sampled.table.is_some() => {
+                    let problem = Problem::Conflict(
+                        "the soil's uncertainty is a table of samples, too: it is one or the other",
+                    );
+                    return Err(DocumentError::at(origin, problem));
+                }
+                Some(Samples::File(name)) => SampleTable::read(name, origin)?,
+                Some(Samples::Inline(csv)) => {
+                    let label = format!("{}, samples", origin.text.label);
+                    SampleTable::of_text(label, csv.clone())?
+                }
+            };
+            for (column, name) in table.columns().iter().enumerate() {
+                let origin = table.column_origin(column);
+                let key = numbers.key(&statement.named(name)).map_err(|error| error.at(&origin))?;
+                check_new(others, &key, &origin, "column")?;
+                check_new(&sampled.keys, &key, &origin, "column")?;
+                sampled.keys.push(key);
+            }
+            check_rows(numbers, &sampled.keys, &table)?;
+            sampled.table = Some((table, statement.prefix));
+        }
+        Ok(sampled)
     }
 }
 
@@ -203,6 +245,10 @@ fn correlations(
         for (index, Pair { between, value }) in statement.stated.correlations.iter().enumerate() {
             let path = format!("correlation.{index}.between");
             let mut places = [0; 2];
+            let is_uncertain = |name: &String| names.contains(&&*statement.named(name));
+            if statement.yields && !between.iter().all(is_uncertain) {
+                continue;
+            }
             for (end, name) in between.iter().enumerate() {
                 let name = statement.named(name);
                 let found = names.iter().position(|key| **key == *name);
@@ -230,9 +276,11 @@ fn correlations(
 
 /// Correlations that no values can have, where the last of them are stated.
 fn contradiction(statements: &[Statement<'_>], error: Contradiction) -> DocumentError {
-    let stating = statements.iter().rfind(|it| !it.stated.correlations.is_empty());
-    // There are none without a statement of some.
-    let origin = stating.unwrap_or(&statements[0]).origin("correlation");
+    let stating = |it: &&Statement<'_>| !it.stated.correlations.is_empty();
+    // There are none without a statement of some; priors are the last to blame.
+    let own = statements.iter().filter(|it| !it.yields).rfind(stating);
+    let origin = own.or(statements.iter().rfind(stating)).unwrap_or(&statements[0]);
+    let origin = origin.origin("correlation");
     DocumentError::at(origin, Problem::Contradiction(error)).with_hint(
         "pairs that are not named have none, and ±1 is too much for any: name the pairs between, or \
          make the others smaller"

@@ -12,11 +12,14 @@ use super::describe::{rover, scenario, soil, wheel};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
+use super::kind::Kind;
+use super::priors;
 use super::tree::Node;
+use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use grouser_core::vehicle::{Mount, Rover};
+use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
 /// Values that are valid one by one, but not together.
@@ -117,17 +120,29 @@ impl Described for Soil {
         soil::BLANK
     }
 
+    fn follow(&mut self, document: &Document) {
+        self.domain.assumed_values = assumed_values(Some(document));
+    }
+
     fn settled(mut self) -> Result<Self, Misfit> {
         share_angle_limit(&mut self.shear);
         self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
+        check_moduli(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
         check_exponent(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
         self.shear.check().map_err(Misfit::at("shear"))?;
         self.small_wheel.check().map_err(Misfit::at("small_wheel"))?;
         self.rft.check().map_err(Misfit::at("rft"))?;
         check_exit(self.exit).map_err(Misfit::at("exit"))?;
+        self.domain.check().map_err(Misfit::at("domain"))?;
         self.check().map_err(Misfit::at("schema"))?;
         Ok(self)
     }
+}
+
+/// How many values of a soil stand in for ones that its document does not state.
+fn assumed_values(soil: Option<&Document>) -> u32 {
+    let count = soil.map_or(0, |soil| priors::assumed(soil).len());
+    u32::try_from(count).unwrap_or(u32::MAX)
 }
 
 /// A document has one limit for both axes.
@@ -139,6 +154,17 @@ fn share_angle_limit(shear: &mut Shear) {
     {
         *angle_limit = *shared;
     }
+}
+
+/// That Bekker's moduli are no thousandth or millionth of a soil's.
+fn check_moduli(law: PressureSinkage) -> Result<(), ParameterError> {
+    let PressureSinkage::Bekker { k_c, k_phi, .. } = law else { return Ok(()) };
+    let least = *validity::DOUBTFUL_MODULUS.start();
+    if k_c + k_phi >= least {
+        return Ok(());
+    }
+    let name = "the moduli k_c and k_phi together, in N/m^(n+1) and N/m^(n+2),";
+    Err(ParameterError::new(name, k_c + k_phi, "at least 10: in kN they are k_c_kn and k_phi_kn"))
 }
 
 /// That n stays in its range at every slip: it is linear, so its ends suffice.
@@ -195,7 +221,10 @@ impl Described for Rover {
         check_names(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
-        self.checked().map_err(|error| Misfit::new(place, error))
+        let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
+        check_places(&rover)?;
+        check_inertias(&rover)?;
+        Ok(rover)
     }
 }
 
@@ -207,6 +236,44 @@ fn check_names(rover: &Rover) -> Result<(), Misfit> {
             let key = format!("mount.{index}.name");
             let name = mount.name.escape_debug().to_string();
             return Err(Misfit::new(key.clone(), Problem::RepeatedName { key, name }));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that no two wheels are at one place.
+fn check_places(rover: &Rover) -> Result<(), Misfit> {
+    /// Nearer than this two hubs are one [m]. Source: ours; no wheel is so narrow.
+    const APART: f64 = 1e-3;
+    let mounts = &rover.parts().mounts;
+    for (index, mount) in mounts.iter().enumerate() {
+        let distances =
+            mounts[..index].iter().map(|other| (mount.position - other.position).norm());
+        if let Some(distance) = distances.into_iter().find(|distance| *distance < APART) {
+            let name = format!("the distance of `{}` from another wheel [m]", mount.name);
+            let error = ParameterError::new(name, distance, "a millimetre or more");
+            return Err(Misfit::new(format!("mount.{index}.position_m"), error));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that moments of inertia are those of a body: none is larger than the two others together.
+fn check_inertias(rover: &Rover) -> Result<(), Misfit> {
+    let parts = rover.parts();
+    let own = parts.mounts.iter().enumerate().filter_map(|(index, mount)| {
+        Some((format!("mount.{index}.inertia_kg_m2"), mount.inertia?))
+    });
+    let all = [("body", parts.body.inertia), ("wheel_unit", parts.wheel_unit.inertia)];
+    let all = all.map(|(part, inertia)| (format!("{part}.inertia_kg_m2"), inertia));
+    for (key, Inertia { xx, yy, zz }) in all.into_iter().chain(own) {
+        for (axis, one, others) in [("xx", xx, yy + zz), ("yy", yy, xx + zz), ("zz", zz, xx + yy)] {
+            // A flat body has both alike.
+            if one > others * (1.0 + 1e-9) {
+                let name = format!("the moment of inertia {axis} in `{key}` [kg·m²]");
+                let expected = "at most the two others together, as of any body";
+                return Err(Misfit::new(key, ParameterError::new(name, one, expected)));
+            }
         }
     }
     Ok(())
@@ -235,8 +302,9 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
+        let soil = document.part(Kind::Soil, "soil");
+        self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
 
     fn settled(self) -> Result<Self, Misfit> {
@@ -251,10 +319,25 @@ impl Described for Scenario {
             let hint = format!("the wheels are {}, in this order", names.join(", "));
             Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
         })?;
+        if run.sharing == LoadSharing::Complete && run.own_moments == OwnMoments::Neglected {
+            return Err(Misfit {
+                hint: Some(NEGLECTED_MOMENTS.to_owned()),
+                ..Misfit::new("wheel_moments", Problem::Conflict(COMPLETE))
+            });
+        }
+        if let Some(yaw) = &run.yaw {
+            yaw.check().map_err(Misfit::at("drive.yaw_deg"))?;
+        }
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
     }
 }
+
+/// What does not go together, and what to write instead.
+const COMPLETE: &str =
+    "`wheel_moments` is \"neglected\", but the complete load transfer includes them";
+const NEGLECTED_MOMENTS: &str =
+    "without them the load transfer is \"quasi-static-torque\", or the paper's \"quasi-static\"";
 
 /// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
 const MOST_SAMPLES: f64 = 1e6;
@@ -288,8 +371,9 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_at("soil.model");
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
+        let soil = document.part(Kind::Soil, "soil");
+        self.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
 
     fn settled(self) -> Result<Self, Misfit> {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use grouser::document::campaign::{Campaign, Frequencies, QuantityStatistics};
-use grouser::document::table::{Cell, Table, Values};
+use grouser::document::table::{BETWEEN_NAMES, Cell, Table, Values};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::studies::ensemble::sensitivity::SobolIndex;
 use grouser::studies::ensemble::statistics::{Estimate, Quantile, Summary};
@@ -118,6 +118,7 @@ pub(crate) fn campaign_row<'py>(
             Cell::Float(value) => dict.set_item(name, value)?,
             Cell::Whole(value) => dict.set_item(name, value)?,
             Cell::Text(value) => dict.set_item(name, value)?,
+            Cell::Words(names) => dict.set_item(name, names)?,
         }
     }
     Ok(dict)
@@ -266,6 +267,10 @@ fn columns_of(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
                 dict.set_item(name, PyArray1::from_iter(py, values))?;
             }
             Values::Text(values) => dict.set_item(name, PyList::new(py, values)?)?,
+            Values::Words(values) => {
+                let texts = values.iter().map(|names| names.join(BETWEEN_NAMES));
+                dict.set_item(name, PyList::new(py, texts.collect::<Vec<_>>())?)?;
+            }
         }
     }
     Ok(dict)
@@ -430,6 +435,7 @@ pub(crate) fn campaign_frequencies<'py>(
 ///
 /// * `runs`: first and one after the last, in order
 /// * `columns`: values of these runs, NaN where there is none
+/// * `statuses`: of these runs
 /// * `shares`: of the quantiles [-]
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -438,6 +444,7 @@ pub(crate) fn campaign_summary<'py>(
     campaign: &Document,
     runs: Vec<(u64, u64)>,
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    statuses: Vec<Option<String>>,
     shares: Vec<f64>,
 ) -> PyResult<Bound<'py, PyList>> {
     let campaign = Arc::clone(&campaign.campaign()?.campaign);
@@ -450,7 +457,8 @@ pub(crate) fn campaign_summary<'py>(
     }
     let all = listening(py, move |_| {
         let of = |(name, values): &(String, Vec<Option<f64>>)| {
-            (name.clone(), QuantityStatistics::of(&campaign, &runs, values, &shares))
+            let counted = campaign.counted(name, &runs, values, &statuses);
+            (name.clone(), QuantityStatistics::of(&campaign, &runs, &counted, &shares))
         };
         quantities.par_iter().map(of).collect::<Vec<_>>()
     })?;

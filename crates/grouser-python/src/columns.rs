@@ -3,10 +3,11 @@
 use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
-use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::table::{ColumnKind, Table, Values};
+use grouser::document::columns::wheel_test;
+use grouser::document::table::{BETWEEN_NAMES, ColumnKind, Table, Values};
 use grouser::document::{self, Unit};
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -46,13 +47,18 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("heading", declared(&held()))?;
     dict.set_item("heading_band", declared(&BAND))?;
     dict.set_item("heading_band_limit", declared(&BAND_LIMIT))?;
+    dict.set_item("wheel_test_band", declared(&wheel_test::BAND))?;
+    dict.set_item("traverse_band", declared(&RUN_BAND))?;
+    dict.set_item("traverse_band_over_time", declared(&TIME_BAND))?;
     dict.set_item("stand", declared(&TRIALS))?;
     Ok(dict)
 }
 
 fn declared<R>(columns: &[Column<R>]) -> Vec<Declared> {
     let unit = |name: &str| document::unit_of(name).map(|unit: Unit| unit.symbol);
-    let numbers = columns.iter().filter(|column| column.kind() != ColumnKind::Text);
+    let numbers = columns
+        .iter()
+        .filter(|column| !matches!(column.kind(), ColumnKind::Text | ColumnKind::Words));
     let each = |column: &Column<R>| {
         let doc = column.doc;
         column.names().into_iter().map(move |name| (name.clone(), unit(&name), doc))
@@ -61,7 +67,7 @@ fn declared<R>(columns: &[Column<R>]) -> Vec<Declared> {
 }
 
 /// A table as a dictionary of columns: numbers and counts as arrays, with NaN where there is none; texts as
-/// lists, with `None`.
+/// lists, with `None`; lists of names as texts, joined by `;`.
 pub(crate) fn table_to_python(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     for (name, values) in table.columns {
@@ -75,6 +81,10 @@ pub(crate) fn table_to_python(py: Python<'_>, table: Table) -> PyResult<Bound<'_
                 dict.set_item(name, PyArray1::from_iter(py, values.into_iter().map(float)))?;
             }
             Values::Text(values) => dict.set_item(name, PyList::new(py, values)?)?,
+            Values::Words(values) => {
+                let texts = values.iter().map(|names| names.join(BETWEEN_NAMES));
+                dict.set_item(name, PyList::new(py, texts.collect::<Vec<_>>())?)?;
+            }
         }
     }
     Ok(dict)

@@ -22,6 +22,7 @@ mod studies;
 mod threads;
 mod time_step;
 mod validation;
+mod validity;
 mod values;
 mod wheels;
 
@@ -52,11 +53,16 @@ mod _core {
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
-    use super::studies::{heading, heading_band, heading_map, simulate, simulated_wheel_test};
+    use super::studies::{
+        heading, heading_band, heading_map, heading_map_band, simulate, simulate_band,
+        simulated_wheel_test, wheel_test_band,
+    };
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]
-    use super::validation::{validate, validate_all};
+    use super::validation::{validate, validate_all, validate_slopes};
+    #[pymodule_export]
+    use super::validity::{flag_names, flags};
     #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 

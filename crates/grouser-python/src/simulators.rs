@@ -43,7 +43,7 @@ struct Fresh {
 impl Stepped {
     fn new(loaded: &LoadedScenario) -> Result<Self, RunError> {
         let nominal = loaded.value.clone();
-        let soils = loaded.uncertain.clone();
+        let soils = loaded.stated_uncertainty().cloned();
         let rover = Run::new(&nominal)?;
         Ok(Self { nominal, soils, rover, failure: None })
     }

@@ -2,22 +2,27 @@
 
 use std::ops::RangeInclusive;
 
-use grouser::document::columns::run::{ENERGY_ERROR, RECORD, WHEEL_RECORD};
+use grouser::document::columns::flags::{self, FLAGS};
+use grouser::document::columns::run::{ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
 };
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
-use grouser::document::table::Table;
+use grouser::document::table::{BETWEEN_NAMES, Table};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
+use grouser::studies::ensemble::NothingAccepted;
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
+use grouser::studies::traverse_band::{TraverseBand, record_times};
+use grouser::studies::validity::RoverOnSlope;
 use grouser::studies::wheel_test::WheelTest;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -35,8 +40,8 @@ use crate::wheels::{check, column, model_and_gravity};
 pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bound<'py, PyDict>> {
     let scenario = scenario.scenario()?.value.clone();
     let names = wheel_names(&scenario);
-    let found = listening(py, move |_| run(&scenario))?;
-    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &names)
+    let (found, scenario) = listening(py, move |_| (run(&scenario), scenario))?;
+    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &scenario, &names)
 }
 
 pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
@@ -51,6 +56,7 @@ pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
 fn to_python<'py>(
     py: Python<'py>,
     run: &Trajectory,
+    scenario: &Scenario,
     names: &[String],
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
@@ -66,6 +72,12 @@ fn to_python<'py>(
     }
     dict.set_item("rover", rover)?;
     dict.set_item("each_wheel", each_wheel(py, run, names.len())?)?;
+    let each = columns::run::each_findings(run, scenario);
+    let each = each.iter().map(|findings| flags::names(findings).join(BETWEEN_NAMES));
+    dict.set_item(FLAGS, each.collect::<Vec<_>>())?;
+    let over = RoverOnSlope::of(scenario).over(run);
+    let raised = over.iter().map(|it| (it.finding.flag.name(), it.time));
+    dict.set_item("flags_raised", raised.collect::<Vec<_>>())?;
     Ok(dict)
 }
 
@@ -102,15 +114,15 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
-/// The heading offset that holds the contour on each slope, the steepest slope, and what ends the curve
-/// there.
+/// The heading offset that holds the contour on each slope, the steepest slope, what ends the curve
+/// there in a sentence, and in a word.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
-) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String)> {
+) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String, Option<String>)> {
     let slopes = slopes(&slope_deg)?;
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
@@ -122,7 +134,8 @@ pub(crate) fn heading<'py>(
     })?;
     let (table, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
     let reason = limit.texts(columns::heading::LIMIT_REASON)[0].clone().unwrap_or_default();
-    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason))
+    let limited_by = limit.texts(columns::heading::LIMITED_BY)[0].clone();
+    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason, limited_by))
 }
 
 /// The heading offset over slope, course and soil: a row for each, slopes fastest, then courses.
@@ -168,7 +181,7 @@ pub(crate) fn heading_map<'py>(
     table_to_python(py, table.map_err(|error: ParameterError| errors::of_parameter(&error))?)
 }
 
-/// Statistics over samples of an uncertain soil: of the heading offset on each slope, and of the steepest
+/// Statistics over samples of soil and model: of the heading offset on each slope, and of the steepest
 /// slope.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -182,37 +195,151 @@ pub(crate) fn heading_band<'py>(
     let slopes = slopes(&slope_deg)?;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
-    let Some(uncertain) = scenario.uncertain.clone() else {
-        let message = "the soil does not say how well its values are known".to_owned();
-        let expected = "a soil with an `uncertainty`, such as toyoura-uncertain";
-        return Err(errors::parameter(message, "uncertainty", None, expected));
-    };
+    let inputs = BandInputs::of_scenario(scenario);
     let study = HeadingStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
-        let soils = uncertain.draws(seed, samples).map_err(|error| {
-            Problem::Sampling(format!("the soil's uncertainty reaches too far: {error}"))
-        })?;
+        let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
         let go_on = || !cancelled.is_set();
-        HeadingBand::of(&study, &soils, &slopes, &go_on).map_err(Problem::Parameter)
+        HeadingBand::of(&study, &samples, &slopes, &go_on).map_err(Problem::Parameter)
     })?;
-    let band = found.map_err(|problem| match problem {
-        Problem::Sampling(message) => {
-            errors::parameter(message, "uncertainty", None, "smaller standard deviations")
-        }
-        Problem::Parameter(error) => errors::of_parameter(&error),
-    })?;
+    let band = found.map_err(|problem| problem.raised())?;
     let table = Table::of(&columns::heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
     let limit = band.as_ref().map(columns::heading::band_limit);
     Ok((table_to_python(py, table)?, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
-/// How many samples of a soil may be asked for.
+/// Statistics over samples of soil and model for each soil, course and slope of a map, in the order of its rows.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn heading_map_band<'py>(
+    py: Python<'py>,
+    scenarios: Vec<PyRef<'py, Document>>,
+    slope_deg: PyReadonlyArray1<'py, f64>,
+    course_deg: PyReadonlyArray1<'py, f64>,
+    seed: u64,
+    samples: u32,
+) -> PyResult<Bound<'py, PyDict>> {
+    let slopes = slopes(&slope_deg)?;
+    check("samples", &[f64::from(samples)], &SAMPLES)?;
+    check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
+    let courses = in_si(COURSE, course_deg.as_slice()?);
+    let all = scenarios.iter().map(|scenario| {
+        let scenario = scenario.scenario()?;
+        Ok((HeadingStudy::of(&scenario.value), BandInputs::of_scenario(scenario)))
+    });
+    let all = all.collect::<PyResult<Vec<_>>>()?;
+    let found = listening(py, move |cancelled| {
+        let go_on = || !cancelled.is_set();
+        let mut bands = Vec::new();
+        for (study, inputs) in &all {
+            let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
+            for course in &courses {
+                let band = HeadingBand::on_course(study, *course, &samples, &slopes, &go_on);
+                bands.extend(band.map_err(Problem::Parameter)?);
+            }
+        }
+        Ok(columns::heading::map_with_bands(Table::default(), &bands))
+    })?;
+    table_to_python(py, found.map_err(|problem: Problem| problem.raised())?)
+}
+
+/// Statistics over samples of soil and model for each setting of a test stand: slip ratios fastest, then slip
+/// angles, loads.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn wheel_test_band<'py>(
+    py: Python<'py>,
+    soil: &Document,
+    wheel: &Document,
+    setting: &Document,
+    load_n: PyReadonlyArray1<'py, f64>,
+    slip_angle_deg: PyReadonlyArray1<'py, f64>,
+    slip_ratio: PyReadonlyArray1<'py, f64>,
+    seed: u64,
+    samples: u32,
+) -> PyResult<Bound<'py, PyDict>> {
+    check("samples", &[f64::from(samples)], &SAMPLES)?;
+    let test = plan(soil, wheel, setting, &load_n, &slip_angle_deg, &slip_ratio)?;
+    let named = setting.scenario()?.document.theory();
+    let inputs = BandInputs::of_soil(soil.soil()?, named);
+    let found = listening(py, move |cancelled| {
+        let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
+        let bands = test.bands(&samples, &|| !cancelled.is_set()).unwrap_or_default();
+        Ok(columns::wheel_test::with_bands(Table::default(), &bands))
+    })?;
+    table_to_python(py, found.map_err(|problem: Problem| problem.raised())?)
+}
+
+/// Statistics over samples of soil and model: of a run over time, and of its end and means.
+#[pyfunction]
+pub(crate) fn simulate_band<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    seed: u64,
+    samples: u32,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyAny>)> {
+    check("samples", &[f64::from(samples)], &SAMPLES)?;
+    let scenario = scenario.scenario()?;
+    let inputs = BandInputs::of_scenario(scenario);
+    let scenario = scenario.value.clone();
+    let found = listening(py, move |cancelled| {
+        let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
+        let times = record_times(&run(&scenario).map_err(Problem::Run)?, &scenario);
+        let go_on = || !cancelled.is_set();
+        TraverseBand::of(&scenario, &samples, &times, &go_on).map_err(Problem::Run)
+    })?;
+    let band = found.map_err(|problem| problem.raised())?;
+    let times = Table::of(&TIME_BAND, band.as_ref().map_or(&[], |band| &band.times));
+    let run = band.map(|band| Table::of(&RUN_BAND, &[band.run]));
+    Ok((table_to_python(py, times)?, record_to_python(py, &run.as_ref().map(|it| it.row(0)))?))
+}
+
+/// How many samples may be asked for.
 const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
 
 /// Why there is no band.
 enum Problem {
-    Sampling(String),
+    Sampling(NothingAccepted),
     Parameter(ParameterError),
+    Run(RunError),
+}
+
+impl Problem {
+    fn raised(&self) -> PyErr {
+        match self {
+            Self::Sampling(error) => {
+                let message = format!("the soil's uncertainty reaches too far: {error}");
+                errors::parameter(message, "uncertainty", None, "smaller standard deviations")
+            }
+            Self::Parameter(error) => errors::of_parameter(error),
+            Self::Run(error) => errors::of_simulation(error),
+        }
+    }
+}
+
+/// The plan of a test stand.
+fn plan(
+    soil: &Document,
+    wheel: &Document,
+    setting: &Document,
+    load_n: &PyReadonlyArray1<'_, f64>,
+    slip_angle_deg: &PyReadonlyArray1<'_, f64>,
+    slip_ratio: &PyReadonlyArray1<'_, f64>,
+) -> PyResult<WheelTest> {
+    let (theory, gravity) = model_and_gravity(soil, setting)?;
+    check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
+    check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
+    check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
+    Ok(WheelTest {
+        wheel: wheel.wheel()?.value,
+        soil: soil.soil()?.value,
+        gravity,
+        theory,
+        loads: load_n.as_slice()?.to_vec(),
+        slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
+        slip_ratios: slip_ratio.as_slice()?.to_vec(),
+    })
 }
 
 /// A wheel test on a simulated stand: a row for each run of each setting, runs fastest, then slip
@@ -234,25 +361,14 @@ pub(crate) fn simulated_wheel_test<'py>(
     noise: [f64; 3],
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (theory, gravity) = model_and_gravity(soil, setting)?;
-    check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
-    check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
-    check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
+    let plan = plan(soil, wheel, setting, &load_n, &slip_angle_deg, &slip_ratio)?;
     check("trials", &[trials as f64], &TRIALS)?;
     for (name, deviation) in ["noise_n", "noise_mm", "noise_nm"].into_iter().zip(noise) {
         check(name, &[deviation], &NOISE)?;
     }
     let [forces, sinkage, torque] = noise;
     let test = SimulatedTest {
-        plan: WheelTest {
-            wheel: wheel.wheel()?.value,
-            soil: soil.soil()?.value,
-            gravity,
-            theory,
-            loads: load_n.as_slice()?.to_vec(),
-            slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
-            slip_ratios: slip_ratio.as_slice()?.to_vec(),
-        },
+        plan,
         trials,
         noise: PerQuantity {
             drawbar_pull: forces,

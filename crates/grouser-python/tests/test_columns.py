@@ -22,6 +22,13 @@ RESULTS = [
     (gr.Headings, "heading", {"slope_deg", "limit_slope_deg"}),
     (gr.HeadingMap, "heading", {"course_deg", "slope_deg", "limit_slope_deg"}),
     (gr.HeadingBand, "heading_band", {name for name, _, _ in COLUMNS["heading_band_limit"]}),
+    (
+        gr.HeadingMapBand,
+        "heading_band",
+        {name for name, _, _ in COLUMNS["heading_band_limit"]},
+    ),
+    (gr.WheelTestBand, "wheel_test_band", set()),
+    (gr.TraverseBand, "traverse_band_over_time", set()),
     (gr.SimulatedWheelTest, "stand", set()),
 ]
 

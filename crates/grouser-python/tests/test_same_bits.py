@@ -86,6 +86,49 @@ def test_validate(program: Program) -> None:
         assert same(found.cells[name], answer["cells"], name), name
 
 
+def test_bands_of_a_wheel_test(program: Program) -> None:
+    rows = program(
+        "wheel-test", "--soil", "toyoura-uncertain", "--load-n", "10,17", "--slip-angle-deg", "0,15",
+        "--slip-ratio", "0:0.4:0.2", "--uncertainty", "--samples", "30", "--seed", "9",
+    )["rows"]  # fmt: skip
+    ratios = [row["slip_ratio"] for row in rows[:3]]
+    test = gr.wheel_test(
+        "toyoura-uncertain", load_n=[10, 17], slip_angle_deg=[0, 15], slip_ratio=ratios,
+        uncertainty=True, samples=30, seed=9,
+    )  # fmt: skip
+    table = test.to_pandas()
+    for name in rows[0].keys() - {"status"}:
+        assert same(table[name], rows, name), name
+
+
+def test_bands_of_a_map(program: Program) -> None:
+    rows = program(
+        "heading-map", "--soil", "toyoura,toyoura-uncertain", "--course-deg", "0,90",
+        "--slope-deg", "5,21.5", "--uncertainty", "--samples", "20",
+    )["rows"]  # fmt: skip
+    found = gr.heading_map(
+        soil=["toyoura", "toyoura-uncertain"], course_deg=[0, 90], slope_deg=[5, 21.5],
+        uncertainty=True, samples=20,
+    )  # fmt: skip
+    table = found.to_pandas()
+    for name in rows[0].keys() - {"status", "soil"}:
+        assert same(table[name], rows, name), name
+
+
+def test_bands_of_a_traverse(program: Program) -> None:
+    answer = program(
+        "traverse", "--soil", "toyoura-uncertain", "--slope-deg", "12", "--duration-s", "2",
+        "--uncertainty", "--samples", "9", "--seed", "3",
+    )  # fmt: skip
+    run = gr.simulate(
+        name="traverse", soil="toyoura-uncertain", slope_deg=12, duration_s=2,
+        uncertainty=True, samples=9, seed=3,
+    )  # fmt: skip
+    assert run.band is not None and run.band.run == answer["band"]
+    for name in answer["bands"][0]:
+        assert same(getattr(run.band, name), answer["bands"], name), name
+
+
 def test_heading_on_an_uncertain_soil(program: Program) -> None:
     answer = program(
         "heading", "--soil", "toyoura-uncertain", "--slope-deg", "5,15,40", "--uncertainty",
@@ -140,10 +183,34 @@ def test_ranking_of_all_theories(program: Program, tmp_path: Path) -> None:
 
 
 def test_ranking_on_the_data_sets_of_the_program(program: Program) -> None:
-    rows = program("validate", "--all")["rows"]
+    answer = program("validate", "--all")
     ranking = gr.validate_all()
-    assert list(ranking.rows) == rows
-    assert {row["data_set"] for row in ranking.rows} == {"CMU single wheel"}
+    for name in ("rows", "yardsticks", "models"):
+        assert list(getattr(ranking, name)) == answer[name], name
+    assert {row["data_set"] for row in ranking.rows} == {
+        "CMU single wheel",
+        "Published wheel tests",
+        "VIPER rover up slopes, simulated",
+        "HAKUTO across slopes",
+    }
+    assert len(ranking.to_pandas()) == len(ranking.plot().patches) == len(answer["rows"])
+
+
+def test_a_rover_on_slopes(program: Program) -> None:
+    answer = program(
+        "validate", "--data", "viper-slip-slope", "--soil", "grc-1", "--rover", "mgru3",
+        "--model", "bekker", "--where", "slope_deg!=0",
+    )  # fmt: skip
+    found = gr.validate_slopes(
+        "viper-slip-slope", "grc-1", "mgru3", model="bekker", where="slope_deg!=0"
+    )
+    assert found.overall == answer["overall"] and list(found.yardsticks) == answer["yardsticks"]
+    table = found.to_pandas()
+    for name in ("slope_deg", "measured_slip_ratio", "slip_ratio"):
+        assert same(table[name], answer["rows"], name), name
+    assert found.plot().get_ylabel() and repr(found) == "<SlopeValidation on 6 slopes>"
+    with pytest.raises(gr.DocumentError, match="the slope"):
+        gr.validate_slopes("cmu-single-wheel", "grc-1", "mgru3")
 
 
 def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
@@ -153,7 +220,7 @@ def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
         "--where", where,
     )  # fmt: skip
     found = gr.validate("cmu-single-wheel", "direct-90", wheel, where=where)
-    assert found.overall == answer["overall"]
+    assert found.overall == answer["overall"] and list(found.yardsticks) == answer["yardsticks"]
     with pytest.raises(gr.DocumentNotFoundError, match="did you mean `cmu-single-wheel`"):
         gr.validate("cmu-single-whel", "direct-90", wheel)
 

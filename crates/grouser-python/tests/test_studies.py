@@ -95,6 +95,7 @@ def test_an_uncertain_soil_has_a_band() -> None:
     assert (band.yaw_deg_p2_5[:2] <= band.yaw_deg_p50[:2]).all()
     assert band.probability_level.tolist()[::2] == [1.0, 0.0]
     assert np.isnan(band.yaw_deg_p50).tolist() == [False, False, True]
+    assert band.slip_ratio_p2_5[2] == 1.0 and np.isnan(band.energy_j_per_m_p2_5[2])
     assert band.limit_slope_deg_p2_5 is not None and band.limit_slope_deg_p97_5 is not None
     assert band.limit_slope_deg_p2_5 < band.limit_slope_deg_p97_5
     data = level.to_xarray()
@@ -102,6 +103,20 @@ def test_an_uncertain_soil_has_a_band() -> None:
     assert level.to_pandas().shape[0] == 3 and level.plot().get_legend_handles_labels()[1]
     empty = gr.heading(soil="toyoura-uncertain", slope_deg=[], uncertainty=True, samples=2)
     assert empty.band is not None and empty.band.yaw_deg_p50.shape == (0,)
+
+
+def test_models_alone_have_a_band_and_one_of_them_has_none() -> None:
+    settings = {"load_n": 17, "slip_ratio": [0.1, 0.4], "uncertainty": True, "samples": 12}
+    spread, alone = gr.wheel_test(**settings), gr.wheel_test(**settings, model="rft")  # type: ignore[call-overload]
+    assert spread.band is not None and alone.band is not None
+    assert (spread.band.drawbar_pull_n_p2_5 < spread.band.drawbar_pull_n_p97_5).all()
+    assert (alone.band.drawbar_pull_n_p2_5 == alone.wheels.drawbar_pull_n).all()
+    assert (alone.band.drawbar_pull_n_p97_5 == alone.wheels.drawbar_pull_n).all()
+    assert spread.to_xarray().torque_nm_p97_5.attrs["units"] == "N·m" and spread.plot()
+    run = gr.simulate(duration_s=1.0, uncertainty=True, samples=6)
+    assert run.band is not None and run.band.run["probability_completed"] == 1.0
+    assert run.band.y_m_p2_5[-1] <= run.y_m[-1] <= run.band.y_m_p97_5[-1]
+    assert run.band.to_pandas().shape[0] == run.time_s.size
 
 
 def test_a_simulated_stand_scatters_about_the_theory() -> None:
@@ -119,14 +134,39 @@ def test_a_simulated_stand_scatters_about_the_theory() -> None:
 
 
 def test_the_heading_offset_holds_the_contour() -> None:
-    """The heading offset neglects the remaining yaw moment, so the run turns a little: 1 mm in 20 s, as
-    the library's own example has it."""
+    """The heading offset neglects the remaining yaw moment: held at its yaw the rover stays, left to
+    itself it turns downhill and leaves the contour."""
     level = gr.heading(slope_deg=[10.0, 30.0])
     assert level.status[0] == "ok" and "steepest slope" in level.status[1]
     assert np.isnan(level.yaw_deg).tolist() == [False, True]
     assert level.limit_slope_deg is not None and 20.0 < level.limit_slope_deg < 21.0
-    run = gr.simulate(slope_deg=10.0, start={"yaw_deg": level.yaw_deg[0]})
-    assert abs(run.y_m[-1]) < 1e-3
+    assert level.limited_by == "wheels"
+    held = gr.simulate(slope_deg=10.0, drive={"yaw_deg": [[0.0, level.yaw_deg[0]]]})
+    assert abs(held.y_m[-1]) < 1e-3 and np.ptp(held.yaw_deg) < 1e-9
+    free = gr.simulate(slope_deg=10.0, start={"yaw_deg": level.yaw_deg[0]})
+    assert free.yaw_deg[-1] < level.yaw_deg[0] - 1.0 and free.y_m[-1] < -1e-3
+
+
+def test_a_yaw_over_time_is_followed() -> None:
+    course = [[0.0, 5.51], [20.0, 3.1]]
+    run = gr.simulate(slope_deg=10.0, load_transfer="quasi-static", drive={"yaw_deg": course})
+    assert run.scenario.drive["yaw_deg"] == course
+    assert np.allclose(run.yaw_deg, np.interp(run.time_s, *np.transpose(course)), atol=1e-6)
+    # [FourWheel], Table 4, measured 13 mm, without a sign.
+    assert run.y_m[-1] == pytest.approx(-0.014, abs=1e-3)
+    with pytest.raises(gr.ParameterError, match="later than the one before it"):
+        gr.Scenario(drive={"yaw_deg": [[1.0, 2.0], [0.0, 3.0]]})
+
+
+def test_the_ground_ends_what_its_strength_does_not_hold() -> None:
+    downhill = gr.heading_map(slope_deg=[10.0, 33.0], course_deg=[-90.0])
+    assert set(downhill.limited_by.ravel()) == {"ground-strength"}
+    assert downhill.status[0, 0, 1].startswith("ground-strength")
+    assert downhill.limit_slope_deg[0, 0, 0] == pytest.approx(31.0, abs=0.05)
+    firmer = gr.heading_map(
+        slope_deg=[33.0], course_deg=[-90.0], slope_stability={"factor_of_safety": 1.0}
+    )
+    assert firmer.status[0, 0, 0] == "ok"
 
 
 def test_a_heading_map_has_the_heading_offsets_on_course_0() -> None:
@@ -191,8 +231,8 @@ def test_what_cannot_be_asked_says_what_can() -> None:
         gr.rollout(duration_s=0.0)
     with pytest.raises(gr.ParameterError, match=r"do not broadcast: slope_deg \(2,\)"):
         gr.rollout(slope_deg=[1.0, 2.0], yaw_deg=[1.0, 2.0, 3.0])
-    with pytest.raises(gr.ParameterError, match="how well its values are known"):
-        gr.heading(uncertainty=True)
+    with pytest.raises(gr.ParameterError, match="readings with noise"):
+        gr.wheel_test(load_n=10, slip_ratio=0.1, trials=2, uncertainty=True)  # type: ignore[call-overload]
     with pytest.raises(gr.ParameterError, match="samples is 1, it must be"):
         gr.heading(soil="toyoura-uncertain", uncertainty=True, samples=1)
     with pytest.raises(gr.ParameterError, match="trials is 0"):

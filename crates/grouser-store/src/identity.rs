@@ -50,7 +50,7 @@ impl From<&Column> for ColumnRecord {
         let kind = match column.kind {
             ColumnKind::Float => "float",
             ColumnKind::Whole => "whole",
-            ColumnKind::Text => "text",
+            ColumnKind::Text | ColumnKind::Words => "text",
         };
         let role = match column.role {
             Role::Index => "index",

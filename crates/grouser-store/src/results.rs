@@ -214,6 +214,7 @@ impl Results {
             Values::Float(values) => values.get(place).map(|value| Cell::Float(*value)),
             Values::Whole(values) => values.get(place).map(|value| Cell::Whole(*value)),
             Values::Text(values) => values.get(place).map(|value| Cell::Text(value.clone())),
+            Values::Words(values) => values.get(place).map(|names| Cell::Words(names.clone())),
         };
         let columns = self.shard(shard, &names)?.columns;
         let cells = columns.into_iter().map(|(name, values)| Some((name, cell(values)?)));

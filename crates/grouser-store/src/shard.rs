@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use bytes::Bytes;
 use grouser::document::campaign::Column;
-use grouser::document::table::{ColumnKind, Table, Values};
+use grouser::document::table::{BETWEEN_NAMES, ColumnKind, Table, Values};
 use parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
@@ -111,12 +111,12 @@ fn field(column: &Column) -> ParquetResult<Arc<Type>> {
     let physical = match column.kind {
         ColumnKind::Float => PhysicalType::DOUBLE,
         ColumnKind::Whole => PhysicalType::INT64,
-        ColumnKind::Text => PhysicalType::BYTE_ARRAY,
+        ColumnKind::Text | ColumnKind::Words => PhysicalType::BYTE_ARRAY,
     };
     let logical = match column.kind {
         ColumnKind::Float => None,
         ColumnKind::Whole => Some(LogicalType::integer(64, false)),
-        ColumnKind::Text => Some(LogicalType::String),
+        ColumnKind::Text | ColumnKind::Words => Some(LogicalType::String),
     };
     let builder = Type::primitive_type_builder(&column.name, physical)
         .with_repetition(Repetition::OPTIONAL)
@@ -159,7 +159,7 @@ fn encoding(
     let column = ColumnPath::new(vec![name.to_owned()]);
     match values {
         Values::Whole(_) => builder.set_column_encoding(column, Encoding::DELTA_BINARY_PACKED),
-        Values::Text(_) => builder.set_column_dictionary_enabled(column, true),
+        Values::Text(_) | Values::Words(_) => builder.set_column_dictionary_enabled(column, true),
         Values::Float(values) => builder.set_column_dictionary_enabled(column, repeats(values)),
     }
 }
@@ -182,6 +182,11 @@ fn write(column: &mut SerializedColumnWriter<'_>, values: &Values) -> ParquetRes
         }
         Values::Text(values) => {
             write_as::<ByteArrayType, _>(column, values, |text| ByteArray::from(text.as_str()))
+        }
+        Values::Words(values) => {
+            let texts: Vec<_> =
+                values.iter().map(|names| Some(names.join(BETWEEN_NAMES))).collect();
+            write_as::<ByteArrayType, _>(column, &texts, |text| ByteArray::from(text.as_str()))
         }
     }
 }

@@ -1,7 +1,9 @@
-//! How uncertain is the heading offset that holds the contour, if the sand is known only roughly?
+//! How uncertain is the heading offset that holds the contour, if the sand is known only roughly, and any of several
+//! wheel–soil models may be right?
 //!
-//! 200 sands are sampled from the deviations that the soil's document states. The band holds the middle 95 % of their
-//! heading offsets; the probability, with its 95 % confidence interval, is the share of sands that have one.
+//! 200 samples of sand and model are drawn, the sand from the deviations that its document states. The band holds the
+//! middle 95 % of their heading offsets; the probability, with its 95 % confidence interval, is the share of samples
+//! that have one.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example uncertain_soil
@@ -10,6 +12,7 @@
 use std::error::Error;
 
 use grouser::document::{Overrides, Source, read_scenario};
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::{HeadingBand, SlopeBand};
 use grouser::units::deg;
@@ -37,10 +40,9 @@ pub(crate) fn bands(samples: u32, slopes_deg: &[f64]) -> Result<Vec<SlopeBand>, 
     const SEED: u64 = 1;
     let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"])?;
     let scenario = read_scenario(&Source::default_scenario(), &overrides)?;
-    let uncertain = scenario.uncertain.ok_or("the soil says nothing of its uncertainty")?;
-    let soils = uncertain.draws(SEED, samples)?;
+    let samples = BandInputs::of_scenario(&scenario).samples(SEED, samples)?;
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
     let study = HeadingStudy::of(&scenario.value);
-    let band = HeadingBand::of(&study, &soils, &slopes, &|| true)?;
+    let band = HeadingBand::of(&study, &samples, &slopes, &|| true)?;
     Ok(band.map_or_else(Vec::new, |band| band.slopes))
 }

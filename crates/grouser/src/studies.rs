@@ -3,14 +3,17 @@
 //! | study | computes |
 //! |---|---|
 //! | [`wheel_test`] | forces and sinkage on a single-wheel test stand |
+//! | [`wheel_test_band`] | the same where soil and model are uncertain |
 //! | [`heading`] | the heading offset that holds the contour on a slope |
-//! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and for an uncertain soil |
+//! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
-//! | [`validation`] | the errors of a wheel–soil model against measurements |
+//! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
+//! | [`traverse_band`] | a traverse where soil and model are uncertain |
+//! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`reproduction`] | the whole of the paper's study |
 
 pub mod calibration;
@@ -23,8 +26,12 @@ pub mod heading_band;
 pub mod heading_map;
 pub mod reproduction;
 pub mod simulated_test;
+pub mod slope_validation;
+pub mod traverse_band;
 pub mod validation;
+pub mod validity;
 pub mod wheel_test;
+pub mod wheel_test_band;
 
-pub use grouser_io::measurements::wheel_tests as measurement;
+pub use grouser_io::measurements::{slope_tests, wheel_tests as measurement};
 use grouser_io::statistics::random;

@@ -6,15 +6,16 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
 
 use super::measurements::ReadArgs;
-use super::{BalanceArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, PartArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 use crate::output::Format;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A soil with an [uncertainty] is sampled N times, and every number has a 95 % \
-                        band; on any other soil there is no band, and slopes are judged with a \
-                        margin. docs/guide/card.md shows a card and explains how to read it."
+    after_help = "Soil and wheel-soil model are sampled N times, and every number has a 95 % \
+                        band. Where the soil's uncertainty is not stated, or one --model is asked \
+                        for, it is sampled in the other alone; without the soil's, slopes are \
+                        judged with a margin. docs/guide/card.md shows a card and explains how to read it."
 )]
 pub(crate) struct CardArgs {
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without
@@ -30,11 +31,11 @@ pub(crate) struct CardArgs {
     /// Rim speed [m/s], for the power; without it the scenario's.
     #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true, alias = "speed-m-s")]
     pub(crate) rim_speed_m_s: Option<Numbers>,
-    /// Number of sampled soils, 2 to 100000.
+    /// Number of samples, 2 to 100000.
     #[arg(long, value_name = "N", default_value_t = 500)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
-    /// Seed of the samples: the same seed gives the same soils.
+    /// Seed of the samples: the same seed gives the same soils and models.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
     #[command(flatten)]
@@ -49,6 +50,8 @@ pub(crate) struct CardArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -67,13 +70,13 @@ pub(crate) struct RuleArgs {
     /// Go: a contour traverse slips at most this much ...
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.3", allow_hyphen_values = true)]
     pub(crate) go_slip_ratio: Numbers,
-    /// ... on at least this share of the sampled soils.
+    /// ... on at least this share of the samples.
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.95", allow_hyphen_values = true)]
     pub(crate) go_probability: Numbers,
     /// No-go: a contour traverse slips at most this much ...
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.6", allow_hyphen_values = true)]
     pub(crate) no_go_slip_ratio: Numbers,
-    /// ... on less than this share of the sampled soils.
+    /// ... on less than this share of the samples.
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true)]
     pub(crate) no_go_probability: Numbers,
     /// On a soil without stated uncertainty a slope is judged as if it were steeper by this [°].

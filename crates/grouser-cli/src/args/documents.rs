@@ -12,8 +12,11 @@ use crate::output::Format;
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Documents to check.
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// Print the list of flags of validity, with meanings and rules, instead.
+    #[arg(long, conflicts_with = "files")]
+    pub(crate) flags: bool,
 }
 
 #[derive(Debug, Args)]
@@ -52,6 +55,7 @@ pub(crate) enum KindChoice {
     Scenario,
     DataSet,
     Campaign,
+    Prior,
 }
 
 impl From<KindChoice> for Kind {
@@ -63,6 +67,7 @@ impl From<KindChoice> for Kind {
             KindChoice::Scenario => Self::Scenario,
             KindChoice::DataSet => Self::DataSet,
             KindChoice::Campaign => Self::Campaign,
+            KindChoice::Prior => Self::Prior,
         }
     }
 }

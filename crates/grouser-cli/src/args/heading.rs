@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -23,6 +23,8 @@ pub(crate) struct HeadingArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }
@@ -52,26 +54,13 @@ pub(crate) struct HeadingMapArgs {
     #[arg(long, alias = "speed-m-s", value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Numbers,
     #[command(flatten)]
+    pub(crate) uncertainty: UncertaintyArgs,
+    #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
+    pub(crate) strict: StrictArgs,
+    #[command(flatten)]
     pub(crate) output: OutputArgs,
-}
-
-/// Sampling of an uncertain soil.
-#[derive(Debug, Args)]
-pub(crate) struct UncertaintyArgs {
-    /// Sample soils from the soil's `[uncertainty]`, and add 95 % bands and the probability that a
-    /// heading holds the contour.
-    #[arg(long)]
-    pub(crate) uncertainty: bool,
-    /// Number of samples, 2 to 100000.
-    #[arg(long, value_name = "N", default_value_t = 500, requires = "uncertainty")]
-    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
-    pub(crate) samples: u32,
-    /// Seed of the samples: the same seed gives the same soils.
-    #[arg(long, value_name = "S", default_value_t = 1, requires = "uncertainty")]
-    #[arg(allow_negative_numbers = true)]
-    pub(crate) seed: u64,
 }

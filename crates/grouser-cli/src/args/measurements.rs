@@ -28,25 +28,26 @@ impl ReadArgs {
 #[derive(Debug, Args)]
 #[command(
     override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+                      grouser validate --data NAME|FILE.csv --rover NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
+                      grouser validate --data NAME|FILE.toml [OPTIONS]\n       \
                       grouser validate --all [--data-dir DIR] [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
-                  other; every cell weighs the same. docs/guide/data.md lists the columns of FILE.csv, \
+                  other; every cell weighs the same. Beside them stand predictions without physics: the mean, and \
+                  interpolation between the other cells. docs/guide/data.md lists the columns of FILE.csv, \
                   docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
-    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
-    /// (docs/guide/data.md lists its columns).
-    #[arg(
-        long,
-        value_name = "NAME|FILE.csv",
-        required_unless_present = "all",
-        requires = "wheel",
-        requires = "soil"
-    )]
+    /// Measured wheel tests, or a rover's measured slip or yaw over slope: a data set that comes with the
+    /// program (`published-wheel-tests`), or a CSV file (docs/guide/data.md lists its columns). Without a
+    /// wheel or rover: every model is ranked on the data set.
+    #[arg(long, value_name = "NAME|FILE.csv", required_unless_present = "all")]
     pub(crate) data: Option<PathBuf>,
     /// The wheel that was tested: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data", requires = "soil")]
     pub(crate) wheel: Option<String>,
+    /// The rover that was driven on slopes: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data", requires = "soil", conflicts_with = "wheel")]
+    pub(crate) rover: Option<String>,
     /// The soil of the predictions: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
     pub(crate) soil: Option<String>,
@@ -55,11 +56,14 @@ pub(crate) struct ValidateArgs {
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
     /// Rank every model, with its own soils, on every data set that comes with the program.
-    #[arg(long, conflicts_with_all = ["data", "wheel", "soil", "conditions", "settings", "model", "gravity"])]
+    #[arg(long, conflicts_with_all = ["data", "wheel", "rover", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
     /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
+    /// Accept no extrapolation: a cell that carries a flag of validity is an error, exit code 2.
+    #[arg(long, requires = "data")]
+    pub(crate) strict: bool,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
     #[command(flatten)]

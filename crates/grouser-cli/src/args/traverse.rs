@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
 
 #[derive(Debug, Args)]
 pub(crate) struct TraverseArgs {
@@ -15,7 +15,8 @@ pub(crate) struct TraverseArgs {
     /// Inclination of the slope [°].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
-    /// Yaw at the start [°], positive uphill.
+    /// Yaw at the start [°], positive uphill; or over the whole run, as pairs of time [s] and yaw:
+    /// `[[0, 5.51], [20, 3.10]]`.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<String>,
     /// Length of the run [s].
@@ -44,9 +45,13 @@ pub(crate) struct TraverseArgs {
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
     #[command(flatten)]
+    pub(crate) uncertainty: UncertaintyArgs,
+    #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

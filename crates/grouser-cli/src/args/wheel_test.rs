@@ -3,7 +3,8 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{OutputArgs, SettingArgs};
+use super::uncertainty::DRAWN;
+use super::{OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -25,9 +26,13 @@ pub(crate) struct WheelTestArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0", allow_hyphen_values = true)]
     pub(crate) slip_angle_deg: Numbers,
     #[command(flatten)]
+    pub(crate) sampling: SamplingArgs,
+    #[command(flatten)]
     pub(crate) stand: StandArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }
@@ -36,7 +41,7 @@ pub(crate) struct WheelTestArgs {
 #[derive(Debug, Args)]
 pub(crate) struct StandArgs {
     /// Simulate a test stand: run each setting N times, with noise on what the stand reads.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", group = DRAWN)]
     pub(crate) trials: Option<usize>,
     /// Standard deviation of the simulated forces [N].
     #[arg(
@@ -65,7 +70,7 @@ pub(crate) struct StandArgs {
         allow_negative_numbers = true
     )]
     pub(crate) noise_nm: f64,
-    /// Seed of the noise: the same seed gives the same test.
-    #[arg(long, default_value_t = 1, requires = "trials")]
+    /// Seed of the noise or of the samples: the same seed gives the same test, or the same soils and models.
+    #[arg(long, default_value_t = 1, requires = DRAWN)]
     pub(crate) seed: u64,
 }

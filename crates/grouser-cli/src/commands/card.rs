@@ -13,14 +13,14 @@ use grouser::document::columns::card::{self, MeasuredYaw};
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
-use grouser::soil::Soil;
 use grouser::studies::card::{Card, CardStudy};
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading::HeadingStudy;
 use grouser_page::{Sheet, markup};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Answer, heading_band};
+use super::{Answer, sampling, strict};
 use crate::args::{CardArgs, SideChoice};
 use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
@@ -39,9 +39,13 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         Some(file) => measured::read(file, args.read.limits())?,
         None => Vec::new(),
     };
-    let soils = soils(args, &inputs)?;
-    let card = compute(args, &inputs, &soils, &measured)?;
-    let rows = shown(&card::table(&card), &measured);
+    let samples = samples(args, &inputs)?;
+    let card = compute(args, &inputs, &samples, &measured)?;
+    let all = card::table(&card);
+    let flags = card.rows.iter().map(|row| &*row.findings);
+    let held = card.rows.iter().take_while(|row| row.level.is_some()).count();
+    strict::check(&args.strict, flags.take(held), &all, &[SLOPE.name])?;
+    let rows = shown(&all, &measured);
     let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
         let sheet = layout::draw(&texts::of(args, &inputs, &card), &rows, &measured);
@@ -51,7 +55,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         )?;
     }
     match args.format {
-        Format::Table => output::print(&table(&card, &rows, &beside)),
+        Format::Table => output::print(&table(&inputs, &card, &rows, &beside)),
         Format::Csv => output::print(&Rows::of_table(&rows).to_csv()?),
         Format::Json => output::print_json(&answer(
             args,
@@ -64,31 +68,36 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     }
 }
 
-/// The sampled soils; empty where no uncertainty is stated.
-fn soils(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Soil>, Failure> {
-    let draw = |uncertain| heading_band::soils(uncertain, args.seed, args.samples);
-    inputs.scenario.uncertain.as_ref().map_or(Ok(Vec::new()), draw)
+/// The samples; none where one soil and one model are all there is.
+fn samples(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Sample>, Failure> {
+    let band = BandInputs::of_scenario(&inputs.scenario);
+    if inputs.scenario.uncertain.is_none() && band.models().shares().len() == 1 {
+        return Ok(Vec::new());
+    }
+    sampling::draw(&band, args.samples, args.seed)
 }
 
 fn compute(
     args: &CardArgs,
     inputs: &CardInputs,
-    soils: &[Soil],
+    samples: &[Sample],
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
     let mut heading = HeadingStudy::of(&inputs.scenario.value);
     if args.uphill == SideChoice::Right {
         heading.rover = heading.rover.mirrored();
     }
-    let study = CardStudy { heading, rim_speed: inputs.rim_speed, rule: inputs.rule };
+    let is_soil_uncertain = inputs.scenario.uncertain.is_some();
+    let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
+    let study = CardStudy { heading, rim_speed, rule, is_soil_uncertain };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
-    let bar = output::progress_bar(soils.len() as u64);
-    bar.set_message("soils");
-    let card = study.card(soils, &slopes, &|| bar.inc(1));
+    let bar = output::progress_bar(samples.len() as u64);
+    bar.set_message("samples");
+    let card = study.card(samples, &slopes, &|| bar.inc(1));
     bar.finish_and_clear();
     Ok(card?)
 }
@@ -104,17 +113,19 @@ fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
 }
 
 /// The card's rows, or the comparison where one is asked for.
-fn table(card: &Card, rows: &Table, beside: &Table) -> String {
+fn table(inputs: &CardInputs, card: &Card, rows: &Table, beside: &Table) -> String {
     if beside.rows() > 0 {
         return Rows::of_table(beside).to_table(&card::beside_brief());
     }
     let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
-    let mut text = Rows::of_table(rows).to_table(&brief);
-    if card.draws.is_none() {
-        text +=
-            "no uncertainty of this soil is stated: no bands; slopes are judged with a margin\n";
+    let text = Rows::of_table(rows).to_table(&brief);
+    if inputs.scenario.uncertain.is_some() {
+        return text;
     }
-    text
+    let bands = if card.draws.is_some() { "bands are of the models alone" } else { "no bands" };
+    format!(
+        "{text}no uncertainty of this soil is stated: {bands}; slopes are judged with a margin\n"
+    )
 }
 
 #[derive(Serialize)]
@@ -156,6 +167,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     if card.draws.is_some() {
         settings["samples"] = args.samples.into();
         settings["seed"] = args.seed.into();
+        settings[sampling::SHARES] = sampling::shares(&BandInputs::of_scenario(&inputs.scenario));
     }
     settings
 }

@@ -2,15 +2,16 @@
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
-use grouser::document::columns::{LIMIT_SLOPE, SLOPE, YAW};
+use grouser::document::columns::{LIMIT_SLOPE, MODEL, SLOPE, YAW};
 use grouser::document::table::{Row, Table};
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
 use super::heading_band::{self, Bands};
-use crate::args::HeadingArgs;
+use super::{Answer, sampling, strict};
+use crate::args::{EVERY_MODEL, HeadingArgs, SettingArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -18,68 +19,151 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, rounded_down};
 use crate::output::{self, Format};
 
+/// What a model answers.
+struct OfModel {
+    scenario: LoadedScenario,
+    curve: HeadingCurve,
+    bands: Option<Bands>,
+    /// A row for each slope.
+    table: Table,
+    /// The steepest slope: one row.
+    limit: Table,
+}
+
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenario = inputs::heading(args)?;
-    let curve = HeadingStudy::of(&scenario.value).curve()?;
-    let bands = if args.uncertainty.uncertainty {
-        Some(heading_band::bands(args, &scenario, &curve, folder.is_some())?)
-    } else {
-        None
-    };
-    let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
-    let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
-    if let Some(bands) = &bands {
-        table = heading::with_bands(table, &bands.asked);
+    let each = |setting| of_model(args, &setting, folder.is_some());
+    let all: Vec<OfModel> =
+        args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
+    let (mut table, mut limits) = (Table::default(), Table::default());
+    for of_model in &all {
+        table.append(of_model.named(args, &of_model.table));
+        limits.append(of_model.named(args, &of_model.limit));
     }
-    let limit = heading::steepest(&curve);
     let rows = Rows::of_table(&table);
-    let band = bands.as_ref().map(|bands| bands.limit.row(0));
-    let results = Results { limit: limit.row(0), band, rows: &table };
-    let answer = Answer::new(command, settings(args, &scenario), results);
+    let limit = if args.setting.has_every_model() {
+        Limits::Each { limits: &limits }
+    } else {
+        Limits::One(limits.row(0))
+    };
+    let answer = Answer::new(command, settings(args, &all[0]), Results { limit, rows: &table });
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
         folder.add(format!("{command}.csv"), rows.to_csv()?);
-        match &bands {
-            None => folder.add(format!("{command}.svg"), chart(&curve).to_svg()),
-            Some(bands) => {
-                folder.add(
-                    format!("{command}.svg"),
-                    bands.chart(line("soil as written", &curve)).to_svg(),
-                );
-                folder.add("probability.svg", bands.chance_chart().to_svg());
-            }
+        add_figures(&mut folder, command, &all);
+        for of_model in &all {
+            let end = of_model.end(all.len());
+            folder.add_document(&format!("scenario{end}.toml"), &of_model.scenario);
         }
-        folder.add_document("scenario.toml", &scenario);
         folder.finish()?;
     }
     match args.output.format {
         Format::Table => {
-            let brief = if bands.is_some() { heading::bands_brief() } else { heading::brief() };
-            let band_line = bands.as_ref().map_or(String::new(), Bands::limit_line);
-            output::print(&(rows.to_table(&brief) + &limit_line(&limit) + &band_line))
+            let lines = all.iter().map(|of_model| of_model.lines(all.len())).collect::<String>();
+            output::print(&(rows.to_table(&brief(args)) + &lines))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
 }
 
+/// * `setting`: with one model
+/// * `charted`: whether there will be charts
+fn of_model(args: &HeadingArgs, setting: &SettingArgs, charted: bool) -> Result<OfModel, Failure> {
+    let scenario = inputs::heading(args, setting)?;
+    let curve = HeadingStudy::of(&scenario.value).curve()?;
+    let bands = if args.uncertainty.sampling.uncertainty {
+        Some(heading_band::bands(args, &scenario, &curve, charted)?)
+    } else {
+        None
+    };
+    let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
+    let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
+    if args.strict.strict {
+        let flags = heading::findings(&curve, &slopes);
+        strict::check(&args.strict, flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+    }
+    let mut limit = heading::steepest(&curve);
+    if let Some(bands) = &bands {
+        table = heading::with_bands(table, &bands.asked);
+        limit.columns.extend(bands.limit.columns.clone());
+    }
+    Ok(OfModel { scenario, curve, bands, table, limit })
+}
+
+impl OfModel {
+    fn name(&self) -> &'static str {
+        self.scenario.value.theory.name()
+    }
+
+    /// A table of its results, with its name where there are several.
+    fn named(&self, args: &HeadingArgs, table: &Table) -> Table {
+        let table = table.clone();
+        if args.setting.has_every_model() { table.with_word(MODEL, self.name()) } else { table }
+    }
+
+    /// The end of its files' names: nothing if it is alone.
+    fn end(&self, count: usize) -> String {
+        if count > 1 { format!("-{}", self.name()) } else { String::new() }
+    }
+
+    /// What is said about its steepest slope.
+    fn lines(&self, count: usize) -> String {
+        let name = if count > 1 { format!("{}: ", self.name()) } else { String::new() };
+        let band = self
+            .bands
+            .as_ref()
+            .map_or(String::new(), |bands| format!("{name}{}", bands.limit_line()));
+        format!("{name}{}{band}", limit_line(&self.limit))
+    }
+}
+
+/// A chart of the curves of all models, or one for the bands of each.
+fn add_figures(folder: &mut OutputFolder, command: &str, all: &[OfModel]) {
+    if all.iter().all(|of_model| of_model.bands.is_none()) {
+        folder.add(format!("{command}.svg"), chart(all).to_svg());
+    }
+    for of_model in all {
+        let Some(bands) = &of_model.bands else { continue };
+        let end = of_model.end(all.len());
+        let nominal = line("soil as written", 1, &of_model.curve);
+        folder.add(format!("{command}{end}.svg"), bands.chart(nominal).to_svg());
+        folder.add(format!("probability{end}.svg"), bands.chance_chart().to_svg());
+    }
+}
+
+/// The columns for reading.
+fn brief(args: &HeadingArgs) -> Vec<String> {
+    let has_bands = args.uncertainty.sampling.uncertainty;
+    let mut names = if has_bands { heading::bands_brief() } else { heading::brief() };
+    if args.setting.has_every_model() {
+        names.insert(0, MODEL.to_owned());
+    }
+    names
+}
+
 /// The inputs of the answer.
-fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
-    let document = &scenario.document;
+fn settings(args: &HeadingArgs, first: &OfModel) -> Value {
+    let document = &first.scenario.document;
+    let every = args.setting.has_every_model();
     let mut settings = json!({
         "rover": document.get("rover"),
         "soil": document.get("soil"),
         "gravity_m_s2": document.get("gravity_m_s2"),
-        "model": scenario.value.theory.name(),
+        "model": if every { EVERY_MODEL } else { first.name() },
         "loads": document.get("loads"),
         "moments": document.get("moments"),
         "slope_deg": args.slope_deg.0,
     });
-    if args.uncertainty.uncertainty {
-        settings["samples"] = args.uncertainty.samples.into();
-        settings["seed"] = args.uncertainty.seed.into();
+    let UncertaintyArgs { sampling, seed } = args.uncertainty;
+    if sampling.uncertainty {
+        settings["samples"] = sampling.samples.into();
+        settings["seed"] = seed.into();
+        if !every {
+            settings[sampling::SHARES] =
+                sampling::shares(&BandInputs::of_scenario(&first.scenario));
+        }
     }
     settings
 }
@@ -87,10 +171,19 @@ fn settings(args: &HeadingArgs, scenario: &LoadedScenario) -> Value {
 #[derive(Serialize)]
 struct Results<'a> {
     #[serde(flatten)]
-    limit: Row<'a>,
-    #[serde(flatten)]
-    band: Option<Row<'a>>,
+    limit: Limits<'a>,
     rows: &'a Table,
+}
+
+/// The steepest slopes, with their bands.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Limits<'a> {
+    One(Row<'a>),
+    /// A row for each model.
+    Each {
+        limits: &'a Table,
+    },
 }
 
 fn limit_line(limit: &Table) -> String {
@@ -106,16 +199,20 @@ fn limit_line(limit: &Table) -> String {
 }
 
 /// Yaw over slope.
-fn chart(curve: &HeadingCurve) -> Chart {
+fn chart(all: &[OfModel]) -> Chart {
+    let series = all.iter().enumerate().map(|(place, of_model)| {
+        let name = if all.len() > 1 { of_model.name() } else { "heading offset" };
+        line(name, place + 1, &of_model.curve)
+    });
     Chart {
         title: "Heading offset that holds the contour".into(),
         x_label: "slope [°]".into(),
         y_label: "yaw, positive uphill [°]".into(),
-        series: vec![line("heading offset", curve)],
+        series: series.collect(),
     }
 }
 
-fn line(name: &str, curve: &HeadingCurve) -> Series {
+fn line(name: &str, colour: usize, curve: &HeadingCurve) -> Series {
     let points = heading::curve(curve);
-    Series::new(name, Style::Line, 1, points.points(SLOPE.name, YAW.name))
+    Series::new(name, Style::Line, colour, points.points(SLOPE.name, YAW.name))
 }

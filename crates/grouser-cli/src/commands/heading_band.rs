@@ -1,18 +1,18 @@
-//! `grouser heading --uncertainty`: quantiles of the heading offset over samples of an uncertain soil.
+//! `grouser heading --uncertainty`: quantiles of the heading offset over samples of soil and model.
 
+use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, DRAWS, DRAWS_MOBILE};
 use grouser::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
 use grouser::document::table::Table;
-use grouser::document::{LoadedScenario, UncertainSoil};
-use grouser::soil::Soil;
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use grouser::studies::heading_band::{HeadingBand, SlopeBand};
 
-use crate::args::HeadingArgs;
+use super::sampling;
+use crate::args::{HeadingArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
-use crate::output;
 use crate::output::rows::rounded_down;
 
 /// Quantiles and probabilities over the sampled soils.
@@ -27,13 +27,13 @@ pub(crate) struct Bands {
 
 /// Steepest slope of the charts [°]: the steepest that is looked at.
 const STEEPEST_DEG: u8 = 60;
-/// Charts show no band over a smaller share of the samples than this [-]: it would show only the few
+/// Charts show no yaw over a smaller share of the samples than this [-]: it would show only the few
 /// strong soils that are left.
 const LEAST_DRAWN: f64 = 0.5;
 /// The chart of the probability ends where it falls below this [-].
 const LEAST_CHANCE: f64 = 0.001;
 
-/// Samples the soils and follows the curve of each.
+/// Draws the samples and follows the curve of each.
 ///
 /// * `nominal`: the curve of the soil as its document has it
 /// * `charted`: whether there will be charts
@@ -43,40 +43,23 @@ pub(crate) fn bands(
     nominal: &HeadingCurve,
     charted: bool,
 ) -> Result<Bands, Failure> {
-    let uncertain = inputs::uncertain_soil(args, scenario)?;
-    let soils = soils(uncertain, args.uncertainty.seed, args.uncertainty.samples)?;
+    let UncertaintyArgs { sampling, seed } = args.uncertainty;
+    inputs::check_samples(sampling.samples, args.slope_deg.0.len())?;
+    inputs::refuse_sampled_keys(&args.setting, scenario.uncertain.as_ref())?;
+    let samples = sampling::draw(&BandInputs::of_scenario(scenario), sampling.samples, seed)?;
     let asked: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let charted = if charted { chart_slopes(nominal) } else { Vec::new() };
     let slopes: Vec<f64> = asked.iter().chain(&charted).copied().collect();
-    let bar = output::progress_bar(soils.len() as u64);
-    bar.set_message("soils");
     let study = HeadingStudy::of(&scenario.value);
-    let band = HeadingBand::of(&study, &soils, &slopes, &|| {
-        bar.inc(1);
-        true
+    let band = sampling::with_bar(samples.len(), |go_on| {
+        HeadingBand::of(&study, &samples, &slopes, go_on)
     });
-    bar.finish_and_clear();
-    // Ctrl-C ends the program: the study is never stopped early.
-    let band = band?.unwrap_or_else(|| unreachable!("it was not stopped"));
+    let band = sampling::whole(band?);
     let (asked, along) = band.slopes.split_at(asked.len());
     Ok(Bands {
         asked: asked.to_vec(),
         limit: heading::band_limit(&band),
         along: heading::bands(along),
-    })
-}
-
-/// The sampled soils.
-pub(crate) fn soils(
-    uncertain: &UncertainSoil,
-    seed: u64,
-    samples: u32,
-) -> Result<Vec<Soil>, Failure> {
-    uncertain.draws(seed, samples).map_err(|error| {
-        Failure::Usage(format!(
-            "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
-             keep the samples within the ranges of their keys"
-        ))
     })
 }
 
@@ -101,9 +84,9 @@ impl Bands {
         let [low, median, high] = [low, median, high].map(rounded_down);
         let stuck = match draws - draws_mobile {
             0 => String::new(),
-            stuck => format!("; on {stuck} more the rover cannot move at all"),
+            stuck => format!("; in {stuck} of them the rover cannot move at all"),
         };
-        format!("over {draws_mobile} samples: {low}° to {high}° (95 %), median {median}°{stuck}\n")
+        format!("over {draws} samples: {low}° to {high}° (95 %), median {median}°{stuck}\n")
     }
 
     fn draws(&self) -> u64 {

@@ -1,15 +1,16 @@
 //! `grouser heading-map`: the heading offset over slope, course and soil.
 
 use grouser::document::LoadedScenario;
-use grouser::document::columns::{COURSE, Quantity, SLOPE, YAW, heading};
-use grouser::document::table::Table;
+use grouser::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW, heading};
+use grouser::document::table::{Table, Values};
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::studies::heading_map::HeadingMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
-use crate::args::HeadingMapArgs;
+use super::{Answer, sampling, strict};
+use crate::args::{HeadingMapArgs, UncertaintyArgs};
 use crate::chart::HeatMap;
 use crate::failure::Failure;
 use crate::inputs;
@@ -30,8 +31,9 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let slopes = in_si(SLOPE, &args.slope_deg.0);
     let map = HeadingMap::of(&studies, &courses, &slopes)?;
     let names: Vec<String> = scenarios.iter().map(soil_name).collect();
-    let table =
-        heading::map_table(&map, &names, &scenarios[0].value.rover, args.rim_speed_m_s.0[0]);
+    let table = table(args, &scenarios, &studies, &map, &names)?;
+    let flags = map.rows.iter().flat_map(|row| &row.findings);
+    strict::check(&args.strict, flags.map(|it| &**it), &table, &heading::SETTINGS)?;
     let rows = Rows::of_table(&table);
     let answer = Answer::new(command, settings(args, &scenarios), Results { rows: &table });
     if let Some(mut folder) = folder {
@@ -41,18 +43,70 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
             // One soil needs no number.
             let number =
                 if scenarios.len() > 1 { format!("-{}", place + 1) } else { String::new() };
-            for (file, figure) in figures(args, &map, place, name) {
+            let name = title(args, scenario, name);
+            for (file, figure) in figures(args, &map, place, &name) {
                 folder.add(format!("{file}{number}.svg"), figure.to_svg());
+            }
+            if let Some(figure) = slip_figure(args, &table, place, &name) {
+                folder.add(format!("slip-p97_5{number}.svg"), figure.to_svg());
             }
             folder.add_document(&format!("scenario{number}.toml"), scenario);
         }
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(&heading::map_brief())),
+        Format::Table => output::print(&rows.to_table(&brief(args))),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
+}
+
+/// A row for each model that is asked for, soil, course and slope, with the bands that are asked for.
+fn table(
+    args: &HeadingMapArgs,
+    scenarios: &[LoadedScenario],
+    studies: &[HeadingStudy],
+    map: &HeadingMap,
+    names: &[String],
+) -> Result<Table, Failure> {
+    let rover = &scenarios[0].value.rover;
+    let mut table = heading::map_table(map, names, rover, args.rim_speed_m_s.0[0]);
+    let UncertaintyArgs { sampling, seed } = args.uncertainty;
+    if sampling.uncertainty {
+        let draw = |scenario: &LoadedScenario| {
+            inputs::refuse_sampled_keys(&args.setting, scenario.uncertain.as_ref())?;
+            sampling::draw(&BandInputs::of_scenario(scenario), sampling.samples, seed)
+        };
+        let samples = scenarios.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
+        let count = samples.iter().map(Vec::len).sum::<usize>() * args.course_deg.0.len();
+        let bands = sampling::with_bar(count, |go_on| map.bands(studies, &samples, go_on));
+        table = heading::map_with_bands(table, &sampling::whole(bands?));
+    }
+    if args.setting.has_every_model() {
+        let rows = scenarios.iter().flat_map(|scenario| {
+            let count = args.course_deg.0.len() * args.slope_deg.0.len();
+            std::iter::repeat_n(scenario.value.theory.name(), count)
+        });
+        let words = rows.map(|name| Some(name.to_owned())).collect();
+        table.columns.insert(0, (MODEL.to_owned(), Values::Text(words)));
+    }
+    Ok(table)
+}
+
+/// The columns for reading.
+fn brief(args: &HeadingMapArgs) -> Vec<String> {
+    let has_bands = args.uncertainty.sampling.uncertainty;
+    let mut names = if has_bands { heading::map_bands_brief() } else { heading::map_brief() };
+    if args.setting.has_every_model() {
+        names.insert(0, MODEL.to_owned());
+    }
+    names
+}
+
+/// What a figure is of: the soil, and the model where there are several.
+fn title(args: &HeadingMapArgs, scenario: &LoadedScenario, soil: &str) -> String {
+    let model = scenario.value.theory.name();
+    if args.setting.has_every_model() { format!("{soil}, {model}") } else { soil.to_owned() }
 }
 
 #[derive(Serialize)]
@@ -69,7 +123,7 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
     let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
     let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.theory.name()).collect();
-    json!({
+    let mut settings = json!({
         "rover": first.get("rover"),
         "soils": soils,
         "models": models,
@@ -79,6 +133,30 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
         "course_deg": args.course_deg.0,
         "slope_deg": args.slope_deg.0,
         "speed_m_s": args.rim_speed_m_s.0[0],
+    });
+    let UncertaintyArgs { sampling, seed } = args.uncertainty;
+    if sampling.uncertainty {
+        settings["samples"] = sampling.samples.into();
+        settings["seed"] = seed.into();
+        let shares = |scenario| sampling::shares(&BandInputs::of_scenario(scenario));
+        settings[sampling::SHARES] = scenarios.iter().map(shares).collect();
+    }
+    settings
+}
+
+/// A heat map of the upper end of the slip's band, if there is one.
+fn slip_figure(args: &HeadingMapArgs, table: &Table, study: usize, name: &str) -> Option<HeatMap> {
+    let [_, _, high] = SLIP_RATIO.quantiles();
+    let (courses, slopes) = (args.course_deg.0.len(), args.slope_deg.0.len());
+    let values = table.numbers(&high).chunks(slopes).skip(study * courses).take(courses);
+    let values: Vec<Vec<Option<f64>>> = values.map(<[_]>::to_vec).collect();
+    (!values.is_empty()).then(|| HeatMap {
+        title: format!("Slip ratio that 97.5 % of the samples stay below, on {name}"),
+        x_label: "slope [°]".into(),
+        columns: args.slope_deg.0.clone(),
+        y_label: "course, positive uphill [°]".into(),
+        rows: args.course_deg.0.clone(),
+        values,
     })
 }
 

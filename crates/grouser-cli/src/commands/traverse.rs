@@ -1,13 +1,18 @@
 //! `grouser traverse`: drives a rover across a slope.
 
-use grouser::document::columns::run::{self, RunObject};
-use grouser::document::columns::{X, Y, YAW};
-use grouser::document::escape;
-use grouser::simulation::{Outcome, Run, Trajectory};
-use serde_json::json;
+use grouser::contact::validity::Flag;
+use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
+use grouser::document::columns::{MODEL, TIME, X, Y, YAW};
+use grouser::document::table::{Row, Table};
+use grouser::document::{LoadedScenario, escape};
+use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
+use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::traverse_band::{RunBand, TraverseBand, record_times};
+use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::Answer;
-use crate::args::TraverseArgs;
+use super::{Answer, sampling, strict};
+use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
@@ -20,25 +25,185 @@ const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let scenario = inputs::traverse(args)?;
-    let run = Run::new(&scenario.value)?.to_end()?;
-    let rover = &scenario.value.rover;
-    let rows = Rows::of_table(&run::table(&run, rover));
-    let object = RunObject { run: &run, rover };
-    let answer = Answer::new("traverse", json!({ "scenario": scenario.document }), object);
+    let each = |setting| OfModel::of(args, &setting);
+    let all: Vec<OfModel> =
+        args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
+    match &all[..] {
+        [one] => one.output(args, folder),
+        all => output_all(args, folder, all),
+    }
+}
+
+/// What a model answers.
+struct OfModel {
+    scenario: LoadedScenario,
+    run: Trajectory,
+    band: Option<TraverseBand>,
+}
+
+impl OfModel {
+    /// * `setting`: with one model
+    fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
+        let scenario = inputs::traverse(args, setting)?;
+        let run = Run::new(&scenario.value)?.to_end()?;
+        if args.strict.strict {
+            let flags = run::each_findings(&run, &scenario.value);
+            let records = run::table(&run, &scenario.value);
+            strict::check(&args.strict, flags.iter().map(|it| &**it), &records, &[TIME.name])?;
+        }
+        let UncertaintyArgs { sampling, seed } = args.uncertainty;
+        if !sampling.uncertainty {
+            return Ok(Self { scenario, run, band: None });
+        }
+        inputs::refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        let samples = sampling::draw(&BandInputs::of_scenario(&scenario), sampling.samples, seed)?;
+        let times = record_times(&run, &scenario.value);
+        let band = sampling::with_bar(samples.len(), |go_on| {
+            TraverseBand::of(&scenario.value, &samples, &times, go_on)
+        });
+        Ok(Self { scenario, run, band: Some(sampling::whole(band?)) })
+    }
+
+    fn name(&self) -> &'static str {
+        self.scenario.value.theory.name()
+    }
+
+    /// A row for each record, with the bands at its time.
+    fn rows(&self) -> Table {
+        let table = run::table(&self.run, &self.scenario.value);
+        match &self.band {
+            Some(band) => run::with_bands(table, &band.times),
+            None => table,
+        }
+    }
+
+    /// The end and the means, with their bands: one row.
+    fn summary(&self) -> Table {
+        let mut table = run::summary(&self.run, &self.scenario.value);
+        if let Some(band) = &self.band {
+            table = table.and(&RUN_BAND, &[Some(&band.run)]);
+        }
+        table.with_word(MODEL, self.name())
+    }
+
+    fn output(&self, args: &TraverseArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
+        let rows = Rows::of_table(&self.rows());
+        let settings = settings(args, std::slice::from_ref(self));
+        let run = RunObject { run: &self.run, scenario: &self.scenario.value };
+        let tables = self
+            .band
+            .as_ref()
+            .map(|band| (Table::of(&RUN_BAND, &[band.run]), Table::of(&TIME_BAND, &band.times)));
+        let bands = tables.as_ref().map(|(run, times)| Bands { band: run.row(0), bands: times });
+        let answer = Answer::new("traverse", settings, Results { run, bands });
+        if let Some(mut folder) = folder {
+            folder.add("traverse.json", answer.to_text());
+            folder.add("traverse.csv", rows.to_csv()?);
+            folder.add("traverse.svg", chart(std::slice::from_ref(self)).to_svg());
+            folder.add_document("scenario.toml", &self.scenario);
+            folder.finish()?;
+        }
+        match args.output.format {
+            Format::Table => {
+                output::print(&(table(&self.run, &self.scenario.value) + &self.band_table()))
+            }
+            Format::Csv => {
+                tell_end(&self.run);
+                output::print(&rows.to_csv()?)
+            }
+            Format::Json => output::print_json(&answer),
+        }
+    }
+
+    /// Some of the bands over time, and what becomes of the samples; nothing without bands.
+    fn band_table(&self) -> String {
+        let Some(band) = &self.band else { return String::new() };
+        let last = band.times.len() - 1;
+        let lines = LINES.min(last);
+        let places: Vec<usize> = (0..=lines).map(|line| line * last / lines.max(1)).collect();
+        let times = Table::of(&TIME_BAND, &band.times).rows_at(&places);
+        let RunBand { completed, immobilised, sliding, tipped_over, .. } = band.run;
+        format!(
+            "\n{}{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over\n",
+            Rows::of_table(&times).to_table(&run::bands_brief()),
+            completed.trials,
+            completed.successes,
+        )
+    }
+}
+
+/// The inputs of the answer.
+fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
+    let mut settings = json!({ "scenario": all[0].scenario.document });
+    if let [_, ..] = &all[1..] {
+        settings["model"] = EVERY_MODEL.into();
+        // That of the scenario is the first of all.
+        if let Some(scenario) = settings["scenario"].as_object_mut() {
+            scenario.shift_remove("model");
+        }
+    }
+    let UncertaintyArgs { sampling, seed } = args.uncertainty;
+    if sampling.uncertainty {
+        settings["samples"] = sampling.samples.into();
+        settings["seed"] = seed.into();
+        if let [one] = all {
+            settings[sampling::SHARES] = sampling::shares(&BandInputs::of_scenario(&one.scenario));
+        }
+    }
+    settings
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    #[serde(flatten)]
+    run: RunObject<'a>,
+    #[serde(flatten)]
+    bands: Option<Bands<'a>>,
+}
+
+#[derive(Serialize)]
+struct Bands<'a> {
+    /// Of the run's end and means.
+    band: Row<'a>,
+    /// Over time.
+    bands: &'a Table,
+}
+
+#[derive(Serialize)]
+struct Summaries {
+    rows: Table,
+}
+
+/// The results of all models: a row for each, and the records of each in a file of its own.
+fn output_all(
+    args: &TraverseArgs,
+    folder: Option<OutputFolder>,
+    all: &[OfModel],
+) -> Result<(), Failure> {
+    let mut summaries = Summaries { rows: Table::default() };
+    for of_model in all {
+        summaries.rows.append(of_model.summary());
+    }
+    let rows = Rows::of_table(&summaries.rows);
+    let answer = Answer::new("traverse", settings(args, all), &summaries);
     if let Some(mut folder) = folder {
         folder.add("traverse.json", answer.to_text());
         folder.add("traverse.csv", rows.to_csv()?);
-        folder.add("traverse.svg", chart(&run).to_svg());
-        folder.add_document("scenario.toml", &scenario);
+        folder.add("traverse.svg", chart(all).to_svg());
+        for of_model in all {
+            let name = of_model.name();
+            folder.add(format!("traverse-{name}.csv"), Rows::of_table(&of_model.rows()).to_csv()?);
+            folder.add_document(&format!("scenario-{name}.toml"), &of_model.scenario);
+        }
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&table(&run)),
-        Format::Csv => {
-            tell_end(&run);
-            output::print(&rows.to_csv()?)
+        Format::Table => {
+            let mut names = vec![MODEL.to_owned()];
+            names.extend(run::summary_brief());
+            output::print(&rows.to_table(&names))
         }
+        Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
 }
@@ -58,7 +223,7 @@ fn reason(run: &Trajectory) -> String {
 }
 
 /// Some of the records with the means of their wheels, and the outcome.
-fn table(run: &Trajectory) -> String {
+fn table(run: &Trajectory, scenario: &Scenario) -> String {
     let samples = run::brief(run, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
@@ -73,22 +238,57 @@ fn table(run: &Trajectory) -> String {
         four_digits(last.unwrap_or(f64::NAN))
     });
     format!(
-        "{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
+        "{}{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
         Rows::of_table(&samples).to_table(&names),
+        flag_lines(run, scenario),
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),
     )
 }
 
-/// The path, seen from above.
-fn chart(run: &Trajectory) -> Chart {
-    let points =
-        run.records.iter().map(|sample| (sample.state.position.x, sample.state.position.y));
+/// The flags of a run, a line each: since when, and what they mean.
+fn flag_lines(run: &Trajectory, scenario: &Scenario) -> String {
+    let raised = run::raised(run, scenario);
+    let names = raised.texts("flag").iter().flatten();
+    let times = raised.numbers(TIME.name).iter().flatten();
+    let line = |(name, time): (&String, &f64)| {
+        let meaning = Flag::of_name(name).map_or("", |flag| flag.rule().meaning);
+        format!("{name} since {} s: {meaning}\n", four_digits(*time))
+    };
+    names.zip(times).map(line).collect()
+}
+
+/// The paths, seen from above, each with its band if there is one.
+fn chart(all: &[OfModel]) -> Chart {
+    let mut series = Vec::new();
+    for (place, of_model) in all.iter().enumerate() {
+        let Some(band) = &of_model.band else { continue };
+        // The band is over one time: it is drawn where the rover is then, in the middle of the samples.
+        let edges = band.times.iter().filter_map(|at| {
+            let (x, y) = (at.x?, at.y?);
+            Some((x.median, y.low, y.high))
+        });
+        let name = if all.len() > 1 { of_model.name() } else { "the samples" };
+        series.push(Series::band(
+            format!("95 % of {name}"),
+            if all.len() > 1 { place + 1 } else { BAND_COLOUR },
+            edges,
+        ));
+    }
+    for (place, of_model) in all.iter().enumerate() {
+        let records = of_model.run.records.iter();
+        let points = records.map(|record| (record.state.position.x, record.state.position.y));
+        let name = if all.len() > 1 { of_model.name() } else { "path" };
+        series.push(Series::new(name, Style::Line, place + 1, points));
+    }
     Chart {
         title: "Path on the slope".into(),
         x_label: "along the contour, x [m]".into(),
         y_label: "uphill, y [m]".into(),
-        series: vec![Series::new("path", Style::Line, 1, points)],
+        series,
     }
 }
+
+/// A band's place among the colours where there is one: a light one. Others have that of their line.
+const BAND_COLOUR: usize = 6;

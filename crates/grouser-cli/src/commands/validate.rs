@@ -1,8 +1,10 @@
-//! `grouser validate`: errors of a wheel–soil model against measured wheel tests, or a ranking of all models.
+//! `grouser validate`: errors of a wheel–soil model against measured wheel tests or a rover on slopes, or a ranking of
+//! all models.
 
 pub(crate) mod figures;
 mod page;
 mod ranking;
+mod slopes;
 
 use std::path::Path;
 
@@ -10,14 +12,14 @@ use grouser::document::columns::SLIP_ANGLE;
 use grouser::document::columns::fit::{self, column_of};
 use grouser::document::measurements::{self, Choice, Measurements};
 use grouser::document::table::Table;
-use grouser::document::validation::GroupRecord;
+use grouser::document::validation::{ErrorsRecord, GroupRecord, ReferenceRecord};
 use grouser::studies::measurement::Quantity;
-use grouser::studies::validation::{Validation, ValidationStudy};
+use grouser::studies::validation::{Reference, Validation, ValidationStudy};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::Answer;
-use crate::args::ValidateArgs;
+use super::{Answer, strict};
+use crate::args::{StrictArgs, ValidateArgs};
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
@@ -25,10 +27,12 @@ use crate::output::rows::{Rows, aligned, four_digits};
 use crate::output::{self, Format};
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
-    match (&args.data, &args.wheel, &args.soil) {
-        (Some(data), Some(wheel), Some(soil)) => one(args, data, wheel, soil),
-        // The parser of the command line asks for all three, or for --all.
-        _ => ranking::run(args),
+    match (&args.data, &args.wheel, &args.rover, &args.soil) {
+        (Some(data), Some(wheel), None, Some(soil)) => one(args, data, wheel, soil),
+        (Some(data), None, Some(rover), Some(soil)) => slopes::run(args, data, rover, soil),
+        (Some(data), ..) => ranking::of_one(args, data),
+        // The parser of the command line asks for data, or for --all.
+        (None, ..) => ranking::of_all(args),
     }
 }
 
@@ -38,6 +42,7 @@ struct Results<'a> {
     driven: Option<GroupRecord>,
     skid: Option<GroupRecord>,
     rows: &'a [GroupRecord],
+    yardsticks: &'a [ReferenceRecord<GroupRecord>],
     cells: &'a Table,
     notes: &'a [String],
 }
@@ -57,17 +62,22 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
     }
     let validation = judge(&measured, &stand);
     let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();
+    let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
     let cells = fit::cells(&validation.cells);
+    let flags = validation.cells.iter().map(|cell| &*cell.findings);
+    let strict = StrictArgs { strict: args.strict };
+    strict::check(&strict, flags, &cells, &fit::SETTINGS)?;
     let results = Results {
         overall: &GroupRecord::from(&validation.overall),
         driven: validation.driven.as_ref().map(GroupRecord::from),
         skid: validation.skid.as_ref().map(GroupRecord::from),
         rows: &groups,
+        yardsticks: &yardsticks,
         cells: &cells,
         notes: &measured.notes,
     };
     let answer = Answer::new("validate", settings(args, data, &stand), results);
-    let text = text_of(&validation);
+    let text = text_of(&validation) + &Rows::of_table(&cells).footnotes();
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", long_rows(&validation).to_csv()?);
@@ -118,33 +128,44 @@ fn groups_and_sums(validation: &Validation) -> Vec<GroupRecord> {
     all.map(GroupRecord::from).collect()
 }
 
-/// The errors as a row for each group and quantity.
+/// The errors as a row for each group and quantity, and for each yardstick and quantity.
 fn long_rows(validation: &Validation) -> Rows {
     let mut rows: Vec<Map<String, Value>> = Vec::new();
     for group in groups_and_sums(validation) {
-        for quantity in Quantity::ALL {
-            let Some(errors) = group.errors(quantity) else { continue };
-            let row = json!({
-                (SLIP_ANGLE.name): group.slip_angle(),
-                "motion": group.motion(),
-                "quantity": column_of(quantity).name,
-                "cells": errors.cells,
-                "unsettled_trials": group.0.unsettled,
-                "rmse": errors.rmse,
-                "bias": errors.bias,
-                "r2": errors.r2,
-                "repeatability": errors.repeatability,
-            });
-            rows.extend(row.as_object().cloned());
-        }
+        rows.extend(rows_of(&group, None));
+    }
+    for reference in validation.references.iter().map(ReferenceRecord::from) {
+        rows.extend(rows_of(&reference.overall, Some(reference.yardstick)));
     }
     Rows::from_maps(rows)
+}
+
+/// A row for each quantity of a group.
+///
+/// * `yardstick`: whose errors they are, if not the model's
+fn rows_of(group: &GroupRecord, yardstick: Option<&str>) -> Vec<Map<String, Value>> {
+    let row = |quantity: Quantity| {
+        let errors = group.errors(quantity)?;
+        let row = json!({
+            (SLIP_ANGLE.name): group.slip_angle(),
+            "motion": group.motion(),
+            "quantity": column_of(quantity).name,
+            "cells": errors.cells,
+            "unsettled_trials": group.0.unsettled,
+        });
+        let errors = serde_json::to_value(errors).ok()?;
+        let (mut row, errors) = (row.as_object()?.clone(), errors.as_object()?.clone());
+        row.extend(errors);
+        row.insert("yardstick".to_owned(), yardstick.into());
+        Some(row)
+    };
+    Quantity::ALL.into_iter().filter_map(row).collect()
 }
 
 /// For people: a block for each quantity, and what could not be predicted.
 fn text_of(validation: &Validation) -> String {
     let groups = groups_and_sums(validation);
-    let blocks = Quantity::ALL.into_iter().filter_map(|quantity| block(&groups, quantity));
+    let blocks = Quantity::ALL.into_iter().filter_map(|it| block(&groups, validation, it));
     let (unsettled, trials) = (validation.overall.unsettled, validation.overall.trials);
     let missing = (unsettled > 0).then(|| {
         format!(
@@ -155,30 +176,56 @@ fn text_of(validation: &Validation) -> String {
     blocks.chain(missing).collect::<Vec<String>>().join("\n")
 }
 
-fn block(groups: &[GroupRecord], quantity: Quantity) -> Option<String> {
-    let rows = error_rows(groups, quantity);
+fn block(groups: &[GroupRecord], validation: &Validation, quantity: Quantity) -> Option<String> {
+    let rows = error_rows(groups, validation, quantity);
     let table = aligned(&ERRORS.map(str::to_owned), &rows);
     (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity).name))
 }
 
 /// Columns of a quantity's errors.
-const ERRORS: [&str; 7] =
-    [SLIP_ANGLE.name, "motion", "cells", "rmse", "repeatability", "bias", "r2"];
+const ERRORS: [&str; 9] = [
+    SLIP_ANGLE.name,
+    "motion",
+    "cells",
+    "rmse",
+    "repeatability",
+    "bias",
+    "r2",
+    "rmse_share",
+    "within_aim",
+];
 
-/// A quantity's errors for people, a row for each group.
-fn error_rows(groups: &[GroupRecord], quantity: Quantity) -> Vec<Vec<String>> {
-    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
+/// A quantity's errors for people, a row for each group, then one for each yardstick.
+fn error_rows(
+    groups: &[GroupRecord],
+    validation: &Validation,
+    quantity: Quantity,
+) -> Vec<Vec<String>> {
     let row = |group: &GroupRecord| {
-        let errors = group.errors(quantity)?;
-        Some(vec![
-            group.slip_angle().map_or("all".to_owned(), four_digits),
-            group.motion().to_owned(),
-            errors.cells.to_string(),
-            four_digits(errors.rmse),
-            number(errors.repeatability),
-            four_digits(errors.bias),
-            number(errors.r2),
-        ])
+        let angle = group.slip_angle().map_or("all".to_owned(), four_digits);
+        Some(error_row(angle, group.motion(), group.errors(quantity)?))
     };
-    groups.iter().filter_map(row).collect()
+    let yardstick = |reference: &Reference| {
+        let group = GroupRecord::from(&reference.overall);
+        let name = reference.yardstick.name().to_owned();
+        Some(error_row(name, group.motion(), group.errors(quantity)?))
+    };
+    let models = groups.iter().filter_map(row);
+    models.chain(validation.references.iter().filter_map(yardstick)).collect()
+}
+
+/// * `of`: a slip angle, or a yardstick
+fn error_row(of: String, motion: &str, errors: ErrorsRecord) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
+    vec![
+        of,
+        motion.to_owned(),
+        errors.cells.to_string(),
+        four_digits(errors.rmse),
+        number(errors.repeatability),
+        four_digits(errors.bias),
+        number(errors.r2),
+        number(errors.rmse_share),
+        errors.within_aim.map_or("-", |is_met| if is_met { "yes" } else { "no" }).to_owned(),
+    ]
 }

@@ -1,6 +1,8 @@
 //! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
 
-use grouser::document::columns::{self, DRAWBAR_PULL, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::columns::{
+    self, DRAWBAR_PULL, LOAD, MODEL, SINKAGE, SLIP_ANGLE, SLIP_RATIO,
+};
 use grouser::document::table::Table;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
@@ -8,8 +10,8 @@ use grouser::studies::wheel_test::WheelTest;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::Answer;
-use crate::args::{StandArgs, WheelTestArgs};
+use super::{Answer, sampling, strict};
+use crate::args::{EVERY_MODEL, StandArgs, WheelTestArgs};
 use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
@@ -19,65 +21,78 @@ use crate::output::{self, Format};
 
 pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let inputs = inputs::wheel_test(args)?;
-    let test = WheelTest {
-        wheel: inputs.wheel.value,
-        soil: inputs.soil.value,
-        gravity: inputs.gravity,
-        theory: inputs.theory,
+    let stands = inputs::wheel_test(args)?;
+    let mut results = Results::default();
+    for stand in &stands {
+        let mut of_model = of_model(args, stand)?;
+        if args.setting.has_every_model() {
+            of_model = of_model.with_word(MODEL, stand.theory.name());
+        }
+        results.rows.append(of_model);
+    }
+    output_results(args, folder, &stands, &results)
+}
+
+/// The rows of one model.
+fn of_model(args: &WheelTestArgs, stand: &StandInputs) -> Result<Table, Failure> {
+    let test = plan(args, stand);
+    let found = test.run();
+    let table = columns::wheel_test::table(&found);
+    let flags = found.iter().map(|row| &*row.findings);
+    strict::check(&args.strict, flags, &table, &columns::wheel_test::SETTINGS)?;
+    if let Some(trials) = args.stand.trials {
+        return Ok(columns::stand::table(&on_a_stand(test, &args.stand, trials).run()));
+    }
+    if !args.sampling.uncertainty {
+        return Ok(table);
+    }
+    let samples = sampling::draw(&stand.band, args.sampling.samples, args.stand.seed)?;
+    let bands = sampling::with_bar(samples.len(), |go_on| test.bands(&samples, go_on));
+    Ok(columns::wheel_test::with_bands(table, &sampling::whole(bands)))
+}
+
+fn plan(args: &WheelTestArgs, stand: &StandInputs) -> WheelTest {
+    let angles = args.slip_angle_deg.0.iter().map(|angle| SLIP_ANGLE.unit.to_si(*angle));
+    WheelTest {
+        wheel: stand.wheel.value,
+        soil: stand.soil.value,
+        gravity: stand.gravity,
+        theory: stand.theory,
         loads: args.load_n.0.clone(),
-        slip_angles: args
-            .slip_angle_deg
-            .0
-            .iter()
-            .map(|angle| SLIP_ANGLE.unit.to_si(*angle))
-            .collect(),
+        slip_angles: angles.collect(),
         slip_ratios: args.slip_ratio.0.clone(),
-    };
+    }
+}
+
+/// The inputs of the answer.
+fn settings(args: &WheelTestArgs, stand: &StandInputs) -> Value {
+    let every = args.setting.has_every_model();
     let mut settings = json!({
-        "soil": inputs.soil.document,
-        "wheel": inputs.wheel.document,
-        "gravity_m_s2": inputs.gravity,
-        "model": inputs.theory.name(),
+        "soil": stand.soil.document,
+        "wheel": stand.wheel.document,
+        "gravity_m_s2": stand.gravity,
+        "model": if every { EVERY_MODEL } else { stand.theory.name() },
         "load_n": args.load_n.0,
         "slip_angle_deg": args.slip_angle_deg.0,
         "slip_ratio": args.slip_ratio.0,
     });
-    match args.stand.trials {
-        None => {
-            let table = columns::wheel_test::table(&test.run());
-            let brief = columns::wheel_test::brief();
-            output_results(
-                args,
-                folder,
-                &inputs,
-                settings,
-                &table,
-                &brief,
-                &chart(&table, Style::Line),
-            )
-        }
-        Some(trials) => {
-            settings["simulated_stand"] = json!({
-                "trials": trials,
-                "noise_n": args.stand.noise_n,
-                "noise_mm": args.stand.noise_mm,
-                "noise_nm": args.stand.noise_nm,
-                "seed": args.stand.seed,
-            });
-            let table = columns::stand::table(&on_a_stand(test, &args.stand, trials).run());
-            let brief = columns::stand::brief();
-            output_results(
-                args,
-                folder,
-                &inputs,
-                settings,
-                &table,
-                &brief,
-                &chart(&table, Style::Dots),
-            )
+    if let Some(trials) = args.stand.trials {
+        settings["simulated_stand"] = json!({
+            "trials": trials,
+            "noise_n": args.stand.noise_n,
+            "noise_mm": args.stand.noise_mm,
+            "noise_nm": args.stand.noise_nm,
+            "seed": args.stand.seed,
+        });
+    }
+    if args.sampling.uncertainty {
+        settings["samples"] = args.sampling.samples.into();
+        settings["seed"] = args.stand.seed.into();
+        if !every {
+            settings[sampling::SHARES] = sampling::shares(&stand.band);
         }
     }
+    settings
 }
 
 fn on_a_stand(plan: WheelTest, args: &StandArgs, trials: usize) -> SimulatedTest {
@@ -90,57 +105,88 @@ fn on_a_stand(plan: WheelTest, args: &StandArgs, trials: usize) -> SimulatedTest
     SimulatedTest { plan, trials, noise, seed: args.seed }
 }
 
-#[derive(Serialize)]
-struct Results<'a> {
-    rows: &'a Table,
+#[derive(Default, Serialize)]
+struct Results {
+    rows: Table,
 }
 
 fn output_results(
     args: &WheelTestArgs,
     folder: Option<OutputFolder>,
-    inputs: &StandInputs,
-    settings: Value,
-    table: &Table,
-    brief: &[String],
-    chart: &Chart,
+    stands: &[StandInputs],
+    results: &Results,
 ) -> Result<(), Failure> {
-    let rows = Rows::of_table(table);
-    let answer = Answer::new("wheel-test", settings, Results { rows: table });
+    let rows = Rows::of_table(&results.rows);
+    // Stands differ by their models alone.
+    let inputs = &stands[0];
+    let answer = Answer::new("wheel-test", settings(args, inputs), results);
     if let Some(mut folder) = folder {
         folder.add("wheel-test.json", answer.to_text());
         folder.add("wheel-test.csv", rows.to_csv()?);
-        folder.add("wheel-test.svg", chart.to_svg());
+        let style = if args.stand.trials.is_some() { Style::Dots } else { Style::Line };
+        folder.add("wheel-test.svg", chart(&results.rows, style).to_svg());
         folder.add_document("soil.toml", &inputs.soil);
         folder.add_document("wheel.toml", &inputs.wheel);
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(brief)),
+        Format::Table => output::print(&rows.to_table(&brief(args))),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
 }
 
-/// Drawbar pull over slip ratio, a series for each load and slip angle.
+/// The columns for reading.
+fn brief(args: &WheelTestArgs) -> Vec<String> {
+    let mut names = if args.stand.trials.is_some() {
+        columns::stand::brief()
+    } else if args.sampling.uncertainty {
+        columns::wheel_test::bands_brief()
+    } else {
+        columns::wheel_test::brief()
+    };
+    if args.setting.has_every_model() {
+        names.insert(0, MODEL.to_owned());
+    }
+    names
+}
+
+/// Drawbar pull over slip ratio, a series for each model, load and slip angle, with its band if there is one.
 fn chart(table: &Table, style: Style) -> Chart {
-    let mut series: Vec<Series> = Vec::new();
-    let [loads, angles, ratios, pulls] =
-        [LOAD, SLIP_ANGLE, SLIP_RATIO, DRAWBAR_PULL].map(|it| table.numbers(it.name));
-    for (row, pull) in pulls.iter().enumerate() {
-        let [load, angle, slip_ratio] =
-            [loads, angles, ratios].map(|column| column[row].unwrap_or_default());
-        let name = format!("{load} N, {angle}°");
-        if series.last().is_none_or(|last| last.name != name) {
-            series.push(Series::new(name, style, series.len(), []));
+    let models = table.texts(MODEL);
+    let [loads, angles] = [LOAD, SLIP_ANGLE].map(|it| table.numbers(it.name));
+    let name = |row: usize| {
+        let [load, angle] = [loads, angles].map(|column| column[row].unwrap_or_default());
+        let model = models.get(row).and_then(Option::as_deref);
+        let model = model.map_or(String::new(), |model| format!("{model}, "));
+        format!("{model}{load} N, {angle}°")
+    };
+    let names: Vec<String> = (0..table.rows()).map(name).collect();
+    let places: Vec<usize> = (0..table.rows()).collect();
+    let [low, _, high] = DRAWBAR_PULL.quantiles();
+    let mut bands: Vec<Series> = Vec::new();
+    let mut lines: Vec<Series> = Vec::new();
+    for rows in places.chunk_by(|one, next| names[*one] == names[*next]) {
+        let (name, part) = (&names[rows[0]], table.rows_at(rows));
+        let edges = part
+            .points(SLIP_RATIO.name, &low)
+            .zip(part.points(SLIP_RATIO.name, &high))
+            .map(|((slip_ratio, low), (_, high))| (slip_ratio, low, high));
+        let edges: Vec<_> = edges.collect();
+        if !edges.is_empty() {
+            let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
+            bands.push(Series::band(format!("95 %, {name}"), colour, edges));
         }
-        if let (Some(last), Some(pull)) = (series.last_mut(), *pull) {
-            last.points.push((slip_ratio, pull));
-        }
+        let points = part.points(SLIP_RATIO.name, DRAWBAR_PULL.name);
+        lines.push(Series::new(name, style, lines.len(), points));
     }
     Chart {
         title: "Drawbar pull".into(),
         x_label: "slip ratio".into(),
         y_label: "drawbar pull [N]".into(),
-        series,
+        series: bands.into_iter().chain(lines).collect(),
     }
 }
+
+/// A band's place among the colours where there is one: a light one. Others have that of their line.
+const BAND_COLOUR: usize = 6;

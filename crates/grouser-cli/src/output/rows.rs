@@ -2,8 +2,10 @@
 
 use std::borrow::Borrow;
 
+use grouser::contact::validity::Flag;
+use grouser::document::columns::flags::FLAGS;
 use grouser::document::escape;
-use grouser::document::table::Table;
+use grouser::document::table::{BETWEEN_NAMES, Table};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -44,14 +46,40 @@ impl Rows {
 
     /// The rows as an aligned table of some of their columns; a column's header is its key.
     pub(crate) fn to_table(&self, columns: &[impl AsRef<str>]) -> String {
-        let header: Vec<String> = columns.iter().map(|column| column.as_ref().to_owned()).collect();
+        let raised = self.raised();
+        // Without any flag the column would be empty.
+        let columns = columns.iter().map(AsRef::as_ref);
+        let columns: Vec<&str> =
+            columns.filter(|column| *column != FLAGS || !raised.is_empty()).collect();
+        let header: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
         let cells = self.0.iter().map(|row| {
-            columns
-                .iter()
-                .map(|column| row.get(column.as_ref()).map_or(String::new(), short))
-                .collect()
+            columns.iter().map(|column| row.get(*column).map_or(String::new(), short)).collect()
         });
-        aligned(&header, &cells.collect::<Vec<Vec<String>>>())
+        let notes = if columns.contains(&FLAGS) { self.footnotes() } else { String::new() };
+        aligned(&header, &cells.collect::<Vec<Vec<String>>>()) + &notes
+    }
+
+    /// What the flags of the rows mean, a line each, to stand under a table.
+    pub(crate) fn footnotes(&self) -> String {
+        let line = |flag: &Flag| format!("{}: {}\n", flag.name(), flag.rule().meaning);
+        self.raised().iter().map(line).collect()
+    }
+
+    /// The first row as `load_n 17, slip_ratio 0.2`.
+    pub(crate) fn first_in_words(&self) -> String {
+        let cells = self.0.first().into_iter().flatten();
+        let cells: Vec<String> =
+            cells.map(|(key, value)| format!("{key} {}", short(value))).collect();
+        cells.join(", ")
+    }
+
+    /// The flags that any row has, in the order of the list.
+    fn raised(&self) -> Vec<Flag> {
+        let is_raised = |flag: &Flag| {
+            let lists = self.0.iter().filter_map(|row| row.get(FLAGS)?.as_array());
+            lists.flatten().any(|name| name.as_str() == Some(flag.name()))
+        };
+        Flag::ALL.into_iter().filter(is_raised).collect()
     }
 }
 
@@ -107,11 +135,18 @@ fn flatten(prefix: &str, map: Map<String, Value>, into: &mut Map<String, Value>)
     }
 }
 
+/// Names of a list as one text.
+fn joined(names: &[Value]) -> String {
+    let names: Vec<&str> = names.iter().filter_map(Value::as_str).collect();
+    names.join(BETWEEN_NAMES)
+}
+
 /// A value with every digit; a text so that no spreadsheet computes it.
 fn exact(value: &Value) -> String {
     match value {
         Value::Null => String::new(),
         Value::String(text) => escape::cell(text).into_owned(),
+        Value::Array(names) => joined(names),
         other => other.to_string(),
     }
 }
@@ -121,6 +156,8 @@ pub(crate) fn short(value: &Value) -> String {
     match value {
         Value::Null => "-".into(),
         Value::String(text) => text.clone(),
+        Value::Array(names) if names.is_empty() => "-".into(),
+        Value::Array(names) => joined(names),
         Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), four_digits),
         other => other.to_string(),
     }

@@ -1,5 +1,6 @@
 //! The page: one HTML file that needs nothing from outside.
 
+use grouser::contact::validity::{Finding, Flag};
 use std::fmt::Write as _;
 
 use grouser::document::escape;
@@ -46,6 +47,20 @@ impl Page {
     }
 
     /// Commands or documents, as they are.
+    /// What is an extrapolation, each flag once.
+    pub(crate) fn flags<'f>(&mut self, findings: impl IntoIterator<Item = &'f Finding>) {
+        let mut flags: Vec<Flag> = findings.into_iter().map(|finding| finding.flag).collect();
+        flags.sort();
+        flags.dedup();
+        self.heading("Validity");
+        if flags.is_empty() {
+            self.paragraph("No result is outside the stated domain of the model or the soil.");
+        } else {
+            self.paragraph("Some results are extrapolations. Flags and their meanings:");
+            self.list(flags.iter().map(|flag| format!("{}: {}", flag.name(), flag.rule().meaning)));
+        }
+    }
+
     pub(crate) fn code(&mut self, text: &str) {
         self.push(&format!("<pre>{}</pre>\n", escaped(text)));
     }

@@ -62,7 +62,7 @@ fn the_page_says_what_it_must() {
         "GO\n",
         "CAUTION",
         "NO-GO",
-        "at least 95 % of 40 sampled soils",
+        "at least 95 % of 40 samples",
         "less than 80 %",
         "Date of the soil: not stated",
         "Gravity 9.807 m/s² (earth)",
@@ -81,15 +81,37 @@ fn the_page_says_what_it_must() {
 #[test]
 fn without_stated_uncertainty_the_page_says_so_and_draws_no_band() {
     let place = Place::new();
-    let table = place.results("card --out card.svg --margin-deg 4");
+    let table = place.results("card --model ishigami --out card.svg --margin-deg 4");
     assert!(table.contains("no uncertainty of this soil is stated: no bands"));
     let svg = place.read("card.svg");
     let texts = texts(&svg).join("\n");
     assert!(texts.contains("NOT STATED: no bands"));
     assert!(texts.contains("a slope 4° steeper"));
     assert!(!texts.contains("95 %") && !svg.contains("rgb(219,219,219)"), "a band is drawn");
-    let json = place.json("card");
+    let json = place.json("card --model ishigami");
     assert!(rows(&json).iter().all(|row| row["yaw_deg_p50"].is_null() && row["draws"].is_null()));
+}
+
+/// Where only the models are uncertain, the bands are theirs, and the margin still stands in for the soil's.
+#[test]
+fn models_alone_have_bands_and_keep_the_margin() {
+    let place = Place::new();
+    let table = place.results("card --samples 30 --out card.svg --margin-deg 4");
+    assert!(table.contains("bands are of the models alone; slopes are judged with a margin"));
+    let texts = texts(&place.read("card.svg")).join("\n");
+    assert!(texts.contains("a slope 4° steeper") && texts.contains("NOT STATED: bands"));
+    assert!(texts.contains("rft 33.33 %"), "{texts}");
+    let card = place.json("card --samples 30 --margin-deg 4");
+    let row = row(&card, 10.0);
+    let models = place.json("heading --slope-deg 10 --model all");
+    for word in ["yaw_deg", "slip_ratio"] {
+        let of = |name: &str| {
+            let found = rows(&models).iter().find(|row| row["model"] == name).expect("a row");
+            number(&found[word])
+        };
+        let ends = ["p2_5", "p97_5"].map(|end| number(&row[format!("{word}_{end}")]));
+        assert_eq!(ends, [of("rft"), of("ishigami")]);
+    }
 }
 
 #[test]

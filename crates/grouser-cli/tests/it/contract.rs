@@ -102,7 +102,13 @@ fn an_uncertain_soil_adds_its_words_to_the_rows_and_changes_none() {
         }
         for word in ["yaw_deg", "slip_ratio", "sinkage_mm", "energy_j_per_m"] {
             let end = |end: &str| number(&row[format!("{word}_{end}")]);
-            assert!(end("p2_5") < end("p50") && end("p50") < end("p97_5"), "{word}: {row}");
+            assert!(end("p2_5") < end("p50"), "{word}: {row}");
+            // In some samples no heading holds the contour of 20°: their work per metre has no bound.
+            if word == "energy_j_per_m" && row["slope_deg"] == 20.0 {
+                assert!(row["energy_j_per_m_p97_5"].is_null(), "{row}");
+            } else {
+                assert!(end("p50") < end("p97_5"), "{word}: {row}");
+            }
         }
         let share = |end: &str| number(&row[format!("probability_level{end}")]);
         assert!(share("_low") <= share("") && share("") <= share("_high"), "{row}");
@@ -132,16 +138,159 @@ fn the_seed_and_nothing_else_decides_the_draws() {
     assert_ne!(on("2"), place.results(&format!("{line} --seed 2")).into_bytes());
 }
 
-/// Where no draw has an attitude the band is null, and the probability still says something.
+/// Where no draw has an attitude there is no yaw; all count as slip 1, and the probability still says something.
 #[test]
-fn a_slope_without_any_level_attitude_has_no_band() {
+fn a_slope_without_any_level_attitude_has_slip_1() {
     let json = Place::new()
         .json("attitude --soil toyoura-uncertain --slope-deg 40 --uncertainty --samples 10");
     let row = &json["rows"][0];
-    assert!(row["yaw_deg_p50"].is_null() && row["slip_ratio_p2_5"].is_null(), "{row}");
+    assert!(row["yaw_deg_p50"].is_null() && row["slip_ratio"].is_null(), "{row}");
+    assert_eq!((&row["slip_ratio_p2_5"], &row["slip_ratio_p97_5"]), (&json!(1.0), &json!(1.0)));
+    assert!(number(&row["sinkage_mm_p2_5"]) > 99.0 && row["energy_j_per_m_p2_5"].is_null());
     assert_eq!((number(&row["probability_level"]), number(&row["draws_level"])), (0.0, 0.0));
     assert!(number(&row["probability_level_high"]) > 0.2, "{row}");
     assert!(row["status"].as_str().expect("a text").starts_with("no heading holds the contour"));
+}
+
+#[test]
+fn a_wheel_test_has_bands_beside_its_values() {
+    let place = Place::new();
+    let flags = "--slip-ratio 0.1,0.4 --slip-angle-deg 0,15";
+    let plain = place.json(&format!("wheel-test {flags}"));
+    let json = place.json(&format!("wheel-test {flags} --uncertainty --samples 40"));
+    let rows = json["rows"].as_array().expect("rows");
+    for (row, plain) in rows.iter().zip(plain["rows"].as_array().expect("rows")) {
+        for (key, value) in plain.as_object().expect("an object") {
+            assert_eq!(&row[key], value, "{key}");
+        }
+        for word in ["sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm"] {
+            let [low, high] = ["p2_5", "p97_5"].map(|end| number(&row[format!("{word}_{end}")]));
+            let value = number(&row[word]);
+            assert!(low <= value && value <= high, "{word}: {row}");
+        }
+        // The models disagree on it.
+        assert!(number(&row["drawbar_pull_n_p2_5"]) < number(&row["drawbar_pull_n_p97_5"]));
+        assert_eq!((number(&row["probability_carried"]), number(&row["draws"])), (1.0, 40.0));
+    }
+    assert_eq!((&json["inputs"]["samples"], &json["inputs"]["seed"]), (&json!(40), &json!(1)));
+    assert!(json["inputs"]["model_shares"]["rft"].is_number());
+    let one = format!("wheel-test {flags} --uncertainty --samples 40 --model rft");
+    let one = place.json(&one);
+    for row in one["rows"].as_array().expect("rows") {
+        assert_eq!(row["drawbar_pull_n_p2_5"], row["drawbar_pull_n_p97_5"]);
+        assert_eq!(row["drawbar_pull_n"], row["drawbar_pull_n_p50"]);
+    }
+}
+
+/// Straight up, on slopes of which the last is too steep for the soil as written.
+#[test]
+fn a_map_has_bands_where_it_has_no_value_too() {
+    let place = Place::new();
+    let flags = "--course-deg 90 --slope-deg 5,15,21.5,50 --uncertainty --samples 30";
+    let json = place.json(&format!("attitude-map {flags}"));
+    let rows = json["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 4);
+    let band = |row: &Value| ["p2_5", "p97_5"].map(|end| number(&row[format!("slip_ratio_{end}")]));
+    for row in &rows[..2] {
+        let ([low, high], slip) = (band(row), number(&row["slip_ratio"]));
+        assert!(0.0 < low && low <= slip && slip <= high && high < 1.0, "{row}");
+        assert_eq!(row["status"], "ok");
+    }
+    for row in &rows[2..] {
+        assert!(row["slip_ratio"].is_null(), "{row}");
+        assert!(row["status"].as_str().expect("a text").starts_with("no heading holds"));
+    }
+    // One of the models still climbs the first of them, none the last.
+    let [low, high] = band(&rows[2]);
+    assert!(low < 1.0 && high == 1.0, "{}", rows[2]);
+    assert_eq!(band(&rows[3]), [1.0, 1.0]);
+    let again = place.json(&format!("heading-map {flags}"));
+    assert_eq!(again["rows"], json["rows"]);
+}
+
+#[test]
+fn a_traverse_has_bands_over_time_and_at_its_end() {
+    let place = Place::new();
+    let flags = "traverse --slope-deg 10 --duration-s 2 --uncertainty --samples 6";
+    let json = place.json(&format!("{flags} --out run"));
+    let (samples, bands) = (json["samples"].as_array(), json["bands"].as_array());
+    let (samples, bands) = (samples.expect("samples"), bands.expect("bands"));
+    assert_eq!(samples.len(), bands.len());
+    for (sample, band) in samples.iter().zip(bands) {
+        assert_eq!(sample["time_s"], band["time_s"]);
+        for word in ["x_m", "y_m", "yaw_deg", "energy_j"] {
+            let [low, high] = ["p2_5", "p97_5"].map(|end| number(&band[format!("{word}_{end}")]));
+            let value = number(&sample[word]);
+            assert!(low <= value && value <= high, "{word}: {band}");
+        }
+    }
+    assert_eq!(
+        (&json["band"]["probability_completed"], &json["band"]["draws"]),
+        (&json!(1.0), &json!(6))
+    );
+    assert!(number(&json["band"]["y_m_p2_5"]) < number(&json["band"]["y_m_p97_5"]));
+    let csv = place.read("run/traverse.csv");
+    assert_eq!(csv.lines().count(), bands.len() + 1);
+    assert!(csv.lines().next().expect("a header").contains(",y_m_p97_5,"));
+    assert!(place.read("run/traverse.svg").contains("95 % of the samples"));
+    assert!(place.results(flags).contains("6 samples: 6 completed"));
+    let all = place.json("traverse --slope-deg 10 --duration-s 1 --model all --out all");
+    let rows = all["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let model = row["model"].as_str().expect("a name");
+        let one = place.json(&format!("traverse all/scenario-{model}.toml"));
+        assert_eq!((&row["y_m"], &row["outcome"]), (&one["final"]["y_m"], &one["outcome"]));
+    }
+}
+
+/// Where the run of the soil as written ends early, its rows go on with the bands.
+#[test]
+fn bands_of_a_traverse_outlast_its_run() {
+    let place = Place::new();
+    let line = "traverse --slope-deg 22 --duration-s 6 --uncertainty --samples 6 --format csv";
+    let csv = place.results(line);
+    let rows: Vec<&str> = csv.lines().skip(1).collect();
+    let is_over = |row: &&&str| row.split(',').nth(1).expect("x_m").is_empty();
+    let over = rows.iter().filter(is_over).count();
+    let json = place.json(&line.replace(" --format csv", ""));
+    if json["outcome"] == "completed" {
+        assert_eq!(over, 0);
+    } else {
+        assert!(over > 0 && over < rows.len(), "{over} of {}", rows.len());
+    }
+    assert!(rows.last().expect("rows").starts_with("6,"));
+}
+
+#[test]
+fn every_model_has_its_rows() {
+    let place = Place::new();
+    for (command, rows_of_each) in [
+        ("wheel-test --slip-ratio 0.1,0.4", 2),
+        ("heading --slope-deg 5,10", 2),
+        ("heading-map --slope-deg 5,10 --course-deg 0,45 --soil toyoura,lunar-nominal", 8),
+        ("heading --slope-deg 5,10 --uncertainty --samples 4", 2),
+    ] {
+        let all = place.json(&format!("{command} --model all"));
+        let rows = all["rows"].as_array().expect("rows");
+        assert_eq!(all["inputs"]["soils"].is_null(), !command.starts_with("heading-map"));
+        assert_eq!(rows.len(), 4 * rows_of_each, "{command}");
+        for (model, rows) in
+            ["ishigami", "bekker", "small-wheel", "rft"].into_iter().zip(rows.chunks(rows_of_each))
+        {
+            let one = place.json(&format!("{command} --model {model}"));
+            for (row, alone) in rows.iter().zip(one["rows"].as_array().expect("rows")) {
+                let mut row = row.clone();
+                let name = row.as_object_mut().expect("an object").remove("model");
+                assert_eq!((name, &row), (Some(json!(model)), alone), "{command}");
+            }
+        }
+    }
+    let csv = place.results("wheel-test --slip-ratio 0.1 --model all --format csv");
+    assert!(csv.starts_with("model,load_n,"), "{csv}");
+    let table = place.results("heading --slope-deg 10 --model all --out every");
+    assert!(table.contains("bekker: steepest slope"), "{table}");
+    place.results("check every/scenario-rft.toml every/scenario-bekker.toml");
 }
 
 #[test]
@@ -191,7 +340,8 @@ fn what_has_no_physical_answer_has_a_reason_and_nulls() {
     assert_eq!(row["slip_ratio"], 0.5);
     assert!(row["status"].as_str().is_some_and(|status| status.contains("carries")), "{row}");
     for word in keys(row) {
-        let is_input = ["load_n", "slip_ratio", "slip_angle_deg", "status"].contains(&word);
+        let inputs = ["load_n", "slip_ratio", "slip_angle_deg", "status", "flags"];
+        let is_input = inputs.contains(&word);
         assert_eq!(row[word].is_null(), !is_input, "{word}");
     }
 
@@ -233,7 +383,8 @@ fn floats_are_in_their_shortest_round_trip_form() {
             count += 1;
         }
     }
-    assert_eq!(count, 9 * 4 * (header.len() - 1));
+    // All but the status and the flags.
+    assert_eq!(count, 9 * 4 * (header.len() - 2));
 }
 
 #[test]

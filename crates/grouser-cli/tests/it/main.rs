@@ -14,3 +14,4 @@ mod program;
 mod scrambled;
 mod simulated;
 mod validate;
+mod validity;

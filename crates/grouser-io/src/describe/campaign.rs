@@ -98,6 +98,13 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             "Whether the soil's own `uncertainty` is sampled, too.",
             |all, yes| all.soil_uncertainty = yes,
         ),
+        // Not filled in: a study's hash is of its resolved document.
+        field(
+            "model_uncertainty",
+            "Whether the wheel-soil model of each run is drawn, too, by the weights of the models; not where the base names its model.",
+            Shape::Flag(|all: &mut Settings, yes| all.model_uncertainty = yes),
+        )
+        .optional(),
         part(
             "scenario",
             Kind::Scenario,

@@ -1,4 +1,4 @@
-//! `data-set/1`: wheel, soils and gravity of a file of measurements.
+//! `data-set/1`: wheel or rover, soils and gravity of a file of measurements.
 
 use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};
 use super::about::{NOT_STATED, gravity, name, notes, schema};
@@ -13,7 +13,7 @@ pub(crate) struct Common {
 }
 
 pub(crate) static DATA_SET: Table<Common> = Table {
-    doc: "A file of measured wheel tests, and the wheels and soils in it.",
+    doc: "A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and soils in it.",
     fields: &[
         schema("data-set/1"),
         name(),
@@ -29,20 +29,34 @@ pub(crate) static DATA_SET: Table<Common> = Table {
             },
         ),
         gravity("Gravity where it was measured", |set| Some(&mut set.gravity)),
-        list("case", "Its parts, each with one wheel.", &CASE, 1),
+        list(
+            "case",
+            "Its parts, each with one wheel on a test stand or one rover on slopes.",
+            &CASE,
+            1,
+        ),
     ],
 };
 
 static CASE: Table<Common> = Table {
-    doc: "A part of a data set: one wheel.",
+    doc: "A part of a data set: one wheel on a test stand, or one rover on slopes.",
     fields: &[
         note("name", "What people call it."),
-        note("wheel", "The wheel: a preset, or a path from the folder of this document."),
+        note("wheel", "The wheel: a preset, or a path from the folder of this document.").optional(),
+        note(
+            "rover",
+            "The rover, in place of a wheel: a preset, or a path. The rows are slip, yaw or both, over slope.",
+        )
+        .optional(),
         texts(
             "where",
             "Which rows of the file belong to it, such as `wheel=smooth`; all conditions together.",
         ),
         SOILS,
+        texts(
+            "fitted",
+            "Those of the soils that were fitted to these rows: their errors are in sample.",
+        ),
     ],
 };
 

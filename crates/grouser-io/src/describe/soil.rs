@@ -1,19 +1,25 @@
 //! `soil/1`: a soil with the units of soil laboratories.
 
 mod discrepancy;
+mod domain;
 mod exit;
 mod pressure_sinkage;
 mod shear;
 mod small_wheel;
 
 use super::super::field::{
-    At, Beside, DEG, Fill, KG_M3, KPA, ONE, Table, number, table, word, words,
+    At, Beside, DEG, KG_M3, KPA, ONE, Table, nothing, number, part, table, word, words,
 };
+use super::super::kind::Kind;
 use super::about::{assumed, date, model, name, notes, schema, source};
+use super::prior::PRIORS;
 use super::uncertainty::UNCERTAINTY;
 use discrepancy::DISCREPANCY;
+use domain::DOMAIN;
 use exit::EXIT;
-use grouser_core::soil::{Bulldozing, Discrepancy, Exit, Rft, Shear, SmallWheel, Soil, StressPeak};
+use grouser_core::soil::{
+    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, ShearBound, SmallWheel, Soil, StressPeak,
+};
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
 use small_wheel::SMALL_WHEEL;
@@ -21,7 +27,7 @@ use small_wheel::SMALL_WHEEL;
 pub(crate) use exit::LARGEST_EXIT_RATIO;
 pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
 
-/// A soil before its numbers are put in: without the terms of single models.
+/// A soil before its numbers are put in: the terms of single models have their general values.
 pub(crate) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
@@ -29,10 +35,12 @@ pub(crate) const BLANK: Soil = Soil {
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
     shear: Shear::Isotropic { modulus: LINEAR },
+    shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
-    small_wheel: SmallWheel::OFF,
+    small_wheel: SmallWheel::GENERAL,
     rft: Rft::PUBLISHED,
+    domain: Domain::UNSTATED,
     discrepancy: None,
 };
 
@@ -46,13 +54,26 @@ pub(crate) static SOIL: Table<Soil> = Table {
         notes(),
         assumed(),
         model("The wheel–soil model that the values were made for; without it, `ishigami`."),
-        number("cohesion_kpa", KPA, 0.0..=100.0, "Cohesion, c", |soil| Some(&mut soil.cohesion)),
+        words(
+            "consistency",
+            "Whether the soil is loose or firm, for priors; without it, loose.",
+            &[
+                word("loose", "Sand, regolith, simulant as a wheel sinks into it.", nothing),
+                word("firm", "Clay, loam, tamped ground.", nothing),
+            ],
+        )
+        .optional(),
+        number("cohesion_kpa", KPA, 0.0..=100.0, "Cohesion, c", |soil: &mut Soil| {
+            Some(&mut soil.cohesion)
+        })
+        .or_prior(),
         number("friction_angle_deg", DEG, 5.0..=60.0, "Angle of internal friction, φ", |soil| {
             Some(&mut soil.friction_angle)
         }),
-        number("density_kg_m3", KG_M3, 200.0..=4000.0, "Bulk density, ρ", |soil| {
+        number("density_kg_m3", KG_M3, 200.0..=4000.0, "Bulk density, ρ", |soil: &mut Soil| {
             Some(&mut soil.density)
-        }),
+        })
+        .or_prior(),
         table(
             "pressure_sinkage",
             "How pressure grows with sinkage.",
@@ -62,27 +83,24 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "stress_peak",
             "Where along the arc the normal stress peaks.",
             &At { inner: &STRESS_PEAK, at: |soil: &mut Soil| &mut soil.stress_peak },
-        ),
-        table(
-            "shear",
-            "How shear stress is mobilised.",
-            &At { inner: &SHEAR, at: |soil: &mut Soil| &mut soil.shear },
-        ),
+        )
+        .or_prior(),
+        table("shear", "How shear stress is mobilised.", &SHEAR),
         table(
             "exit",
-            "Where the wheel leaves the soil; without it, ratio = 1.0.",
+            "Where the wheel leaves the soil.",
             &At { inner: &EXIT, at: |soil: &mut Soil| &mut soil.exit },
         )
-        .otherwise(Fill::Keys(&[("ratio", Fill::Number(1.0))])),
+        .or_prior(),
         table(
             "bulldozing",
-            "How soil pushed aside loads the side wall; without it, law = \"sine\".",
+            "How soil pushed aside loads the side wall.",
             &At { inner: &BULLDOZING, at: |soil: &mut Soil| &mut soil.bulldozing },
         )
-        .otherwise(Fill::Keys(&[("law", Fill::Keyword("sine"))])),
+        .or_prior(),
         table(
             "small_wheel",
-            "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
+            "Terms of the model `small-wheel`, for one wheel on this soil; general values without it.",
             &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
         .optional()
@@ -91,6 +109,12 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "rft",
             "Constants of the model `rft`, resistive force theory; as published without it.",
             &At { inner: &RFT, at: |soil: &mut Soil| &mut soil.rft },
+        )
+        .optional(),
+        table(
+            "domain",
+            "The ranges within which the constants were measured or fitted; not stated without it.",
+            &At { inner: &DOMAIN, at: |soil: &mut Soil| &mut soil.domain },
         )
         .optional(),
         table(
@@ -104,8 +128,17 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .optional(),
         table(
             "uncertainty",
-            "How well the numbers above are known; exactly, as far as anyone says, without it.",
+            "How well the numbers above are known; without it, as well as the priors say.",
             &Beside(&UNCERTAINTY),
+        )
+        .optional(),
+        part(
+            "priors",
+            Kind::Prior,
+            "What is believed of the numbers that are not stated above; without it, `general`. In a \
+             resolved document, the rows that hold for this soil: a number that they call missing is the \
+             prior's, not the source's.",
+            &Beside(&PRIORS),
         )
         .optional(),
     ],
@@ -114,12 +147,22 @@ pub(crate) static SOIL: Table<Soil> = Table {
 static STRESS_PEAK: Table<StressPeak> = Table {
     doc: "θ_m = (a0 + a1 |s|) θ_f.",
     fields: &[
-        number("a0", ONE, 0.0..=1.0, "Share of the entry angle at zero slip, a₀", |peak| {
-            Some(&mut peak.a0)
-        }),
-        number("a1", ONE, 0.0..=1.0, "Its growth with the slip ratio, a₁", |peak| {
-            Some(&mut peak.a1)
-        }),
+        number(
+            "a0",
+            ONE,
+            0.0..=1.0,
+            "Share of the entry angle at zero slip, a₀",
+            |peak: &mut StressPeak| Some(&mut peak.a0),
+        )
+        .or_prior(),
+        number(
+            "a1",
+            ONE,
+            0.0..=1.0,
+            "Its growth with the slip ratio, a₁",
+            |peak: &mut StressPeak| Some(&mut peak.a1),
+        )
+        .or_prior(),
     ],
 };
 

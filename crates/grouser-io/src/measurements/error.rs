@@ -68,6 +68,15 @@ pub enum MeasurementProblem {
     /// Rows, but nothing that was read in them.
     #[error("has no reading: every cell of drawbar pull, side force, sinkage and torque is empty")]
     NoReadings,
+    /// Rows of a rover on slopes, but nothing that was read in them.
+    #[error("has no reading: every cell of slip ratio and yaw is empty")]
+    NoSlopeReadings,
+    /// A slip that the rover's wheels convert each in its own way.
+    #[error("`{column}` cannot be converted: the rover's wheels differ in their grousers")]
+    WheelsDiffer {
+        /// The column.
+        column: &'static str,
+    },
     /// Two columns of one name.
     #[error("the column `{0}` is there twice")]
     RepeatedColumn(String),

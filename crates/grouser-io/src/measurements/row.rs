@@ -1,10 +1,13 @@
 //! One row of a measurement file: its cells by the header's meanings, then in SI.
 
+use std::ops::RangeInclusive;
+
 use csv::StringRecord;
 
 use super::super::check::nearest;
 use super::super::columns::{OK, SIDE_FORCE};
 use super::super::escape;
+use super::super::unit::Unit;
 use super::columns::{self, COLUMNS, Column, Meaning, OF_OPPOSING_SIDE_FORCES};
 use super::condition::Condition;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
@@ -57,18 +60,7 @@ impl<'a> Header<'a> {
                 return Err(failed(problem).with_hint("remove one of them".to_owned()));
             }
         }
-        let place_of = |condition: &'a Condition| {
-            let place = names.iter().position(|name| *name == condition.column);
-            place.map(|place| (place, condition)).ok_or_else(|| {
-                let meant = nearest(&condition.column, names.iter().map(String::as_str));
-                let hint = meant.map_or_else(
-                    || format!("the columns are {}", names.join(", ")),
-                    |name| format!("did you mean `{name}`?"),
-                );
-                failed(Problem::NoSuchColumn(condition.column.clone())).with_hint(hint)
-            })
-        };
-        let conditions = conditions.iter().map(place_of).collect::<Result<_, _>>()?;
+        let conditions = places(label, &names, conditions)?;
         let side_force_opposes = names.iter().any(|name| name == OF_OPPOSING_SIDE_FORCES);
         let header = Self { label, names, columns, conditions, side_force_opposes };
         header.check_complete()?;
@@ -166,10 +158,7 @@ impl<'a> Header<'a> {
         if record.iter().map(escape::plain).eq(self.names.iter().map(String::as_str)) {
             return Err(MeasurementError::at(self.label, line, Problem::RepeatedHeader));
         }
-        let is_met = |(place, condition): &(usize, &Condition)| {
-            condition.is_met_by(escape::plain(&record[*place]))
-        };
-        if !self.conditions.iter().all(is_met) {
+        if !meets(record, &self.conditions) {
             return Ok(Taken::Unwanted);
         }
         let cells = Cells { header: self, record, line };
@@ -180,6 +169,66 @@ impl<'a> Header<'a> {
             _ => cells.row().map(Taken::Row),
         }
     }
+}
+
+/// The place of each condition's column.
+pub(super) fn places<'c>(
+    label: &str,
+    names: &[String],
+    conditions: &'c [Condition],
+) -> Result<Vec<(usize, &'c Condition)>, MeasurementError> {
+    let place_of = |condition: &'c Condition| {
+        let place = names.iter().position(|name| *name == condition.column);
+        place.map(|place| (place, condition)).ok_or_else(|| {
+            let meant = nearest(&condition.column, names.iter().map(String::as_str));
+            let hint = meant.map_or_else(
+                || format!("the columns are {}", names.join(", ")),
+                |name| format!("did you mean `{name}`?"),
+            );
+            let problem = Problem::NoSuchColumn(condition.column.clone());
+            MeasurementError::at(label, 1, problem).with_hint(hint)
+        })
+    };
+    conditions.iter().map(place_of).collect()
+}
+
+/// Whether a row meets all conditions, each at its place.
+pub(super) fn meets(record: &StringRecord, conditions: &[(usize, &Condition)]) -> bool {
+    conditions.iter().all(|(place, condition)| condition.is_met_by(escape::plain(&record[*place])))
+}
+
+/// A number in SI that stands in a cell. An empty cell and `nan` are a missing value.
+///
+/// * `range`: what it may be, in the column's own unit
+pub(super) fn number_of(
+    (label, line): (&str, u64),
+    (name, unit, range): (&str, Unit, &RangeInclusive<f64>),
+    text: &str,
+) -> Result<Option<f64>, MeasurementError> {
+    if text.is_empty() {
+        return Ok(None);
+    }
+    let failed = |problem| MeasurementError::at(label, line, problem);
+    let column = name.to_owned();
+    let value: f64 = text.parse().map_err(|_| {
+        let hint = if text.contains(',') {
+            Some("write decimals with a point, and thousands without a comma".to_owned())
+        } else {
+            (line == 2).then(|| {
+                "is this a line of units? rows of numbers follow the header at once".to_owned()
+            })
+        };
+        let value = escape::short_line(text, QUOTED);
+        failed(Problem::NotANumber { column: column.clone(), value }).with_hint(hint)
+    })?;
+    if value.is_nan() {
+        return Ok(None);
+    }
+    if !range.contains(&value) {
+        let (least, most) = (*range.start(), *range.end());
+        return Err(failed(Problem::OutOfRange { column, value, least, most }));
+    }
+    Ok(Some(unit.to_si(value)))
 }
 
 /// A column's name: without the mark that some programs begin a text with, and without the
@@ -346,29 +395,15 @@ impl Cells<'_> {
     }
 
     fn number_in(&self, column: &Column, text: &str) -> Result<Option<f64>, MeasurementError> {
-        let failed = |problem| MeasurementError::at(self.header.label, self.line, problem);
-        let name = column.name.to_owned();
-        let value: f64 = text.parse().map_err(|_| {
-            let hint = if text.contains(',') {
-                Some("write decimals with a point, and thousands without a comma".to_owned())
-            } else {
-                (self.line == 2).then(|| {
-                    "is this a line of units? rows of numbers follow the header at once".to_owned()
-                })
-            };
-            let value = escape::short_line(text, QUOTED);
-            let problem = Problem::NotANumber { column: name.clone(), value };
-            failed(problem).with_hint(hint)
-        })?;
-        if value.is_nan() {
-            return Ok(None);
-        }
-        if !column.range.contains(&value) {
-            let (least, most) = (*column.range.start(), *column.range.end());
-            let problem = Problem::OutOfRange { column: name, value, least, most };
-            return Err(failed(problem).with_hint(hint_of_unit(column)));
-        }
-        Ok(Some(column.unit.to_si(value)))
+        let found = number_of(
+            (self.header.label, self.line),
+            (column.name, column.unit, &column.range),
+            text,
+        );
+        found.map_err(|error| match error.problem() {
+            Problem::OutOfRange { .. } => error.with_hint(hint_of_unit(column)),
+            _ => error,
+        })
     }
 
     /// A cell that is not empty.

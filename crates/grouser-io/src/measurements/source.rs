@@ -3,12 +3,15 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
+use grouser_core::vehicle::Rover;
+
 use super::super::check::nearest;
 use super::super::escape;
 use super::super::kind::Kind;
 use super::super::presets::{preset, presets};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
+use super::slope_tests::{SlopeTests, read_slopes};
 use super::{Choice, Measurements, read_bytes, read_from};
 
 /// The source of the rows of measured wheel tests.
@@ -69,6 +72,19 @@ impl Source {
     /// says, and if no row is left.
     pub fn read(&self, choice: &Choice) -> Result<Measurements, MeasurementError> {
         read_from(&self.label(), &*self.bytes(choice.limits)?, choice)
+    }
+
+    /// Reads the rows of a rover on slopes.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] with file and line for whatever is not as
+    /// [`slope_tests`](super::slope_tests) says, and if no row is left.
+    pub fn read_slopes(
+        &self,
+        choice: &Choice,
+        rover: &Rover,
+    ) -> Result<SlopeTests, MeasurementError> {
+        read_slopes(&self.label(), &self.bytes(choice.limits)?, choice, rover)
     }
 
     /// The bytes of the CSV, as [`read_bytes`] reads them from a file.

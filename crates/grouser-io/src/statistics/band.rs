@@ -31,14 +31,16 @@ impl Band {
 }
 
 /// The value below which a share of sorted draws lies, interpolated between the two nearest:
-/// the k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7).
+/// the k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7). Draws may be infinite.
 #[must_use]
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let place = share * last as f64;
     let below = sorted[place_below(place, sorted.len())];
     let above = sorted[place_below(place.ceil(), sorted.len())];
-    Some(below + (above - below) * place.fract())
+    // Between two draws that are infinite there is no number.
+    let is_between = place.fract() > 0.0 && below < above;
+    Some(if is_between { below + (above - below) * place.fract() } else { below })
 }
 
 /// How often something happened in independent trials.

@@ -73,6 +73,12 @@ impl Marginal {
         }
     }
 
+    /// Its median: as many samples below as above.
+    #[must_use]
+    pub fn median(&self) -> f64 {
+        self.at(0.0)
+    }
+
     /// The share of samples below a value, *F(x)* [-], where samples differ.
     fn share_below(&self, value: f64) -> f64 {
         let x = value;

@@ -38,16 +38,25 @@ from ._errors import (
     DocumentNotFoundError,
     DocumentUnreadableError,
     GrouserError,
+    OutsideDomainError,
     ParameterError,
     SimulationError,
 )
-from ._heading_band import HeadingBand
+from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
-from ._studies import Trajectory, simulate
-from ._validation import Ranking, Validation, validate, validate_all
-from ._wheel_test import SimulatedWheelTest, WheelTest, wheel_test
+from ._studies import Trajectory, TraverseBand, simulate
+from ._validation import (
+    Ranking,
+    SlopeValidation,
+    Validation,
+    validate,
+    validate_all,
+    validate_slopes,
+)
+from ._validity import FLAGS, require_inside
+from ._wheel_test import SimulatedWheelTest, WheelTest, WheelTestBand, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
 
@@ -65,10 +74,13 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "FLAGS",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
+    "HeadingMapBand",
     "Headings",
+    "OutsideDomainError",
     "ParameterError",
     "Ranking",
     "Rollout",
@@ -82,21 +94,25 @@ __all__ = [
     "Site",
     "Soil",
     "Trajectory",
+    "TraverseBand",
     "Validation",
     "Wheel",
     "WheelForces",
     "WheelTest",
+    "WheelTestBand",
     "__version__",
     "calibrate",
     "calibrate_plates",
     "campaign",
     "heading",
     "heading_map",
+    "require_inside",
     "rollout",
     "settle",
     "simulate",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test",
 ]

@@ -33,9 +33,12 @@ __all__ = [
     "check_shard",
     "find_campaign",
     "find_document",
+    "flag_names",
+    "flags",
     "heading",
     "heading_band",
     "heading_map",
+    "heading_map_band",
     "merge_campaign",
     "most_shard_bytes",
     "not_carried",
@@ -48,6 +51,7 @@ __all__ = [
     "seal_manifest",
     "settle",
     "simulate",
+    "simulate_band",
     "simulated_wheel_test",
     "simulator_columns",
     "study_difference",
@@ -55,7 +59,9 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
+    "wheel_test_band",
 ]
 
 __version__: str
@@ -74,6 +80,8 @@ class Document:
     def kind(self) -> str: ...
     @property
     def assumptions(self) -> list[str]: ...
+    @property
+    def assumed(self) -> list[str]: ...
     @property
     def files(self) -> dict[str, str]: ...
     def to_toml(self) -> str: ...
@@ -183,6 +191,8 @@ def wheel_forces(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
 ) -> tuple[_Floats, list[str]]: ...
+def flag_names(bits: Sequence[int]) -> list[str]: ...
+def flags() -> list[tuple[str, str]]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
 def rollout(
@@ -196,7 +206,7 @@ def rollout(
 ) -> dict[str, Any]: ...
 def heading(
     scenario: Document, slope_deg: _Floats
-) -> tuple[dict[str, Any], float | None, str]: ...
+) -> tuple[dict[str, Any], float | None, str, str | None]: ...
 def heading_band(
     scenario: Document, slope_deg: _Floats, seed: int, samples: int
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...
@@ -214,6 +224,26 @@ def simulated_wheel_test(
 def heading_map(
     scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, rim_speed_m_s: float
 ) -> dict[str, Any]: ...
+def heading_map_band(
+    scenarios: Sequence[Document],
+    slope_deg: _Floats,
+    course_deg: _Floats,
+    seed: int,
+    samples: int,
+) -> dict[str, Any]: ...
+def wheel_test_band(
+    soil: Document,
+    wheel: Document,
+    setting: Document,
+    load_n: _Floats,
+    slip_angle_deg: _Floats,
+    slip_ratio: _Floats,
+    seed: int,
+    samples: int,
+) -> dict[str, Any]: ...
+def simulate_band(
+    scenario: Document, seed: int, samples: int
+) -> tuple[dict[str, Any], dict[str, Any]]: ...
 def validate(
     data: str | os.PathLike[str],
     soil: Document,
@@ -222,7 +252,10 @@ def validate(
     wheel_label: str | None,
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
-def validate_all(folder: str | os.PathLike[str] | None) -> list[dict[str, Any]]: ...
+def validate_slopes(
+    data: str | os.PathLike[str], scenario: Document, conditions: Sequence[str]
+) -> dict[str, Any]: ...
+def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
 def calibrate_wheel_tests(
     data: str | os.PathLike[str],
     soil: Document,
@@ -299,5 +332,6 @@ def campaign_summary(
     campaign: Document,
     runs: Sequence[tuple[int, int]],
     columns: Sequence[tuple[str, _Floats]],
+    statuses: Sequence[str | None],
     shares: Sequence[float],
 ) -> list[dict[str, Any]]: ...

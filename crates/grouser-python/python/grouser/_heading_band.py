@@ -1,4 +1,4 @@
-"""The uncertainty of the heading offset on an uncertain soil."""
+"""The uncertainty of the heading offset where soil and model are uncertain."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from ._descriptions import Scenario
 
 @dataclass(frozen=True, eq=False)
 class HeadingBand(_tables.Tabular):
-    """Heading offset over samples of an uncertain soil: arrays of shape (slopes,).
+    """Heading offset over samples of soil and model: arrays of shape (slopes,).
 
-    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the sampled soils on which the contour
-    can be held on that slope: 95 % of the values lie between the first and the last. NaN where it
-    can be held on none. (Names of columns are those of
-    version 0.1, in which samples are *draws*.)
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
+    between the first and the last. A sample in which no heading holds the course counts as slip 1,
+    sunk to the axles and with work without a bound, whose quantiles are NaN. A yaw it has not: the
+    quantiles of the yaw are over the samples that hold the course, and NaN where none does. (Names
+    of columns are those of version 0.1, in which samples are *draws*.)
     """
 
     yaw_deg_p2_5: Floats
-    """Yaw [°], positive uphill."""
+    """Yaw [°], positive uphill, over the samples that hold the course."""
     yaw_deg_p50: Floats
     """Its median [°]."""
     yaw_deg_p97_5: Floats
@@ -47,20 +48,19 @@ class HeadingBand(_tables.Tabular):
     energy_j_per_m_p97_5: Floats
     """Its upper end [J/m]."""
     probability_level: Floats
-    """Probability that a heading holds the contour [-]: the share of the samples that have one."""
+    """Probability that a heading holds the course [-]: the share of the samples that have one."""
     probability_level_low: Floats
     """Lower end of its 95 % confidence interval, for the number of samples [-]."""
     probability_level_high: Floats
     """Upper end of that interval [-]."""
     draws_level: Floats
-    """Samples with a heading that holds the contour."""
+    """Samples with a heading that holds the course."""
     draws: int
     """All samples."""
     draws_mobile: int
     """Samples on which the rover can move on level ground."""
     limit_slope_deg_p2_5: float | None
-    """The steepest slope [°], over the samples on which the rover can move; None where it never
-    can."""
+    """The steepest slope [°]; 0 in a sample in which the rover cannot move."""
     limit_slope_deg_p50: float | None
     """Its median [°]."""
     limit_slope_deg_p97_5: float | None
@@ -78,4 +78,60 @@ class HeadingBand(_tables.Tabular):
 
     def __repr__(self) -> str:
         ends = f"{self.limit_slope_deg_p2_5}° to {self.limit_slope_deg_p97_5}°"
-        return f"<HeadingBand over {self.draws} sampled soils, the steepest slope is {ends}>"
+        return f"<HeadingBand over {self.draws} samples, the steepest slope is {ends}>"
+
+
+@dataclass(frozen=True, eq=False)
+class HeadingMapBand(_tables.Tabular):
+    """Heading offset over samples of soil and model: arrays of shape (soils, courses, slopes), with
+    quantiles as those of a `HeadingBand`."""
+
+    yaw_deg_p2_5: Floats
+    """Yaw [°], positive uphill, over the samples that hold the course."""
+    yaw_deg_p50: Floats
+    """Its median [°]."""
+    yaw_deg_p97_5: Floats
+    """Its upper end [°]."""
+    slip_ratio_p2_5: Floats
+    """Slip ratio [-]."""
+    slip_ratio_p50: Floats
+    """Its median [-]."""
+    slip_ratio_p97_5: Floats
+    """Its upper end [-]."""
+    sinkage_mm_p2_5: Floats
+    """Mean sinkage of the wheels [mm]."""
+    sinkage_mm_p50: Floats
+    """Its median [mm]."""
+    sinkage_mm_p97_5: Floats
+    """Its upper end [mm]."""
+    energy_j_per_m_p2_5: Floats
+    """Work of the wheels per metre along the course [J/m]."""
+    energy_j_per_m_p50: Floats
+    """Its median [J/m]."""
+    energy_j_per_m_p97_5: Floats
+    """Its upper end [J/m]."""
+    probability_level: Floats
+    """Probability that a heading holds the course [-]: the share of the samples that have one."""
+    probability_level_low: Floats
+    """Lower end of its 95 % confidence interval, for the number of samples [-]."""
+    probability_level_high: Floats
+    """Upper end of that interval [-]."""
+    draws_level: Floats
+    """Samples with a heading that holds the course."""
+    draws: Floats
+    """All samples."""
+    draws_mobile: Floats
+    """Samples on which the rover can move on level ground."""
+    limit_slope_deg_p2_5: Floats
+    """The steepest slope [°]; 0 in a sample in which the rover cannot move."""
+    limit_slope_deg_p50: Floats
+    """Its median [°]."""
+    limit_slope_deg_p97_5: Floats
+    """Its upper end [°]."""
+
+    def _table(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def __repr__(self) -> str:
+        shape = " × ".join(map(str, self.draws.shape))
+        return f"<HeadingMapBand of {shape} soils, courses, slopes>"

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _former_names, _tables
 from ._arrays import Floats, line, number, whole_number
-from ._heading_band import HeadingBand
+from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
 from ._studies import columns_of, scenario_of, soil_of
@@ -36,8 +36,13 @@ class Headings(_tables.Tabular):
     """The steepest slope on which the contour can be held [°]; None where the rover cannot move."""
     limit_message: str
     """What ends the curve there."""
+    limited_by: str | None
+    """The same in a word: ``wheels``; ``ground-strength``, where the ground itself would slide; or
+    ``range``, of the slopes; None where the rover cannot move."""
     status: NDArray[np.object_]
     """Of each slope: ``ok``, or why no heading offset holds the contour."""
+    flags: NDArray[np.object_]
+    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
@@ -53,11 +58,11 @@ class Headings(_tables.Tabular):
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
     band: HeadingBand | None = None
-    """The same over samples of an uncertain soil, with ``uncertainty=True``; else None."""
+    """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, **band}
+        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, "flags": self.flags, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -70,11 +75,11 @@ class Headings(_tables.Tabular):
         return _tables.dataset(("slope_deg",), columns, coords)
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the yaw over the slope, with the band of an uncertain soil if there is one."""
+        """Plots the yaw over the slope, with its band if there is one."""
         axes = _tables.axes_or_new(axes)
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
-            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the soils")
+            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the samples")
         axes.plot(self.slope_deg, self.yaw_deg, **style)
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("yaw, positive uphill [°]")
@@ -107,11 +112,12 @@ def heading(
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
     uncertainty : bool
-        Whether to sample soils from the soil's ``uncertainty``, for `Headings.band`.
+        Whether to sample what is uncertain, for `Headings.band`: the soil, where its document says
+        so, and the wheel–soil model, where none is asked for by ``model``.
     samples : int
-        Number of sampled soils, 2 to 100000.
+        Number of samples, 2 to 100000.
     seed : int
-        Seed of the samples: the same seed gives the same soils.
+        Seed of the samples: the same seed gives the same soils and models.
     **changes
         Keys of the scenario with other values.
 
@@ -135,13 +141,15 @@ def heading(
     True
     """
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    found, limit, reason = _core.heading(run._document, slopes)
+    found, limit, reason, limited_by = _core.heading(run._document, slopes)
     band = None
     if uncertainty:
         count = whole_number("samples", samples, most=2**32 - 1)
         band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
     status = np.array(found.pop("status"), dtype=object)
-    return Headings(limit_slope_deg=limit, limit_message=reason, status=status, band=band, **found)
+    flags = np.array(found.pop("flags"), dtype=object)
+    end = {"limit_slope_deg": limit, "limit_message": reason, "limited_by": limited_by}
+    return Headings(**end, status=status, flags=flags, band=band, **found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,6 +165,8 @@ class HeadingMap(_tables.Tabular):
     """Slopes [°]; shape (slopes,)."""
     status: NDArray[np.object_]
     """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
+    flags: NDArray[np.object_]
+    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``; the same shape."""
     yaw_deg: Floats
     """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
@@ -173,10 +183,16 @@ class HeadingMap(_tables.Tabular):
     """Power of the motors at the rim speed of the map [W]."""
     limit_slope_deg: Floats
     """The steepest slope of the soil and course [°], the same on every slope."""
+    limited_by: NDArray[np.object_]
+    """What ends the curve there: ``wheels``, ``ground-strength`` or ``range``, as in `Headings`."""
+    band: HeadingMapBand | None = None
+    """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _columns(self) -> dict[str, Any]:
         names = (*_HELD, "power_w", "limit_slope_deg")
-        return {**columns_of(self, names), "status": self.status}
+        band = {} if self.band is None else self.band._table()
+        texts = {"status": self.status, "flags": self.flags, "limited_by": self.limited_by}
+        return {**columns_of(self, names), **texts, **band}
 
     def _table(self) -> dict[str, Any]:
         soil, course, slope = np.meshgrid(
@@ -218,6 +234,9 @@ def heading_map(
     slope_deg: ArrayLike = tuple(range(0, 25, 2)),
     course_deg: ArrayLike = tuple(range(-60, 61, 15)),
     rim_speed_m_s: float = 0.06,
+    uncertainty: bool = False,
+    samples: int = 500,
+    seed: int = 1,
     **changes: Any,
 ) -> HeadingMap:
     """The heading offset that holds a course, over soil, course and slope.
@@ -234,6 +253,9 @@ def heading_map(
         Directions of travel from the contour [°], −90 to 90, positive uphill.
     rim_speed_m_s : float
         Rim speed [m/s], for the power.
+    uncertainty, samples, seed
+        As for `heading`: whether to sample soil and model, for `HeadingMap.band`, how many samples,
+        and their seed.
     **changes
         Keys of the scenario with other values.
 
@@ -257,6 +279,21 @@ def heading_map(
     found = _core.heading_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
     numbers = {name: found[name].reshape(shape) for name in (*_HEADING, "limit_slope_deg")}
-    status = np.array(found["status"], dtype=object).reshape(shape)
-    names = tuple(run.soil.name for run in runs)
-    return HeadingMap(soil=names, course_deg=courses, slope_deg=slopes, status=status, **numbers)
+    texts = {
+        name: np.array(found[name], dtype=object).reshape(shape)
+        for name in ("status", "flags", "limited_by")
+    }
+    band = None
+    if uncertainty:
+        drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
+        documents = [run._document for run in runs]
+        bands = _core.heading_map_band(documents, slopes, courses, *drawn)
+        band = HeadingMapBand(**{name: values.reshape(shape) for name, values in bands.items()})
+    return HeadingMap(
+        soil=tuple(run.soil.name for run in runs),
+        course_deg=courses,
+        slope_deg=slopes,
+        band=band,
+        **texts,
+        **numbers,
+    )

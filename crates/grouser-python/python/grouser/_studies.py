@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _core, _tables
-from ._arrays import Floats
+from ._arrays import Floats, whole_number
 from ._descriptions import Scenario, Soil, Source
 
 if TYPE_CHECKING:
@@ -22,6 +25,69 @@ def columns_of(result: Any, names: Iterable[str]) -> dict[str, Any]:
 
 #: Fields of a `Trajectory` over time, and of a `Rollout` over runs.
 SAMPLE = _tables.COLUMNS["sample"]
+
+
+@dataclass(frozen=True, eq=False)
+class TraverseBand(_tables.Tabular):
+    """A run over samples of soil and model: arrays of shape (times,).
+
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
+    between the first and the last. From the time at which its run ends early a sample counts as
+    slip 1, sunk to the axles, at the place where it ended.
+    """
+
+    run: Mapping[str, Any]
+    """The same of the end of the run and of its means, the probability that it is completed, and
+    how many samples end early, by their names in the program's ``band``."""
+    time_s: Floats
+    """Time [s]."""
+    x_m_p2_5: Floats
+    """Along the contour [m]."""
+    x_m_p50: Floats
+    """Its median [m]."""
+    x_m_p97_5: Floats
+    """Its upper end [m]."""
+    y_m_p2_5: Floats
+    """Uphill [m]."""
+    y_m_p50: Floats
+    """Its median [m]."""
+    y_m_p97_5: Floats
+    """Its upper end [m]."""
+    yaw_deg_p2_5: Floats
+    """Yaw [°], positive where the nose points uphill."""
+    yaw_deg_p50: Floats
+    """Its median [°]."""
+    yaw_deg_p97_5: Floats
+    """Its upper end [°]."""
+    slip_ratio_p2_5: Floats
+    """Mean slip ratio of the wheels [-]."""
+    slip_ratio_p50: Floats
+    """Its median [-]."""
+    slip_ratio_p97_5: Floats
+    """Its upper end [-]."""
+    sinkage_mm_p2_5: Floats
+    """Mean sinkage of the wheels [mm]."""
+    sinkage_mm_p50: Floats
+    """Its median [mm]."""
+    sinkage_mm_p97_5: Floats
+    """Its upper end [mm]."""
+    energy_j_p2_5: Floats
+    """Work of the motors so far [J]."""
+    energy_j_p50: Floats
+    """Its median [J]."""
+    energy_j_p97_5: Floats
+    """Its upper end [J]."""
+
+    def _table(self) -> dict[str, Any]:
+        names = [field.name for field in fields(self) if field.name != "run"]
+        return columns_of(self, names)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each time."""
+        return _tables.frame(self._table())
+
+    def __repr__(self) -> str:
+        return f"<TraverseBand over {self.run['draws']} samples, {len(self.time_s)} times>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +110,10 @@ class Trajectory(_tables.Tabular):
     """``dynamic``, ``quasi-steady``, or ``fell-back`` from the second to the first."""
     simulation_message: str | None
     """Time and reason of the fallback."""
+    flags: NDArray[np.object_]
+    """Why each record is an extrapolation: names of `FLAGS`, joined by ``;``; shape (records,)."""
+    flags_raised: Mapping[str, float]
+    """Each flag of the run, with the time at which it was raised first [s]."""
     energy_error_j: float
     """Error of the energy balance [J]."""
     wheel_names: tuple[str, ...]
@@ -74,9 +144,11 @@ class Trajectory(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
+    band: TraverseBand | None = None
+    """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _table(self) -> dict[str, Any]:
-        columns = columns_of(self, SAMPLE)
+        columns: dict[str, Any] = {**columns_of(self, SAMPLE), "flags": self.flags}
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
         return columns
@@ -123,7 +195,15 @@ class Trajectory(_tables.Tabular):
         return f"<Trajectory {self.outcome}: {state}>"
 
 
-def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Trajectory:
+def simulate(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    uncertainty: bool = False,
+    samples: int = 500,
+    seed: int = 1,
+    **changes: Any,
+) -> Trajectory:
     """Simulates a rover from its start to its end.
 
     Results are reproducible bit for bit, here and in the program's ``grouser traverse``.
@@ -132,6 +212,13 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
     ----------
     scenario : Scenario, name, path or mapping, optional
         The scenario; by default the source paper's traverse.
+    uncertainty : bool
+        Whether to sample what is uncertain, for `Trajectory.band`: the soil, where its document
+        says so, and the wheel–soil model, where none is asked for by ``model``.
+    samples : int
+        Number of samples, 2 to 100000.
+    seed : int
+        Seed of the samples: the same seed gives the same soils and models.
     **changes
         Keys of the scenario with other values: ``slope_deg=15.0``, ``soil="toyoura"``.
 
@@ -155,15 +242,23 @@ def simulate(scenario: Scenario | Source | None = None, /, **changes: Any) -> Tr
     """
     run = scenario_of(scenario, changes)
     found = _core.simulate(run._document)
+    band = None
+    if uncertainty:
+        drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
+        times, means = _core.simulate_band(run._document, *drawn)
+        band = TraverseBand(run=means, **times)
     return Trajectory(
         scenario=run,
         outcome=found["outcome"],
         message=found["reason"],
         simulation=found["simulation"],
         simulation_message=found["simulation_reason"],
+        flags=np.array(found["flags"], dtype=object),
+        flags_raised=dict(found["flags_raised"]),
         energy_error_j=found["energy_error_j"],
         wheel_names=tuple(found["wheels"]),
         wheel=found["each_wheel"],
+        band=band,
         **found["rover"],
     )
 

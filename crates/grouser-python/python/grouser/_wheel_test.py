@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
+from ._errors import ParameterError
 from ._studies import soil_of
 from ._wheels import Settled, setting, settle
 
@@ -25,6 +26,57 @@ _COORDS = ("load_n", "slip_angle_deg", "slip_ratio", "trial")
 
 
 @dataclass(frozen=True, eq=False)
+class WheelTestBand(_tables.Tabular):
+    """A wheel test over samples of soil and model: arrays of shape (loads, angles, ratios).
+
+    ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
+    between the first and the last. Where the soil does not carry the wheel, a sample counts as sunk
+    to the axle, with the load as its drag, no side force, and the torque that turns the rim against
+    the whole load.
+    """
+
+    sinkage_mm_p2_5: Floats
+    """Sinkage of the grouser tips [mm]."""
+    sinkage_mm_p50: Floats
+    """Its median [mm]."""
+    sinkage_mm_p97_5: Floats
+    """Its upper end [mm]."""
+    drawbar_pull_n_p2_5: Floats
+    """Force along the wheel [N]."""
+    drawbar_pull_n_p50: Floats
+    """Its median [N]."""
+    drawbar_pull_n_p97_5: Floats
+    """Its upper end [N]."""
+    side_force_n_p2_5: Floats
+    """Force across the wheel [N], positive to the left."""
+    side_force_n_p50: Floats
+    """Its median [N]."""
+    side_force_n_p97_5: Floats
+    """Its upper end [N]."""
+    torque_nm_p2_5: Floats
+    """Torque of the drive [N·m]."""
+    torque_nm_p50: Floats
+    """Its median [N·m]."""
+    torque_nm_p97_5: Floats
+    """Its upper end [N·m]."""
+    probability_carried: Floats
+    """Probability that the soil carries the wheel [-]: the share of the samples in which it
+    does."""
+    probability_carried_low: Floats
+    """Lower end of its 95 % confidence interval, for the number of samples [-]."""
+    probability_carried_high: Floats
+    """Upper end of that interval [-]."""
+    draws: Floats
+    """All samples."""
+
+    def _table(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    def __repr__(self) -> str:
+        return f"<WheelTestBand of {' × '.join(map(str, self.draws.shape))} loads, angles, ratios>"
+
+
+@dataclass(frozen=True, eq=False)
 class WheelTest(_tables.Tabular):
     """A wheel test: every load with every slip angle and every slip ratio."""
 
@@ -36,9 +88,19 @@ class WheelTest(_tables.Tabular):
     """Slip ratios [-], shape (ratios,)."""
     wheels: Settled
     """Sinkage and forces; fields of shape (loads, angles, ratios)."""
+    band: WheelTestBand | None = None
+    """The same over samples of soil and model, with ``uncertainty=True``; else None."""
+
+    def _bands(self) -> dict[str, Any]:
+        return {} if self.band is None else self.band._table()
+
+    @property
+    def flags(self) -> NDArray[np.object_]:
+        """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
+        return self.wheels.flags
 
     def _table(self) -> dict[str, Any]:
-        return {**self.wheels._table(), "status": self.wheels.messages}
+        return {**self.wheels._table(), "status": self.wheels.messages, **self._bands()}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each setting, slip ratios fastest, as in the program's CSV."""
@@ -49,14 +111,19 @@ class WheelTest(_tables.Tabular):
         attributes."""
         coords = {name: getattr(self, name) for name in _COORDS[:3]}
         columns = {k: v for k, v in self.wheels._table().items() if k not in coords}
+        columns |= self._bands()
         return _tables.dataset(tuple(coords), columns, coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Plots a quantity over the slip ratio, a line for each load and slip angle."""
+        """Plots a quantity over the slip ratio, a line for each load and slip angle, with its band
+        if there is one."""
         axes = _tables.axes_or_new(axes)
         values = getattr(self.wheels, name)
+        ends = [self._bands().get(f"{name}_{end}") for end in ("p2_5", "p97_5")]
         for i, load in enumerate(self.load_n):
             for j, angle in enumerate(self.slip_angle_deg):
+                if ends[0] is not None and ends[1] is not None:
+                    axes.fill_between(self.slip_ratio, ends[0][i, j], ends[1][i, j], alpha=0.25)
                 axes.plot(
                     self.slip_ratio, values[i, j], **{"label": f"{load:g} N, {angle:g}°", **style}
                 )
@@ -150,6 +217,8 @@ def wheel_test(
     noise_n: float = ...,
     noise_mm: float = ...,
     noise_nm: float = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
     seed: int = ...,
 ) -> WheelTest: ...
 
@@ -185,6 +254,8 @@ def wheel_test(
     noise_n: float = 0.3,
     noise_mm: float = 0.5,
     noise_nm: float = 0.02,
+    uncertainty: bool = False,
+    samples: int = 500,
     seed: int = 1,
 ) -> WheelTest | SimulatedWheelTest:
     """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio
@@ -205,8 +276,14 @@ def wheel_test(
         default the exact values, once.
     noise_n, noise_mm, noise_nm : float
         Standard deviations of the simulated forces [N], sinkage [mm] and torque [N·m].
+    uncertainty : bool
+        Whether to sample what is uncertain, for `WheelTest.band`: the soil, where its document says
+        so, and the wheel–soil model, where none is asked for. Not with ``trials``.
+    samples : int
+        Number of samples, 2 to 100000.
     seed : int
-        Seed of the noise: the same seed gives the same readings.
+        Seed of the noise or of the samples: the same seed gives the same readings, or the same
+        soils and models.
 
     Returns
     -------
@@ -227,6 +304,8 @@ def wheel_test(
     """
     loads, angles = line("load_n", load_n), line("slip_angle_deg", slip_angle_deg)
     ratios = line("slip_ratio", slip_ratio)
+    if trials is not None and uncertainty:
+        raise ParameterError("uncertainty is not known of readings with noise", "uncertainty")
     if trials is not None:
         deviations = {"noise_n": noise_n, "noise_mm": noise_mm, "noise_nm": noise_nm}
         noise = [number(name, value) for name, value in deviations.items()]
@@ -253,4 +332,15 @@ def wheel_test(
         gravity_m_s2=gravity_m_s2,
         model=model,
     )
-    return WheelTest(load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels)
+    band = None
+    if uncertainty:
+        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+        stand = setting(gravity_m_s2, model)
+        documents = (soil_of(soil)._document, wheel._document, stand._document)
+        drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
+        found = _core.wheel_test_band(*documents, loads, angles, ratios, *drawn)
+        shape = (len(loads), len(angles), len(ratios))
+        band = WheelTestBand(**{name: values.reshape(shape) for name, values in found.items()})
+    return WheelTest(
+        load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels, band=band
+    )

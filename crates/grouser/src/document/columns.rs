@@ -4,6 +4,7 @@ pub mod card;
 pub mod fit;
 pub mod heading;
 pub mod run;
+pub mod slope;
 pub mod stand;
 pub mod wheel_test;
 

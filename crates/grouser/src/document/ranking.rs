@@ -6,15 +6,31 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::measurements::{self, Choice, Limits, MeasurementError};
-use super::validation::GroupRecord;
+use super::validation::{GroupRecord, PartErrors, ReferenceRecord, SlopeErrorsRecord};
 use super::{
-    DataSetCase, DocumentError, Kind, LoadedDataSet, Overrides, Source, check, place_of, presets,
-    read_data_set,
+    DataSetCase, DocumentError, Kind, LoadedDataSet, LoadedRover, LoadedSoil, LoadedWheel,
+    Overrides, Source, Tested, check, place_of, presets, read_data_set, read_scenario,
 };
 use crate::contact::Theory;
+use crate::error::ParameterError;
+use crate::simulation::Scenario;
 use crate::soil::SmallWheel;
-use crate::studies::measurement::Quantity;
-use crate::studies::validation::{Validation, ValidationStudy};
+use crate::studies::heading::HeadingStudy;
+use crate::studies::measurement::WheelTests;
+use crate::studies::slope_tests::SlopeTests;
+use crate::studies::slope_validation::{SlopeComparison, SlopeValidation, SlopeValidationStudy};
+use crate::studies::validation::{Validation, ValidationStudy, Yardstick, mean_score};
+
+/// Every model on every part of some data sets.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Ranking {
+    /// Part by part, best first.
+    pub rows: Vec<RankedTheory>,
+    /// Predictions without physics, part by part.
+    pub yardsticks: Vec<RankedYardstick>,
+    /// Each model, and each yardstick, over all parts, best first.
+    pub models: Vec<OverAll>,
+}
 
 /// A wheel–soil model with a soil on a part of a data set.
 #[derive(Clone, Debug, Serialize)]
@@ -29,18 +45,75 @@ pub struct RankedTheory {
     pub model: &'static str,
     /// The soil's name.
     pub soil: String,
+    /// Whether the soil was fitted to these rows: its errors are in sample, and no prediction.
+    pub in_sample: bool,
     /// Root mean square error over the standard deviation of what was measured, averaged over
     /// the measured quantities [-]: 0 is perfect, 1 no better than a constant.
     pub score: Option<f64>,
-    /// Trials without a prediction: the soil cannot carry the wheel.
+    /// Trials without a prediction: the soil cannot carry the wheel. Of a rover, slopes without a yaw.
     pub unsettled_trials: usize,
     /// Errors of the driven cells.
     pub driven: Option<GroupRecord>,
     /// Errors of all cells.
-    pub overall: GroupRecord,
+    pub overall: PartErrors,
     /// All errors.
     #[serde(skip)]
-    pub validation: Validation,
+    pub found: Found,
+}
+
+/// The predictions behind a ranked model.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// Of a wheel's trials.
+    Wheel(Box<Validation>),
+    /// Of a rover's slopes.
+    Slope(Box<SlopeValidation>),
+}
+
+/// A prediction without physics on a part of a data set.
+#[derive(Clone, Debug, Serialize)]
+pub struct RankedYardstick {
+    /// The data set's name.
+    pub data_set: String,
+    /// Its part.
+    pub case: String,
+    /// The score, as of a model.
+    pub score: Option<f64>,
+    /// How it was predicted, and its errors.
+    #[serde(flatten)]
+    pub reference: ReferenceRecord<PartErrors>,
+}
+
+/// A model, or a yardstick, over all parts of all data sets, with soils that were not fitted to them.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OverAll {
+    /// The model's name; null for a yardstick.
+    pub model: Option<&'static str>,
+    /// The yardstick's name; null for a model.
+    pub yardstick: Option<&'static str>,
+    /// Number of parts with a score.
+    pub parts: usize,
+    /// The mean of their scores [-].
+    pub score: Option<f64>,
+    /// Number of aims that are met, over all quantities of all parts.
+    pub aims_met: usize,
+    /// Number of aims.
+    pub aims: usize,
+    /// Trials without a prediction.
+    pub unsettled_trials: usize,
+    /// The score on each part, in the order of the parts; null where there is none.
+    pub scores: Vec<PartScore>,
+}
+
+/// The score on a part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartScore {
+    /// The data set's name.
+    pub data_set: String,
+    /// Its part.
+    pub case: String,
+    /// The score, the mean over the soils [-].
+    pub score: Option<f64>,
 }
 
 /// Models cannot be ranked.
@@ -79,31 +152,61 @@ pub enum RankingError {
     /// A file of measurements that cannot be used.
     #[error(transparent)]
     Measurements(#[from] MeasurementError),
+    /// A rover that cannot be compared on slopes, such as one with steered wheels.
+    #[error(transparent)]
+    Rover(#[from] ParameterError),
 }
 
 /// Ranks every model on every data set of a folder, or without a folder on those that come with the
-/// program: data set by data set and part by part, best first.
+/// program: data set by data set and part by part, best first, beside predictions without physics.
 ///
 /// * `limits`: how much of each file is read
 ///
 /// # Errors
 /// [`RankingError`] for a folder, a document or a file that cannot be used.
-pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Vec<RankedTheory>, RankingError> {
+pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Ranking, RankingError> {
     let sets = match folder {
         Some(folder) => data_sets_in(folder)?,
         None => data_sets_of_the_program()?,
     };
-    let mut all = Vec::new();
+    rank_sets(sets, limits)
+}
+
+/// Ranks every model on one data set: a preset, or a document beside its file of measurements. A text in memory has
+/// no such file, and no rows.
+///
+/// # Errors
+/// As [`rank_all`].
+pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError> {
+    let set = read_data_set(source, &Overrides::none())?;
+    let data_set = match source {
+        Source::Preset(preset) => {
+            let rows = measurements::Source::preset(preset.name);
+            rows.map(|rows| DataSet { set, rows, named_at: None })
+        }
+        Source::File(path) => Some(beside_its_document(set, path)?),
+        // A text in memory has no file beside it.
+        Source::Text { .. } => None,
+    };
+    rank_sets(data_set.into_iter().collect(), limits)
+}
+
+fn rank_sets(sets: Vec<DataSet>, limits: Limits) -> Result<Ranking, RankingError> {
+    let mut ranking = Ranking::default();
     for DataSet { set, rows, named_at } in sets {
         for case in &set.value.cases {
-            let ranked = rank(&set, case, &rows, limits);
-            all.extend(ranked.map_err(|error| match &named_at {
-                Some(place) => error.named_at(place.clone()),
-                None => error,
-            })?);
+            let part = Part { set: &set, case };
+            let ranked = part.rank(&rows, limits, &mut ranking);
+            ranked.map_err(|error| match (error, &named_at) {
+                (RankingError::Measurements(error), Some(place)) => {
+                    RankingError::Measurements(error.named_at(place.clone()))
+                }
+                (error, _) => error,
+            })?;
         }
     }
-    Ok(all)
+    ranking.models = over_all(&ranking);
+    Ok(ranking)
 }
 
 /// A data set, and where its rows are.
@@ -130,15 +233,8 @@ fn data_sets_of_the_program() -> Result<Vec<DataSet>, RankingError> {
 fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
     let mut own = Vec::new();
     for document in documents_in(folder)? {
-        let source = Source::file(&document);
-        let set = read_data_set(&source, &Overrides::none())?;
-        let file = folder.join(&set.value.file);
-        // Of a link to nothing the reading says so.
-        if file.symlink_metadata().is_err() {
-            return Err(RankingError::NoSuchFile { document, file });
-        }
-        let named_at = Some(place_of(&source, "file")?.to_string());
-        own.push(DataSet { set, rows: measurements::Source::File(file), named_at });
+        let set = read_data_set(&Source::file(&document), &Overrides::none())?;
+        own.push(beside_its_document(set, &document)?);
     }
     let mut sets = Vec::new();
     for preset in presets(Kind::DataSet) {
@@ -159,6 +255,17 @@ fn data_sets_in(folder: &Path) -> Result<Vec<DataSet>, RankingError> {
     Ok(sets)
 }
 
+/// A data set whose file of measurements is where its document is.
+fn beside_its_document(set: LoadedDataSet, document: &Path) -> Result<DataSet, RankingError> {
+    let file = document.with_file_name(&set.value.file);
+    // Of a link to nothing the reading says so.
+    if file.symlink_metadata().is_err() {
+        return Err(RankingError::NoSuchFile { document: document.to_owned(), file });
+    }
+    let named_at = Some(place_of(&Source::file(document), "file")?.to_string());
+    Ok(DataSet { set, rows: measurements::Source::File(file), named_at })
+}
+
 /// The documents of data sets in a folder, and those that may be meant as such, by name.
 fn documents_in(folder: &Path) -> Result<Vec<PathBuf>, RankingError> {
     if !folder.is_dir() {
@@ -175,62 +282,221 @@ fn documents_in(folder: &Path) -> Result<Vec<PathBuf>, RankingError> {
     Ok(files)
 }
 
-/// Every model with the soils of a part, best first.
-fn rank(
-    set: &LoadedDataSet,
-    case: &DataSetCase,
-    rows: &measurements::Source,
-    limits: Limits,
-) -> Result<Vec<RankedTheory>, MeasurementError> {
-    let choice = Choice { conditions: case.conditions.clone(), wheel: None, limits };
-    let measured = rows.read(&choice)?;
-    let mut all = Vec::new();
-    for (name, soil) in &case.soils {
-        for theory in Theory::ALL {
-            let for_another = soil.document.theory().is_some_and(|own| own != theory);
-            // Without its terms the small-wheel model is the classical one.
-            let same = theory == Theory::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
-            if for_another || same {
-                continue;
-            }
-            let study = ValidationStudy {
-                tests: &measured.tests,
-                wheel: case.wheel.value,
-                soil: soil.value,
-                theory,
-                gravity: set.value.gravity,
-            };
-            let validation = study.run();
-            all.push(RankedTheory {
-                data_set: set.document.name().to_owned(),
-                case: case.name.clone(),
-                rank: 0,
-                model: theory.name(),
-                soil: name.clone(),
-                score: score(&validation),
-                unsettled_trials: validation.overall.unsettled,
-                driven: validation.driven.as_ref().map(GroupRecord::from),
-                overall: GroupRecord::from(&validation.overall),
-                validation,
-            });
-        }
-    }
-    // What has no prediction for a trial ranks below whatever has one for each.
-    let key = |one: &RankedTheory| (one.unsettled_trials, one.score.unwrap_or(f64::INFINITY));
-    all.sort_by(|one, other| {
-        let ((unsettled, score), (others, other_score)) = (key(one), key(other));
-        unsettled.cmp(&others).then(score.total_cmp(&other_score))
-    });
-    for (place, one) in all.iter_mut().enumerate() {
-        one.rank = place + 1;
-    }
-    Ok(all)
+/// A part of a data set.
+struct Part<'a> {
+    set: &'a LoadedDataSet,
+    case: &'a DataSetCase,
 }
 
-/// √(1 − R²), averaged over the measured quantities.
-fn score(validation: &Validation) -> Option<f64> {
-    let of = |quantity| validation.overall.errors[quantity]?.r2;
-    let shares: Vec<f64> =
-        Quantity::ALL.into_iter().filter_map(of).map(|r2| (1.0 - r2).max(0.0).sqrt()).collect();
-    (!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64)
+impl Part<'_> {
+    /// Every model with the soils of the part, best first, and the yardsticks.
+    fn rank(
+        &self,
+        rows: &measurements::Source,
+        limits: Limits,
+        into: &mut Ranking,
+    ) -> Result<(), RankingError> {
+        let conditions = self.case.conditions.clone();
+        let choice = Choice { conditions, wheel: None, limits };
+        let mut all = match &self.case.tested {
+            Tested::Wheel(wheel) => self.of_wheel(wheel, &rows.read(&choice)?.tests),
+            Tested::Rover(rover) => {
+                self.of_rover(rover, &rows.read_slopes(&choice, &rover.value)?)?
+            }
+        };
+        // What has no prediction for a trial ranks below whatever has one for each.
+        let key = |one: &RankedTheory| (one.unsettled_trials, one.score.unwrap_or(f64::INFINITY));
+        all.sort_by(|one, other| {
+            let ((unsettled, score), (others, other_score)) = (key(one), key(other));
+            unsettled.cmp(&others).then(score.total_cmp(&other_score))
+        });
+        for (place, one) in all.iter_mut().enumerate() {
+            one.rank = place + 1;
+        }
+        if let Some(one) = all.first() {
+            into.yardsticks.extend(self.yardsticks(&one.found));
+        }
+        into.rows.extend(all);
+        Ok(())
+    }
+
+    /// Each soil with each model that may be judged with it.
+    fn pairs(&self) -> impl Iterator<Item = (&String, &LoadedSoil, Theory)> {
+        self.case.soils.iter().flat_map(|(name, soil)| {
+            Theory::ALL.into_iter().filter_map(move |theory| {
+                let for_another = soil.document.theory().is_some_and(|own| own != theory);
+                // Without its terms the small-wheel model is the classical one.
+                let same =
+                    theory == Theory::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
+                (!for_another && !same).then_some((name, soil, theory))
+            })
+        })
+    }
+
+    fn of_wheel(&self, wheel: &LoadedWheel, tests: &WheelTests) -> Vec<RankedTheory> {
+        let one = |(name, soil, theory): (&String, &LoadedSoil, Theory)| {
+            let (wheel, soil, gravity) = (wheel.value, soil.value, self.set.value.gravity);
+            let validation = ValidationStudy { tests, wheel, soil, theory, gravity }.run();
+            RankedTheory {
+                score: validation.overall.score(),
+                unsettled_trials: validation.overall.unsettled,
+                driven: validation.driven.as_ref().map(GroupRecord::from),
+                overall: PartErrors::Wheel(GroupRecord::from(&validation.overall)),
+                ..self.ranked(theory, name, Found::Wheel(Box::new(validation)))
+            }
+        };
+        self.pairs().map(one).collect()
+    }
+
+    fn of_rover(
+        &self,
+        rover: &LoadedRover,
+        tests: &SlopeTests,
+    ) -> Result<Vec<RankedTheory>, RankingError> {
+        let usual = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+        let one = |(name, soil, theory): (&String, &LoadedSoil, Theory)| {
+            let gravity = self.set.value.gravity;
+            let heading = heading_study(&usual, rover, soil, theory, gravity);
+            let validation = SlopeValidationStudy { tests, heading: &heading }.run()?;
+            let is_yaw_missing = |it: &&_| missing_yaw(it);
+            Ok(RankedTheory {
+                score: validation.score(),
+                unsettled_trials: validation.points.iter().filter(is_yaw_missing).count(),
+                overall: PartErrors::Slope(SlopeErrorsRecord::from(&validation)),
+                ..self.ranked(theory, name, Found::Slope(Box::new(validation)))
+            })
+        };
+        self.pairs().map(one).collect()
+    }
+
+    /// A model with a soil, before its errors are put in.
+    fn ranked(&self, theory: Theory, soil: &str, found: Found) -> RankedTheory {
+        RankedTheory {
+            data_set: self.set.document.name().to_owned(),
+            case: self.case.name.clone(),
+            rank: 0,
+            model: theory.name(),
+            soil: soil.to_owned(),
+            in_sample: self.case.is_fitted(soil),
+            score: None,
+            unsettled_trials: 0,
+            driven: None,
+            overall: PartErrors::Slope(SlopeErrorsRecord::NONE),
+            found,
+        }
+    }
+
+    fn yardsticks(&self, found: &Found) -> Vec<RankedYardstick> {
+        let ranked = |reference: ReferenceRecord<PartErrors>, score| RankedYardstick {
+            data_set: self.set.document.name().to_owned(),
+            case: self.case.name.clone(),
+            score,
+            reference,
+        };
+        match found {
+            Found::Wheel(validation) => validation
+                .references
+                .iter()
+                .map(|it| {
+                    ranked(ReferenceRecord::from(it).map(PartErrors::Wheel), it.overall.score())
+                })
+                .collect(),
+            Found::Slope(validation) => validation
+                .references
+                .iter()
+                .map(|it| ranked(ReferenceRecord::from(it).map(PartErrors::Slope), it.score()))
+                .collect(),
+        }
+    }
+}
+
+/// Whether a yaw was measured that the model does not have.
+fn missing_yaw(it: &SlopeComparison) -> bool {
+    it.point.yaw.is_some() && it.yaw.is_none()
+}
+
+/// The study of a rover on a soil, with the load transfer that the program's commands have by default.
+fn heading_study(
+    usual: &Scenario,
+    rover: &LoadedRover,
+    soil: &LoadedSoil,
+    theory: Theory,
+    gravity: f64,
+) -> HeadingStudy {
+    let (rover, soil) = (rover.value.clone(), soil.value);
+    HeadingStudy { rover, soil, gravity, theory, ..HeadingStudy::of(usual) }
+}
+
+/// Each model and each yardstick over all parts: first the models, then the yardsticks, best first.
+fn over_all(ranking: &Ranking) -> Vec<OverAll> {
+    let mut parts: Vec<(&str, &str)> = Vec::new();
+    for row in &ranking.rows {
+        let part = (row.data_set.as_str(), row.case.as_str());
+        if !parts.contains(&part) {
+            parts.push(part);
+        }
+    }
+    let models = Theory::ALL.into_iter().map(|theory| {
+        let rows = ranking.rows.iter().filter(|row| row.model == theory.name() && !row.in_sample);
+        let rows = rows.map(|row| Judged {
+            part: (&row.data_set, &row.case),
+            score: row.score,
+            unsettled_trials: row.unsettled_trials,
+            errors: &row.overall,
+        });
+        OverAll { model: Some(theory.name()), ..OverAll::of(&parts, &rows.collect::<Vec<_>>()) }
+    });
+    let yardsticks = Yardstick::ALL.into_iter().map(|yardstick| {
+        let name = yardstick.name();
+        let rows = ranking.yardsticks.iter().filter(|row| row.reference.yardstick == name);
+        let rows = rows.map(|row| Judged {
+            part: (&row.data_set, &row.case),
+            score: row.score,
+            unsettled_trials: 0,
+            errors: &row.reference.overall,
+        });
+        OverAll { yardstick: Some(name), ..OverAll::of(&parts, &rows.collect::<Vec<_>>()) }
+    });
+    let best_first = |all: &mut Vec<OverAll>| {
+        let score = |one: &OverAll| one.score.unwrap_or(f64::INFINITY);
+        all.retain(|one| one.parts > 0);
+        all.sort_by(|one, other| score(one).total_cmp(&score(other)));
+    };
+    let (mut models, mut yardsticks): (Vec<_>, Vec<_>) = (models.collect(), yardsticks.collect());
+    best_first(&mut models);
+    best_first(&mut yardsticks);
+    models.into_iter().chain(yardsticks).collect()
+}
+
+/// A model or yardstick on a part.
+struct Judged<'a> {
+    part: (&'a str, &'a str),
+    score: Option<f64>,
+    unsettled_trials: usize,
+    errors: &'a PartErrors,
+}
+
+impl OverAll {
+    fn of(parts: &[(&str, &str)], rows: &[Judged<'_>]) -> Self {
+        let scores = parts.iter().map(|part| PartScore {
+            data_set: part.0.to_owned(),
+            case: part.1.to_owned(),
+            score: mean_score(
+                rows.iter().filter(|row| row.part == *part).filter_map(|row| row.score),
+            ),
+        });
+        let scores: Vec<PartScore> = scores.collect();
+        let aims = rows.iter().flat_map(|row| row.errors.measured());
+        let aims: Vec<bool> = aims.filter_map(|(_, errors)| errors.within_aim).collect();
+        Self {
+            model: None,
+            yardstick: None,
+            parts: scores.iter().filter(|part| part.score.is_some()).count(),
+            score: mean_score(scores.iter().filter_map(|part| part.score)),
+            aims_met: aims.iter().filter(|met| **met).count(),
+            aims: aims.len(),
+            unsettled_trials: rows.iter().map(|row| row.unsettled_trials).sum(),
+            scores,
+        }
+    }
 }

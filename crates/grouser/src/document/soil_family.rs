@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde_json::{Value as Json, json};
 
 use super::varied::{Key, Numbers, Varied, meant_number};
-use super::{Described, Document, Kind, Misfit, range, without_uncertainty};
+use super::{Described, Document, Kind, Misfit, range, without_priors_of, without_uncertainty};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -149,22 +149,22 @@ impl SoilFamily {
     /// The same as a calibration's result: with its source, and its samples as uncertainty.
     ///
     /// * `source`: where the fitted values come from, before the source of the others
-    /// * `theory`: that the values belong to
+    /// * `theory`: that the values belong to, if they belong to one
     /// * `samples`: name of the file of samples beside the document, if there is one
     #[must_use]
     pub fn fitted(
         &self,
         values: &[f64],
         source: &str,
-        theory: Theory,
+        theory: Option<Theory>,
         samples: Option<&str>,
     ) -> Document {
-        let document = self.document(values);
+        let keys: Vec<&str> = self.keys().collect();
+        let document = without_priors_of(&self.document(values), &keys);
         let is_fitted = |assumed: &Json| {
             let key = assumed.as_str().and_then(|text| text.split(':').next());
             self.keys.iter().any(|fitted| Some(&*fitted.path) == key)
         };
-        let named = document.theory().is_some() || theory != Theory::default();
         document.changed(|keys| {
             keys["name"] = format!("{}, calibrated", document.name()).into();
             keys["source"] = format!("{source}; other values: {}", document.source()).into();
@@ -175,7 +175,8 @@ impl SoilFamily {
             if let Some(Json::Array(assumed)) = keys.get_mut("assumed") {
                 assumed.retain(|one| !is_fitted(one));
             }
-            if named {
+            // Bands keep it with the greater share.
+            if let Some(theory) = theory {
                 keys.insert("model".to_owned(), theory.name().into());
             }
             if let Some(file) = samples {

@@ -1,15 +1,17 @@
 //! The operator's card: for each slope, the heading that holds the contour, slip and power there, the drift without
 //! it, and a verdict to go or not.
 //!
-//! On an uncertain soil every number has a band over the sampled soils, and a slope is judged by the share
-//! of them on which a heading holds the contour at an acceptable slip. On a soil without stated
-//! uncertainty there is one curve and no band, and a slope is judged as if it were steeper by a margin.
+//! Every number has a band over samples of soil and model, and a slope is judged by the share of them in which a
+//! heading holds the contour at an acceptable slip. Where the soil's own uncertainty is not stated, the samples
+//! differ by their models alone, and a slope is judged as if it were steeper by a margin. Without samples there is
+//! one curve and no band, with the same margin.
 //! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
-use super::ensemble::{Band, Probability, outputs};
+use super::ensemble::samples::{Sample, outputs_of_samples};
+use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
-use crate::soil::Soil;
 
 /// Whether to drive on a slope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -27,11 +29,11 @@ pub enum Verdict {
 pub struct Rule {
     /// Go: a contour traverse exists and slips at most this much [-] …
     pub go_slip_ratio: f64,
-    /// … on at least this share of the sampled soils [-].
+    /// … in at least this share of the samples [-].
     pub go_probability: f64,
     /// No-go: a contour traverse exists and slips at most this much [-] …
     pub no_go_slip_ratio: f64,
-    /// … on less than this share of the sampled soils [-].
+    /// … in less than this share of the samples [-].
     pub no_go_probability: f64,
     /// Without stated uncertainty a slope is judged as if it were steeper by this [rad].
     pub margin: f64,
@@ -72,7 +74,7 @@ impl Rule {
 
     /// The verdict on a slope.
     ///
-    /// * `slips`: slip ratio of the contour traverse on each soil, `None` where no heading holds the contour
+    /// * `slips`: slip ratio of the contour traverse in each sample, `None` where no heading holds the contour
     fn verdict(&self, slips: &[Option<f64>]) -> Verdict {
         let share_within = |most: f64| {
             let count = slips.iter().flatten().filter(|slip| **slip <= most).count();
@@ -97,6 +99,9 @@ pub struct CardStudy {
     pub rim_speed: f64,
     /// The limits of the verdicts.
     pub rule: Rule,
+    /// Whether the samples are of an uncertain soil. If not, they differ by their models alone, and slopes are
+    /// judged with the rule's margin.
+    pub is_soil_uncertain: bool,
 }
 
 /// The card's numbers.
@@ -107,9 +112,9 @@ pub struct Card {
     /// Steepest slope on which a heading holds the contour on the soil as written [rad], and what ends it; `Err`
     /// with the reason where the rover cannot move.
     pub limit: Result<(f64, String), String>,
-    /// The same over the samples on which the rover can move.
+    /// The same over the samples; 0 where the rover cannot move.
     pub limit_band: Option<Band>,
-    /// Number of sampled soils; `None` where no uncertainty is stated.
+    /// Number of samples; `None` if there are none.
     pub draws: Option<usize>,
 }
 
@@ -122,11 +127,15 @@ pub struct CardRow {
     pub verdict: Verdict,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
+    /// Why no heading holds the contour on the soil as written; nothing where one does.
+    pub refusal: Option<String>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
     /// the contour [-]; `None` where the rover slides.
     pub drift: Option<f64>,
-    /// Over the samples; `None` where no uncertainty is stated.
+    /// Over the samples; `None` if there are none.
     pub bands: Option<CardBands>,
+    /// The flags of the contour traverse on the soil as written.
+    pub findings: Vec<Finding>,
 }
 
 /// A contour traverse.
@@ -140,28 +149,30 @@ pub struct Level {
     pub power: f64,
 }
 
-/// One slope over the sampled soils.
+/// One slope over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// Samples on which a heading holds the contour: yaw, slip and power are over them.
+    /// Samples in which a heading holds the contour: yaw and power are over them.
     pub level: Probability,
     /// Yaw, *γ* [rad].
     pub yaw: Option<Band>,
-    /// Slip ratio, *s* [-].
+    /// Slip ratio, *s* [-], over all samples: 1 where no heading holds the contour.
     pub slip_ratio: Option<Band>,
     /// Power of the motors [W].
     pub power: Option<Band>,
-    /// Samples on which the rover does not slide with the nose on the contour: drift is over them.
+    /// Samples in which the rover does not slide with the nose on the contour.
     pub held: Probability,
-    /// Drift [-].
+    /// Drift [-], over all samples: 1, straight downhill, where the rover slides.
     pub drift: Option<Band>,
 }
 
-/// One soil: the numbers that the card needs.
+/// One sample: the numbers that the card needs.
+#[derive(Clone)]
 struct Draw {
     limit: Result<(f64, String), String>,
     /// On each slope.
     levels: Vec<Option<Level>>,
+    refusals: Vec<Option<String>>,
     drifts: Vec<Option<f64>>,
 }
 
@@ -179,7 +190,8 @@ impl CardStudy {
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
     /// let heading = HeadingStudy::of(&scenario);
-    /// let study = CardStudy { heading, rim_speed: 0.06, rule: Rule::DEFAULT };
+    /// let rule = Rule::DEFAULT;
+    /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_soil_uncertain: false };
     /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::NoGo]);
@@ -188,16 +200,16 @@ impl CardStudy {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// * `soils`: one for each sample; empty where no uncertainty is stated
+    /// * `samples`: of soil and model; with none there are no bands
     /// * `slopes`: [rad], rising
-    /// * `done`: called after each sample, from any thread
+    /// * `done`: called after each sample that is computed, from any thread; samples that are alike are one
     ///
     /// # Errors
     /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
     /// first invalid soil.
     pub fn card(
         &self,
-        soils: &[Soil],
+        samples: &[Sample],
         slopes: &[f64],
         done: &(dyn Fn() + Sync),
     ) -> Result<Card, ParameterError> {
@@ -206,29 +218,49 @@ impl CardStudy {
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
-        let nominal = self.draw(&self.heading.soil, slopes)?;
-        let drawn = |soil: &Soil| {
-            let draw = self.draw(soil, slopes);
+        let nominal = self.draw(&self.nominal(), slopes)?;
+        let curve = self.heading.curve()?;
+        let findings: Vec<_> =
+            slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect();
+        let drawn = |sample: &Sample| {
+            let draw = self.draw(sample, slopes);
             done();
             draw
         };
         // In order, so that the error is always that of the first soil.
-        let draws =
-            outputs(soils, drawn).into_iter().collect::<Result<Vec<Draw>, ParameterError>>()?;
-        let judged: Vec<Vec<Option<f64>>> = if draws.is_empty() {
-            let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
-            let levels = self.draw(&self.heading.soil, &steeper)?.levels;
-            levels.iter().map(|level| vec![level.map(|level| level.slip_ratio)]).collect()
-        } else {
-            (0..slopes.len()).map(|place| slips_at(&draws, place)).collect()
+        let draws = Self::draws(samples, drawn)?;
+        let slips_of = |draws: &[Draw]| {
+            (0..slopes.len()).map(|place| slips_at(draws, place)).collect::<Vec<_>>()
         };
-        let limits = draws.iter().filter_map(|draw| draw.limit.as_ref().ok());
+        let judged = if self.is_soil_uncertain && !draws.is_empty() {
+            slips_of(&draws)
+        } else {
+            let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
+            let nominal = [self.nominal()];
+            let samples = if samples.is_empty() { &nominal } else { samples };
+            slips_of(&Self::draws(samples, |sample| self.draw(sample, &steeper))?)
+        };
+        let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, &judged),
+            rows: self.rows(slopes, &nominal, &draws, &judged, &findings),
             limit: nominal.limit,
-            limit_band: Band::of(limits.map(|(slope, _)| *slope)),
+            limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
         })
+    }
+
+    /// Soil and model without uncertainty.
+    fn nominal(&self) -> Sample {
+        Sample { soil: self.heading.soil, theory: self.heading.theory }
+    }
+
+    /// The numbers of each sample, or the error of the first that has one.
+    fn draws(
+        samples: &[Sample],
+        one: impl Fn(&Sample) -> Result<Draw, ParameterError> + Sync + Send,
+    ) -> Result<Vec<Draw>, ParameterError> {
+        let all = outputs_of_samples(samples, &|| true, one);
+        all.into_iter().flatten().collect()
     }
 
     fn rows(
@@ -237,23 +269,32 @@ impl CardStudy {
         nominal: &Draw,
         draws: &[Draw],
         judged: &[Vec<Option<f64>>],
+        findings: &[Vec<Finding>],
     ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
+        let ground = self.heading.ground_limit();
         let row = |(place, slope): (usize, &f64)| {
-            worst = worst.max(self.rule.verdict(&judged[place]));
+            // Ground that slides by itself is no place to drive, whatever samples of it would hold.
+            let verdict = match *slope > ground {
+                true => Verdict::NoGo,
+                false => self.rule.verdict(&judged[place]),
+            };
+            worst = worst.max(verdict);
             CardRow {
                 slope: *slope,
                 verdict: worst,
                 level: nominal.levels[place],
+                refusal: nominal.refusals[place].clone(),
                 drift: nominal.drifts[place],
                 bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+                findings: findings[place].clone(),
             }
         };
         slopes.iter().enumerate().map(row).collect()
     }
 
-    fn draw(&self, soil: &Soil, slopes: &[f64]) -> Result<Draw, ParameterError> {
-        let study = HeadingStudy { soil: *soil, ..self.heading.clone() };
+    fn draw(&self, sample: &Sample, slopes: &[f64]) -> Result<Draw, ParameterError> {
+        let study = self.heading.of_sample(sample);
         let (level, drift) = (study.curve()?, study.drift_curve()?);
         let keep = |heading: &HeadingOffset| Level {
             yaw: heading.yaw,
@@ -266,6 +307,10 @@ impl CardStudy {
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
+            refusals: slopes
+                .iter()
+                .map(|slope| Some(level.at(*slope).err()?.to_string()))
+                .collect(),
             levels: slopes.iter().map(|slope| on(&level, *slope).as_ref().map(keep)).collect(),
             drifts: slopes.iter().map(|slope| Some(on(&drift, *slope)?.drift())).collect(),
         })
@@ -280,15 +325,21 @@ fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
 impl CardBands {
     fn over(draws: &[Draw], place: usize) -> Self {
         let levels: Vec<Level> = draws.iter().filter_map(|draw| draw.levels[place]).collect();
-        let drifts: Vec<f64> = draws.iter().filter_map(|draw| draw.drifts[place]).collect();
+        let drifts = || draws.iter().map(|draw| draw.drifts[place]);
+        let slips = slips_at(draws, place).into_iter().map(|slip| slip.unwrap_or(STUCK));
         let trials = draws.len();
         Self {
             level: Probability { successes: levels.len(), trials },
             yaw: Band::of(levels.iter().map(|level| level.yaw)),
-            slip_ratio: Band::of(levels.iter().map(|level| level.slip_ratio)),
+            slip_ratio: Band::of(slips),
             power: Band::of(levels.iter().map(|level| level.power)),
-            held: Probability { successes: drifts.len(), trials },
-            drift: Band::of(drifts),
+            held: Probability { successes: drifts().flatten().count(), trials },
+            drift: Band::of(drifts().map(|drift| drift.unwrap_or(STRAIGHT_DOWN))),
         }
     }
 }
+
+/// Slip ratio of a rover that holds no course [-].
+const STUCK: f64 = 1.0;
+/// Drift of a rover that slides: straight downhill [m/m].
+const STRAIGHT_DOWN: f64 = 1.0;

@@ -1,147 +1,195 @@
-//! The heading offset on an uncertain soil: a curve for each sampled soil, and quantiles over them.
+//! The heading offset where soil and model are uncertain: a curve for each sample, and quantiles over them.
 //!
-//! The caller samples the soils from their distribution (of a document, or a posterior), and this study follows
-//! the curve of [`heading`](super::heading) for each. They are sampled before anything is computed, so that a
-//! sample that fails is reported at once.
+//! The caller draws the [samples](super::ensemble::samples), and this study follows the curve of
+//! [`heading`](super::heading) for each.
+//!
+//! Bands are over all samples. One in which no heading holds the course counts as slip 1, sunk to the axle, with
+//! work per metre without a bound: it is not left out, since what is left would be the strong soils alone. A
+//! yaw it has not: bands of the yaw are over the samples that hold the course, and their share is beside it.
 
-use super::ensemble::{Band, Probability, outputs_while};
+use super::ensemble::samples::{Sample, outputs_of_samples};
+use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use crate::error::ParameterError;
-use crate::soil::Soil;
+use crate::vehicle::Rover;
 
-/// Heading offsets and the steepest slope, with quantiles over the sampled soils.
+/// Heading offsets and the steepest slope, with quantiles over the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadingBand {
     /// On each slope that was asked for, in that order.
     pub slopes: Vec<SlopeBand>,
-    /// Steepest slope on which a heading holds the contour [rad], over the samples on which the rover can
-    /// drive on level ground.
+    /// Steepest slope on which a heading holds the course [rad]; 0 in a sample in which the rover cannot drive on
+    /// level ground.
     pub limit: Option<Band>,
-    /// The number of those samples among all.
+    /// In how many of the samples the rover can drive on level ground.
     pub mobile: Probability,
 }
 
-/// Heading offset, slip, sinkage and energy on one slope, with quantiles over the samples on which a heading holds
-/// the contour there.
+/// Heading offset, slip, sinkage and energy on one slope, with quantiles over the samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopeBand {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// How many of the samples have a heading that holds the contour.
+    /// In how many of the samples a heading holds the course.
     pub level: Probability,
-    /// Yaw, *γ* [rad], positive uphill.
+    /// Yaw, *γ* [rad], positive uphill, over those samples.
     pub yaw: Option<Band>,
-    /// Slip ratio of every wheel, *s* [-].
+    /// Slip ratio of every wheel, *s* [-]; 1 where no heading holds the course.
     pub slip_ratio: Option<Band>,
-    /// Mean sinkage of the wheels [m].
+    /// Mean sinkage of the wheels [m]; down to the axles where no heading holds the course.
     pub sinkage: Option<Band>,
-    /// Work of the wheels per metre along the contour [J/m].
+    /// Work of the wheels per metre along the course [J/m]; infinite where no heading holds the course.
     pub energy_per_metre: Option<Band>,
 }
 
 /// The numbers of a heading offset that the bands need.
 #[derive(Clone, Copy)]
 struct Kept {
-    yaw: f64,
+    /// Missing where no heading holds the course.
+    yaw: Option<f64>,
     slip_ratio: f64,
     sinkage: f64,
     energy_per_metre: f64,
 }
 
 /// One sample: the numbers of its curve that the bands need.
-struct Sample {
+#[derive(Clone)]
+struct OfSample {
+    /// Missing where the rover cannot drive on level ground.
     limit: Option<f64>,
-    on_slopes: Vec<Option<Kept>>,
+    on_slopes: Vec<Kept>,
 }
 
 impl HeadingBand {
-    /// Follows the curve of each soil; `study.soil` is not used. The samples are shared among
-    /// threads and keep their order: the result is the same for any number of threads.
+    /// Follows the curve of contour traverses of each sample; `study.soil` and `study.theory` are not used. The
+    /// samples are shared among threads and keep their order: the result is the same for any number of
+    /// threads.
     ///
     /// Between which bounds is the heading offset that holds the contour on 10°, in sand that is known
-    /// only roughly?
+    /// only roughly, if the source paper's model is right?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
+    /// use grouser::studies::ensemble::samples::BandInputs;
     /// use grouser::studies::heading::HeadingStudy;
     /// use grouser::studies::heading_band::HeadingBand;
     /// use grouser::units::deg;
     ///
-    /// let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"])?;
+    /// let overrides =
+    ///     Overrides::parse(["scenario.soil=toyoura-uncertain", "scenario.model=ishigami"])?;
     /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?;
-    /// let soils = scenario.uncertain.expect("it is uncertain").draws(7, 50)?;
+    /// let samples = BandInputs::of_scenario(&scenario).samples(7, 50)?;
     /// let study = HeadingStudy::of(&scenario.value);
-    /// let band = HeadingBand::of(&study, &soils, &[deg(10.0)], &|| true)?.expect("not stopped");
+    /// let band = HeadingBand::of(&study, &samples, &[deg(10.0)], &|| true)?.expect("not stopped");
     /// let yaw = band.slopes[0].yaw.expect("some samples hold the contour");
     /// assert_eq!(format!("{:.1}°", yaw.low.to_degrees()), "2.2°");
     /// assert_eq!(format!("{:.1}°", yaw.high.to_degrees()), "11.4°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
-    /// * `soils`: one for each sample; at least one
+    /// * `samples`: at least one
     /// * `slopes`: [rad]
-    /// * `go_on`: asked before each soil, from any thread; without it there is no result
+    /// * `go_on`: asked before each curve, from any thread; without it there is no result
     ///
     /// # Errors
     /// [`ParameterError`] for the first invalid soil.
     ///
     /// # Panics
-    /// If there are no soils.
+    /// If there are no samples.
     pub fn of(
         study: &HeadingStudy,
-        soils: &[Soil],
+        samples: &[Sample],
         slopes: &[f64],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
-        assert!(!soils.is_empty(), "a band needs samples");
-        let one = |soil: &Soil| {
-            let curve = HeadingStudy { soil: *soil, ..study.clone() }.curve()?;
-            Ok(Sample::of(&curve, study, slopes))
-        };
-        let Some(samples) = outputs_while(soils, go_on, one) else { return Ok(None) };
-        // Collected in order, so that the error is always that of the first soil.
-        let samples = samples.into_iter().collect::<Result<Vec<Sample>, ParameterError>>()?;
-        Ok(Some(Self::over(&samples, slopes)))
+        Self::on_course(study, 0.0, samples, slopes, go_on)
     }
 
-    fn over(samples: &[Sample], slopes: &[f64]) -> Self {
-        let limits: Vec<f64> = samples.iter().filter_map(|sample| sample.limit).collect();
+    /// The same on another course, *χ* [rad], −π/2 to π/2, positive uphill.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of), and for a course out of its range.
+    ///
+    /// # Panics
+    /// As [`of`](Self::of).
+    pub fn on_course(
+        study: &HeadingStudy,
+        course: f64,
+        samples: &[Sample],
+        slopes: &[f64],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Self>, ParameterError> {
+        assert!(!samples.is_empty(), "a band needs samples");
+        let one = |sample: &Sample| {
+            let curve = study.of_sample(sample).curve_on(course)?;
+            Ok(OfSample::of(&curve, &study.rover, slopes))
+        };
+        let Some(all) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
+        // Collected in order, so that the error is always that of the first soil.
+        let all = all.into_iter().collect::<Result<Vec<OfSample>, ParameterError>>()?;
+        Ok(Some(Self::over(&all, slopes)))
+    }
+
+    fn over(samples: &[OfSample], slopes: &[f64]) -> Self {
         let slopes = slopes.iter().enumerate().map(|(place, slope)| {
-            let kept: Vec<Kept> =
-                samples.iter().filter_map(|sample| sample.on_slopes[place]).collect();
-            let band = |quantity: fn(&Kept) -> f64| Band::of(kept.iter().map(quantity));
+            let kept = || samples.iter().map(|sample| &sample.on_slopes[place]);
+            let yaws: Vec<f64> = kept().filter_map(|kept| kept.yaw).collect();
             SlopeBand {
                 slope: *slope,
-                level: Probability { successes: kept.len(), trials: samples.len() },
-                yaw: band(|kept| kept.yaw),
-                slip_ratio: band(|kept| kept.slip_ratio),
-                sinkage: band(|kept| kept.sinkage),
-                energy_per_metre: band(|kept| kept.energy_per_metre),
+                level: Probability { successes: yaws.len(), trials: samples.len() },
+                yaw: Band::of(yaws),
+                slip_ratio: Band::of(kept().map(|kept| kept.slip_ratio)),
+                sinkage: Band::of(kept().map(|kept| kept.sinkage)),
+                energy_per_metre: Band::of(kept().map(|kept| kept.energy_per_metre)),
             }
         });
+        let mobile = samples.iter().filter(|sample| sample.limit.is_some()).count();
         Self {
             slopes: slopes.collect(),
-            mobile: Probability { successes: limits.len(), trials: samples.len() },
-            limit: Band::of(limits),
+            mobile: Probability { successes: mobile, trials: samples.len() },
+            limit: Band::of(samples.iter().map(|sample| sample.limit.unwrap_or(0.0))),
         }
     }
 }
 
-impl Sample {
-    fn of(curve: &HeadingCurve, study: &HeadingStudy, slopes: &[f64]) -> Self {
-        let keep = |heading: HeadingOffset| Kept {
-            yaw: heading.yaw,
-            slip_ratio: heading.slip_ratio,
-            sinkage: heading.mean_sinkage(),
-            energy_per_metre: heading.energy_per_metre(&study.rover),
-        };
+impl HeadingStudy {
+    /// The study with a sample's soil and model.
+    #[must_use]
+    pub fn of_sample(&self, sample: &Sample) -> Self {
+        Self { soil: sample.soil, theory: sample.theory, ..self.clone() }
+    }
+}
+
+impl OfSample {
+    fn of(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Self {
         let on_slope = |slope: &f64| match curve.at(*slope) {
-            Ok(heading) => Some(keep(heading)),
-            Err(NoHeading::CannotMove(_) | NoHeading::TooSteep { .. }) => None,
+            Ok(heading) => Kept::of(&heading, rover),
+            Err(
+                NoHeading::CannotMove(_)
+                | NoHeading::TooSteep { .. }
+                | NoHeading::GroundStrength { .. },
+            ) => Kept::stuck(rover),
         };
         Self {
             limit: curve.limit().ok().map(|(slope, _)| slope),
             on_slopes: slopes.iter().map(on_slope).collect(),
         }
+    }
+}
+
+impl Kept {
+    fn of(heading: &HeadingOffset, rover: &Rover) -> Self {
+        Self {
+            yaw: Some(heading.yaw),
+            slip_ratio: heading.slip_ratio,
+            sinkage: heading.mean_sinkage(),
+            energy_per_metre: heading.energy_per_metre(rover),
+        }
+    }
+
+    /// No heading holds the course: the wheels turn on the spot, and dig in down to their axles.
+    fn stuck(rover: &Rover) -> Self {
+        let sinkage = rover.mean_axle_height();
+        Self { yaw: None, slip_ratio: 1.0, sinkage, energy_per_metre: f64::INFINITY }
     }
 }

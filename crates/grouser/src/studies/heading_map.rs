@@ -5,7 +5,10 @@
 
 use rayon::prelude::*;
 
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
+use super::ensemble::samples::Sample;
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
+use super::heading_band::HeadingBand;
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 
 /// Heading offsets over slope, course and soil.
@@ -26,8 +29,12 @@ pub struct HeadingRow {
     pub course: f64,
     /// The steepest slope on which a heading holds the course [rad], and what ends the curve there.
     pub limit: Result<(f64, String), NoHeading>,
+    /// Whether the wheels or the ground end the curve; nothing where the rover cannot move.
+    pub limited_by: Option<LimitedBy>,
     /// The heading offset on each slope, or why no heading holds the course.
     pub cells: Vec<Result<HeadingOffset, NoHeading>>,
+    /// The flags of each.
+    pub findings: Vec<Vec<Finding>>,
     /// How many wheels were settled for the row.
     pub settled_wheels: u64,
 }
@@ -81,15 +88,45 @@ impl HeadingMap {
     }
 }
 
+impl HeadingMap {
+    /// Bands of each row over the samples of its soil, in the order of the rows; `None` if `go_on` was false before the
+    /// end.
+    ///
+    /// * `samples`: of each study, at least one
+    /// * `go_on`: asked before each curve, from any thread
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first invalid soil.
+    ///
+    /// # Panics
+    /// If a study has no samples.
+    pub fn bands(
+        &self,
+        studies: &[HeadingStudy],
+        samples: &[Vec<Sample>],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<HeadingBand>>, ParameterError> {
+        let band = |row: &HeadingRow| {
+            let (study, samples) = (&studies[row.study], &samples[row.study]);
+            HeadingBand::on_course(study, row.course, samples, &self.slopes, go_on)
+        };
+        self.rows.iter().map(band).collect::<Result<Option<Vec<_>>, _>>()
+    }
+}
+
 impl HeadingRow {
     fn of(study: usize, curve: &HeadingCurve, slopes: &[f64]) -> Self {
         let cells: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
+        let findings = slopes.iter().zip(&cells).map(|(slope, cell)| curve.findings(*slope, cell));
+        let findings = findings.collect();
         let asked: u64 = cells.iter().flatten().map(|heading| heading.settled_wheels).sum();
         Self {
             study,
             course: curve.course(),
             limit: curve.limit().map(|(slope, reason)| (slope, reason.to_owned())),
+            limited_by: curve.limited_by(),
             cells,
+            findings,
             settled_wheels: curve.settled_wheels() + asked,
         }
     }

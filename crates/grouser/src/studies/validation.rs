@@ -1,8 +1,15 @@
 //! Errors of a wheel–soil model against measured wheel tests: every trial is predicted at its own load and
 //! motion, averaged over the trials of a cell, and compared over cells of equal weight.
 
+mod errors;
+mod yardstick;
+
 use rayon::prelude::*;
 
+use self::errors::root_mean_square;
+pub use self::errors::{Aim, Comparison, Errors, mean_score};
+pub use self::yardstick::{Placed, Yardstick};
+use crate::contact::validity::{self, Finding, Situation};
 use crate::contact::{SettleError, Settled, Theory};
 use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
@@ -27,7 +34,7 @@ use crate::wheel::Wheel;
 ///
 /// let validation = ValidationStudy {
 ///     tests: &tests,
-///     wheel: smooth.wheel.value,
+///     wheel: smooth.tested.wheel().expect("it is a wheel test").value,
 ///     soil: smooth.soils[0].1.value,
 ///     theory: Theory::SmallWheel,
 ///     gravity: data_set.gravity,
@@ -66,6 +73,8 @@ pub struct Validation {
     pub skid: Option<Group>,
     /// The errors of all cells.
     pub overall: Group,
+    /// The errors of predictions without physics, of those yardsticks that the set allows.
+    pub references: Vec<Reference>,
 }
 
 /// A cell's means.
@@ -87,21 +96,8 @@ pub struct CellComparison {
     pub unsettled: usize,
     /// Each quantity's means; `None` where it was not measured, or not in a trial that settles.
     pub quantities: PerQuantity<Option<Comparison>>,
-}
-
-/// Means of one quantity over the trials of a cell, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Comparison {
-    /// Measured.
-    pub measured: f64,
-    /// Predicted, over the same trials.
-    pub predicted: f64,
-    /// Number of trials that they are over.
-    pub trials: usize,
-    /// Standard deviation between the measured trials; `None` for a single one.
-    pub repeatability: Option<f64>,
-    /// Standard deviation within a trial, root mean square over those that recorded it.
-    pub scatter: Option<f64>,
+    /// The flags of its trials together.
+    pub findings: Vec<Finding>,
 }
 
 /// Cells judged together.
@@ -121,21 +117,17 @@ pub struct Group {
     pub errors: PerQuantity<Option<Errors>>,
 }
 
-/// Errors of one quantity over cells of equal weight, in SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    /// Root mean square of prediction − measurement.
-    pub rmse: f64,
-    /// Mean of prediction − measurement.
-    pub bias: f64,
-    /// Coefficient of determination, R² [-]: 1 − Σ error²/Σ (measured − mean)². `None` where the
-    /// measured values do not differ.
-    pub r2: Option<f64>,
-    /// Standard deviation between repeated trials, pooled over the cells. A model whose errors
-    /// are as small agrees with the experiment as well as the experiment repeats.
-    pub repeatability: Option<f64>,
-    /// Number of cells that have the quantity.
-    pub cells: usize,
+/// The errors of predictions without physics.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// How they were predicted.
+    pub yardstick: Yardstick,
+    /// The errors of all driven cells, where there are any.
+    pub driven: Option<Group>,
+    /// The errors of all skidding cells, where there are any.
+    pub skid: Option<Group>,
+    /// The errors of all cells.
+    pub overall: Group,
 }
 
 impl ValidationStudy<'_> {
@@ -145,7 +137,31 @@ impl ValidationStudy<'_> {
         let predict = |trial: &crate::studies::measurement::Trial| {
             trial.predict(self.theory, &self.wheel, &self.soil, self.gravity)
         };
-        Validation::of(self.tests, self.tests.trials.par_iter().map(predict).collect())
+        let predictions = self.tests.trials.par_iter().map(predict).collect();
+        let mut validation = Validation::of(self.tests, predictions);
+        for (cell, comparison) in self.tests.cells.iter().zip(&mut validation.cells) {
+            let trials = cell
+                .trials
+                .iter()
+                .map(|&trial| self.situation(trial, validation.predictions[trial].as_ref().ok()));
+            comparison.findings = validity::union(trials);
+        }
+        validation
+    }
+
+    /// What the rules of validity look at in a trial.
+    fn situation<'a>(&'a self, trial: usize, settled: Option<&'a Settled>) -> Situation<'a> {
+        let trial = &self.tests.trials[trial];
+        Situation {
+            theory: self.theory,
+            wheel: &self.wheel,
+            soil: &self.soil,
+            gravity: self.gravity,
+            slope: 0.0,
+            load: Some(trial.load),
+            slip: Some(trial.slip),
+            settled,
+        }
     }
 }
 
@@ -166,25 +182,76 @@ impl Validation {
                 group(&cells, |it| it.slip_angle == angle && it.driven == driven)
                     .map(|group| Group { slip_angle: Some(angle), driven: Some(driven), ..group })
             });
-        let of_kind = |driven| {
-            group(&cells, |it| it.driven == driven)
-                .map(|group| Group { driven: Some(driven), ..group })
-        };
         Self {
             groups: groups.collect(),
-            driven: of_kind(true),
-            skid: of_kind(false),
+            driven: of_kind(&cells, true),
+            skid: of_kind(&cells, false),
             overall: group(&cells, |_| true).unwrap_or_else(Group::empty),
+            references: Yardstick::ALL.into_iter().filter_map(|it| reference(tests, it)).collect(),
             cells,
             predictions,
         }
     }
 }
 
+/// The errors of driven, or of skidding cells, where there are any.
+fn of_kind(cells: &[CellComparison], driven: bool) -> Option<Group> {
+    group(cells, |it| it.driven == driven).map(|group| Group { driven: Some(driven), ..group })
+}
+
+/// The errors of a prediction without physics; `None` if it predicts no cell.
+fn reference(tests: &WheelTests, yardstick: Yardstick) -> Option<Reference> {
+    let mut cells: Vec<CellComparison> =
+        tests.cells.iter().map(|cell| measured_alone(tests, cell)).collect();
+    for quantity in Quantity::ALL {
+        let places = cells.iter().enumerate().filter_map(|(place, cell)| {
+            let it = cell.quantities[quantity]?;
+            Some((
+                place,
+                Placed { series: cell.slip_angle, x: cell.total_slip, value: it.measured },
+            ))
+        });
+        let (places, placed): (Vec<usize>, Vec<Placed>) = places.unzip();
+        for (place, predicted) in places.into_iter().zip(yardstick.predict(&placed)) {
+            let it = &mut cells[place].quantities[quantity];
+            *it = it.zip(predicted).map(|(it, predicted)| Comparison { predicted, ..it });
+        }
+    }
+    let overall = group(&cells, |_| true)?;
+    Quantity::ALL.into_iter().any(|it| overall.errors[it].is_some()).then(|| Reference {
+        yardstick,
+        driven: of_kind(&cells, true),
+        skid: of_kind(&cells, false),
+        overall,
+    })
+}
+
+/// A cell beside its predictions.
 fn compare(
     tests: &WheelTests,
     cell: &Cell,
     predictions: &[Result<Settled, SettleError>],
+) -> CellComparison {
+    let predicted = |trial: usize, quantity: Quantity| {
+        predictions[trial].as_ref().ok().map(|settled| quantity.of(settled))
+    };
+    let unsettled = cell.trials.iter().filter(|&&trial| predictions[trial].is_err()).count();
+    CellComparison { unsettled, ..beside(tests, cell, &predicted) }
+}
+
+/// A cell with its measurements, each in place of its prediction.
+fn measured_alone(tests: &WheelTests, cell: &Cell) -> CellComparison {
+    let as_measured = |trial: usize, quantity: Quantity| {
+        tests.trials[trial].readings[quantity].map(|reading| reading.value)
+    };
+    beside(tests, cell, &as_measured)
+}
+
+/// * `predicted`: the prediction of a quantity of a trial, where there is one
+fn beside(
+    tests: &WheelTests,
+    cell: &Cell,
+    predicted: &dyn Fn(usize, Quantity) -> Option<f64>,
 ) -> CellComparison {
     let loads = cell.trials.iter().map(|&trial| tests.trials[trial].load);
     CellComparison {
@@ -194,21 +261,21 @@ fn compare(
         total_slip: cell.total_slip,
         driven: cell.is_driven(),
         trials: cell.trials.len(),
-        unsettled: cell.trials.iter().filter(|&&trial| predictions[trial].is_err()).count(),
-        quantities: PerQuantity::from_fn(|quantity| means(tests, cell, predictions, quantity)),
+        unsettled: 0,
+        quantities: PerQuantity::from_fn(|quantity| means(tests, cell, predicted, quantity)),
+        findings: Vec::new(),
     }
 }
 
+/// * `predicted`: the prediction of a quantity of a trial, where there is one
 fn means(
     tests: &WheelTests,
     cell: &Cell,
-    predictions: &[Result<Settled, SettleError>],
+    predicted: &dyn Fn(usize, Quantity) -> Option<f64>,
     quantity: Quantity,
 ) -> Option<Comparison> {
     let pairs = cell.trials.iter().filter_map(|&trial| {
-        let reading = tests.trials[trial].readings[quantity]?;
-        let settled = predictions[trial].as_ref().ok()?;
-        Some((reading, quantity.of(settled)))
+        Some((tests.trials[trial].readings[quantity]?, predicted(trial, quantity)?))
     });
     let pairs: Vec<_> = pairs.collect();
     let mean = |values: &dyn Fn(usize) -> f64| {
@@ -232,15 +299,18 @@ fn means(
 /// The errors of the cells that belong to a group, if there are any.
 fn group(cells: &[CellComparison], belongs: impl Fn(&CellComparison) -> bool) -> Option<Group> {
     let members: Vec<&CellComparison> = cells.iter().filter(|cell| belongs(cell)).collect();
+    let load = members.iter().map(|cell| cell.load).sum::<f64>() / members.len() as f64;
+    let unsettled = members.iter().map(|cell| cell.unsettled).sum();
     (!members.is_empty()).then(|| Group {
         slip_angle: None,
         driven: None,
         cells: members.len(),
         trials: members.iter().map(|cell| cell.trials).sum(),
-        unsettled: members.iter().map(|cell| cell.unsettled).sum(),
+        unsettled,
         errors: PerQuantity::from_fn(|quantity| {
             let of_cells = members.iter().filter_map(|cell| cell.quantities[quantity]);
-            Errors::of(&of_cells.collect::<Vec<_>>())
+            let errors = Errors::of(&of_cells.collect::<Vec<_>>())?;
+            Some(errors.with_aim_for(quantity, load, unsettled == 0))
         }),
     })
 }
@@ -250,36 +320,11 @@ impl Group {
         let errors = PerQuantity::default();
         Self { slip_angle: None, driven: None, cells: 0, trials: 0, unsettled: 0, errors }
     }
-}
 
-impl Errors {
-    fn of(comparisons: &[Comparison]) -> Option<Self> {
-        let errors: Vec<f64> = comparisons.iter().map(|it| it.predicted - it.measured).collect();
-        let rmse = root_mean_square(&errors)?;
-        let count = errors.len() as f64;
-        let mean = comparisons.iter().map(|it| it.measured).sum::<f64>() / count;
-        let spread: f64 = comparisons.iter().map(|it| (it.measured - mean).powi(2)).sum();
-        Some(Self {
-            rmse,
-            bias: errors.iter().sum::<f64>() / count,
-            r2: (spread > 0.0).then(|| 1.0 - count * rmse * rmse / spread),
-            repeatability: pooled(comparisons),
-            cells: errors.len(),
-        })
+    /// The score: each quantity's error over the standard deviation of what was measured, averaged
+    /// over the measured quantities [-]. 0 is perfect, 1 no better than the mean.
+    #[must_use]
+    pub fn score(&self) -> Option<f64> {
+        mean_score(Quantity::ALL.into_iter().filter_map(|it| self.errors[it]?.score()))
     }
-}
-
-/// The standard deviation between trials, over cells weighted by their degrees of freedom.
-fn pooled(comparisons: &[Comparison]) -> Option<f64> {
-    let repeated = comparisons.iter().filter_map(|it| {
-        it.repeatability.map(|deviation| (deviation * deviation, (it.trials - 1) as f64))
-    });
-    let (squares, freedom) = repeated
-        .fold((0.0, 0.0), |(squares, all), (variance, own)| (squares + variance * own, all + own));
-    (freedom > 0.0).then(|| (squares / freedom).sqrt())
-}
-
-fn root_mean_square(values: &[f64]) -> Option<f64> {
-    let squares: f64 = values.iter().map(|value| value * value).sum();
-    (!values.is_empty()).then(|| (squares / values.len() as f64).sqrt())
 }

@@ -1,6 +1,7 @@
 //! The single-wheel test stand: forces, torque and sinkage over load, slip ratio and slip angle
 //! ([FourWheel], section 4 and Fig. 7).
 
+use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
 use crate::soil::Soil;
 use crate::wheel::Wheel;
@@ -50,7 +51,7 @@ pub struct WheelTest {
 }
 
 /// One setting of the test stand, and its result.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WheelTestRow {
     /// Load [N].
     pub load: f64,
@@ -60,6 +61,8 @@ pub struct WheelTestRow {
     pub slip_ratio: f64,
     /// The settled wheel, or why it does not settle.
     pub result: Result<Settled, SettleError>,
+    /// Why the row is an extrapolation.
+    pub findings: Vec<Finding>,
 }
 
 impl WheelTest {
@@ -85,6 +88,17 @@ impl WheelTest {
             gravity: self.gravity,
         };
         let result = settle(self.theory.model(), &contact, load);
-        WheelTestRow { load, slip_angle, slip_ratio, result }
+        let situation = Situation {
+            theory: self.theory,
+            wheel: &self.wheel,
+            soil: &self.soil,
+            gravity: self.gravity,
+            slope: 0.0,
+            load: Some(load),
+            slip: Some(contact.slip),
+            settled: result.as_ref().ok(),
+        };
+        let findings = situation.findings();
+        WheelTestRow { load, slip_angle, slip_ratio, result, findings }
     }
 }

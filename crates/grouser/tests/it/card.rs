@@ -1,9 +1,11 @@
 //! The operator's card: its numbers, its bands and its verdicts.
 
+use grouser::contact::Theory;
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
 use grouser::studies::card::{Card, CardStudy, Rule, Verdict};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::HeadingStudy;
 use grouser::units::deg;
@@ -20,7 +22,8 @@ fn scenario() -> LoadedScenario {
 
 fn study() -> CardStudy {
     let heading = HeadingStudy::of(&scenario().value);
-    CardStudy { heading, rim_speed: given::RIM_SPEED, rule: Rule::DEFAULT }
+    let (rim_speed, rule) = (given::RIM_SPEED, Rule::DEFAULT);
+    CardStudy { heading, rim_speed, rule, is_soil_uncertain: true }
 }
 
 fn soils(count: u64) -> Vec<Soil> {
@@ -33,7 +36,9 @@ fn slopes(to: u32) -> Vec<f64> {
 }
 
 fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
-    study.card(soils, slopes, &|| ()).expect("rule, slopes and soils are in order")
+    let sample = |soil: &Soil| Sample { soil: *soil, theory: study.heading.theory };
+    let samples: Vec<Sample> = soils.iter().map(sample).collect();
+    study.card(&samples, slopes, &|| ()).expect("rule, slopes and soils are in order")
 }
 
 // ---- What a rover does that is not turned uphill ----
@@ -82,16 +87,17 @@ fn soils_that_do_not_differ_have_no_band() {
         let bands = row.bands.expect("soils were drawn");
         let exactly = |value: Option<f64>| value.map(|v| Band { low: v, median: v, high: v });
         assert_eq!(bands.yaw, exactly(row.level.map(|level| level.yaw)));
-        assert_eq!(bands.slip_ratio, exactly(row.level.map(|level| level.slip_ratio)));
+        let slip = row.level.map_or(1.0, |level| level.slip_ratio);
+        assert_eq!(bands.slip_ratio, exactly(Some(slip)));
         assert_eq!(bands.power, exactly(row.level.map(|level| level.power)));
-        assert_eq!(bands.drift, exactly(row.drift));
+        assert_eq!(bands.drift, exactly(Some(row.drift.unwrap_or(1.0))));
         let successes = if row.level.is_some() { 4 } else { 0 };
         assert_eq!(bands.level, Probability { successes, trials: 4 });
     }
 }
 
 /// The means of the uncertain values make a soil in the middle of the others. (Only where nearly all soils
-/// have an attitude: the band is over those that have.)
+/// have an attitude: the yaw's band is over those that have.)
 #[test]
 fn the_band_contains_the_curve_of_the_mean_soil() {
     let card = card(&study(), &soils(120), &slopes(14));
@@ -113,6 +119,27 @@ fn without_stated_uncertainty_there_is_no_band() {
     let card = card(&study(), &[], &slopes(22));
     assert_eq!((card.draws, card.limit_band), (None, None));
     assert!(card.rows.iter().all(|row| row.bands.is_none()));
+}
+
+/// Models that differ say nothing about the soil: the margin stays, in each of them.
+#[test]
+fn samples_of_models_alone_keep_the_margin() {
+    let study = CardStudy { is_soil_uncertain: false, ..study() };
+    let (soil, slopes) = (study.heading.soil, slopes(30));
+    let of = |theory| Sample { soil, theory };
+    let card = |samples: &[Sample]| study.card(samples, &slopes, &|| ()).expect("in order");
+    let alone = card(&[]);
+    let same = card(&[of(Theory::Ishigami), of(Theory::Ishigami)]);
+    let verdicts = |card: &Card| card.rows.iter().map(|row| row.verdict).collect::<Vec<_>>();
+    assert_eq!(verdicts(&alone), verdicts(&same));
+    // One in two of the models would have to be ignored to go further than the weaker one.
+    let both = card(&[of(Theory::Ishigami), of(Theory::Rft)]);
+    assert_eq!(verdicts(&alone), verdicts(&both));
+    let [weak, strong] = [Theory::Ishigami, Theory::Rft]
+        .map(|theory| HeadingStudy { theory, ..study.heading.clone() }.curve().expect("sand"))
+        .map(|curve| curve.limit().expect("the rover moves").0);
+    let limit = both.limit_band.expect("there are samples");
+    assert!(limit.low >= weak && limit.high <= strong && limit.median > weak, "{limit:?}");
 }
 
 #[test]

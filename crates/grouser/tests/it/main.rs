@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
+mod bands;
 mod calibration;
 mod campaign;
 mod campaign_documents;
@@ -11,6 +12,7 @@ mod examples;
 mod files;
 mod former_names;
 mod given;
+mod ground;
 mod heading_map;
 mod integration;
 mod kernel;
@@ -22,6 +24,7 @@ mod messages;
 mod million;
 mod mounts;
 mod paper;
+mod priors;
 mod reference;
 mod rft;
 mod rover;
@@ -33,3 +36,4 @@ mod time_step;
 mod uncertain_documents;
 mod uncertainty;
 mod units;
+mod validity;

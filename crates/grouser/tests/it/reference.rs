@@ -4,7 +4,8 @@ use grouser::contact::{Contact, Ishigami, Settled, Slip, Theory, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    StressPeak,
 };
 use grouser::studies::comparison::Levelness;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
@@ -53,11 +54,13 @@ fn soil_of(soil: &Value) -> Soil {
             longitudinal: linear("longitudinal"),
             lateral: linear("lateral"),
         },
+        shear_bound: grouser::soil::ShearBound::None,
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
         rft: grouser::soil::Rft::PUBLISHED,
         discrepancy: None,
+        domain: Domain::UNSTATED,
     }
 }
 
@@ -158,6 +161,7 @@ fn hakuto_study(sharing: LoadSharing) -> HeadingStudy {
         theory: Theory::Ishigami,
         sharing,
         own_moments: OwnMoments::Neglected,
+        stability: grouser::soil::SlopeStability::USUAL,
     }
 }
 

@@ -8,9 +8,11 @@ use grouser::units::deg;
 
 use crate::documents::{Folder, changed};
 
+/// Toyoura sand, exact but for this.
 fn toyoura_with(uncertainty: &str) -> String {
     let text = document::preset(Kind::Soil, "toyoura").expect("a preset").text;
-    format!("{text}\n{uncertainty}\n")
+    let exact = text.replacen("\ncohesion_kpa", "\npriors = \"none\"\ncohesion_kpa", 1);
+    format!("{exact}\n{uncertainty}\n")
 }
 
 fn read(text: &str) -> Result<LoadedSoil, DocumentError> {

@@ -2,8 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use grouser::contact::Theory;
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::soil::{Exit, Soil};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::ensemble::{
     Band, Contradiction, Correlation, Distribution, Marginal, Probability,
 };
@@ -276,9 +278,14 @@ fn soils(count: u64) -> Vec<Soil> {
     (0..count).map(|index| uncertain.draw(SEED, index).expect("it can be drawn")).collect()
 }
 
+/// Soils in the source paper's model.
+fn samples(soils: &[Soil]) -> Vec<Sample> {
+    soils.iter().map(|soil| Sample { soil: *soil, theory: Theory::Ishigami }).collect()
+}
+
 fn band(soils: &[Soil], slopes: &[f64]) -> HeadingBand {
     let study = HeadingStudy::of(&scenario().value);
-    let band = HeadingBand::of(&study, soils, slopes, &|| true);
+    let band = HeadingBand::of(&study, &samples(soils), slopes, &|| true);
     band.expect("they are soils").expect("nobody broke it off")
 }
 
@@ -296,7 +303,11 @@ fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
     let band = band(&vec![scenario.value.site.terrain.soil; 5], &slopes());
     for on_slope in &band.slopes {
         match curve.at(on_slope.slope) {
-            Err(_) => assert_eq!((on_slope.level.successes, on_slope.yaw), (0, None)),
+            Err(_) => {
+                assert_eq!((on_slope.level.successes, on_slope.yaw), (0, None));
+                let stuck = Band { low: 1.0, median: 1.0, high: 1.0 };
+                assert_eq!(on_slope.slip_ratio, Some(stuck));
+            }
             Ok(attitude) => {
                 let exactly = |value| Some(Band { low: value, median: value, high: value });
                 assert_eq!(on_slope.level, Probability { successes: 5, trials: 5 });
@@ -326,8 +337,11 @@ fn the_band_is_that_of_the_curves_one_by_one() {
             curves.iter().filter_map(|curve| Some(curve.at(on_slope.slope).ok()?.yaw)).collect();
         assert_eq!(on_slope.level, Probability { successes: yaws.len(), trials: 12 });
         assert_eq!(on_slope.yaw, Band::of(yaws));
+        let slips = curves.iter().map(|curve| curve.at(on_slope.slope));
+        let slips = slips.map(|found| found.map_or(1.0, |heading| heading.slip_ratio));
+        assert_eq!(on_slope.slip_ratio, Band::of(slips));
     }
-    let limits = curves.iter().filter_map(|curve| Some(curve.limit().ok()?.0));
+    let limits = curves.iter().map(|curve| curve.limit().map_or(0.0, |(slope, _)| slope));
     assert_eq!(band.limit, Band::of(limits));
 }
 
@@ -349,14 +363,14 @@ fn every_draw_is_told_when_it_is_done() {
         true
     };
     let study = HeadingStudy::of(&scenario().value);
-    HeadingBand::of(&study, &soils(7), &[deg(5.0)], &count).expect("they are soils");
+    HeadingBand::of(&study, &samples(&soils(7)), &[deg(5.0)], &count).expect("they are soils");
     assert_eq!(done.into_inner(), 7);
 }
 
 #[test]
 fn a_study_that_is_broken_off_has_no_result() {
     let study = HeadingStudy::of(&scenario().value);
-    let broken_off = HeadingBand::of(&study, &soils(7), &[deg(5.0)], &|| false);
+    let broken_off = HeadingBand::of(&study, &samples(&soils(7)), &[deg(5.0)], &|| false);
     assert_eq!(broken_off.expect("they are soils"), None);
 }
 
@@ -370,6 +384,15 @@ fn soils_that_do_not_carry_the_rover_count_against_it() {
     let band = band(&[good, slick, good, slick], &[deg(5.0)]);
     assert_eq!(band.slopes[0].level, Probability { successes: 2, trials: 4 });
     assert_eq!(band.mobile, Probability { successes: 2, trials: 4 });
+    // None is left out: half of the samples do not get on, on any slope.
+    assert_eq!(band.limit.expect("there are samples").low, 0.0);
+    let slip = band.slopes[0].slip_ratio.expect("there are samples");
+    assert!(slip.low < 0.1 && slip.high == 1.0, "{slip:?}");
+    let wheel = scenario().value.rover.mounts()[0].unit.wheel;
+    let sinkage = band.slopes[0].sinkage.expect("there are samples");
+    assert!((sinkage.high - wheel.shearing_radius()).abs() < 1e-12, "{sinkage:?}");
+    let energy = band.slopes[0].energy_per_metre.expect("there are samples");
+    assert!(energy.low.is_finite() && energy.high == f64::INFINITY, "{energy:?}");
 }
 
 /// A curve that breaks off for want of a solver would count as too steep a slope.
@@ -390,7 +413,7 @@ fn the_first_soil_that_is_none_is_the_error() {
     let bad = |density| Soil { density, ..good };
     let study = HeadingStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];
-    let error = HeadingBand::of(&study, &soils, &[deg(5.0)], &|| true);
+    let error = HeadingBand::of(&study, &samples(&soils), &[deg(5.0)], &|| true);
     let error = error.expect_err("density");
     assert_eq!(error.value, -1.0);
 }

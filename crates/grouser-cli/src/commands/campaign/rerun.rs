@@ -72,6 +72,7 @@ fn value(cell: &Cell) -> Value {
         Cell::Float(value) => json!(value),
         Cell::Whole(value) => json!(value),
         Cell::Text(value) => json!(value),
+        Cell::Words(names) => json!(names),
     }
 }
 

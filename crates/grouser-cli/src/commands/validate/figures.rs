@@ -1,10 +1,11 @@
 //! Charts of a validation: predictions through measured points, and residuals.
 
-use grouser::document::columns::TOTAL_SLIP;
 use grouser::document::columns::fit::{self, column_of};
-use grouser::document::columns::{self, SLIP_ANGLE};
+use grouser::document::columns::slope;
+use grouser::document::columns::{self, COURSE, SLIP_ANGLE, SLIP_RATIO, SLOPE, TOTAL_SLIP, YAW};
 use grouser::document::table::Table;
 use grouser::studies::measurement::Quantity;
+use grouser::studies::slope_validation::SlopeValidation;
 use grouser::studies::validation::Validation;
 
 use crate::chart::{Chart, Series, Style};
@@ -83,6 +84,58 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
         });
     }
     figures
+}
+
+/// For each quantity that was measured: measured and predicted over the slope, a colour for each course.
+pub(super) fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
+    let table = slope::slopes(&validation.points);
+    let figure = |quantity: columns::Quantity| {
+        let measured = quantity.measurement();
+        table.points(SLOPE.name, &measured).next()?;
+        let mut series = Vec::new();
+        for (place, (course, rows)) in by_course(&table).into_iter().enumerate() {
+            let of_course = table.rows_at(&rows);
+            let predicted = of_course.points(SLOPE.name, quantity.name);
+            series.push(Series::new(
+                format!("predicted, course {course}°"),
+                Style::Line,
+                place,
+                predicted,
+            ));
+            let points = of_course.points(SLOPE.name, &measured);
+            series.push(Series::new(
+                format!("measured, course {course}°"),
+                Style::Dots,
+                place,
+                points,
+            ));
+        }
+        let (name, unit) = (quantity.label(), quantity.unit.symbol);
+        Some(Figure {
+            file: name.replace(' ', "-"),
+            chart: Chart {
+                title: format!("{} over slope: measured and predicted", capitalised(&name)),
+                x_label: "slope [°]".into(),
+                y_label: format!("{name} [{unit}]"),
+                series,
+            },
+            caption: "Dots are measured. Where no heading holds a course along or up the slope, the slip counts as 1.",
+        })
+    };
+    [SLIP_RATIO, YAW].into_iter().filter_map(figure).collect()
+}
+
+/// The rows of each course, by slope.
+fn by_course(table: &Table) -> Vec<(f64, Vec<usize>)> {
+    let (slopes, courses) = (table.numbers(SLOPE.name), table.numbers(COURSE.name));
+    let mut rows: Vec<usize> = (0..table.rows()).collect();
+    let place = |row: usize| [courses[row], slopes[row]].map(Option::unwrap_or_default);
+    rows.sort_by(|one, other| {
+        let ([course, slope], [other_course, other_slope]) = (place(*one), place(*other));
+        course.total_cmp(&other_course).then(slope.total_cmp(&other_slope))
+    });
+    let of_one_course = rows.chunk_by(|one, other| place(*one)[0] == place(*other)[0]);
+    of_one_course.map(|rows| (place(rows[0])[0], rows.to_vec())).collect()
 }
 
 const SLIP_LABEL: &str = "slip by the total speed: -1 locked, 0 rolling, 1 spinning";

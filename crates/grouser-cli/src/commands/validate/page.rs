@@ -36,11 +36,14 @@ pub(super) fn html(
          rmse: root mean square of prediction minus measurement. bias: its mean, positive where \
          the model predicts too much. repeatability: standard deviation between the trials of a cell; \
          a model whose rmse is as small agrees as well as the experiment does with itself. r2: 1 is \
-         perfect, 0 no better than the mean of the measured values.",
+         perfect, 0 no better than the mean of the measured values. rmse_share: rmse over the largest \
+         measured value. within_aim: whether that is what a prediction from published constants should \
+         reach. The last rows are predictions without physics: the mean of the set, and interpolation between \
+         the other cells.",
     );
     let groups = groups_and_sums(validation);
     for quantity in Quantity::ALL {
-        let rows = error_rows(&groups, quantity);
+        let rows = error_rows(&groups, validation, quantity);
         if !rows.is_empty() {
             let (name, unit) = (column_of(quantity).label(), column_of(quantity).unit.symbol);
             let caption = format!("Errors of the {name} [{unit}]");
@@ -51,6 +54,7 @@ pub(super) fn html(
     for figure in figures::all(validation) {
         page.drawing(&figure.chart.to_svg(), figure.caption);
     }
+    page.flags(validation.cells.iter().flat_map(|cell| &cell.findings));
     page.heading("Assumptions in force");
     page.list(stand.soil.assumptions.iter().chain(&stand.wheel.assumptions));
     page.to_html()

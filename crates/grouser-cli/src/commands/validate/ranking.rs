@@ -1,37 +1,92 @@
-//! `grouser validate --all`: ranks every model on every data set.
+//! `grouser validate --all`, or on one data set: ranks every model on every part, beside predictions without physics.
 
-use grouser::document::ranking::{RankedTheory, RankingError, rank_all};
-use grouser::document::validation::{ErrorsRecord, GroupRecord};
-use grouser::studies::measurement::Quantity;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use grouser::document::columns::{COURSE, Quantity, SLIP_RATIO, SLOPE, YAW, slope};
+use grouser::document::ranking::{
+    Found, OverAll, RankedTheory, RankedYardstick, Ranking, RankingError, rank_all, rank_one,
+};
+use grouser::document::table::Table;
+use grouser::document::validation::{ErrorsRecord, PartErrors};
+use grouser::document::{Kind, Source, measurements};
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use super::super::Answer;
 use super::figures;
 use crate::args::ValidateArgs;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{aligned, csv_of_nested};
+use crate::output::rows::{aligned, csv, csv_of_nested, four_digits};
 use crate::output::{self, Format};
 
 #[derive(Serialize)]
 struct Results<'a> {
-    rows: &'a [RankedTheory],
+    #[serde(flatten)]
+    ranking: &'a Ranking,
+    /// Of every rover: each slope, measured and predicted.
+    slopes: &'a [Map<String, Value>],
 }
 
-pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
+/// On the data sets of the program, or of a folder.
+pub(super) fn of_all(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let entries = rank_all(args.data_dir.as_deref(), args.read.limits())?;
-    let inputs = json!({ "data_sets": entries.iter().map(|it| &it.data_set).collect::<std::collections::BTreeSet<_>>() });
-    let answer = Answer::new("validate", inputs, Results { rows: &entries });
-    let text = text_of(&entries);
+    write(args, folder, &rank_all(args.data_dir.as_deref(), args.read.limits())?)
+}
+
+/// On one data set: a preset, or a document.
+pub(super) fn of_one(args: &ValidateArgs, data: &Path) -> Result<(), Failure> {
+    const BOTH: &str = "one model is judged with --soil and either --wheel or --rover; a data set by its \
+                        name, or its document (FILE.toml), alone ranks all models";
+    let folder = OutputFolder::for_args(&args.output)?;
+    let of_one_model = [
+        ("--soil", args.soil.is_some()),
+        ("--where", !args.conditions.is_empty()),
+        ("--set", !args.setting.settings.is_empty()),
+        ("--model", args.setting.model.is_some()),
+        ("--gravity-m-s2", args.setting.gravity.is_some()),
+    ];
+    if let Some((flag, _)) = of_one_model.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(Failure::Usage(format!("{flag}: {BOTH}")));
+    }
+    let is_document = data.extension().is_some_and(|extension| extension == "toml");
+    // A misspelt name is answered with the right one.
+    let rows = measurements::Source::find(data)?;
+    let is_preset = matches!(rows, measurements::Source::Preset { .. });
+    if !is_document && !is_preset {
+        return Err(Failure::Usage(format!("--data {}: {BOTH}", data.display())));
+    }
+    let source = Source::find(Kind::DataSet, &data.to_string_lossy())?;
+    write(args, folder, &rank_one(&source, args.read.limits())?)
+}
+
+fn write(
+    args: &ValidateArgs,
+    folder: Option<OutputFolder>,
+    ranking: &Ranking,
+) -> Result<(), Failure> {
+    let names: BTreeSet<&String> = ranking.rows.iter().map(|row| &row.data_set).collect();
+    let inputs = json!({ "data_sets": names });
+    let slopes = slopes(ranking);
+    let answer = Answer::new("validate", inputs, Results { ranking, slopes: &slopes });
+    let text = text_of(ranking);
+    let rows = csv_of_rows(ranking)?;
     if let Some(mut folder) = folder {
         folder.add("ranking.json", answer.to_text());
-        folder.add("ranking.csv", csv_of_nested(&entries)?);
+        folder.add("ranking.csv", rows.clone());
         folder.add("ranking.txt", text.clone());
-        for best in entries.iter().filter(|entry| entry.rank == 1) {
+        if let Some(first) = slopes.first() {
+            let columns: Vec<String> = first.keys().cloned().collect();
+            folder.add("slopes.csv", csv(&columns, slopes.iter())?);
+        }
+        for best in ranking.rows.iter().filter(|entry| entry.rank == 1) {
             let part = slug(&format!("{} {}", best.data_set, best.case));
-            for figure in figures::all(&best.validation) {
+            let figures = match &best.found {
+                Found::Wheel(validation) => figures::all(validation),
+                Found::Slope(validation) => figures::of_slopes(validation),
+            };
+            for figure in figures {
                 folder.add(format!("figures/{part}-{}.svg", figure.file), figure.chart.to_svg());
             }
         }
@@ -39,9 +94,46 @@ pub(super) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     }
     match args.output.format {
         Format::Table => output::print(&text),
-        Format::Csv => output::print(&csv_of_nested(&entries)?),
+        Format::Csv => output::print(&rows),
         Format::Json => output::print_json(&answer),
     }
+}
+
+/// Models, then yardsticks, as CSV.
+fn csv_of_rows(ranking: &Ranking) -> Result<String, Failure> {
+    #[derive(Serialize)]
+    #[serde(untagged)]
+    enum Row<'a> {
+        Model(&'a RankedTheory),
+        Yardstick(&'a RankedYardstick),
+    }
+    let models = ranking.rows.iter().map(Row::Model);
+    let all = models.chain(ranking.yardsticks.iter().map(Row::Yardstick));
+    csv_of_nested(&all.collect::<Vec<_>>())
+}
+
+/// Every slope of every ranked model of a rover.
+fn slopes(ranking: &Ranking) -> Vec<Map<String, Value>> {
+    let of_row = |row: &RankedTheory| {
+        let Found::Slope(validation) = &row.found else { return Vec::new() };
+        let table = slope::slopes(&validation.points);
+        let of_slope = |place: usize| {
+            let place = serde_json::to_value(table.row(place)).unwrap_or_default();
+            let mut all = Map::new();
+            for (key, text) in [
+                ("data_set", row.data_set.as_str()),
+                ("case", &row.case),
+                ("model", row.model),
+                ("soil", &row.soil),
+            ] {
+                all.insert(key.to_owned(), text.into());
+            }
+            all.extend(place.as_object().cloned().unwrap_or_default());
+            all
+        };
+        (0..table.rows()).map(of_slope).collect()
+    };
+    ranking.rows.iter().flat_map(of_row).collect()
 }
 
 /// A name as part of a file's name.
@@ -55,6 +147,7 @@ impl From<RankingError> for Failure {
         match error {
             RankingError::Document(error) => error.into(),
             RankingError::Measurements(error) => error.into(),
+            RankingError::Rover(error) => error.into(),
             RankingError::Unreadable { folder, error } => {
                 Self::at("cannot look into", &folder)(error)
             }
@@ -69,46 +162,190 @@ impl From<RankingError> for Failure {
     }
 }
 
-/// For people: a block for each part of each data set.
-fn text_of(entries: &[RankedTheory]) -> String {
-    let mut blocks = vec![
-        "Root mean square errors over cells: drawbar pull [N] / side force [N] / sinkage [mm]\n\
-         score: 0 is perfect, 1 no better than the mean of what was measured\n"
-            .to_owned(),
-    ];
-    for part in
-        entries.chunk_by(|one, other| (&one.data_set, &one.case) == (&other.data_set, &other.case))
-    {
-        let header = ["rank", "model", "soil", "driven", "all", "score", "no prediction"];
-        let rows: Vec<Vec<String>> = part.iter().map(row).collect();
-        let table = aligned(&header.map(str::to_owned), &rows);
+// ---- For people ----
+
+const LEGEND: &str = "\
+Errors of each quantity: root mean square / mean (prediction minus measurement) / root mean square over the largest
+measured value, and whether that is within the aim.
+score: 0 is perfect, 1 no better than the mean of what was measured. Rows without a rank have no physics in them.
+";
+
+/// A block for each part of each data set, and one for all together.
+fn text_of(ranking: &Ranking) -> String {
+    let mut blocks = vec![LEGEND.to_owned()];
+    let is_same = |one: &RankedTheory, other: &RankedTheory| {
+        (&one.data_set, &one.case) == (&other.data_set, &other.case)
+    };
+    for part in ranking.rows.chunk_by(is_same) {
         let [first, ..] = part else { continue };
-        let repeatability = errors(&first.overall, |it| it.repeatability)
-            .map_or(String::new(), |it| format!("between repeated trials, all cells: {it}\n"));
-        blocks.push(format!("{}, {}\n{table}{repeatability}", first.data_set, first.case));
+        let yardsticks: Vec<&RankedYardstick> = ranking
+            .yardsticks
+            .iter()
+            .filter(|it| (&it.data_set, &it.case) == (&first.data_set, &first.case))
+            .collect();
+        let title = format!("{}, {}\n", first.data_set, first.case);
+        let mut pieces = vec![title, all_cells(part, &yardsticks)];
+        let has_skid = first.driven.as_ref().is_some_and(|driven| {
+            matches!(&first.overall, PartErrors::Wheel(all) if all.0.cells > driven.0.cells)
+        });
+        if has_skid {
+            pieces.extend(["driven cells alone\n".to_owned(), driven_cells(part, &yardsticks)]);
+        }
+        pieces.push(repeatability(&first.overall));
+        pieces.extend([SLIP_RATIO, YAW].map(|quantity| over_slopes(part, quantity)));
+        blocks.push(pieces.concat());
+    }
+    if ranking.models.first().is_some_and(|first| first.scores.len() > 1) {
+        blocks.push(all_parts(&ranking.models));
     }
     blocks.join("\n")
 }
 
-fn row(entry: &RankedTheory) -> Vec<String> {
-    let rmse = |group: &GroupRecord| errors(group, |it| Some(it.rmse));
-    vec![
-        entry.rank.to_string(),
-        entry.model.to_owned(),
-        entry.soil.clone(),
-        entry.driven.as_ref().and_then(rmse).unwrap_or_else(|| "-".to_owned()),
-        rmse(&entry.overall).unwrap_or_else(|| "-".to_owned()),
-        entry.score.map_or("-".to_owned(), |score| format!("{score:.2}")),
-        entry.unsettled_trials.to_string(),
-    ]
+/// Columns of the errors of a part.
+fn header(quantities: &[Quantity]) -> Vec<String> {
+    let names = ["rank", "model", "soil", "score", "no prediction"].map(str::to_owned);
+    names.into_iter().chain(quantities.iter().map(|it| it.name.to_owned())).collect()
 }
 
-/// Three numbers as one cell; torque is named where it was measured.
-fn errors(group: &GroupRecord, of: fn(ErrorsRecord) -> Option<f64>) -> Option<String> {
-    let number = |quantity| {
-        let value = group.errors(quantity).and_then(of);
-        value.map_or("-".to_owned(), |value| format!("{value:.2}"))
+fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> String {
+    let measured = measured_in(yardsticks.iter().map(|it| it.reference.overall.measured()));
+    let models = part.iter().map(|row| {
+        let errors = row.overall.measured();
+        line(named(row), row.score, row.unsettled_trials.to_string(), &errors, &measured)
+    });
+    let references = yardsticks.iter().map(|row| {
+        let names = ["-", row.reference.yardstick, "-"].map(str::to_owned);
+        let errors = row.reference.overall.measured();
+        line(names, row.score, "-".to_owned(), &errors, &measured)
+    });
+    aligned(&header(&measured), &models.chain(references).collect::<Vec<_>>())
+}
+
+fn driven_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> String {
+    let errors = |driven: &Option<_>| {
+        driven
+            .as_ref()
+            .map_or(Vec::new(), |group| PartErrors::Wheel(Clone::clone(group)).measured())
     };
-    let three = [Quantity::DrawbarPull, Quantity::SideForce, Quantity::Sinkage].map(number);
-    three.iter().any(|cell| cell != "-").then(|| three.join(" / "))
+    let measured = measured_in(yardsticks.iter().map(|it| errors(&it.reference.driven)));
+    let models = part.iter().map(|row| {
+        let group = row.driven.as_ref();
+        let unsettled = group.map_or("-".to_owned(), |group| group.0.unsettled.to_string());
+        let score = group.and_then(|group| group.0.score());
+        line(named(row), score, unsettled, &errors(&row.driven), &measured)
+    });
+    let references = yardsticks.iter().map(|row| {
+        let names = ["-", row.reference.yardstick, "-"].map(str::to_owned);
+        let score = row.reference.driven.as_ref().and_then(|group| group.0.score());
+        line(names, score, "-".to_owned(), &errors(&row.reference.driven), &measured)
+    });
+    aligned(&header(&measured), &models.chain(references).collect::<Vec<_>>())
+}
+
+/// The quantities that any of some errors has, in their order.
+fn measured_in(all: impl Iterator<Item = Vec<(Quantity, ErrorsRecord)>>) -> Vec<Quantity> {
+    let mut found = Vec::new();
+    for (quantity, _) in all.flatten() {
+        if !found.contains(&quantity) {
+            found.push(quantity);
+        }
+    }
+    found
+}
+
+fn named(row: &RankedTheory) -> [String; 3] {
+    let fitted = if row.in_sample { " (fitted to these)" } else { "" };
+    [row.rank.to_string(), row.model.to_owned(), format!("{}{fitted}", row.soil)]
+}
+
+fn line(
+    names: [String; 3],
+    score: Option<f64>,
+    no_prediction: String,
+    errors: &[(Quantity, ErrorsRecord)],
+    measured: &[Quantity],
+) -> Vec<String> {
+    let errors = measured.iter().map(|quantity| {
+        let found = errors.iter().find(|(known, _)| known == quantity);
+        found.map_or("-".to_owned(), |(_, errors)| in_brief(errors))
+    });
+    names.into_iter().chain([in_two_digits(score), no_prediction]).chain(errors).collect()
+}
+
+/// `4.21 / +1.30 / 28 % within`.
+fn in_brief(errors: &ErrorsRecord) -> String {
+    let ErrorsRecord { rmse, bias, rmse_share, within_aim, .. } = errors;
+    let share = rmse_share.map_or(String::new(), |share| format!(" / {:.0} %", share * 100.0));
+    let aim = within_aim.map_or("", |is_met| if is_met { " within" } else { " miss" });
+    // What rounds to zero has no sign.
+    let bias = (bias * 100.0).round() / 100.0 + 0.0;
+    format!("{rmse:.2} / {bias:+.2}{share}{aim}")
+}
+
+fn in_two_digits(score: Option<f64>) -> String {
+    score.map_or("-".to_owned(), |score| format!("{score:.2}"))
+}
+
+/// The scatter of the experiment, where it was repeated.
+fn repeatability(overall: &PartErrors) -> String {
+    let of = |(quantity, errors): (Quantity, ErrorsRecord)| {
+        Some(format!("{} {:.2}", quantity.name, errors.repeatability?))
+    };
+    let found: Vec<String> = overall.measured().into_iter().filter_map(of).collect();
+    if found.is_empty() {
+        return String::new();
+    }
+    format!("between repeated trials, all cells: {}\n", found.join(", "))
+}
+
+/// A quantity of a rover, slope by slope: measured, then each model.
+fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> String {
+    let tables: Vec<(String, Table)> = part
+        .iter()
+        .filter_map(|row| match &row.found {
+            Found::Slope(it) => Some((row.model.to_owned(), slope::slopes(&it.points))),
+            Found::Wheel(_) => None,
+        })
+        .collect();
+    let Some((_, first)) = tables.first() else { return String::new() };
+    let measured = first.numbers(&quantity.measurement());
+    if measured.iter().all(Option::is_none) {
+        return String::new();
+    }
+    let number = |value: &Option<f64>| value.map_or("-".to_owned(), four_digits);
+    let line = |name: &str, values: &[Option<f64>]| -> Vec<String> {
+        std::iter::once(name.to_owned()).chain(values.iter().map(number)).collect()
+    };
+    let places = first.numbers(SLOPE.name).iter().zip(first.numbers(COURSE.name));
+    let places = places.map(|(slope, course)| format!("{}°, {}°", number(slope), number(course)));
+    let header: Vec<String> =
+        std::iter::once(format!("{} on slope, course", quantity.name)).chain(places).collect();
+    let models = tables.iter().map(|(model, table)| line(model, table.numbers(quantity.name)));
+    let rows = std::iter::once(line("measured", measured)).chain(models);
+    aligned(&header, &rows.collect::<Vec<_>>())
+}
+
+/// The scores of all models and yardsticks on all parts.
+fn all_parts(models: &[OverAll]) -> String {
+    let name = |one: &OverAll| one.model.or(one.yardstick).unwrap_or("-").to_owned();
+    let header: Vec<String> =
+        std::iter::once("score on".to_owned()).chain(models.iter().map(name)).collect();
+    let parts = models.first().map_or(&[][..], |first| &first.scores);
+    let row = |name: String, of: &dyn Fn(&OverAll) -> String| -> Vec<String> {
+        std::iter::once(name).chain(models.iter().map(of)).collect()
+    };
+    let scores = parts.iter().enumerate().map(|(place, part)| {
+        let name = format!("{}, {}", part.data_set, part.case);
+        row(name, &|one| in_two_digits(one.scores[place].score))
+    });
+    let sums = [
+        row("mean".to_owned(), &|one| in_two_digits(one.score)),
+        row("within the aim".to_owned(), &|one| format!("{} of {}", one.aims_met, one.aims)),
+        row("no prediction".to_owned(), &|one| one.unsettled_trials.to_string()),
+    ];
+    let rows: Vec<Vec<String>> = scores.chain(sums).collect();
+    format!(
+        "All parts, with soils that were not fitted to them; best first, then what has no physics\n{}",
+        aligned(&header, &rows)
+    )
 }

@@ -22,11 +22,12 @@ pub(super) static EXIT: Laws<Exit> = Laws {
                     ONE,
                     0.0..=LARGEST_EXIT_RATIO,
                     "Wheel sinkage ratio, λ",
-                    |law| match law {
+                    |law: &mut Exit| match law {
                         Exit::Ratio(ratio) => Some(ratio),
                         Exit::QuadraticInSlip { .. } => None,
                     },
-                )],
+                )
+                .or_prior()],
             },
         },
         Law {

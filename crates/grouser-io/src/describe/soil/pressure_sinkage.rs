@@ -56,7 +56,8 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                             PressureSinkage::Bekker { k_c, .. } => Some(k_c),
                             PressureSinkage::Reece { .. } => None,
                         },
-                    ),
+                    )
+                    .or_in_thousands("k_c_kn"),
                     number(
                         "k_phi",
                         Unit::si("N/m^(n+2)"),
@@ -66,7 +67,8 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                             PressureSinkage::Bekker { k_phi, .. } => Some(k_phi),
                             PressureSinkage::Reece { .. } => None,
                         },
-                    ),
+                    )
+                    .or_in_thousands("k_phi_kn"),
                     EXPONENT,
                     EXPONENT_PER_SLIP,
                     EXPONENT_PER_SKID,

@@ -150,8 +150,8 @@ impl PlateProblem {
             self.curves.len()
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
-        let theory = self.soil.theory().unwrap_or_default();
-        self.family.fitted(&solved.solution.fit.values, &source, theory, samples)
+        // Plates know no wheel: the soil keeps the model that it was made for, if any.
+        self.family.fitted(&solved.solution.fit.values, &source, self.soil.theory(), samples)
     }
 }
 

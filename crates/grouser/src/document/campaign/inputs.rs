@@ -5,10 +5,12 @@ use serde_json::{Value as Json, json};
 use super::super::error::{DocumentError, Problem};
 use super::super::uncertainty::{Inputs, Stated, Statement};
 use super::super::varied::{Key, NoNumber, Numbers};
-use super::super::{Document, Kind, Misfit, Node, stated_of};
+use super::super::{Document, Kind, Misfit, Node, stated_by_priors, stated_of};
 use super::rows::Base;
+use crate::contact::Theory;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
-use crate::studies::ensemble::{Ensemble, Matrix};
+use crate::studies::ensemble::models::ModelSpread;
+use crate::studies::ensemble::{Distribution, Ensemble, Marginal, Matrix};
 use grouser_io::campaign::{Sampling, Settings, Study};
 
 /// The uncertain inputs, resolved.
@@ -19,16 +21,30 @@ pub(super) struct Prepared {
     /// The factors of sensitivities: the parameters, then the samples as one.
     factors: Vec<String>,
     pub(super) ensemble: Ensemble,
+    /// The models of the runs, if they are drawn; their place is the last of the ensemble's values.
+    models: Option<ModelSpread>,
     /// The document with everything that is uncertain in its own keys.
     pub(super) resolved: Document,
 }
 
 /// The factor that rows of samples are.
 const SAMPLES: &str = "samples";
+/// The factor that the wheel–soil model is.
+const MODEL: &str = "model";
 
 impl Prepared {
     pub(super) fn keys(&self) -> &[Key] {
         &self.keys
+    }
+
+    pub(super) fn has_models(&self) -> bool {
+        self.models.is_some()
+    }
+
+    /// The values of the keys, and the model, if it is drawn.
+    pub(super) fn split<'v>(&self, values: &'v [f64]) -> (&'v [f64], Option<Theory>) {
+        let (keys, place) = values.split_at(self.keys.len());
+        (keys, self.models.as_ref().zip(place.first()).map(|(models, place)| models.at(*place)))
     }
 
     pub(super) fn factors(&self) -> &[String] {
@@ -61,20 +77,34 @@ pub(super) fn prepare(
     };
     let of_soil = if settings.soil_uncertainty { of_soil(document, place, tree)? } else { None };
     let mut statements = Vec::new();
-    if let Some((stated, tree)) = &of_soil {
-        statements.push(Statement { stated, tree, table: "uncertainty.", prefix: "soil." });
+    if let Some(OfSoil { stated, tree, .. }) = &of_soil {
+        let (table, prefix) = ("uncertainty.", SOIL);
+        statements.push(Statement { stated, tree, table, prefix, yields: false });
     }
-    statements.push(Statement { stated: &settings.uncertain, tree, table: "", prefix: "" });
+    let (stated, table, prefix) = (&settings.uncertain, "", "");
+    statements.push(Statement { stated, tree, table, prefix, yields: false });
+    // Last, as what gives way comes after what does not.
+    if let Some(OfSoil { believed, tree, .. }) = &of_soil {
+        let (table, prefix) = ("priors.", SOIL);
+        statements.push(Statement { stated: believed, tree, table, prefix, yields: true });
+    }
     let numbers = StudyNumbers { study: settings.study, base: base.numbers() };
-    let inputs = Inputs::read(&numbers, &statements)?.cut();
+    let mut inputs = Inputs::read(&numbers, &statements)?.cut();
+    let models = models(document, settings, place, tree)?;
+    if models.is_some() {
+        let place = Marginal::Uniform { low: 0.0, high: 1.0 };
+        let place = Distribution::of_marginals(vec![place], &[]).unwrap_or_default();
+        inputs.distribution = inputs.distribution.and(place);
+    }
     check_design(settings, &inputs, tree)?;
     let mut factors: Vec<String> =
         inputs.keys[..inputs.parameters].iter().map(|key| key.path.clone()).collect();
     factors.extend(inputs.samples.as_ref().map(|_| SAMPLES.to_owned()));
+    factors.extend(models.as_ref().map(|_| MODEL.to_owned()));
     let resolved = resolved(document, place, &statements, &inputs);
     let Settings { sampling, runs, seed, sensitivity, .. } = *settings;
     let ensemble = Ensemble::new(sampling, runs, seed, inputs.distribution, sensitivity);
-    Ok((base, Prepared { keys: inputs.keys, factors, ensemble, resolved }))
+    Ok((base, Prepared { keys: inputs.keys, factors, ensemble, models, resolved }))
 }
 
 /// The key of the base that is varied.
@@ -99,19 +129,56 @@ fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError
     Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
 }
 
-/// The uncertainty of the base's own soil, and the soil's tree.
+/// The models of the runs, if they are drawn.
+///
+/// * `place`: the key of the base
+fn models(
+    document: &Document,
+    settings: &Settings,
+    place: &str,
+    tree: &Node,
+) -> Result<Option<ModelSpread>, DocumentError> {
+    if !settings.model_uncertainty {
+        return Ok(None);
+    }
+    if document.theory_at(&format!("{place}.model")).is_some() {
+        let problem = Problem::Conflict("the base names its model, which is then that of all runs");
+        let origin = tree.origin_of("model_uncertainty");
+        return Err(DocumentError::at(origin, problem)
+            .with_hint(format!("leave out `{place}.model` or `model_uncertainty`")));
+    }
+    let made_for = document.theory_at(&format!("{place}.soil.model"));
+    Ok(Some(ModelSpread::all(made_for)))
+}
+
+/// What keys of the base's soil begin with.
+const SOIL: &str = "soil.";
+
+/// The uncertainty of the base's own soil.
+struct OfSoil<'t> {
+    /// What it states.
+    stated: Stated,
+    /// What its priors have besides.
+    believed: Stated,
+    tree: &'t Node,
+}
+
+/// The uncertainty of the base's own soil.
 fn of_soil<'t>(
     document: &Document,
     place: &str,
     tree: &'t Node,
-) -> Result<Option<(Stated, &'t Node)>, DocumentError> {
+) -> Result<Option<OfSoil<'t>>, DocumentError> {
     let soil = document.part(Kind::Soil, &format!("{place}.soil"));
     let entry = tree.entry(place).and_then(|base| base.node.entry("soil"));
     let (Some(soil), Some(entry)) = (soil, entry) else { return Ok(None) };
-    if let Some(stated) = stated_of(&soil, &entry.node)? {
-        return Ok(Some((stated, &entry.node)));
+    let (stated, believed) = (stated_of(&soil, &entry.node)?, stated_by_priors(&soil));
+    if stated.is_some() || !believed.parameters.is_empty() {
+        let stated = stated.unwrap_or_default();
+        return Ok(Some(OfSoil { stated, believed, tree: &entry.node }));
     }
-    let problem = Problem::Conflict("the soil does not say how well it is known");
+    let problem =
+        Problem::Conflict("the soil does not say how well it is known, nor do its priors");
     Err(DocumentError::at(tree.origin_of("soil_uncertainty"), problem)
         .with_hint("its document needs an [uncertainty], as that of toyoura-uncertain".to_owned()))
 }
@@ -149,11 +216,11 @@ fn unused_keys(study: Study) -> &'static [&'static str] {
 }
 
 fn check_design(settings: &Settings, inputs: &Inputs, tree: &Node) -> Result<(), DocumentError> {
-    if inputs.keys.is_empty() {
+    if inputs.distribution.dimensions() == 0 {
         let problem = Problem::MissingKey { key: "parameter".to_owned() };
         return Err(DocumentError::at(&tree.origin, problem).with_hint(
             "name keys with their distributions as [[parameter]], or a file of samples, or set \
-             soil_uncertainty = true"
+             soil_uncertainty = true or model_uncertainty = true"
                 .to_owned(),
         ));
     }
@@ -187,7 +254,7 @@ fn resolved(
     inputs: &Inputs,
 ) -> Document {
     let (mut parameters, mut correlations) = (Vec::new(), Vec::new());
-    for Statement { stated, prefix, .. } in statements {
+    for Statement { stated, prefix, .. } in statements.iter().filter(|it| !it.yields) {
         let table = if prefix.is_empty() { "" } else { &*format!("{place}.soil.uncertainty.") };
         let all = |key: &str| document.get(&format!("{table}{key}")).and_then(Json::as_array);
         for (given, parameter) in all("parameter").into_iter().flatten().zip(&stated.parameters) {
@@ -203,6 +270,22 @@ fn resolved(
             let mut given = given.clone();
             given["between"] = json!(pair.between.each_ref().map(|key| format!("{prefix}{key}")));
             correlations.push(given);
+        }
+    }
+    for Statement { stated, prefix, .. } in statements.iter().filter(|it| it.yields) {
+        for parameter in &stated.parameters {
+            let key = format!("{prefix}{}", parameter.key);
+            let kept = inputs.keys[..inputs.parameters].get(parameters.len());
+            if kept.is_some_and(|kept| kept.path == key) {
+                parameters.push(parameter.to_json(&key));
+            }
+        }
+        let is_kept = |key: &str| inputs.keys[..inputs.parameters].iter().any(|it| it.path == key);
+        for pair in &stated.correlations {
+            let between = pair.between.each_ref().map(|key| format!("{prefix}{key}"));
+            if between.iter().all(|key| is_kept(key)) {
+                correlations.push(json!({ "between": between, "value": pair.value }));
+            }
         }
     }
     document.changed(|keys| {

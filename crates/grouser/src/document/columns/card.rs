@@ -2,13 +2,13 @@
 
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, M_PER_M};
+use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
     Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW,
     quantity, text, whole,
 };
 use crate::studies::card::{Card, CardRow, Verdict};
-use crate::studies::heading::NoHeading;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -30,7 +30,7 @@ struct OnCard<'a> {
     card: &'a Card,
 }
 
-const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
+const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
     [
         SLOPE.given("Slope", |it| Some(it.row.slope)),
         text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
@@ -41,7 +41,9 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
         SLIP_RATIO.maybe("Slip ratio of every wheel at that yaw", |it| {
             it.row.level.map(|level| level.slip_ratio)
         }),
-        SLIP_RATIO.band("The same over the samples", |it| it.row.bands.as_ref()?.slip_ratio),
+        SLIP_RATIO.band("The same over the samples; 1 where no heading holds the contour", |it| {
+            it.row.bands.as_ref()?.slip_ratio
+        }),
         POWER.maybe("Power of the motors at that yaw", |it| it.row.level.map(|level| level.power)),
         POWER.band("The same over the samples", |it| it.row.bands.as_ref()?.power),
         DRIFT.maybe("Drift per metre travelled at yaw 0, positive downhill", |it| it.row.drift),
@@ -52,34 +54,29 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 15] {
             }),
         whole(
             DRAWS_LEVEL,
-            "Samples with a heading that holds the contour: yaw, slip and power are over them",
+            "Samples with a heading that holds the contour: yaw and power are over them",
             |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
         ),
         whole(
             "draws_held",
-            "Samples on which the rover does not slide at yaw 0: drift is over them",
+            "Samples in which the rover does not slide at yaw 0; in others the drift counts as 1",
             |it| it.row.bands.as_ref().map(|bands| bands.held.successes),
         ),
         whole(DRAWS, "All samples", |it| it.card.draws),
         text(STATUS, "`ok`, or why no heading holds the contour on the soil as written", |it| {
             Some(status(it))
         }),
+        flags::flags(|it| flags::names(&it.row.findings)),
     ]
 }
 
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
-    match (&it.row.level, &it.card.limit) {
-        (Some(_), _) => OK.to_owned(),
-        (None, Ok((limit, reason))) => {
-            NoHeading::TooSteep { course: 0.0, limit: *limit, reason: reason.clone() }.to_string()
-        }
-        (None, Err(reason)) => reason.clone(),
-    }
+    it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
 /// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and
-/// missing where no uncertainty is stated.
+/// missing where there are none.
 #[must_use]
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
@@ -89,7 +86,7 @@ pub fn table(card: &Card) -> Table {
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name]
+    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name, FLAGS]
         .map(String::from)
         .into()
 }
@@ -103,7 +100,8 @@ pub fn bands_brief() -> Vec<String> {
         high
     });
     let [slope, verdict, level] = [SLOPE.name, VERDICT, PROBABILITY_LEVEL.name].map(String::from);
-    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level]
+    let flags = FLAGS.to_owned();
+    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level, flags]
 }
 
 /// How many samples the card has, and the steepest slope: one row.

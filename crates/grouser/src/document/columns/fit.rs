@@ -2,6 +2,7 @@
 
 use super::super::measurements::Measurements;
 use super::super::table::Table;
+use super::flags;
 use super::{
     Column, DRAWBAR_PULL, LOAD, OK, Quantity, RIM_SPEED_SETTING, SIDE_FORCE, SINKAGE, SLIP_ANGLE,
     SLIP_RATIO, STATUS, TORQUE, TOTAL_SLIP, text, whole,
@@ -34,6 +35,12 @@ const CELL: [Column<CellComparison>; 7] = [
     }),
 ];
 
+/// The columns that tell cells apart.
+pub const SETTINGS: [&str; 2] = [SLIP_ANGLE.name, TOTAL_SLIP.name];
+
+/// Why a cell is an extrapolation.
+const FLAGS: [Column<CellComparison>; 1] = [flags::flags(|it| flags::names(&it.findings))];
+
 /// Means over a cell: measured, the standard deviation between the trials or within a single one, and predicted.
 const MEANS: [Column<CellComparison>; 4] = [
     DRAWBAR_PULL.compared("Drawbar pull", |it| means(it, Measured::DrawbarPull)),
@@ -55,7 +62,7 @@ fn means(cell: &CellComparison, measured: Measured) -> [Option<f64>; 3] {
 #[must_use]
 pub fn cells(cells: &[CellComparison]) -> Table {
     let rows: Vec<Option<&CellComparison>> = cells.iter().map(Some).collect();
-    Table::default().and(&CELL, &rows).and(&MEANS, &rows)
+    Table::default().and(&CELL, &rows).and(&MEANS, &rows).and(&FLAGS, &rows)
 }
 
 struct OfTrial<'a> {

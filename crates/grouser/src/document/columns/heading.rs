@@ -3,11 +3,13 @@
 
 use super::super::table::Table;
 use super::super::unit::NM;
+use super::flags::{self, FLAGS};
 use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
 };
-use crate::studies::heading::{HeadingCurve, HeadingOffset, NoHeading};
+use crate::contact::validity::Finding;
+use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
@@ -51,6 +53,7 @@ pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
 struct OnSlope<'a> {
     slope: f64,
     found: &'a Result<HeadingOffset, NoHeading>,
+    findings: &'a [Finding],
     /// Of a map: the soil's name, and its row.
     soil: &'a str,
     row: Option<&'a HeadingRow>,
@@ -60,13 +63,19 @@ const fn slope<'a>() -> [Column<OnSlope<'a>>; 1] {
     [SLOPE.given("Slopes", |it| Some(it.slope))]
 }
 
-const fn status<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [text(STATUS, "`ok`, or why no heading offset holds the course", |it| {
-        Some(it.found.as_ref().map_or_else(ToString::to_string, |_| OK.into()))
-    })]
+const fn status<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        text(STATUS, "`ok`, or why no heading offset holds the course", |it| {
+            Some(it.found.as_ref().map_or_else(ToString::to_string, |_| OK.into()))
+        }),
+        flags::flags(|it| flags::names(it.findings)),
+    ]
 }
 
 const SOIL: &str = "soil";
+
+/// The columns of a map that tell rows apart.
+pub const SETTINGS: [&str; 3] = [SOIL, COURSE.name, SLOPE.name];
 
 /// Columns of a map before the results.
 const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
@@ -79,23 +88,40 @@ const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
 }
 
 /// Columns of a map after the results.
-const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [LIMIT_SLOPE
-        .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
-            it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
-        })]
+const fn limit<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        LIMIT_SLOPE
+            .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
+                it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
+            }),
+        text(LIMITED_BY, WHAT_LIMITS, |it| it.row?.limited_by.map(|by| by.name().to_owned())),
+    ]
+}
+
+/// The flags on each slope [rad].
+#[must_use]
+pub fn findings(curve: &HeadingCurve, slopes: &[f64]) -> Vec<Vec<Finding>> {
+    slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect()
 }
 
 /// A row for each slope [rad]. Results are missing where `status` is not `ok`.
 #[must_use]
 pub fn table(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Table {
     let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
-    let rows = slopes.iter().zip(&found);
-    let rows = rows.map(|(slope, found)| OnSlope { slope: *slope, found, soil: "", row: None });
+    let pairs = slopes.iter().zip(&found);
+    let findings: Vec<_> = pairs.map(|(slope, found)| curve.findings(*slope, found)).collect();
+    let rows = slopes.iter().zip(&found).zip(&findings);
+    let rows = rows.map(|((slope, found), findings)| OnSlope {
+        slope: *slope,
+        found,
+        findings,
+        soil: "",
+        row: None,
+    });
     found_table(Table::default(), &rows.collect::<Vec<_>>(), rover, None)
 }
 
-/// Slope, results and status.
+/// Slope, results, status and flags.
 fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Option<f64>) -> Table {
     let all = rows.iter().map(|row| {
         let heading = row.found.as_ref().ok()?;
@@ -115,7 +141,7 @@ fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Opt
 pub fn brief() -> Vec<String> {
     let [.., yaw_moment] = held();
     let names = [SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE].map(|it| it.name);
-    names.into_iter().chain([yaw_moment.name, STATUS]).map(String::from).collect()
+    names.into_iter().chain([yaw_moment.name, STATUS, FLAGS]).map(String::from).collect()
 }
 
 /// The heading offset over the slope, as points of a chart.
@@ -131,24 +157,30 @@ pub fn curve(curve: &HeadingCurve) -> Table {
 /// The steepest slope, and what ends the curve there: one row.
 #[must_use]
 pub fn steepest(curve: &HeadingCurve) -> Table {
-    type Limit = Result<(f64, String), String>;
-    const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
+    type Limit = (Result<(f64, String), String>, Option<LimitedBy>);
+    const LIMIT: [Column<Limit>; 3] = [
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |(it, _)| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
-        text(LIMIT_REASON, "What ends the curve there", |it| {
+        text(LIMIT_REASON, "What ends the curve there", |(it, _)| {
             Some(it.as_ref().map_or_else(Clone::clone, |(_, reason)| reason.clone()))
         }),
+        text(LIMITED_BY, WHAT_LIMITS, |(_, by)| by.map(|by| by.name().to_owned())),
     ];
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
         Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
+        Err(beyond @ NoHeading::GroundStrength { .. }) => Err(beyond.to_string()),
     };
-    Table::of(&LIMIT, &[limit])
+    Table::of(&LIMIT, &[(limit, curve.limited_by())])
 }
 
 /// What ends a curve.
 pub const LIMIT_REASON: &str = "limit_reason";
+/// The same as one of a few words.
+pub const LIMITED_BY: &str = "limited_by";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`) or the \
+     `range` of slopes";
 
 /// A row for each soil, course and slope of a map.
 ///
@@ -156,14 +188,15 @@ pub const LIMIT_REASON: &str = "limit_reason";
 /// * `rim_speed`: for the power [m/s]
 #[must_use]
 pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f64) -> Table {
-    let cells = |row| {
-        let on_slope = move |(slope, found): (&f64, _)| {
-            let row: &HeadingRow = row;
-            OnSlope { slope: *slope, found, soil: &soils[row.study], row: Some(row) }
-        };
-        map.slopes.iter().zip(&row.cells).map(on_slope).collect::<Vec<_>>()
-    };
-    let rows: Vec<OnSlope<'_>> = map.rows.iter().flat_map(cells).collect();
+    let places = map.rows.iter().flat_map(|row| (0..map.slopes.len()).map(move |at| (row, at)));
+    let rows = places.map(|(row, at)| OnSlope {
+        slope: map.slopes[at],
+        found: &row.cells[at],
+        findings: &row.findings[at],
+        soil: &soils[row.study],
+        row: Some(row),
+    });
+    let rows: Vec<OnSlope<'_>> = rows.collect();
     let all: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
     let table = Table::default().and(&place(), &all);
     found_table(table, &rows, rover, Some(rim_speed)).and(&limit(), &all)
@@ -174,22 +207,23 @@ pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f
 pub fn map_brief() -> Vec<String> {
     let numbers = [COURSE, SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE, POWER];
     let names = numbers.map(|it| it.name);
-    [SOIL].into_iter().chain(names).chain([STATUS]).map(String::from).collect()
+    [SOIL].into_iter().chain(names).chain([STATUS, FLAGS]).map(String::from).collect()
 }
 
-/// Quantiles and probabilities on one slope over samples of an uncertain soil. Quantiles are over the samples with a
-/// heading that holds the contour there, and missing where no sample has one.
+/// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no heading holds the
+/// course counts as slip 1, sunk to the axles and with work without a bound, whose quantiles are missing; it has
+/// no yaw.
 pub const BAND: [Column<SlopeBand>; 7] = [
-    YAW.band("Yaw, positive uphill", |it| it.yaw),
+    YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
     SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
     ENERGY_PER_METRE
         .band("Work of the wheels per metre along the course", |it| it.energy_per_metre),
     PROBABILITY_LEVEL.probability(
-        "Probability that a heading holds the contour: the share of the samples that have one",
+        "Probability that a heading holds the course: the share of the samples that have one",
         |it| Some(it.level),
     ),
-    whole(DRAWS_LEVEL, "Samples with a heading that holds the contour", |it| {
+    whole(DRAWS_LEVEL, "Samples with a heading that holds the course", |it| {
         Some(it.level.successes)
     }),
     whole(DRAWS, "All samples", |it| Some(it.level.trials)),
@@ -205,7 +239,7 @@ pub const DRAWS_MOBILE: &str = "draws_mobile";
 /// Quantiles of the steepest slope over samples.
 pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     LIMIT_SLOPE
-        .band("The steepest slope, over the samples on which the rover can move", |it| it.limit),
+        .band("The steepest slope; 0 in a sample in which the rover cannot move", |it| it.limit),
     whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
@@ -225,6 +259,25 @@ pub fn bands(bands: &[SlopeBand]) -> Table {
     with_bands(Table::of(&PLACE, bands), bands)
 }
 
+/// A map's table with the columns of [`BAND`] and those of [`BAND_LIMIT`] added.
+///
+/// * `bands`: of each row of the map
+#[must_use]
+pub fn map_with_bands(table: Table, bands: &[HeadingBand]) -> Table {
+    let slopes: Vec<_> = bands.iter().flat_map(|band| band.slopes.iter().map(Some)).collect();
+    let limits = bands.iter().flat_map(|band| band.slopes.iter().map(move |_| Some(band)));
+    // How many samples there are stands in the row already.
+    let of_limit = BAND_LIMIT.iter().filter(|column| column.name != DRAWS);
+    table.and(&BAND, &slopes).and(of_limit, &limits.collect::<Vec<_>>())
+}
+
+/// The columns of [`map_with_bands`] for reading.
+#[must_use]
+pub fn map_bands_brief() -> Vec<String> {
+    let place = [SOIL, COURSE.name].map(String::from);
+    place.into_iter().chain(bands_brief()).collect()
+}
+
 /// Quantiles of the steepest slope over samples: one row.
 #[must_use]
 pub fn band_limit(band: &HeadingBand) -> Table {
@@ -235,7 +288,7 @@ pub fn band_limit(band: &HeadingBand) -> Table {
 #[must_use]
 pub fn bands_brief() -> Vec<String> {
     let [yaw_low, _, yaw_high] = YAW.quantiles();
-    let [_, _, slip_high] = SLIP_RATIO.quantiles();
+    let [slip_low, _, slip_high] = SLIP_RATIO.quantiles();
     let name = |it: &str| it.to_owned();
     vec![
         name(SLOPE.name),
@@ -243,9 +296,11 @@ pub fn bands_brief() -> Vec<String> {
         yaw_low,
         yaw_high,
         name(SLIP_RATIO.name),
+        slip_low,
         slip_high,
         name(PROBABILITY_LEVEL.name),
         name(DRAWS_LEVEL),
         name(STATUS),
+        name(FLAGS),
     ]
 }

@@ -2,17 +2,22 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use super::super::table::ColumnKind;
 use super::super::table::Table;
 use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, RAD_S};
+use super::flags;
+use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
-    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TIME,
-    X, Y, YAW, maybe, number, quantity, text,
+    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity, SINKAGE,
+    SLIP_ANGLE, SLIP_RATIO, TIME, X, Y, YAW, maybe, number, quantity, text, whole,
 };
 use crate::contact::Settled;
-use crate::simulation::{Record, Trajectory, WheelRecord};
+use crate::contact::validity::Finding;
+use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
 use crate::studies::drive::Drive;
-use crate::vehicle::Rover;
+use crate::studies::traverse_band::{RunBand, TimeBand};
+use crate::studies::validity::{Raised, RoverOnSlope};
 
 /// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
 /// frame.
@@ -47,6 +52,9 @@ pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
 /// Error of the energy balance.
 pub const ENERGY_ERROR: Quantity = quantity("energy_error_j", J);
 
+/// Length of a way.
+pub const DISTANCE: Quantity = quantity("distance_m", M);
+
 /// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
     text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
@@ -63,7 +71,7 @@ const RUN: [Column<Trajectory>; 6] = [
 
 /// A run in a few numbers, means over wheels and records: what a campaign keeps beside the end.
 pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
-    number("distance_m", M, "Length of the way", |it| it.distance),
+    DISTANCE.number("Length of the way", |it| it.distance),
     maybe("drift_m_per_m", M_PER_M, "Drift per metre travelled, positive downhill", |it| it.drift),
     SLIP_RATIO.maybe("Mean slip ratio", |it| it.slip_ratio),
     SINKAGE.maybe("Mean sinkage", |it| it.sinkage),
@@ -75,11 +83,36 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
 /// The end of a run: columns of a campaign.
 pub(in super::super) const END: &[Column<Record>] = RECORD.split_at(4).0;
 
+/// Why a record is an extrapolation.
+const FLAGS: [Column<Vec<Finding>>; 1] = [flags::flags(|it| flags::names(it))];
+
+/// When a flag was raised first in a run.
+const RAISED: [Column<Raised>; 2] = [
+    text("flag", "Name of the flag", |it| Some(it.finding.flag.name().into())),
+    TIME.number("Time since the start at which it was raised first", |it| it.time),
+];
+
+/// The flags of each record.
+#[must_use]
+pub fn each_findings(run: &Trajectory, scenario: &Scenario) -> Vec<Vec<Finding>> {
+    let rover = RoverOnSlope::of(scenario);
+    run.records.iter().map(|record| rover.at(record)).collect()
+}
+
+/// The flags that a run raises, each with the time at which it was raised first.
+#[must_use]
+pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
+    Table::of(&RAISED, &RoverOnSlope::of(scenario).over(run))
+}
+
 /// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
 /// empty where the rover has just tipped over or sunk, and left out where no sample has any.
 #[must_use]
-pub fn table(run: &Trajectory, rover: &Rover) -> Table {
+pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
+    let rover = &scenario.rover;
     let mut table = Table::of(&RECORD, &run.records);
+    let findings = each_findings(run, scenario);
+    table = table.and(&FLAGS, &findings.iter().map(Some).collect::<Vec<_>>());
     let wheels = run.records.iter().map(|record| record.wheels.len()).max().unwrap_or(0);
     for (place, mount) in rover.mounts().iter().take(wheels).enumerate() {
         let wheels: Vec<_> = run.records.iter().map(|record| record.wheels.get(place)).collect();
@@ -94,6 +127,89 @@ pub fn table(run: &Trajectory, rover: &Rover) -> Table {
         table = table.and_named(&prefix, results, &settled);
     }
     table
+}
+
+/// The rover at one time over samples of soil and model. From the time at which a sample's run ended early it counts
+/// as slip 1, sunk to the axles, at the place where it ended.
+pub const TIME_BAND: [Column<TimeBand>; 7] = [
+    TIME.number("Time", |it| it.time),
+    X.band("Along the contour", |it| it.x),
+    Y.band("Uphill", |it| it.y),
+    YAW.band("Yaw, positive where the nose points uphill", |it| it.yaw),
+    SLIP_RATIO.band("Mean slip ratio of the wheels", |it| it.slip_ratio),
+    SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
+    ENERGY.band("Work of the motors so far", |it| it.energy),
+];
+
+/// A run in a few numbers over samples of soil and model. Means are over the scenario's whole duration.
+pub const RUN_BAND: [Column<RunBand>; 13] = [
+    X.band("Along the contour, at the end", |it| it.x),
+    Y.band("Uphill, at the end", |it| it.y),
+    YAW.band("Yaw at the end", |it| it.yaw),
+    DISTANCE.band("Length of the way", |it| it.distance),
+    SLIP_RATIO.band("Mean slip ratio; 1 from where a run ends early", |it| it.slip_ratio),
+    SINKAGE.band("Mean sinkage; down to the axles from where a run ends early", |it| it.sinkage),
+    ENERGY.band("Work of the motors", |it| it.energy),
+    ENERGY_PER_METRE.band(
+        "Work of the motors per metre travelled, without a bound in a run that ends early",
+        |it| it.energy_per_metre,
+    ),
+    PROBABILITY_COMPLETED.probability(
+        "Probability that the run is completed: the share of the samples in which it is",
+        |it| Some(it.completed),
+    ),
+    whole("draws_immobilised", "Samples in which the rover gets stuck", |it| Some(it.immobilised)),
+    whole("draws_sliding", "Samples in which it slides downhill", |it| Some(it.sliding)),
+    whole("draws_tipped_over", "Samples in which it tips over", |it| Some(it.tipped_over)),
+    whole(DRAWS, "All samples", |it| Some(it.completed.trials)),
+];
+
+/// Records with the bands at the same times, and at those after them.
+///
+/// * `bands`: at least as many as the table has rows
+#[must_use]
+pub fn with_bands(table: Table, bands: &[TimeBand]) -> Table {
+    let mut table = table.padded(bands.len());
+    let [time, results @ ..] = &TIME_BAND;
+    let rows: Vec<_> = bands.iter().map(Some).collect();
+    let times = Table::default().and([time], &rows);
+    for (name, values) in &mut table.columns {
+        if let Some(times) = times.column(name) {
+            *values = times.clone();
+        }
+    }
+    table.and(results, &rows)
+}
+
+/// The columns of [`TIME_BAND`] for reading.
+#[must_use]
+pub fn bands_brief() -> Vec<String> {
+    let ends = [X, Y, YAW, SLIP_RATIO, SINKAGE].map(|it| {
+        let [low, _, high] = it.quantiles();
+        [low, high]
+    });
+    std::iter::once(TIME.name.to_owned()).chain(ends.into_iter().flatten()).collect()
+}
+
+/// The end of a run and its means: one row.
+#[must_use]
+pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
+    let over = RoverOnSlope::of(scenario).over(run);
+    let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
+    let outcome = RUN.iter().filter(|column| column.kind() == ColumnKind::Text);
+    let (run_row, end, drive) = ([Some(run)], [Some(run.last())], Drive::of(run));
+    Table::default()
+        .and(outcome, &run_row)
+        .and(END, &end)
+        .and(&DRIVE, &[Some(&drive)])
+        .and(&FLAGS, &[Some(&findings)])
+}
+
+/// The columns of [`summary`] for reading.
+#[must_use]
+pub fn summary_brief() -> Vec<String> {
+    let numbers = [TIME, X, Y, YAW, SLIP_RATIO, SINKAGE, ENERGY].map(|it| it.name);
+    ["outcome"].into_iter().chain(numbers).map(String::from).collect()
 }
 
 /// The means over a record's wheels; missing where the rover has just tipped over or sunk.
@@ -126,15 +242,19 @@ pub fn brief(run: &Trajectory, lines: usize) -> Table {
 pub struct RunObject<'a> {
     /// The run.
     pub run: &'a Trajectory,
-    /// Its rover.
-    pub rover: &'a Rover,
+    /// What was run.
+    pub scenario: &'a Scenario,
 }
 
 impl Serialize for RunObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let record = |record| RecordObject { record, rover: self.rover };
+        let record = |record| RecordObject { record, scenario: self.scenario };
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
+        let over = RoverOnSlope::of(self.scenario).over(self.run);
+        let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
+        FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
+        map.serialize_entry("flags_raised", &Table::of(&RAISED, &over))?;
         map.serialize_entry("final", &record(self.run.last()))?;
         let records: Vec<RecordObject<'_>> = self.run.records.iter().map(record).collect();
         map.serialize_entry("samples", &records)?;
@@ -144,14 +264,16 @@ impl Serialize for RunObject<'_> {
 
 struct RecordObject<'a> {
     record: &'a Record,
-    rover: &'a Rover,
+    scenario: &'a Scenario,
 }
 
 impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
-        let wheels = self.record.wheels.iter().zip(self.rover.mounts());
+        let findings = RoverOnSlope::of(self.scenario).at(self.record);
+        FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
+        let wheels = self.record.wheels.iter().zip(self.scenario.rover.mounts());
         let wheels: Vec<_> =
             wheels.map(|(wheel, mount)| WheelObject { name: &mount.name, wheel }).collect();
         map.serialize_entry("wheels", &wheels)?;

@@ -1,0 +1,49 @@
+//! Samples of what is uncertain, for all commands that give bands.
+
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use serde_json::{Map, Value, json};
+
+use crate::failure::Failure;
+use crate::output;
+
+/// The samples.
+pub(super) fn draw(inputs: &BandInputs, samples: u32, seed: u64) -> Result<Vec<Sample>, Failure> {
+    inputs.samples(seed, samples).map_err(|error| {
+        Failure::Usage(format!(
+            "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
+             keep the samples within the ranges of their keys"
+        ))
+    })
+}
+
+/// The key of [`shares`].
+pub(super) const SHARES: &str = "model_shares";
+
+/// The models of the samples, each with its share [-].
+pub(super) fn shares(inputs: &BandInputs) -> Value {
+    let pair = |(theory, share): &(grouser::contact::Theory, f64)| {
+        (theory.name().to_owned(), json!(share))
+    };
+    Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
+}
+
+/// Computes with a bar that goes on with every sample. The study asks whether to go on, and is never stopped:
+/// Ctrl-C ends the program.
+pub(super) fn with_bar<T>(
+    samples: usize,
+    compute: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T,
+) -> T {
+    let bar = output::progress_bar(samples as u64);
+    bar.set_message("samples");
+    let found = compute(&|| {
+        bar.inc(1);
+        true
+    });
+    bar.finish_and_clear();
+    found
+}
+
+/// The result of a study that was not stopped.
+pub(super) fn whole<T>(found: Option<T>) -> T {
+    found.unwrap_or_else(|| unreachable!("it was not stopped"))
+}

@@ -1,0 +1,30 @@
+//! Flags as errors, where `--strict` asks for it.
+
+use grouser::contact::validity::Finding;
+use grouser::document::table::Table;
+use grouser::document::validity::OutsideDomain;
+
+use crate::args::StrictArgs;
+use crate::failure::Failure;
+use crate::output::rows::Rows;
+
+/// That no row carries a flag, if that is asked for.
+///
+/// * `rows`: the flags of each row
+/// * `table`: the same rows
+/// * `settings`: the columns that tell rows apart
+pub(crate) fn check<'f>(
+    args: &StrictArgs,
+    rows: impl IntoIterator<Item = &'f [Finding]>,
+    table: &Table,
+    settings: &[&str],
+) -> Result<(), Failure> {
+    if !args.strict {
+        return Ok(());
+    }
+    let named = |place: usize| {
+        let row = Rows::of_table(&table.select(settings, &[place]));
+        format!("row {} ({})", place + 1, row.first_in_words())
+    };
+    Ok(OutsideDomain::check(rows, named)?)
+}

@@ -1,0 +1,135 @@
+//! `grouser validate --rover`: errors of a wheel–soil model against a rover's measured slip and yaw on slopes.
+
+use std::path::Path;
+
+use grouser::document::LoadedScenario;
+use grouser::document::columns::slope;
+use grouser::document::measurements::slope_tests::SlopeTests;
+use grouser::document::measurements::{self, Choice};
+use grouser::document::table::Table;
+use grouser::document::validation::{ErrorsRecord, PartErrors, ReferenceRecord, SlopeErrorsRecord};
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::slope_validation::{SlopeValidation, SlopeValidationStudy};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::super::Answer;
+use super::super::strict;
+use super::figures;
+use crate::args::{StrictArgs, ValidateArgs};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::{self, Format};
+
+#[derive(Serialize)]
+struct Results<'a> {
+    overall: &'a SlopeErrorsRecord,
+    yardsticks: &'a [ReferenceRecord<SlopeErrorsRecord>],
+    rows: &'a Table,
+    notes: &'a [String],
+}
+
+/// One model with one soil and one rover on one file.
+pub(super) fn run(
+    args: &ValidateArgs,
+    data: &Path,
+    rover: &String,
+    soil: &String,
+) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let scenario = inputs::on_slopes(rover, soil, &args.setting)?;
+    let choice =
+        Choice { conditions: args.conditions.clone(), wheel: None, limits: args.read.limits() };
+    let source = measurements::Source::find(data)?;
+    let tests = source.read_slopes(&choice, &scenario.value.rover)?;
+    for note in &tests.notes {
+        output::message(&format!("note: {note}"));
+    }
+    let heading = HeadingStudy::of(&scenario.value);
+    let validation = SlopeValidationStudy { tests: &tests, heading: &heading }.run()?;
+    let table = slope::slopes(&validation.points);
+    let flags = validation.points.iter().map(|point| &*point.findings);
+    strict::check(&StrictArgs { strict: args.strict }, flags, &table, &slope::SETTINGS)?;
+    let rows = Rows::of_table(&table);
+    let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
+    let overall = SlopeErrorsRecord::from(&validation);
+    let results =
+        Results { overall: &overall, yardsticks: &yardsticks, rows: &table, notes: &tests.notes };
+    let answer = Answer::new("validate", settings(args, data, &scenario, &tests), results);
+    let text = text_of(&rows.to_table(&slope::brief(&validation.points)), &overall, &yardsticks);
+    if let Some(mut folder) = folder {
+        folder.add("validation.json", answer.to_text());
+        folder.add("validation.csv", rows.to_csv()?);
+        folder.add("validation.txt", text.clone());
+        add_figures(&mut folder, &validation);
+        folder.add_document("scenario.toml", &scenario);
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&text),
+        Format::Csv => output::print(&rows.to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+fn add_figures(folder: &mut OutputFolder, validation: &SlopeValidation) {
+    for figure in figures::of_slopes(validation) {
+        folder.add(format!("figures/{}.svg", figure.file), figure.chart.to_svg());
+    }
+}
+
+fn settings(
+    args: &ValidateArgs,
+    data: &Path,
+    scenario: &LoadedScenario,
+    tests: &SlopeTests,
+) -> Value {
+    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
+    let document = &scenario.document;
+    json!({
+        "data": data.display().to_string(),
+        "where": conditions,
+        "rover": document.get("rover"),
+        "soil": document.get("soil"),
+        "gravity_m_s2": document.get("gravity_m_s2"),
+        "load_transfer": document.get("load_transfer"),
+        "wheel_moments": document.get("wheel_moments"),
+        "model": scenario.value.theory.name(),
+        "slopes": tests.points.len(),
+    })
+}
+
+/// For people: every slope, then the errors beside those of the yardsticks.
+fn text_of(
+    slopes: &str,
+    overall: &SlopeErrorsRecord,
+    yardsticks: &[ReferenceRecord<SlopeErrorsRecord>],
+) -> String {
+    let mut lines = Vec::new();
+    let mut add = |of: &str, errors: SlopeErrorsRecord| {
+        for (column, errors) in PartErrors::Slope(errors).measured() {
+            lines.push(error_row(of, column.name, errors));
+        }
+    };
+    add("model", overall.clone());
+    for yardstick in yardsticks {
+        add(yardstick.yardstick, yardstick.overall.clone());
+    }
+    let header = ["prediction", "quantity", "slopes", "rmse", "bias", "rmse_share", "within_aim"];
+    let errors = aligned(&header.map(str::to_owned), &lines);
+    format!("{slopes}\n{errors}")
+}
+
+fn error_row(of: &str, quantity: &str, errors: ErrorsRecord) -> Vec<String> {
+    vec![
+        of.to_owned(),
+        quantity.to_owned(),
+        errors.cells.to_string(),
+        four_digits(errors.rmse),
+        four_digits(errors.bias),
+        errors.rmse_share.map_or("-".to_owned(), four_digits),
+        errors.within_aim.map_or("-", |is_met| if is_met { "yes" } else { "no" }).to_owned(),
+    ]
+}

@@ -1,0 +1,259 @@
+//! Where a result is an extrapolation: a closed list of flags, each with its rule.
+//!
+//! A rule compares one number of a wheel, its motion or its result with the range in which the model, or the
+//! soil's constants, are known to hold. A result outside is still computed: it carries the rule's [`Flag`].
+//! Ranges are those of the model ([`Theory::domain`]) and of the soil ([`Domain`]).
+
+mod rules;
+
+use std::f64::consts::FRAC_PI_4;
+use std::ops::RangeInclusive;
+
+use super::equilibrium::Settled;
+use super::slip::Slip;
+use super::theory::Theory;
+use crate::soil::{Domain, Soil, Span};
+use crate::wheel::Wheel;
+
+/// Why a result is to be trusted less than the model's errors within its domain suggest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Flag {
+    /// The wheel's load is outside the soil's domain.
+    LoadOutside,
+    /// The wheel is smaller or larger than those for which the model was tested.
+    RadiusOutside,
+    /// The soil's constants were fitted to a wheel of another radius or width.
+    OtherWheel,
+    /// The wheel sinks deeper than the theory allows.
+    SinkageOutside,
+    /// The slip ratio is outside the domain.
+    SlipOutside,
+    /// The slip angle is outside the domain.
+    SlipAngleOutside,
+    /// The soil's constants are stated for another gravity.
+    GravityOutside,
+    /// Bekker's moduli were measured under another gravity.
+    BekkerGravity,
+    /// Bekker's moduli are so small that they look like kN.
+    ModulusDoubtful,
+    /// The slope comes near to where the ground itself slides.
+    SlopeBeyondStrength,
+    /// The grousers are deeper than the wheel sinks.
+    GrousersExposed,
+    /// The grousers are too far apart to move the soil between them as one body.
+    GrousersApart,
+    /// At times no grouser is in the soil.
+    GrouserNumber,
+    /// The wheel pushes harder along the ground than the soil's friction allows.
+    ForceBeyondFriction,
+    /// The theory has no side force.
+    NoSideForce,
+    /// The model has no cohesion.
+    NoCohesion,
+    /// The soil lacks the terms that the model adds.
+    TermsMissing,
+    /// Values of the soil are assumed.
+    Assumed,
+}
+
+/// What a flag is called, what it means, and when it is raised.
+#[derive(Debug)]
+pub struct Rule {
+    /// The flag.
+    pub flag: Flag,
+    /// Its name in results.
+    pub name: &'static str,
+    /// What it means: a sentence.
+    pub meaning: &'static str,
+    /// The compared number, in words.
+    pub quantity: &'static str,
+    /// When it is raised, with its threshold.
+    pub criterion: &'static str,
+    /// Where the threshold comes from.
+    pub source: &'static str,
+    /// The number, and the range in which it raises nothing; nothing where the rule does not apply.
+    judge: fn(&Situation<'_>) -> Option<(f64, Span)>,
+}
+
+impl Flag {
+    /// All of them.
+    pub const ALL: [Self; 18] = [
+        Self::LoadOutside,
+        Self::RadiusOutside,
+        Self::OtherWheel,
+        Self::SinkageOutside,
+        Self::SlipOutside,
+        Self::SlipAngleOutside,
+        Self::GravityOutside,
+        Self::BekkerGravity,
+        Self::ModulusDoubtful,
+        Self::SlopeBeyondStrength,
+        Self::GrousersExposed,
+        Self::GrousersApart,
+        Self::GrouserNumber,
+        Self::ForceBeyondFriction,
+        Self::NoSideForce,
+        Self::NoCohesion,
+        Self::TermsMissing,
+        Self::Assumed,
+    ];
+
+    /// Its rule.
+    #[must_use]
+    pub fn rule(self) -> &'static Rule {
+        &rules::RULES[self as usize]
+    }
+
+    /// Its name in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.rule().name
+    }
+
+    /// The flag of a name.
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|flag| flag.name() == name)
+    }
+}
+
+/// A flag that was raised: the number, and the range that it is outside of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding {
+    /// The flag.
+    pub flag: Flag,
+    /// The number, in SI units.
+    pub value: f64,
+    /// Where it would have raised nothing, in SI units.
+    pub allowed: Span,
+}
+
+/// What the rules look at: a wheel on a soil, and as much of its motion and result as there is.
+///
+/// Which flags does a wheel of HAKUTO carry on 15° of slip angle and a slip ratio of 0.95?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::contact::validity::Situation;
+/// use grouser_core::contact::{Contact, Slip, Theory, settle};
+/// use grouser_core::units::{EARTH_GRAVITY, deg};
+///
+/// let slip = Slip::on_test_stand(0.95, deg(15.0));
+/// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: EARTH_GRAVITY };
+/// let settled = settle(Theory::Ishigami.model(), &contact, 17.0)?;
+/// let situation = Situation {
+///     theory: Theory::Ishigami,
+///     wheel: &contact.wheel,
+///     soil: &contact.soil,
+///     gravity: contact.gravity,
+///     slope: 0.0,
+///     load: Some(17.0),
+///     slip: Some(slip),
+///     settled: Some(&settled),
+/// };
+/// let names: Vec<&str> = situation.findings().iter().map(|it| it.flag.name()).collect();
+/// assert_eq!(names, ["slip-outside"]);
+/// # Ok::<(), grouser_core::contact::SettleError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Situation<'a> {
+    /// The wheel–soil model.
+    pub theory: Theory,
+    /// The wheel.
+    pub wheel: &'a Wheel,
+    /// The soil under it.
+    pub soil: &'a Soil,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// Slope of the ground, *α* [rad]; 0 on a test stand.
+    pub slope: f64,
+    /// The wheel's load [N], if it is known.
+    pub load: Option<f64>,
+    /// How the rim moves against the soil, if it is known.
+    pub slip: Option<Slip>,
+    /// The settled wheel, if it settles.
+    pub settled: Option<&'a Settled>,
+}
+
+impl Situation<'_> {
+    /// The flags that are raised, in the order of [`Flag::ALL`].
+    #[must_use]
+    pub fn findings(&self) -> Vec<Finding> {
+        let mut found = Vec::new();
+        self.add_to(&mut found);
+        found
+    }
+
+    /// Adds the flags that are raised and not there yet.
+    pub fn add_to(&self, found: &mut Vec<Finding>) {
+        for rule in &rules::RULES {
+            let Some((value, allowed)) = (rule.judge)(self) else { continue };
+            let flag = rule.flag;
+            if !allowed.holds(value) && found.iter().all(|it| it.flag != flag) {
+                found.push(Finding { flag, value, allowed });
+            }
+        }
+    }
+
+    /// The ranges of the model and the soil together.
+    fn domain(&self, of: fn(&Domain) -> Span) -> Span {
+        of(&self.theory.domain()).and(of(&self.soil.domain))
+    }
+}
+
+/// The flags of several wheels together, each once, in the order of [`Flag::ALL`].
+#[must_use]
+pub fn union<'a>(situations: impl Iterator<Item = Situation<'a>>) -> Vec<Finding> {
+    let mut found = Vec::new();
+    situations.for_each(|situation| situation.add_to(&mut found));
+    found.sort_by_key(|finding| finding.flag);
+    found
+}
+
+impl Theory {
+    /// The range in which the model was tested, or its simplifications hold. What nobody states is not
+    /// limited.
+    #[must_use]
+    pub fn domain(self) -> Domain {
+        // The pressure under a rim is taken as that under a plate. Source: Bekker (1969), in Wong, Theory of
+        // Ground Vehicles: acceptable for sinkages up to a sixth of the diameter.
+        const SHALLOW: Span = Span::at_most(1.0 / 3.0);
+        match self {
+            Self::Ishigami => Domain {
+                depth: SHALLOW,
+                // Source: the smallest wheel of Ishigami et al. (2007), and the largest of Wong and Reece (1967).
+                radius: Span::new(0.09, 0.63),
+                // Source: driven wheels, 0 to 0.8, in Ishigami et al. (2007). A tenth more on both sides is ours,
+                // so that wheels that barely skid on level ground are not flagged.
+                slip_ratio: Span::new(-0.1, 0.9),
+                // Source: Ishigami et al. (2007).
+                slip_angle: Span::at_most(FRAC_PI_4),
+                ..Domain::UNSTATED
+            },
+            Self::Bekker => Domain {
+                depth: SHALLOW,
+                // Source: Bekker (1969), in Wong, Theory of Ground Vehicles: less accurate for wheels below 20 inches
+                // in diameter, the more so the smaller they are.
+                radius: Span::at_least(0.25),
+                slip_ratio: Span::new(-0.1, 0.9),
+                ..Domain::UNSTATED
+            },
+            // Source: the single-wheel tests of Pavlov and Johnson (2022) to which the model was made, without the
+            // slip angle of 90°.
+            Self::SmallWheel => Domain {
+                depth: Span::at_most(0.95),
+                slip_ratio: Span::new(-1.0, 0.975),
+                slip_angle: Span::at_most(75.0 / 45.0 * FRAC_PI_4),
+                ..Domain::UNSTATED
+            },
+            // Any motion. Source: Agarwal, Goldman and Kamrin (2023). Down to the axle, where our surface ends.
+            Self::Rft => Domain { depth: Span::at_most(1.0), ..Domain::UNSTATED },
+        }
+    }
+}
+
+/// The moduli k_c/b + k_φ [N/m^(n+2)] that look like kN rather than N.
+///
+/// Source: ours. The softest ground in Wong's table, snow, has 6.6e4; soils written in kN have some
+/// hundred to some thousand.
+pub const DOUBTFUL_MODULUS: RangeInclusive<f64> = 10.0..=1e4;

@@ -1,0 +1,110 @@
+//! What a band is drawn from: soils as their document has them, and wheel–soil models.
+
+use rayon::prelude::*;
+
+use super::model_discrepancy::with_discrepancy;
+use super::models::ModelSpread;
+use super::outputs_while;
+use crate::contact::Theory;
+use crate::soil::Soil;
+use grouser_io::statistics::NothingAccepted;
+use grouser_io::{LoadedScenario, LoadedSoil, UncertainSoil};
+
+/// One sample: a soil, and the wheel–soil model that is taken for right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The soil.
+    pub soil: Soil,
+    /// The wheel–soil model.
+    pub theory: Theory,
+}
+
+/// What a band is drawn from.
+#[derive(Clone, Debug)]
+pub struct BandInputs {
+    /// The soil as its document has it.
+    soil: Soil,
+    /// The soils that it may be, if its document leaves any of that open.
+    soils: Option<UncertainSoil>,
+    models: ModelSpread,
+}
+
+impl BandInputs {
+    /// The soil of a scenario, with the model that the scenario names, or else the spread of models.
+    #[must_use]
+    pub fn of_scenario(scenario: &LoadedScenario) -> Self {
+        let chosen = scenario.document.theory().map(|_| scenario.value.theory);
+        let made_for = scenario.document.theory_of_soil();
+        Self {
+            soil: scenario.value.site.terrain.soil,
+            soils: scenario.uncertain.clone(),
+            models: spread(chosen, made_for),
+        }
+    }
+
+    /// A soil, with a model or else the spread of models.
+    ///
+    /// * `chosen`: the model that is asked for by name
+    #[must_use]
+    pub fn of_soil(soil: &LoadedSoil, chosen: Option<Theory>) -> Self {
+        let models = spread(chosen, soil.document.theory());
+        Self { soil: soil.value, soils: soil.uncertain.clone(), models }
+    }
+
+    /// The models with their shares.
+    #[must_use]
+    pub fn models(&self) -> &ModelSpread {
+        &self.models
+    }
+
+    /// Sample number `index`, which depends on the seed and that number alone: a soil with what its document
+    /// leaves open and with what a model may get wrong in it, and a model. A soil whose numbers are all taken as
+    /// exact is the same in every sample.
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if no soil can be drawn.
+    pub fn sample(&self, seed: u64, index: u64) -> Result<Sample, NothingAccepted> {
+        let soil = match &self.soils {
+            Some(soils) => with_discrepancy(soils.draw(seed, index)?, seed, index),
+            None => self.soil,
+        };
+        Ok(Sample { soil, theory: self.models.theory(seed, index) })
+    }
+
+    /// The first samples.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample), for the first that cannot be drawn.
+    pub fn samples(&self, seed: u64, count: u32) -> Result<Vec<Sample>, NothingAccepted> {
+        let all: Vec<_> =
+            (0..count).into_par_iter().map(|it| self.sample(seed, it.into())).collect();
+        all.into_iter().collect()
+    }
+}
+
+fn spread(chosen: Option<Theory>, made_for: Option<Theory>) -> ModelSpread {
+    chosen.map_or_else(|| ModelSpread::all(made_for), ModelSpread::one)
+}
+
+/// Computes samples in their order, those that are alike once; nothing if `go_on` was false before the end.
+///
+/// * `go_on`: asked before each that is computed, from any thread
+/// * `one`: computes a sample
+pub fn outputs_of_samples<T: Clone + Send>(
+    samples: &[Sample],
+    go_on: &(dyn Fn() -> bool + Sync),
+    one: impl Fn(&Sample) -> T + Sync + Send,
+) -> Option<Vec<T>> {
+    // Where the soil is the same in all samples there is one result for each model: looking at the first sample
+    // of a model is enough to find it.
+    let source = |(place, sample): (usize, &Sample)| {
+        let first = samples.iter().position(|it| it.theory == sample.theory);
+        first.filter(|first| samples[*first] == *sample).unwrap_or(place)
+    };
+    let sources: Vec<usize> = samples.iter().enumerate().map(source).collect();
+    let computed: Vec<usize> =
+        (0..samples.len()).filter(|place| sources[*place] == *place).collect();
+    let found = outputs_while(&computed, go_on, |place| one(&samples[*place]))?;
+    let result = |source: &usize| computed.binary_search(source).ok().map(|at| found[at].clone());
+    sources.iter().map(result).collect()
+}

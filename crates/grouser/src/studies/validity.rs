@@ -1,0 +1,90 @@
+//! Flags of validity of a rover: those of its wheels together, at rest or in motion, on a slope or over a run.
+
+use crate::contact::Theory;
+use crate::contact::validity::{Finding, Situation, union};
+use crate::simulation::{Record, Scenario, Trajectory};
+use crate::soil::Soil;
+use crate::vehicle::{Rover, WheelReaction};
+
+/// A rover on a slope of some soil.
+#[derive(Clone, Copy, Debug)]
+pub struct RoverOnSlope<'a> {
+    /// The rover.
+    pub rover: &'a Rover,
+    /// The soil.
+    pub soil: &'a Soil,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// The wheel–soil model.
+    pub theory: Theory,
+    /// Slope, *α* [rad].
+    pub slope: f64,
+}
+
+/// A flag, when it was raised first in a run, and by which wheel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Raised {
+    /// The flag with its number and range there.
+    pub finding: Finding,
+    /// Time since the start [s].
+    pub time: f64,
+}
+
+impl<'a> RoverOnSlope<'a> {
+    /// The rover of a scenario on its slope.
+    #[must_use]
+    pub fn of(scenario: &'a Scenario) -> Self {
+        let terrain = &scenario.site.terrain;
+        Self {
+            rover: &scenario.rover,
+            soil: &terrain.soil,
+            gravity: scenario.site.gravity,
+            theory: scenario.theory,
+            slope: terrain.slope,
+        }
+    }
+
+    /// The flags of its wheels together, each once.
+    ///
+    /// * `wheels`: in the mounts' order; of wheels that are not there, only what needs no motion is looked at
+    #[must_use]
+    pub fn findings<'w>(&self, wheels: impl Iterator<Item = &'w WheelReaction>) -> Vec<Finding>
+    where
+        'a: 'w,
+    {
+        let mut wheels = wheels;
+        union(self.rover.mounts().iter().map(|mount| {
+            let reaction = wheels.next();
+            Situation {
+                theory: self.theory,
+                wheel: &mount.unit.wheel,
+                soil: self.soil,
+                gravity: self.gravity,
+                slope: self.slope,
+                load: reaction.map(|it| it.load),
+                slip: reaction.map(|it| it.slip),
+                settled: reaction.map(|it| &it.settled),
+            }
+        }))
+    }
+
+    /// The flags of one record of a run.
+    #[must_use]
+    pub fn at(&self, record: &Record) -> Vec<Finding> {
+        self.findings(record.wheels.iter().map(|wheel| &wheel.reaction))
+    }
+
+    /// The flags that any record of a run raises, in the order of time and of the list.
+    #[must_use]
+    pub fn over(&self, run: &Trajectory) -> Vec<Raised> {
+        let mut all: Vec<Raised> = Vec::new();
+        for record in &run.records {
+            for finding in self.at(record) {
+                if all.iter().all(|it| it.finding.flag != finding.flag) {
+                    all.push(Raised { finding, time: record.time });
+                }
+            }
+        }
+        all
+    }
+}

@@ -1,0 +1,373 @@
+//! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
+
+use grouser::contact::Theory;
+use grouser::document::{
+    self, Campaign, DocumentError, Kind, LoadedScenario, LoadedSoil, Overrides, Source,
+};
+use grouser::simulation::Outcome;
+use grouser::soil::{PressureSinkage, Soil};
+use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, WEIGHTS};
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::ensemble::{Band, Probability};
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading_band::HeadingBand;
+use grouser::studies::heading_map::HeadingMap;
+use grouser::studies::traverse_band::TraverseBand;
+use grouser::studies::wheel_test::WheelTest;
+use grouser::units::deg;
+
+use super::given;
+
+const SEED: u64 = 7;
+
+fn scenario(settings: &[&str]) -> LoadedScenario {
+    let overrides = Overrides::parse(settings.iter().copied()).expect("settings");
+    document::read_scenario(&Source::default_scenario(), &overrides).expect("a scenario")
+}
+
+fn soil(name: &str) -> LoadedSoil {
+    let source = Source::find(Kind::Soil, name).expect("a preset");
+    document::read_soil(&source, &Overrides::none()).expect("a soil")
+}
+
+fn samples(scenario: &LoadedScenario, count: u32) -> Vec<Sample> {
+    BandInputs::of_scenario(scenario).samples(SEED, count).expect("they can be drawn")
+}
+
+fn stand(soil: Soil, theory: Theory) -> WheelTest {
+    WheelTest {
+        wheel: given::hakuto_wheel(),
+        soil,
+        gravity: 9.80665,
+        theory,
+        loads: vec![10.0, 17.0],
+        slip_angles: vec![0.0, deg(15.0)],
+        slip_ratios: vec![-0.2, 0.1, 0.4],
+    }
+}
+
+fn contains(band: Option<Band>, value: f64) -> bool {
+    band.is_some_and(|band| band.low <= value && value <= band.high)
+}
+
+// ---- Models ----
+
+/// Any number of samples in a row has the models by their shares, to within a few samples.
+#[test]
+fn samples_have_the_models_by_their_shares() {
+    for spread in [ModelSpread::all(None), ModelSpread::all(Some(Theory::SmallWheel))] {
+        for seed in 0..20 {
+            let mut counts = [0.0; 4];
+            for index in 0..2000 {
+                let theory = spread.theory(seed, index);
+                let place = Theory::ALL.iter().position(|it| *it == theory).expect("one of them");
+                counts[place] += 1.0;
+                for (theory, share) in spread.shares() {
+                    let place = Theory::ALL.iter().position(|it| it == theory).expect("one");
+                    let expected = share * (index + 1) as f64;
+                    assert!((counts[place] - expected).abs() < 5.0, "{theory:?}, seed {seed}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_model_has_its_share_and_the_rest_is_shared_by_weight() {
+    let share = |spread: &ModelSpread, theory| {
+        spread.shares().iter().find(|it| it.0 == theory).map_or(0.0, |it| it.1)
+    };
+    let sum: f64 = WEIGHTS.iter().map(|it| it.1).sum();
+    for made_for in [None, Some(Theory::Rft), Some(Theory::Bekker)] {
+        let spread = ModelSpread::all(made_for);
+        let total: f64 = spread.shares().iter().map(|it| it.1).sum();
+        assert!((total - 1.0).abs() < 1e-12 && spread.shares().iter().all(|it| it.1 > 0.0));
+        match made_for {
+            Some(theory) => assert_eq!(share(&spread, theory), OWN_SHARE),
+            None => {
+                for (theory, weight) in WEIGHTS {
+                    assert!((share(&spread, theory) - weight / sum).abs() < 1e-12);
+                }
+            }
+        }
+    }
+    let one = ModelSpread::one(Theory::Bekker);
+    assert!((0..50).all(|index| one.theory(SEED, index) == Theory::Bekker));
+}
+
+/// A model that is asked for by name is alone; a soil keeps the one that it was made for, with the greater share.
+#[test]
+fn documents_decide_which_models_there_are() {
+    let shares = |inputs: BandInputs| inputs.models().shares().to_vec();
+    let default = ModelSpread::all(None).shares().to_vec();
+    assert_eq!(shares(BandInputs::of_scenario(&scenario(&[]))), default);
+    let chosen = scenario(&["scenario.model=rft"]);
+    assert_eq!(shares(BandInputs::of_scenario(&chosen)), [(Theory::Rft, 1.0)]);
+    let own = ModelSpread::all(Some(Theory::SmallWheel)).shares().to_vec();
+    let fitted = scenario(&["scenario.soil=cmu-direct90-smooth"]);
+    assert_eq!(shares(BandInputs::of_scenario(&fitted)), own);
+    let fitted = soil("cmu-direct90-smooth");
+    assert_eq!(shares(BandInputs::of_soil(&fitted, None)), own);
+    let chosen = BandInputs::of_soil(&fitted, Some(Theory::Bekker));
+    assert_eq!(shares(chosen), [(Theory::Bekker, 1.0)]);
+}
+
+#[test]
+fn a_sample_depends_on_the_seed_and_its_number_alone() {
+    let uncertain = scenario(&["scenario.soil=toyoura-uncertain"]);
+    let inputs = BandInputs::of_scenario(&uncertain);
+    let many = samples(&uncertain, 40);
+    assert_eq!(many[..10], samples(&uncertain, 10));
+    assert_eq!(many[33], inputs.sample(SEED, 33).expect("it can be drawn"));
+    let other = inputs.samples(SEED + 1, 40).expect("they can be drawn");
+    assert!(many.iter().zip(&other).all(|(one, other)| one.soil != other.soil));
+    let starts = (0..40).map(|seed| ModelSpread::all(None).theory(seed, 0));
+    let rft = starts.filter(|theory| *theory == Theory::Rft).count();
+    assert!((4..=26).contains(&rft), "{rft} of 40 seeds start with rft");
+}
+
+// ---- Exact soils ----
+
+#[test]
+fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
+    let scenario = scenario(&[]);
+    let soil = scenario.value.site.terrain.soil;
+    let samples = samples(&scenario, 200);
+    let test = stand(soil, Theory::Ishigami);
+    let bands = test.bands(&samples, &|| true).expect("not stopped");
+    let study = HeadingStudy::of(&scenario.value);
+    let slopes = [5.0, 10.0, 15.0].map(deg);
+    let band = HeadingBand::of(&study, &samples, &slopes, &|| true);
+    let band = band.expect("sand").expect("not stopped");
+    for (theory, _) in ModelSpread::all(None).shares() {
+        for (row, band) in stand(soil, *theory).run().iter().zip(&bands) {
+            let settled = row.result.expect("sand carries it");
+            assert!(contains(band.sinkage, settled.sinkage), "{theory:?} {row:?}");
+            assert!(contains(band.drawbar_pull, settled.forces.drawbar_pull), "{theory:?}");
+            assert!(contains(band.side_force, settled.forces.side_force), "{theory:?}");
+            assert!(contains(band.torque, settled.forces.torque), "{theory:?}");
+        }
+        let curve = HeadingStudy { theory: *theory, ..study.clone() }.curve().expect("sand");
+        for on_slope in &band.slopes {
+            let heading = curve.at(on_slope.slope).expect("not steep");
+            assert!(contains(on_slope.yaw, heading.yaw), "{theory:?}");
+            assert!(contains(on_slope.slip_ratio, heading.slip_ratio), "{theory:?}");
+            assert!(contains(on_slope.sinkage, heading.mean_sinkage()), "{theory:?}");
+        }
+    }
+}
+
+#[test]
+fn one_model_on_an_exact_soil_is_a_point() {
+    let scenario = scenario(&["scenario.model=rft"]);
+    let samples = samples(&scenario, 20);
+    let test = stand(scenario.value.site.terrain.soil, Theory::Rft);
+    let mut computed = std::sync::atomic::AtomicUsize::new(0);
+    let count = || {
+        computed.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        true
+    };
+    let bands = test.bands(&samples, &count).expect("not stopped");
+    for (row, band) in test.run().iter().zip(&bands) {
+        let settled = row.result.expect("sand carries it");
+        let exactly = |value| Some(Band { low: value, median: value, high: value });
+        assert_eq!(band.sinkage, exactly(settled.sinkage));
+        assert_eq!(band.drawbar_pull, exactly(settled.forces.drawbar_pull));
+        assert_eq!(band.side_force, exactly(settled.forces.side_force));
+        assert_eq!(band.torque, exactly(settled.forces.torque));
+        assert_eq!(band.carried, Probability { successes: 20, trials: 20 });
+    }
+    assert_eq!(*computed.get_mut(), 1, "samples that are alike are computed once");
+}
+
+// ---- Samples without an answer ----
+
+/// Sand so loose that the wheel sinks to its axle.
+fn mire() -> Soil {
+    let sand = scenario(&[]).value.site.terrain.soil;
+    let PressureSinkage::Reece { k_c, k_phi, exponent } = sand.pressure_sinkage else {
+        panic!("Toyoura sand has Reece's law")
+    };
+    let pressure_sinkage = PressureSinkage::Reece { k_c, k_phi: k_phi / 1e3, exponent };
+    Soil { pressure_sinkage, ..sand }
+}
+
+#[test]
+fn a_wheel_that_sinks_to_its_axle_is_not_left_out() {
+    let sand = scenario(&[]).value.site.terrain.soil;
+    let of = |soil| Sample { soil, theory: Theory::Ishigami };
+    let test = stand(sand, Theory::Ishigami);
+    let bands = test.bands(&[of(sand), of(mire()), of(mire())], &|| true).expect("not stopped");
+    let radius = given::hakuto_wheel().shearing_radius();
+    for (row, band) in test.run().iter().zip(&bands) {
+        assert_eq!(band.carried, Probability { successes: 1, trials: 3 });
+        let settled = row.result.expect("sand carries it");
+        let [sinkage, pull, torque] =
+            [band.sinkage, band.drawbar_pull, band.torque].map(|it| it.expect("samples"));
+        // Two of three: the median is theirs.
+        assert_eq!((sinkage.median, pull.median), (radius, -row.load));
+        assert_eq!(torque.median, (row.load * radius).copysign(row.slip_ratio));
+        assert!(sinkage.low >= settled.sinkage && sinkage.low < radius);
+        assert!(pull.high <= settled.forces.drawbar_pull && pull.high > -row.load);
+        assert!(contains(band.side_force, 0.0));
+    }
+}
+
+#[test]
+fn a_row_without_a_nominal_value_keeps_its_band() {
+    let scenario = scenario(&["scenario.soil=toyoura-uncertain"]);
+    let studies = [HeadingStudy::of(&scenario.value)];
+    let (courses, slopes) = ([0.0, deg(90.0)], [10.0, 22.0].map(deg));
+    let map = HeadingMap::of(&studies, &courses, &slopes).expect("sand");
+    let samples = [samples(&scenario, 30)];
+    let bands = map.bands(&studies, &samples, &|| true).expect("sand").expect("not stopped");
+    for (row, band) in map.rows.iter().zip(&bands) {
+        assert!(row.cells[0].is_ok() && row.cells[1].is_err());
+        assert!(band.slopes[0].level.successes > band.slopes[1].level.successes);
+        let slip = band.slopes[1].slip_ratio.expect("there are samples");
+        assert!(slip.low < 1.0 && slip.high == 1.0, "{slip:?}");
+    }
+    // The contour's row is the study of the contour.
+    let contour = HeadingBand::of(&studies[0], &samples[0], &slopes, &|| true);
+    assert_eq!(contour.expect("sand").as_ref(), Some(&bands[0]));
+}
+
+#[test]
+fn the_number_of_threads_changes_no_band() {
+    let scenario = scenario(&["scenario.soil=toyoura-uncertain"]);
+    let study = HeadingStudy::of(&scenario.value);
+    let test = stand(study.soil, study.theory);
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads can be started").install(|| {
+            let samples = samples(&scenario, 16);
+            let uphill = HeadingBand::on_course(&study, deg(90.0), &samples, &[deg(9.0)], &|| true);
+            (test.bands(&samples, &|| true), uphill.expect("sand"))
+        })
+    };
+    assert_eq!(on(1), on(3));
+}
+
+/// The solver's part of a traverse: an exact soil and one model give the run itself.
+#[test]
+fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
+    let settings = ["scenario.duration_s=2", "scenario.slope_deg=8"];
+    let spread = scenario(&settings);
+    let times = [0.0, 1.0, 2.0];
+    let band = |scenario: &LoadedScenario, count| {
+        let samples = samples(scenario, count);
+        let band = TraverseBand::of(&scenario.value, &samples, &times, &|| true);
+        band.expect("it can be computed").expect("not stopped")
+    };
+    let of_all = band(&spread, 9);
+    assert_eq!(of_all.run.completed, Probability { successes: 9, trials: 9 });
+    for theory in ["ishigami", "rft"] {
+        let model = format!("scenario.model={theory}");
+        let one = scenario(&[settings[0], settings[1], &model]);
+        let run = given::run(&one.value);
+        let alone = band(&one, 3);
+        for (place, time) in times.iter().enumerate() {
+            let record = run.records.iter().find(|it| (it.time - time).abs() < 1e-9);
+            let state = record.expect("a record").state;
+            let (alone, all) = (alone.times[place], of_all.times[place]);
+            let exactly = |value| Some(Band { low: value, median: value, high: value });
+            assert_eq!((alone.x, alone.y), (exactly(state.position.x), exactly(state.position.y)));
+            assert!(contains(all.y, state.position.y) && contains(all.yaw, state.yaw));
+        }
+    }
+}
+
+/// A rover that gets stuck counts as slip 1 from then on, where it is.
+#[test]
+fn a_run_that_ends_early_is_not_left_out() {
+    let good = scenario(&["scenario.duration_s=6", "scenario.slope_deg=5"]).value;
+    let mut slick = good.site.terrain.soil;
+    slick.friction_angle = deg(5.0);
+    let of = |soil| Sample { soil, theory: Theory::Ishigami };
+    let samples = [of(good.site.terrain.soil), of(slick), of(slick)];
+    let mut stuck = good.clone();
+    stuck.site.terrain.soil = slick;
+    let run = given::run(&stuck);
+    assert!(run.outcome != Outcome::Completed && run.last().time < 6.0, "{:?}", run.outcome);
+    let band = TraverseBand::of(&good, &samples, &[0.1, 6.0], &|| true);
+    let band = band.expect("it can be computed").expect("not stopped");
+    assert_eq!(band.run.completed, Probability { successes: 1, trials: 3 });
+    assert_eq!(band.run.immobilised + band.run.sliding, 2);
+    let at_end = band.times[1];
+    let slip = at_end.slip_ratio.expect("there are samples");
+    assert!(slip.median == 1.0 && slip.low < 0.2, "{slip:?}");
+    let x = at_end.x.expect("there are samples");
+    assert_eq!(x.median, run.last().state.position.x);
+    let energy = band.run.energy_per_metre.expect("there are samples");
+    assert!(energy.low.is_finite() && energy.median == f64::INFINITY);
+}
+
+// ---- Campaigns ----
+
+fn campaign(base: &str) -> Result<Campaign, DocumentError> {
+    let text = format!(
+        "schema = \"campaign/1\"\nruns = 30\nsampling = \"latin-hypercube\"\n\
+         model_uncertainty = true\n{base}\n"
+    );
+    document::read_campaign(&Source::text("study.toml", text), &Overrides::none())
+}
+
+/// On 22° one of the three models holds the contour: the others' runs have no slip, and count as slip 1.
+#[test]
+fn a_campaign_draws_models_and_leaves_no_run_out() {
+    let base = "study = \"heading\"\nscenario = { soil = \"toyoura\", slope_deg = 22.0 }";
+    let campaign = campaign(base).expect("a campaign");
+    let table = campaign.shard(0, &|| true).expect("not stopped");
+    let (models, statuses) = (table.texts("model"), table.texts("status"));
+    let runs = [0..campaign.runs()];
+    let slips = table.numbers("slip_ratio");
+    let counted = campaign.counted("slip_ratio", &runs, slips, statuses);
+    let yaws = campaign.counted("yaw_deg", &runs, table.numbers("yaw_deg"), statuses);
+    let mut of_rft = 0;
+    for run in 0..table.rows() {
+        let is_rft = models[run].as_deref() == Some("rft");
+        of_rft += usize::from(is_rft);
+        assert_eq!(statuses[run].as_deref(), Some(if is_rft { "ok" } else { "no level attitude" }));
+        assert_eq!(counted[run], if is_rft { slips[run] } else { Some(1.0) });
+        assert_eq!(yaws[run].is_some(), is_rft);
+    }
+    // A Latin hypercube has the models by their shares.
+    assert_eq!(of_rft, 10);
+    assert_eq!(campaign.factors(), ["model"]);
+    let named = base.replace("slope_deg", "model = \"rft\", slope_deg");
+    let error = self::campaign(&named).expect_err("the model is named");
+    assert!(error.to_string().contains("the base names its model"), "{error}");
+}
+
+/// A wheel that the soil does not carry counts as what the bands of a wheel test have for it.
+#[test]
+fn a_campaign_counts_wheels_that_sink() {
+    let base = "study = \"wheel-test\"\nwheel_test = { soil = \"toyoura\", wheel = \"hakuto\", \
+                load_n = 60000.0, slip_ratio = 0.2 }";
+    let campaign = campaign(base).expect("a campaign");
+    let table = campaign.shard(0, &|| true).expect("not stopped");
+    let (statuses, runs) = (table.texts("status"), [0..campaign.runs()]);
+    assert!(statuses.iter().all(|it| it.as_deref() == Some("soil cannot carry the load")));
+    let all = |name: &str, value: f64| {
+        let counted = campaign.counted(name, &runs, table.numbers(name), statuses);
+        counted.iter().all(|it| it.is_some_and(|it| (it - value).abs() < 1e-9 * value.abs()))
+    };
+    assert!(
+        all("sinkage_mm", 110.0) && all("drawbar_pull_n", -60000.0) && all("torque_nm", 6600.0)
+    );
+    let thrust = campaign.counted("thrust_n", &runs, table.numbers("thrust_n"), statuses);
+    assert!(thrust.iter().all(Option::is_none));
+}
+
+// ---- What the guide says ----
+
+#[test]
+fn the_guide_has_the_weights_of_the_models() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide/uncertainty.md");
+    let guide = std::fs::read_to_string(path).expect("the guide");
+    for (theory, weight) in WEIGHTS {
+        let row = format!("| `{}` | {weight} |", theory.name());
+        assert!(guide.contains(&row), "{row}");
+    }
+    assert!(guide.contains(&format!("{} %", 100.0 * OWN_SHARE)), "the own share");
+}
