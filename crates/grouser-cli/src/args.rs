@@ -164,10 +164,12 @@ pub(crate) struct PartArgs {
 /// How the weight acts on the wheels.
 #[derive(Debug, Args)]
 pub(crate) struct BalanceArgs {
-    /// Load transfer between the wheels: `quasi-static`, `quasi-static-torque` or `uniform`.
+    /// Load transfer between the wheels: `complete` (the default), `quasi-static` (the paper's),
+    /// `quasi-static-torque` or `uniform`.
     #[arg(long, alias = "loads", value_name = "LAW")]
     pub(crate) load_transfer: Option<String>,
-    /// The wheels' own overturning and aligning moments: `neglected` or `included`.
+    /// The wheels' own overturning and aligning moments: `neglected` or `included`; a complete load
+    /// transfer includes them.
     #[arg(long, alias = "moments", value_name = "WORD")]
     pub(crate) wheel_moments: Option<String>,
 }

@@ -65,7 +65,7 @@ pub(crate) fn traverse(
     }
     let numbers = [
         ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
-        ("--yaw-deg", "scenario.start.yaw_deg", &args.yaw_deg),
+        ("--yaw-deg", yaw_key(args.yaw_deg.as_deref()), &args.yaw_deg),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
         (
             "--reference-slip-ratio",
@@ -93,6 +93,12 @@ pub(crate) fn traverse(
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     Ok(document::read_scenario(&source, &overrides)?)
+}
+
+/// What `--yaw-deg` sets: the yaw at the start, or as a list of pairs the yaw over time.
+fn yaw_key(value: Option<&str>) -> &'static str {
+    let is_list = value.is_some_and(|value| value.trim_start().starts_with('['));
+    if is_list { "scenario.drive.yaw_deg" } else { "scenario.start.yaw_deg" }
 }
 
 /// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
@@ -165,7 +171,11 @@ fn balanced(
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        "slopes are given by --slope-deg; a heading offset has no drive, start or duration",
+        if command == "validate" {
+            "slopes are those of the rows; a heading offset has no drive, start or duration"
+        } else {
+            "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+        },
     )?;
     scenario_settings(&mut overrides, setting, balance)?;
     for (flag, key, value) in

@@ -4,7 +4,8 @@
 //! angle; [`patch`] says which arc of the rim touches the soil; [`stress`] gives the normal and
 //! shear stress along it; [`bulldozing`] the soil pushed by the side wall; [`forces`] is what comes
 //! out. A wheel–soil model puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is
-//! the source paper's, [`small_wheel`] adds what small wheels need, [`bekker`] is a closed form to
+//! the source paper's, [`small_wheel`] adds what small wheels need within what the ground resists
+//! ([`coulomb_cone`]), [`bekker`] is a closed form to
 //! check them against, and [`rft`] shares nothing with any of them. [`equilibrium`] finds the sinkage
 //! at which a wheel carries its load, and adds what the soil's [`discrepancy`] says of the model;
 //! [`time_step`] lends the reaction to engines of rigid bodies; [`validity`] flags results that are
@@ -15,6 +16,8 @@
 
 pub mod bekker;
 pub mod bulldozing;
+pub mod coulomb;
+pub mod coulomb_cone;
 pub mod discrepancy;
 pub mod equilibrium;
 pub mod forces;

@@ -27,6 +27,7 @@ mod times;
 pub mod trajectory;
 pub mod watch;
 mod work;
+mod yaw;
 
 pub use controller::{CONTROL_PERIOD, Controller, Observation};
 pub use error::RunError;
@@ -40,3 +41,4 @@ pub use state::State;
 pub use steady_state::NotSteady;
 pub use trajectory::Trajectory;
 pub use work::Work;
+pub use yaw::PrescribedYaw;

@@ -7,6 +7,7 @@ pub mod discrepancy;
 pub mod domain;
 pub mod pressure_sinkage;
 pub mod rft;
+pub mod slope;
 pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
@@ -15,6 +16,7 @@ pub use discrepancy::Discrepancy;
 pub use domain::{Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
+pub use slope::SlopeStability;
 pub use small_wheel::SmallWheel;
 
 use crate::elementary;
@@ -26,8 +28,8 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///
 /// ```
 /// use grouser_core::soil::{
-///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
-///     StressPeak,
+///     Bulldozing, Domain, Exit, SmallWheel, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+///     SinkageExponent, Soil, StressPeak,
 /// };
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
@@ -39,6 +41,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 ///     pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 122.727, exponent },
 ///     stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
 ///     shear: Shear::Isotropic { modulus: ShearModulus::constant(0.036) },
+///     shear_bound: ShearBound::Coulomb,
 ///     exit: Exit::Ratio(1.0),
 ///     bulldozing: Bulldozing::Sine,
 ///     small_wheel: SmallWheel::OFF,
@@ -65,6 +68,8 @@ pub struct Soil {
     pub stress_peak: StressPeak,
     /// How shear stress is mobilised.
     pub shear: Shear,
+    /// What bounds it.
+    pub shear_bound: ShearBound,
     /// Where the wheel leaves the soil.
     pub exit: Exit,
     /// How soil pushed aside loads the side wall.
@@ -134,6 +139,18 @@ impl Shear {
             Self::Isotropic { modulus } => modulus.check("shear modulus [m]"),
         }
     }
+}
+
+/// Whether the shear stresses along and across a wheel, and its whole reaction, obey Coulomb's law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ShearBound {
+    /// Only as far as the shear law does. [`Shear::Anisotropic`] lets the resultant exceed the strength by
+    /// √2, as in the source paper.
+    #[default]
+    None,
+    /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within what
+    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)).
+    Coulomb,
 }
 
 /// Shear deformation modulus *K* [m] as a function of the slip angle.
@@ -266,6 +283,26 @@ impl Soil {
     pub(crate) fn friction(&self) -> f64 {
         let (sin, cos) = elementary::sin_cos(self.friction_angle);
         sin / cos
+    }
+
+    /// The same soil on a slope, where wedges of it resist less against being pushed downhill.
+    ///
+    /// ```text
+    /// share = cos³ α √(1 − tan² α/tan² φ)
+    /// ```
+    ///
+    /// of the resistance on level ground, and none from the angle of friction on. It is the difference of
+    /// Rankine's passive and active pressure below a surface inclined by α, over the same on level
+    /// ground. At α = φ the ground itself is about to slide, and nothing lies safe in front of a wheel.
+    ///
+    /// * `steepness`: tan α [-], of the slope on which the wheel stands
+    #[must_use]
+    pub fn on_slope(&self, steepness: f64) -> Self {
+        let used = steepness / self.friction();
+        // cos² α = 1/(1 + tan² α)
+        let cos_squared = 1.0 / (1.0 + steepness * steepness);
+        let wedge_share = cos_squared * (cos_squared * (1.0 - used * used).max(0.0)).sqrt();
+        Self { small_wheel: SmallWheel { wedge_share, ..self.small_wheel }, ..*self }
     }
 
     /// That the constants belong to a soil at all. (Documents have narrower ranges of their own.)

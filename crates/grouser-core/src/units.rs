@@ -26,6 +26,9 @@ pub fn kpa(kilopascals: f64) -> f64 {
     kilopascals * 1e3
 }
 
+/// The steepest slope that is looked at [rad]: 60°. Source: ours; no loose soil stands as steep for long.
+pub const STEEPEST_SLOPE: f64 = std::f64::consts::FRAC_PI_3;
+
 /// Standard gravity, [m/s²]. Source: 3rd General Conference on Weights and Measures, 1901.
 pub const EARTH_GRAVITY: f64 = 9.80665;
 /// Mean surface gravity of the Moon, [m/s²]. Source: NASA planetary fact sheet, rounded.

@@ -159,6 +159,8 @@ fn number_keys(given: &Json) -> Vec<String> {
     if given.is_object() {
         children.sort_by(|one, other| one.0.cmp(&other.0));
     }
+    // The ends of a domain's ranges are no numbers of what is described: nothing is computed from them.
+    children.retain(|(key, _)| key != "domain");
     let keys = children.into_iter().flat_map(|(key, given)| {
         if given.is_f64() {
             return vec![key];

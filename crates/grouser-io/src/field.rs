@@ -45,6 +45,8 @@ pub(crate) enum Presence {
     Optional,
     /// This value.
     Otherwise(Fill),
+    /// The keyword that goes with the one of another key of the table.
+    Follows(&'static str, &'static [(&'static str, &'static str)]),
     /// What the soil's priors say; without one this value, or else that something is missing.
     Prior(Option<f64>),
 }
@@ -72,6 +74,7 @@ pub(crate) enum Shape<T: 'static> {
     Words(&'static [Keyword<T>]),
     Number(Number, Reach<T>),
     Numbers(Numbers<T>),
+    Pairs(Pairs<T>),
     /// A table.
     Inner(&'static dyn Inner<T>),
     /// At least so many tables.
@@ -133,6 +136,22 @@ pub(crate) struct Numbers<T: 'static> {
     /// Makes room for as many, or for one alone.
     pub(crate) begin: fn(&mut T, Option<usize>),
     pub(crate) reach: fn(&mut T, usize) -> Option<&mut f64>,
+}
+
+/// A list of pairs of numbers, each with its own unit.
+pub(crate) struct Pairs<T: 'static> {
+    pub numbers: [Number; 2],
+    /// Makes room for as many.
+    pub(crate) begin: fn(&mut T, usize),
+    pub(crate) reach: fn(&mut T, usize) -> Option<[&mut f64; 2]>,
+}
+
+impl<T> Pairs<T> {
+    /// What either number may be, for those who do not tell the two apart.
+    pub(crate) fn range(&self) -> Number {
+        let [one, other] = self.numbers;
+        Number { least: one.least.min(other.least), most: one.most.max(other.most), ..one }
+    }
 }
 
 /// How numbers are written.
@@ -237,6 +256,25 @@ pub(crate) const fn numbers<T>(
 ) -> Field<T> {
     let number = Number { unit, least: *range.start(), most: *range.end(), is_open: false };
     field(key, doc, Shape::Numbers(Numbers { number, form, begin, reach }))
+}
+
+/// A list of pairs of numbers.
+///
+/// * `units`, `ranges`: of the first and the second of each pair
+pub(crate) const fn pairs<T>(
+    key: &'static str,
+    units: [Unit; 2],
+    ranges: [RangeInclusive<f64>; 2],
+    doc: &'static str,
+    begin: fn(&mut T, usize),
+    reach: fn(&mut T, usize) -> Option<[&mut f64; 2]>,
+) -> Field<T> {
+    let [unit, other_unit] = units;
+    let (least, most) = (*ranges[0].start(), *ranges[0].end());
+    let one = Number { unit, least, most, is_open: false };
+    let (least, most) = (*ranges[1].start(), *ranges[1].end());
+    let other = Number { unit: other_unit, least, most, is_open: false };
+    field(key, doc, Shape::Pairs(Pairs { numbers: [one, other], begin, reach }))
 }
 
 /// A whole number.
@@ -362,6 +400,16 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, with the keyword that goes with another key's for documents that leave it out.
+    pub(crate) const fn following(
+        mut self,
+        key: &'static str,
+        words: &'static [(&'static str, &'static str)],
+    ) -> Self {
+        self.presence = Presence::Follows(key, words);
+        self
+    }
+
     /// The same, which the soil's priors have a value for.
     pub(crate) const fn or_prior(mut self) -> Self {
         self.presence = Presence::Prior(None);
@@ -396,6 +444,12 @@ impl<T> Field<T> {
         let float = |given: &Json| given.as_f64().map_or(Json::Null, Json::from);
         match (&self.shape, given) {
             (Shape::Numbers(_), Json::Array(all)) => all.iter().map(float).collect(),
+            (Shape::Pairs(_), Json::Array(all)) => {
+                let pair = |pair: &Json| -> Json {
+                    pair.as_array().into_iter().flatten().map(float).collect()
+                };
+                all.iter().map(pair).collect()
+            }
             (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()
@@ -429,7 +483,10 @@ impl<T> Table<T> {
         match field.presence {
             Presence::Otherwise(fill) => Some(field.complete(&fill.to_json())),
             Presence::Prior(Some(number)) => Some(Json::from(number)),
-            Presence::Needed | Presence::Optional | Presence::Prior(None) => None,
+            Presence::Needed
+            | Presence::Optional
+            | Presence::Follows(..)
+            | Presence::Prior(None) => None,
         }
     }
 }

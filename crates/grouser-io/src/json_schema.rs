@@ -144,6 +144,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                 json!({ "anyOf": [described(number, one), described(list, each)] })
             }
         },
+        Shape::Pairs(pairs) => {
+            let pair = list_of(&of_number(&pairs.range()), 2, Some(2));
+            list_of(&pair, 1, None)
+        }
         Shape::Inner(inner) => inner.schema(defs),
         Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
         Shape::Part(kind, inner) => {

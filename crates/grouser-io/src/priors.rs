@@ -21,6 +21,7 @@ use super::schema::range;
 use super::source::Source;
 use super::stated::{Pair, Parameter, Priors, Soils, Stated};
 use super::tree::{Entry, Node, Origin, Value, number};
+use crate::statistics::Marginal;
 
 /// The key of a soil under which its priors stand.
 pub(crate) const KEY: &str = "priors";
@@ -75,15 +76,10 @@ pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, D
 }
 
 /// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.
-/// (Rows of samples belong to the other numbers as they are stated: beside them those are exact.)
-///
 /// * `soil`: its resolved document
 #[must_use]
 pub fn stated_by_priors(soil: &Document) -> Stated {
-    let mut priors = soil.get(KEY).map_or_else(Priors::default, priors_of);
-    if soil.get("uncertainty.samples").is_some() {
-        priors.stated.clear();
-    }
+    let priors = soil.get(KEY).map_or_else(Priors::default, priors_of);
     let rows = priors.missing.iter().chain(&priors.stated).filter_map(|row| {
         let reference = match &*row.belief.relative_to {
             "" => 1.0,
@@ -94,6 +90,49 @@ pub fn stated_by_priors(soil: &Document) -> Stated {
         Some(Parameter { key: row.key.clone(), marginal, ..Parameter::blank() })
     });
     Stated { samples: None, parameters: rows.collect(), correlations: priors.correlations }
+}
+
+/// A soil some of whose numbers were measured: they are no longer the priors'.
+///
+/// * `keys`: of those numbers
+#[must_use]
+pub fn without_priors_of(soil: &Document, keys: &[&str]) -> Document {
+    let is_kept = |row: &Json| {
+        let text = |key: &Json| key.as_str().is_some_and(|key| keys.contains(&key));
+        let between = row.get("between").and_then(Json::as_array);
+        !row.get("key").is_some_and(text) && !between.into_iter().flatten().any(text)
+    };
+    with_rows(soil, |_, rows| rows.retain(is_kept))
+}
+
+/// A soil whose numbers belong to samples that were found with them: what is the priors' stays at its value, and
+/// what is stated is exact.
+#[must_use]
+pub fn with_priors_held(soil: &Document) -> Document {
+    let held = |row: &Json| {
+        let key = row.get("key")?.as_str()?;
+        let marginal = Marginal::Normal { mean: soil.number(key)?, standard_deviation: 0.0 };
+        Some(Parameter { marginal, ..Parameter::blank() }.to_json(key))
+    };
+    with_rows(soil, |list, rows| match list {
+        "missing" => *rows = rows.iter().filter_map(held).collect(),
+        "keyword" => {}
+        _ => rows.clear(),
+    })
+}
+
+/// A soil with other rows of priors.
+///
+/// * `change`: gets the name of a list, and its rows
+fn with_rows(soil: &Document, mut change: impl FnMut(&str, &mut Vec<Json>)) -> Document {
+    soil.changed(|keys| {
+        let lists = keys.get_mut(KEY).and_then(Json::as_object_mut).into_iter().flatten();
+        for (list, rows) in lists {
+            if let Json::Array(rows) = rows {
+                change(list, rows);
+            }
+        }
+    })
 }
 
 fn priors_of(given: &Json) -> Priors {
@@ -124,10 +163,12 @@ pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
         "keyword",
         rows.keywords.iter().map(|row| soil.takes_word(&row.key, &row.word, &row.reason)),
     );
+    // Samples belong to the soil's other numbers as they are, unless its own rows say otherwise.
+    let is_exact = !is_resolved && at(&soil.written, "uncertainty.samples").is_some();
     let stated: Vec<&str> = rows
         .stated
         .iter()
-        .map(|row| if soil.is_stated(row, &own) { &*row.key } else { "" })
+        .map(|row| if !is_exact && soil.is_stated(row, &own) { &*row.key } else { "" })
         .collect();
     keep(&mut kept, "stated", stated.iter().map(|key| !key.is_empty()));
     let is_kept = |key: &String| stated.contains(&&**key) || soil.missing.contains(key);
@@ -256,7 +297,7 @@ impl Filled<'_> {
         is_meant && (unless.is_empty() || at(&self.written, unless).is_none())
     }
 
-    fn marginal(&self, row: &Parameter) -> Option<crate::statistics::Marginal> {
+    fn marginal(&self, row: &Parameter) -> Option<Marginal> {
         let reference = match &*row.belief.relative_to {
             "" => 1.0,
             key => number_at(self.tree, key)?,

@@ -4,8 +4,8 @@
 use serde_json::Value as Json;
 
 use super::field::{
-    At, Beside, Each, Field, Inner, Law, Laws, Names, Numbers, Presence, Reached, Rows, Shape,
-    Table, Text, Texts, Whole,
+    At, Beside, Each, Field, Inner, Law, Laws, Names, Numbers, Pairs, Presence, Reached, Rows,
+    Shape, Table, Text, Texts, Whole,
 };
 use super::json_schema;
 use super::tree::{Node, Value};
@@ -34,6 +34,14 @@ impl<T> Field<T> {
                 begin(value, Some(all.len()));
                 for (place, given) in all.iter().enumerate() {
                     self.set(value, &place.to_string(), given);
+                }
+            }
+            (Shape::Pairs(Pairs { begin, .. }), Json::Array(all)) => {
+                begin(value, all.len());
+                for (place, pair) in all.iter().enumerate() {
+                    for (which, given) in pair.as_array().into_iter().flatten().enumerate() {
+                        self.set(value, &format!("{place}.{which}"), given);
+                    }
                 }
             }
             (
@@ -98,6 +106,12 @@ impl<T> Field<T> {
                 }
                 Some(Reached { value: reach(value, place)?, number: *number })
             }
+            Shape::Pairs(Pairs { numbers, reach, .. }) => {
+                let (place, which) = path.split_once('.')?;
+                let which: usize = which.parse().ok()?;
+                let value = reach(value, place.parse().ok()?)?.into_iter().nth(which)?;
+                Some(Reached { value, number: *numbers.get(which)? })
+            }
             Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
                 inner.reach(value, path)
             }
@@ -107,6 +121,14 @@ impl<T> Field<T> {
 }
 
 impl<T> Table<T> {
+    /// What a table that does not have a key means by another key.
+    fn followed(&self, field: &Field<T>, given: &Json) -> Option<Json> {
+        let Presence::Follows(key, words) = field.presence else { return None };
+        let leader = self.field(key)?;
+        let word = given.get(key).cloned().or_else(|| Self::implied(leader))?;
+        words.iter().find(|(of_leader, _)| word == *of_leader).map(|(_, word)| Json::from(*word))
+    }
+
     /// The row of a key, by its name of today or its former one.
     fn field(&self, key: &str) -> Option<&Field<T>> {
         let by_name = self.fields.iter().find(|field| field.key == key);
@@ -148,7 +170,7 @@ impl<T> Rows for Table<T> {
         let keys = self.fields.iter().filter_map(|field| {
             let given = match given.get(field.key) {
                 Some(given) => field.complete(given),
-                None => Self::implied(field)?,
+                None => Self::implied(field).or_else(|| self.followed(field, given))?,
             };
             let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&given);
             (!is_left_out).then(|| (field.key.to_owned(), given))

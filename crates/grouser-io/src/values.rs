@@ -19,7 +19,7 @@ use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use grouser_core::vehicle::{Inertia, Mount, Rover};
+use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
 /// Values that are valid one by one, but not together.
@@ -219,11 +219,12 @@ impl Described for Rover {
 
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
-        check_places(&self)?;
-        check_inertias(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
-        self.checked().map_err(|error| Misfit::new(place, error))
+        let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
+        check_places(&rover)?;
+        check_inertias(&rover)?;
+        Ok(rover)
     }
 }
 
@@ -319,10 +320,25 @@ impl Described for Scenario {
             let hint = format!("the wheels are {}, in this order", names.join(", "));
             Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
         })?;
+        if run.sharing == LoadSharing::Complete && run.own_moments == OwnMoments::Neglected {
+            return Err(Misfit {
+                hint: Some(NEGLECTED_MOMENTS.to_owned()),
+                ..Misfit::new("wheel_moments", Problem::Conflict(COMPLETE))
+            });
+        }
+        if let Some(yaw) = &run.yaw {
+            yaw.check().map_err(Misfit::at("drive.yaw_deg"))?;
+        }
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
     }
 }
+
+/// What does not go together, and what to write instead.
+const COMPLETE: &str =
+    "`wheel_moments` is \"neglected\", but the complete load transfer includes them";
+const NEGLECTED_MOMENTS: &str =
+    "without them the load transfer is \"quasi-static-torque\", or the paper's \"quasi-static\"";
 
 /// The most samples that a run records: with those of a rover's wheels, about a gigabyte.
 const MOST_SAMPLES: f64 = 1e6;

@@ -38,7 +38,7 @@ impl Read {
             Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
             Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
-            Kind::Scenario | Kind::DataSet => {
+            Kind::Scenario | Kind::DataSet | Kind::Prior => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
         })
@@ -143,6 +143,19 @@ impl Document {
             Read::Scenario(it) => it.assumptions.clone(),
             Read::Campaign(it) => it.campaign().assumptions().to_vec(),
         }
+    }
+
+    /// The keys that it, or its soil, takes from priors because they are not stated.
+    #[getter]
+    fn assumed(&self) -> Vec<String> {
+        let all = match &self.read {
+            Read::Soil(it) => it.assumed.clone(),
+            Read::Wheel(it) => it.assumed.clone(),
+            Read::Rover(it) => it.assumed.clone(),
+            Read::Scenario(it) => it.assumed.clone(),
+            Read::Campaign(it) => it.campaign().assumed(),
+        };
+        all.into_iter().map(|one| one.key).collect()
     }
 
     /// The files that the resolved document names: their names, and what is in them.

@@ -173,6 +173,7 @@ pub(crate) fn of_ranking(error: &RankingError) -> PyErr {
     match error {
         RankingError::Document(error) => of_document(error, &[]),
         RankingError::Measurements(error) => of_measurements(error, error.file()),
+        RankingError::Rover(error) => of_parameter(error),
         RankingError::NoSuchFolder(path) => {
             let file = path.display().to_string();
             classes::DocumentNotFoundError::new_err((message, file, none))

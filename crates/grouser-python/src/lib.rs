@@ -22,6 +22,7 @@ mod studies;
 mod threads;
 mod time_step;
 mod validation;
+mod validity;
 mod values;
 mod wheels;
 
@@ -59,7 +60,9 @@ mod _core {
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]
-    use super::validation::{validate, validate_all};
+    use super::validation::{validate, validate_all, validate_slopes};
+    #[pymodule_export]
+    use super::validity::{flag_names, flags};
     #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 

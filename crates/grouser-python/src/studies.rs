@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
@@ -9,7 +10,7 @@ use grouser::document::columns::{
 };
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
-use grouser::document::table::Table;
+use grouser::document::table::{BETWEEN_NAMES, Table};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
@@ -21,6 +22,7 @@ use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::traverse_band::{TraverseBand, record_times};
+use grouser::studies::validity::RoverOnSlope;
 use grouser::studies::wheel_test::WheelTest;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -38,8 +40,8 @@ use crate::wheels::{check, column, model_and_gravity};
 pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bound<'py, PyDict>> {
     let scenario = scenario.scenario()?.value.clone();
     let names = wheel_names(&scenario);
-    let found = listening(py, move |_| run(&scenario))?;
-    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &names)
+    let (found, scenario) = listening(py, move |_| (run(&scenario), scenario))?;
+    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &scenario, &names)
 }
 
 pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
@@ -54,6 +56,7 @@ pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
 fn to_python<'py>(
     py: Python<'py>,
     run: &Trajectory,
+    scenario: &Scenario,
     names: &[String],
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
@@ -69,6 +72,12 @@ fn to_python<'py>(
     }
     dict.set_item("rover", rover)?;
     dict.set_item("each_wheel", each_wheel(py, run, names.len())?)?;
+    let each = columns::run::each_findings(run, scenario);
+    let each = each.iter().map(|findings| flags::names(findings).join(BETWEEN_NAMES));
+    dict.set_item(FLAGS, each.collect::<Vec<_>>())?;
+    let over = RoverOnSlope::of(scenario).over(run);
+    let raised = over.iter().map(|it| (it.finding.flag.name(), it.time));
+    dict.set_item("flags_raised", raised.collect::<Vec<_>>())?;
     Ok(dict)
 }
 

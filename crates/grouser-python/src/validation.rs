@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use grouser::document::columns::fit;
+use grouser::document::columns::{fit, slope};
 use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
-use grouser::document::ranking::rank_all;
-use grouser::document::validation::GroupRecord;
+use grouser::document::ranking::{RankingError, rank_all};
+use grouser::document::validation::{GroupRecord, ReferenceRecord, SlopeErrorsRecord};
+use grouser::studies::heading::HeadingStudy;
+use grouser::studies::slope_validation::SlopeValidationStudy;
 use grouser::studies::validation::{Validation, ValidationStudy};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -69,20 +71,55 @@ pub(crate) fn validation_to_python<'py>(
     dict.set_item("overall", group(&validation.overall)?)?;
     dict.set_item("driven", validation.driven.as_ref().map(group).transpose()?)?;
     dict.set_item("skid", validation.skid.as_ref().map(group).transpose()?)?;
+    let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
+    dict.set_item("yardsticks", record_to_python(py, &yardsticks)?)?;
     dict.set_item("cells", table_to_python(py, fit::cells(&validation.cells))?)?;
     dict.set_item("trials", table_to_python(py, fit::trials(measured, validation))?)?;
     dict.set_item("notes", &measured.notes)?;
     Ok(dict)
 }
 
-/// Every wheel–soil model on every data set of a folder, or of the program, best first: a record for each.
+/// Predicts every slope of a file for the rover, soil and model of a scenario.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+pub(crate) fn validate_slopes<'py>(
+    py: Python<'py>,
+    data: PathBuf,
+    scenario: &Document,
+    conditions: Vec<String>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let conditions = conditions_of(&conditions)?;
+    let choice = Choice { conditions, ..Choice::default() };
+    let scenario = scenario.scenario()?.value.clone();
+    let file = data.display().to_string();
+    let found = listening(py, move |_| {
+        let source = measurements::Source::find(&data).map_err(RankingError::from)?;
+        let tests = source.read_slopes(&choice, &scenario.rover).map_err(RankingError::from)?;
+        let heading = HeadingStudy::of(&scenario);
+        let validation = SlopeValidationStudy { tests: &tests, heading: &heading }.run()?;
+        Ok((tests.notes, validation))
+    })?;
+    let (notes, validation) = found.map_err(|error| match &error {
+        RankingError::Measurements(error) => errors::of_measurements(error, &file),
+        error => errors::of_ranking(error),
+    })?;
+    let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
+    let dict = PyDict::new(py);
+    dict.set_item("overall", record_to_python(py, &SlopeErrorsRecord::from(&validation))?)?;
+    dict.set_item("yardsticks", record_to_python(py, &yardsticks)?)?;
+    dict.set_item("slopes", table_to_python(py, slope::slopes(&validation.points))?)?;
+    dict.set_item("notes", notes)?;
+    Ok(dict)
+}
+
+/// Every wheel–soil model on every data set of a folder, or of the program: its `rows`, best first,
+/// the `yardsticks`, and the `models` over all parts.
 #[pyfunction]
 #[pyo3(signature = (folder))]
-pub(crate) fn validate_all(py: Python<'_>, folder: Option<PathBuf>) -> PyResult<Bound<'_, PyList>> {
+pub(crate) fn validate_all(py: Python<'_>, folder: Option<PathBuf>) -> PyResult<Bound<'_, PyAny>> {
     let ranked = listening(py, move |_| rank_all(folder.as_deref(), Limits::default()))?;
     let ranked = ranked.map_err(|error| errors::of_ranking(&error))?;
-    let records = ranked.iter().map(|one| record_to_python(py, one));
-    PyList::new(py, records.collect::<PyResult<Vec<_>>>()?)
+    record_to_python(py, &ranked)
 }
 
 /// A record as a dictionary.

@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
+use grouser::contact::validity::{Finding, Situation};
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 
 use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
+use crate::validity::bits;
 use crate::{errors, threads};
 
 /// Wheels between two checks for signals, to begin with: a part of a second for the slowest model.
@@ -106,13 +108,34 @@ pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult
     Ok((theory, setting.value.site.gravity))
 }
 
-/// A column for each of [`WHEEL`], then what one of them adds.
-type Row = [f64; WHEEL.len() + 1];
+/// A column for each of [`WHEEL`], then what one of them adds, and its flags as bits.
+type Row = [f64; WHEEL.len() + 2];
 
-fn row(results: &[f64; WHEEL.len()], last: f64) -> Row {
-    let mut row = [last; WHEEL.len() + 1];
+fn row(results: &[f64; WHEEL.len()], last: f64, findings: &[Finding]) -> Row {
+    let mut row = [last; WHEEL.len() + 2];
     row[..WHEEL.len()].copy_from_slice(results);
+    row[WHEEL.len() + 1] = bits(findings);
     row
+}
+
+/// The flags of a wheel on a test stand.
+fn findings(
+    contact: &Contact,
+    theory: Theory,
+    load: f64,
+    settled: Option<&Settled>,
+) -> Vec<Finding> {
+    let situation = Situation {
+        theory,
+        wheel: &contact.wheel,
+        soil: &contact.soil,
+        gravity: contact.gravity,
+        slope: 0.0,
+        load: Some(load),
+        slip: Some(contact.slip),
+        settled,
+    };
+    situation.findings()
 }
 
 /// Evaluates every wheel in order, batch by batch, into an array with a row for each result.
@@ -121,7 +144,7 @@ fn evaluate(
     count: usize,
     one: impl Fn(usize) -> Row + Sync,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let results = PyArray2::<f64>::zeros(py, [WHEEL.len() + 1, count], false);
+    let results = PyArray2::<f64>::zeros(py, [WHEEL.len() + 2, count], false);
     {
         let mut results = results.readwrite();
         let cells = results.as_slice_mut()?;
@@ -155,11 +178,11 @@ fn evaluate(
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>);
 
 fn names(last: &'static str) -> Vec<&'static str> {
-    wheel_names().chain([last]).collect()
+    wheel_names().chain([last, "flag_bits"]).collect()
 }
 
 /// The sinkages at which wheels carry their loads, and the forces there. A row that is NaN but for
-/// `capacity_n`, its last, is a wheel that the soil does not carry.
+/// `capacity_n` and the flags' bits, its last two, is a wheel that the soil does not carry.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -183,17 +206,20 @@ pub(crate) fn settle<'py>(
     inputs.check(stand.soils.len(), LOAD.name, &study::LOAD_N)?;
     let one = |place: usize| {
         let (contact, theory) = stand.contact(&inputs, place);
-        match settle_one(theory.model(), &contact, inputs.pressed[place]) {
-            Ok(settled) => row(&wheel_row(&settled), f64::NAN),
-            Err(SettleError::SunkToAxle { capacity, .. }) => row(&NO_WHEEL, capacity),
+        let load = inputs.pressed[place];
+        let found = settle_one(theory.model(), &contact, load);
+        let flags = findings(&contact, theory, load, found.as_ref().ok());
+        match found {
+            Ok(settled) => row(&wheel_row(&settled), f64::NAN, &flags),
+            Err(SettleError::SunkToAxle { capacity, .. }) => row(&NO_WHEEL, capacity, &flags),
             // Loads were checked.
-            Err(SettleError::BadLoad { .. }) => row(&NO_WHEEL, f64::NAN),
+            Err(SettleError::BadLoad { .. }) => row(&NO_WHEEL, f64::NAN, &flags),
         }
     };
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("capacity_n")))
 }
 
-/// The forces on wheels at given sinkages. Its last row is that sinkage once more.
+/// The forces on wheels at given sinkages. Its last rows are that sinkage once more, and no flags.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -221,7 +247,8 @@ pub(crate) fn wheel_forces<'py>(
         let sinkage = SINKAGE.unit.to_si(inputs.pressed[place]);
         let forces = theory.model().forces(&contact, sinkage);
         let settled = Settled { sinkage, forces, evaluations: 1 };
-        row(&wheel_row(&settled), inputs.pressed[place])
+        // Forces at a given depth are no equilibrium: they carry no flags.
+        row(&wheel_row(&settled), inputs.pressed[place], &[])
     };
     Ok((evaluate(py, inputs.pressed.len(), one)?, names("given_sinkage_mm")))
 }

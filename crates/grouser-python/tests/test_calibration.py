@@ -116,6 +116,9 @@ def check_same_as_program(found: gr.Calibration, answer: dict[str, Any]) -> None
     assert found.sampler == answer["sampler"]
     assert list(found.unidentifiable) == answer["cannot_tell_apart"]
     assert same(found.discrepancies["std"], answer["discrepancies"], "std")
+    lengths = answer.get("correlation_lengths", [])
+    assert same(found.correlation_lengths["mean"], lengths, "mean")
+    assert found.cross_validation_overall == answer.get("cross_validation_overall")
 
 
 def test_wheel_tests_as_the_program_has_them(

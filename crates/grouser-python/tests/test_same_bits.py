@@ -183,10 +183,34 @@ def test_ranking_of_all_theories(program: Program, tmp_path: Path) -> None:
 
 
 def test_ranking_on_the_data_sets_of_the_program(program: Program) -> None:
-    rows = program("validate", "--all")["rows"]
+    answer = program("validate", "--all")
     ranking = gr.validate_all()
-    assert list(ranking.rows) == rows
-    assert {row["data_set"] for row in ranking.rows} == {"CMU single wheel"}
+    for name in ("rows", "yardsticks", "models"):
+        assert list(getattr(ranking, name)) == answer[name], name
+    assert {row["data_set"] for row in ranking.rows} == {
+        "CMU single wheel",
+        "Published wheel tests",
+        "VIPER rover up slopes, simulated",
+        "HAKUTO across slopes",
+    }
+    assert len(ranking.to_pandas()) == len(ranking.plot().patches) == len(answer["rows"])
+
+
+def test_a_rover_on_slopes(program: Program) -> None:
+    answer = program(
+        "validate", "--data", "viper-slip-slope", "--soil", "grc-1", "--rover", "mgru3",
+        "--model", "bekker", "--where", "slope_deg!=0",
+    )  # fmt: skip
+    found = gr.validate_slopes(
+        "viper-slip-slope", "grc-1", "mgru3", model="bekker", where="slope_deg!=0"
+    )
+    assert found.overall == answer["overall"] and list(found.yardsticks) == answer["yardsticks"]
+    table = found.to_pandas()
+    for name in ("slope_deg", "measured_slip_ratio", "slip_ratio"):
+        assert same(table[name], answer["rows"], name), name
+    assert found.plot().get_ylabel() and repr(found) == "<SlopeValidation on 6 slopes>"
+    with pytest.raises(gr.DocumentError, match="the slope"):
+        gr.validate_slopes("cmu-single-wheel", "grc-1", "mgru3")
 
 
 def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
@@ -196,7 +220,7 @@ def test_a_data_set_of_the_program_by_its_name(program: Program) -> None:
         "--where", where,
     )  # fmt: skip
     found = gr.validate("cmu-single-wheel", "direct-90", wheel, where=where)
-    assert found.overall == answer["overall"]
+    assert found.overall == answer["overall"] and list(found.yardsticks) == answer["yardsticks"]
     with pytest.raises(gr.DocumentNotFoundError, match="did you mean `cmu-single-wheel`"):
         gr.validate("cmu-single-whel", "direct-90", wheel)
 

@@ -12,6 +12,7 @@ use grouser::document::{Kind, Overrides, Source, read_soil};
 use grouser::error::ParameterError;
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
+use grouser::soil::SlopeStability;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
 use grouser::wheel::{Grousers, Wheel};
@@ -69,6 +70,8 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),
+        yaw: None,
+        stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 30.0,
         numerics: Numerics::DEFAULT,

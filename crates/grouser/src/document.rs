@@ -27,16 +27,33 @@ pub use soil_family::{FitKey, SoilFamily};
 /// # Errors
 /// [`DocumentError`] for the first fault found.
 pub fn check(source: &Source) -> Result<Kind, DocumentError> {
+    checked(source).map(|checked| checked.kind)
+}
+
+/// A document without a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// Its kind.
+    pub kind: Kind,
+    /// The keys that it, or its soil, takes from priors because they are not stated.
+    pub assumed: Vec<Assumed>,
+}
+
+/// Checks a document of any kind, named by its `schema`, and says what it leaves to priors.
+///
+/// # Errors
+/// [`DocumentError`] for the first fault found.
+pub fn checked(source: &Source) -> Result<Checked, DocumentError> {
     let kind = kind_of_source(source)?;
     let overrides = Overrides::none();
-    match kind {
-        Kind::Soil => read_soil(source, &overrides).map(drop),
-        Kind::Wheel => read_wheel(source, &overrides).map(drop),
-        Kind::Rover => read_rover(source, &overrides).map(drop),
-        Kind::Scenario => read_scenario(source, &overrides).map(drop),
-        Kind::DataSet => read_data_set(source, &overrides).map(drop),
-        Kind::Campaign => read_campaign(source, &overrides).map(drop),
-        Kind::Prior => read_priors(source, &overrides).map(drop),
-    }?;
-    Ok(kind)
+    let assumed = match kind {
+        Kind::Soil => read_soil(source, &overrides)?.assumed,
+        Kind::Scenario => read_scenario(source, &overrides)?.assumed,
+        Kind::Wheel => read_wheel(source, &overrides)?.assumed,
+        Kind::Rover => read_rover(source, &overrides)?.assumed,
+        Kind::DataSet => read_data_set(source, &overrides)?.assumed,
+        Kind::Campaign => read_campaign(source, &overrides).map(|_| Vec::new())?,
+        Kind::Prior => read_priors(source, &overrides).map(|_| Vec::new())?,
+    };
+    Ok(Checked { kind, assumed })
 }

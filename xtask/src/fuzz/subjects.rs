@@ -52,7 +52,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 26] = [
+const LINES: [(&str, &str, &[&str]); 27] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -126,7 +126,12 @@ const LINES: [(&str, &str, &[&str]); 26] = [
     (
         "validate, folder",
         "validate --all --data-dir . --format table",
-        &["set.toml", "test.csv", "soil.toml", "wheel.toml"],
+        &["set.toml", "climbs.toml", "climbs.csv", "test.csv", "soil.toml", "wheel.toml"],
+    ),
+    (
+        "validate, slopes",
+        "validate --data climbs.csv --rover rover.toml --soil soil.toml --out judged --format json",
+        &["climbs.csv", "rover.toml", "soil.toml"],
     ),
     (
         "calibrate",
@@ -236,7 +241,7 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 --format csv",
         ),
     ];
-    const WRITTEN: [(&str, &str); 9] = [
+    const WRITTEN: [(&str, &str); 11] = [
         (
             "scenario.toml",
             "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
@@ -252,6 +257,14 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         (
             "set.toml",
             "schema = \"data-set/1\"\nname = \"our stand\"\nsource = \"simulated\"\nfile = \"test.csv\"\n[[case]]\nname = \"all\"\nwheel = \"wheel.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\n",
+        ),
+        (
+            "climbs.csv",
+            "slope_deg,course_deg,slip_ratio,yaw_deg,trial,status\n0,90,0.05,90,1,ok\n10,90,0.2,90,1,ok\n10,90,0.22,90,2,ok\n10,0,0.1,5,1,ok\n",
+        ),
+        (
+            "climbs.toml",
+            "schema = \"data-set/1\"\nname = \"our climbs\"\nsource = \"simulated\"\nfile = \"climbs.csv\"\n[[case]]\nname = \"all\"\nrover = \"rover.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\nfitted = [\"toyoura\"]\n",
         ),
         ("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n36.5,0.95\n"),
         ("sampled.toml", SAMPLED),

@@ -12,8 +12,11 @@ use crate::output::Format;
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
     /// Documents to check.
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
+    /// Print the list of flags of validity, with meanings and rules, instead.
+    #[arg(long, conflicts_with = "files")]
+    pub(crate) flags: bool,
 }
 
 #[derive(Debug, Args)]

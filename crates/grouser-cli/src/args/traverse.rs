@@ -15,7 +15,8 @@ pub(crate) struct TraverseArgs {
     /// Inclination of the slope [°].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
-    /// Yaw at the start [°], positive uphill.
+    /// Yaw at the start [°], positive uphill; or over the whole run, as pairs of time [s] and yaw:
+    /// `[[0, 5.51], [20, 3.10]]`.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<String>,
     /// Length of the run [s].

@@ -2,21 +2,29 @@
 
 use std::fmt::Write as _;
 
-use grouser::document::{self, Source, escape};
+use grouser::document::{self, Assumed, Checked, Source, escape};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::output;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
+    if args.flags {
+        return output::print(&document::validity::list());
+    }
     let mut good = String::new();
     let mut worst: Option<Failure> = None;
     for path in &args.files {
         let source = Source::file(path);
-        match document::check(&source).and_then(|kind| Ok((kind, document::doubts(&source)?))) {
-            Ok((kind, doubts)) => {
+        match document::checked(&source).and_then(|it| Ok((it, document::doubts(&source)?))) {
+            Ok((Checked { kind, assumed }, doubts)) => {
                 // Writing to a string does not fail.
                 let _ = writeln!(good, "{}: a valid {kind} document", escape::path(path));
+                for Assumed { key, prior, value } in assumed {
+                    let value = value.map_or(String::new(), |value| format!(" = {value}"));
+                    let prior = escape::line(&prior);
+                    let _ = writeln!(good, "  not stated: {key}{value}, from \"{prior}\"");
+                }
                 for doubt in doubts {
                     let _ = writeln!(good, "  note: {}", escape::line(&doubt));
                 }

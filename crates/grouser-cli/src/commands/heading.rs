@@ -80,8 +80,10 @@ fn of_model(args: &HeadingArgs, setting: &SettingArgs, charted: bool) -> Result<
     };
     let slopes: Vec<f64> = args.slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
-    let flags = heading::findings(&curve, &slopes);
-    strict::check(&args.strict, flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+    if args.strict.strict {
+        let flags = heading::findings(&curve, &slopes);
+        strict::check(&args.strict, flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+    }
     let mut limit = heading::steepest(&curve);
     if let Some(bands) = &bands {
         table = heading::with_bands(table, &bands.asked);

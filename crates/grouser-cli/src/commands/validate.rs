@@ -145,16 +145,18 @@ fn long_rows(validation: &Validation) -> Rows {
 /// * `yardstick`: whose errors they are, if not the model's
 fn rows_of(group: &GroupRecord, yardstick: Option<&str>) -> Vec<Map<String, Value>> {
     let row = |quantity: Quantity| {
+        let errors = group.errors(quantity)?;
         let row = json!({
             (SLIP_ANGLE.name): group.slip_angle(),
             "motion": group.motion(),
             "quantity": column_of(quantity).name,
+            "cells": errors.cells,
             "unsettled_trials": group.0.unsettled,
-            "yardstick": yardstick,
         });
-        let errors = serde_json::to_value(group.errors(quantity)?).ok()?;
+        let errors = serde_json::to_value(errors).ok()?;
         let (mut row, errors) = (row.as_object()?.clone(), errors.as_object()?.clone());
         row.extend(errors);
+        row.insert("yardstick".to_owned(), yardstick.into());
         Some(row)
     };
     Quantity::ALL.into_iter().filter_map(row).collect()

@@ -1,6 +1,7 @@
 //! The tables of the report: our heading offsets and runs beside the paper's model and measurements.
 
 use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
+use grouser::document::unit::MM;
 use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use serde_json::{Map, Value, json};
@@ -134,7 +135,7 @@ pub(crate) fn table_4(study: &Reproduction) -> Table {
     }
 }
 
-/// Yaw lost during the runs: measured, and with two laws of load transfer.
+/// Yaw lost during the runs: measured, and with three laws of load transfer.
 pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let loss = |run| YAW.unit.from_si(Levelness::of(run).yaw_loss);
@@ -143,6 +144,7 @@ pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
             "measured_yaw_loss_deg": printed(runs.measured.yaw_loss()),
             "quasi_static_yaw_loss_deg": loss(&runs.from_measured_yaw),
             "quasi_static_torque_yaw_loss_deg": loss(&runs.from_measured_yaw_with_torque),
+            "complete_yaw_loss_deg": loss(&runs.from_measured_yaw_complete),
         }))
     };
     Table {
@@ -153,6 +155,58 @@ pub(crate) fn yaw_loss(study: &Reproduction) -> Table {
             column("measured_yaw_loss_deg", "measured", 2),
             column("quasi_static_yaw_loss_deg", "load transfer quasi-static", 2),
             column("quasi_static_torque_yaw_loss_deg", "load transfer quasi-static-torque", 2),
+            column("complete_yaw_loss_deg", "load transfer complete", 2),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// Our heading offset beside the mean of the measured yaw.
+pub(crate) fn mean_yaw(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let ours = runs.heading.as_ref().ok().map(|heading| heading.yaw);
+        let mean = runs.measured.mean_yaw();
+        row_of(json!({
+            (SLOPE.name): printed(runs.measured.slope),
+            (YAW.name): ours.map(|yaw| YAW.unit.from_si(yaw)),
+            "measured_mean_yaw_deg": printed(mean),
+            "difference_deg": ours.map(|yaw| YAW.unit.from_si(yaw - mean)),
+        }))
+    };
+    Table {
+        caption: "Heading offset that holds the contour, beside the mean of the measured yaw, in degrees",
+        file: "mean-yaw",
+        columns: vec![
+            column(SLOPE.name, "slope", 0),
+            column(YAW.name, "Grouser", 2),
+            column("measured_mean_yaw_deg", "measured, mean", 2),
+            column("difference_deg", "difference", 2),
+        ],
+        rows: study.slopes.iter().map(row).collect(),
+    }
+}
+
+/// Where the runs end that are held at the measured yaw.
+pub(crate) fn measured_yaw_drift(study: &Reproduction) -> Table {
+    let row = |runs: &SlopeRuns| {
+        let end = runs.at_measured_yaw.last().state.position;
+        row_of(json!({
+            (SLOPE.name): printed(runs.measured.slope),
+            "measured_initial_yaw_deg": printed(runs.measured.initial_yaw),
+            "measured_final_yaw_deg": printed(runs.measured.final_yaw),
+            "paper_final_distance_error_mm": MM.from_si(runs.measured.final_distance_error),
+            "end_y_mm": MM.from_si(end.y),
+        }))
+    };
+    Table {
+        caption: "Drift at the end of a run held at the measured yaw, in millimetres, uphill positive",
+        file: "measured-yaw-drift",
+        columns: vec![
+            column(SLOPE.name, "slope [°]", 0),
+            column("measured_initial_yaw_deg", "measured yaw, start [°]", 2),
+            column("measured_final_yaw_deg", "measured yaw, end [°]", 2),
+            column("paper_final_distance_error_mm", "measured, unsigned [mm]", 0),
+            column("end_y_mm", "Grouser [mm]", 0),
         ],
         rows: study.slopes.iter().map(row).collect(),
     }

@@ -110,6 +110,20 @@ fn the_folder_holds_a_soil_that_other_commands_take() {
     let judged = json(&place, "validate --data test.csv --wheel hakuto --soil fit/soil.toml");
     let rmse = |overall: &Value| number(&overall["drawbar_pull_n"]["rmse"]);
     assert!((rmse(&judged["overall"]) - rmse(&found["overall"])).abs() < 1e-9);
+    // Every sample has what the model gets wrong, for each quantity that was read.
+    let samples = place.read("fit/soil-samples.csv");
+    let columns: Vec<&str> = samples.lines().next().expect("a header").split(',').collect();
+    assert_eq!(columns.len(), 2 + 20 + 15 + 20 + 20);
+    assert!(columns.contains(&"discrepancy.side_force.14"), "{columns:?}");
+    assert!(soil.contains("[discrepancy]"), "{soil}");
+    assert_eq!(found["correlation_lengths"].as_array().map(Vec::len), Some(2));
+    for group in found["cross_validation"].as_array().expect("groups") {
+        let pull = &group["drawbar_pull_n"];
+        let (narrow, wide) = (number(&pull["coverage_50"]), number(&pull["coverage_95"]));
+        assert!((0.0..=wide).contains(&narrow) && wide <= 1.0, "{group}");
+        assert!(number(&pull["interval_score"]) > 0.0, "{group}");
+    }
+    assert_eq!(found["cross_validation_overall"]["motion"], "all");
     // Left out of the fit, an angle is predicted no better than with it, or little.
     assert_eq!(found["cross_validation"].as_array().map(Vec::len), Some(2));
     let band =

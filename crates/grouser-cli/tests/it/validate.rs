@@ -46,7 +46,21 @@ fn errors_have_the_words_of_the_design() {
     for row in rows.iter().chain([&json["overall"], &json["driven"], &json["skid"]]) {
         for quantity in ["drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm"] {
             let errors = &row[quantity];
-            assert_eq!(keys(errors), ["rmse", "bias", "r2", "repeatability", "cells"]);
+            assert_eq!(
+                keys(errors),
+                [
+                    "rmse",
+                    "bias",
+                    "r2",
+                    "repeatability",
+                    "cells",
+                    "largest_measured",
+                    "rmse_share",
+                    "bias_share",
+                    "aim",
+                    "within_aim"
+                ]
+            );
             assert!(errors["rmse"].is_number() && errors["r2"].is_number(), "{quantity}: {row}");
         }
     }
@@ -108,10 +122,13 @@ fn validations_as_tables_and_csv() {
     let mut lines = csv.lines();
     assert_eq!(
         lines.next(),
-        Some("slip_angle_deg,motion,quantity,cells,unsettled_trials,rmse,bias,r2,repeatability")
+        Some(
+            "slip_angle_deg,motion,quantity,cells,unsettled_trials,rmse,bias,r2,repeatability,\
+             largest_measured,rmse_share,bias_share,aim,within_aim,yardstick"
+        )
     );
-    // 4 groups, driven, skid and all of 4 quantities.
-    assert_eq!(lines.count(), 7 * 4);
+    // 4 groups, driven, skid and all, and 3 yardsticks, of 4 quantities.
+    assert_eq!(lines.count(), (7 + 3) * 4);
 }
 
 #[test]
@@ -141,7 +158,7 @@ fn a_validation_is_repeated_from_its_folder() {
     let trials = place.read("run/trials.csv");
     assert_eq!(trials.lines().count(), 1 + 36);
     assert_eq!(place.read("run/cells.csv").lines().count(), 1 + 12);
-    assert_eq!(place.read("run/validation.csv").lines().count(), 1 + 7 * 4);
+    assert_eq!(place.read("run/validation.csv").lines().count(), 1 + (7 + 3) * 4);
     for name in ["drawbar-pull", "side-force", "sinkage", "torque"] {
         for file in [format!("{name}.svg"), format!("{name}-residuals.svg")] {
             let svg = place.read(&format!("run/figures/{file}"));
@@ -196,6 +213,11 @@ fn wrong_validations() {
             "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle=0",
             "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=7",
             "validate --data two.csv --wheel hakuto --soil toyoura",
+            "validate --data test.csv --soil toyoura",
+            "validate --data cmu-single-wheel --model rft",
+            "validate --data test.csv --wheel hakuto --rover hakuto --soil toyoura",
+            "validate --data test.csv --rover hakuto --soil toyoura",
+            "validate --data viper-slip-slope --rover mgru3 --soil grc-1 --set scenario.slope_deg=3",
             "validate --data test.csv --all",
             "validate --all --data-dir none",
             "validate --all --data-dir .",
@@ -336,9 +358,18 @@ fn a_ranking_as_a_table_as_csv_and_in_a_folder() {
 fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
     let place = with_data_set();
     let json = place.json("validate --all");
-    assert_eq!(json["inputs"]["data_sets"], serde_json::json!(["CMU single wheel"]));
+    assert_eq!(
+        json["inputs"]["data_sets"],
+        serde_json::json!([
+            "CMU single wheel",
+            "HAKUTO across slopes",
+            "Published wheel tests",
+            "VIPER rover up slopes, simulated"
+        ])
+    );
     let rows = json["rows"].as_array().expect("rows");
-    let first = rows.iter().filter(|row| row["rank"] == 1);
+    let of_cmu = rows.iter().filter(|row| row["data_set"] == "CMU single wheel");
+    let first = of_cmu.filter(|row| row["rank"] == 1);
     let best: Vec<[&Value; 3]> =
         first.map(|row| [&row["case"], &row["model"], &row["soil"]]).collect();
     assert_eq!(
@@ -348,8 +379,150 @@ fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
             ["grousers", "small-wheel", "cmu-direct90-grouser"]
         ]
     );
+    // Soils that were fitted to the rows count in no sum over the parts.
+    for row in rows {
+        let is_fitted = ["cmu-direct90-smooth", "cmu-direct90-grouser", "toyoura"]
+            .iter()
+            .any(|soil| row["soil"] == *soil);
+        assert_eq!(row["in_sample"], is_fitted, "{row}");
+    }
+    let models = json["models"].as_array().expect("models");
+    let rft = models.iter().find(|one| one["model"] == "rft").expect("it needs no fitted soil");
+    assert_eq!((&rft["parts"], &rft["scores"][6]["score"]), (&6.into(), &Value::Null));
     let own = place.json("validate --all --data-dir lab");
     assert_eq!(own["inputs"]["data_sets"], serde_json::json!(["Our stand"]));
+}
+
+/// A data set by its name alone: every model, with the published soils, and no physics beside them.
+#[test]
+fn a_data_set_alone_ranks_every_model_on_it() {
+    let place = with_data_set();
+    let json = place.json("validate --data published-wheel-tests");
+    assert_eq!(json["inputs"]["data_sets"], serde_json::json!(["Published wheel tests"]));
+    let rows = json["rows"].as_array().expect("rows");
+    let quantities = ["drawbar_pull_n", "side_force_n", "sinkage_mm", "torque_nm"];
+    for (case, measured) in [
+        ("ding-2011-smooth", [true, false, true, true]),
+        ("rashid-fjs1", [true, false, true, false]),
+        ("viper-trec-grc3", [true, false, false, false]),
+    ] {
+        let models: Vec<&Value> = rows.iter().filter(|row| row["case"] == case).collect();
+        assert!(models.len() >= 3, "{case}");
+        let yardsticks = json["yardsticks"].as_array().expect("yardsticks").iter();
+        let yardsticks: Vec<&Value> = yardsticks.filter(|row| row["case"] == case).collect();
+        let names: Vec<&Value> = yardsticks.iter().map(|row| &row["yardstick"]).collect();
+        assert_eq!(
+            names,
+            ["mean", "interpolation"],
+            "one slip angle leaves none to predict it from"
+        );
+        assert!((number(&yardsticks[0]["score"]) - 1.0).abs() < 1e-12);
+        for row in models.iter().chain(&yardsticks) {
+            for (quantity, is_measured) in quantities.iter().zip(measured) {
+                let errors = &row["overall"][quantity];
+                assert_eq!(errors.is_object(), is_measured, "{case}, {quantity}");
+                if is_measured {
+                    let share = number(&errors["rmse"]) / number(&errors["largest_measured"]);
+                    assert!((number(&errors["rmse_share"]) - share).abs() < 1e-12);
+                    let is_met = number(&errors["rmse"]) <= number(&errors["aim"]);
+                    assert_eq!(errors["within_aim"], is_met, "{case}, {quantity}");
+                }
+            }
+        }
+    }
+    let text = place.results("validate --data published-wheel-tests");
+    assert!(
+        text.contains("torque_nm") && text.contains(" within") && text.contains(" miss"),
+        "{text}"
+    );
+    let own = place.json("validate --data lab/set.toml");
+    assert_eq!(own["rows"], place.json("validate --all --data-dir lab")["rows"]);
+}
+
+// ---- A rover on slopes ----
+
+const CLIMBS: &str = "slope_deg,course_deg,slip_ratio,trial\n0,90,0.05,1\n10,90,0.2,1\n10,90,0.3,2\n\
+                      45,90,0.9,1\n";
+
+/// Repeated rows are averaged; where no heading holds the course uphill, the slip counts as 1.
+#[test]
+fn a_rovers_own_slip_on_slopes_is_compared() {
+    let place = Place::new();
+    place.write("climbs.csv", CLIMBS);
+    let judge = "validate --data climbs.csv --rover hakuto --soil toyoura";
+    let json = place.json(&format!("{judge} --out run"));
+    assert_eq!(json["schema"], "grouser.validate.v1");
+    let rows = json["rows"].as_array().expect("rows");
+    let slopes: Vec<f64> = rows.iter().map(|row| number(&row["slope_deg"])).collect();
+    assert_eq!(slopes, [0.0, 10.0, 45.0]);
+    let map =
+        place.json("heading-map --rover hakuto --soil toyoura --slope-deg 0,10 --course-deg 90");
+    for (row, held) in rows.iter().zip(map["rows"].as_array().expect("rows")) {
+        assert_eq!(row["slip_ratio"], held["slip_ratio"], "as the heading map has it");
+    }
+    assert_eq!((&rows[1]["measured_slip_ratio"], &rows[1]["trials"]), (&0.25.into(), &2.into()));
+    assert_eq!(rows[2]["slip_ratio"], 1.0);
+    assert!(rows[2]["status"].as_str().is_some_and(|why| why.starts_with("no heading holds")));
+    let overall = &json["overall"];
+    assert_eq!((&overall["cells"], &overall["not_held"]), (&3.into(), &1.into()));
+    let errors =
+        rows.iter().map(|row| number(&row["slip_ratio"]) - number(&row["measured_slip_ratio"]));
+    let bias = errors.sum::<f64>() / 3.0;
+    assert!((number(&overall["slip_ratio"]["bias"]) - bias).abs() < 1e-12);
+    assert!(overall["yaw_deg"].is_null() && overall["sinkage_mm"].is_null());
+    let csv = place.results(&format!("{judge} --format csv"));
+    assert_eq!(csv, place.read("run/validation.csv"));
+    assert!(csv.starts_with("slope_deg,course_deg,trials,measured_slip_ratio,"), "{csv}");
+    let text = place.line(judge);
+    assert_snapshot!("validate-slopes", text.conversation());
+    assert!(place.read("run/figures/slip-ratio.svg").contains("<svg"));
+    let again =
+        place.json("validate --data climbs.csv --rover hakuto --soil toyoura --where trial=1");
+    assert_eq!(again["rows"][1]["measured_slip_ratio"], 0.2);
+}
+
+/// Slip by the rim without grousers is that of the same motion, seen from their tips.
+#[test]
+fn slip_without_grousers_is_converted() {
+    let place = Place::new();
+    place.write("rim.csv", "slope_deg,slip_ratio_without_grousers\n5,0.12\n");
+    let json = place.json("validate --data rim.csv --rover hakuto --soil toyoura");
+    let tips = 1.0 - 0.88 * 0.10 / 0.11;
+    assert!((number(&json["rows"][0]["measured_slip_ratio"]) - tips).abs() < 1e-12);
+    assert_eq!(json["rows"][0]["course_deg"], 90.0);
+}
+
+#[test]
+fn broken_slope_files() {
+    let place = Place::new();
+    for (file, content) in [
+        ("no-slope", "slip_ratio\n0.1\n"),
+        ("misspelt-slope", "slope_dge,slip_ratio\n5,0.1\n"),
+        ("no-reading", "slope_deg,course_deg\n5,90\n"),
+        ("empty-readings", "slope_deg,slip_ratio,yaw_deg\n5,,nan\n"),
+        ("two-slips", "slope_deg,slip_ratio,slip_ratio_without_grousers\n5,0.1,0.1\n"),
+        ("percent", "slope_deg,slip_ratio\n5,10\n"),
+        ("too-steep", "slope_deg,slip_ratio\n75,0.1\n"),
+        ("course", "slope_deg,course_deg,slip_ratio\n5,120,0.1\n"),
+        ("a-word", "slope_deg,slip_ratio\n5,little\n"),
+        ("slope-missing", "slope_deg,slip_ratio\n,0.1\n"),
+        ("infinite", "slope_deg,slip_ratio\n5,inf\n"),
+        ("header-alone", "slope_deg,slip_ratio\n"),
+        ("header-twice", "slope_deg,slip_ratio\nslope_deg,slip_ratio\n5,0.1\n"),
+        ("column-twice", "slope_deg,slope_deg,slip_ratio\n5,5,0.1\n"),
+        ("not-ok", "slope_deg,slip_ratio,status\n5,0.1,stuck\n"),
+        ("nothing", ""),
+    ] {
+        place.write(&format!("{file}.csv"), content);
+    }
+    let names = place.names();
+    let judge = "validate --rover hakuto --soil toyoura";
+    let lines: Vec<Vec<&str>> = names
+        .iter()
+        .map(|name| judge.split(' ').chain(["--data", name.as_str()]).collect())
+        .collect();
+    let lines: Vec<&[&str]> = lines.iter().map(Vec::as_slice).collect();
+    check_refused("slope-files", &place, &lines);
 }
 
 /// A copy of the file of a data set of the program is ranked as that data set; where a document in
@@ -405,6 +578,11 @@ fn wrong_data_sets() {
         ("no-row", "slip_angle_deg=0", "slip_angle_deg=7"),
         ("misspelt", "soils =", "soil ="),
         ("gravity", "file =", "gravity_m_s2 = 0\nfile ="),
+        ("both", "wheel = \"hakuto\"", "wheel = \"hakuto\"\nrover = \"hakuto\""),
+        ("neither", "wheel = \"hakuto\"\n", ""),
+        ("no-rover", "wheel = \"hakuto\"", "rover = \"hakutto\""),
+        ("rows-of-wheels", "wheel = \"hakuto\"", "rover = \"hakuto\""),
+        ("fitted", "soils = [\"sand.toml\"]", "soils = [\"sand.toml\"]\nfitted = [\"toyoura\"]"),
         ("no-schema", "schema =", "# schema ="),
     ];
     for (folder, from, to) in sets {

@@ -6,8 +6,8 @@ use grouser_core::error::ParameterError;
 use grouser_core::simulation::{Motion, Numerics, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::{
-    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent,
-    SmallWheel, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, SlopeStability, SmallWheel, Soil, StressPeak,
 };
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser_core::vehicle::{
@@ -32,6 +32,7 @@ pub(crate) fn sand() -> Soil {
             longitudinal: modulus(0.036, 0.043),
             lateral: modulus(0.013, 0.020),
         },
+        shear_bound: ShearBound::None,
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
@@ -76,6 +77,8 @@ pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),
+        yaw: None,
+        stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 20.0,
         numerics: Numerics::DEFAULT,

@@ -14,6 +14,7 @@
 //! thrust has a side force with it. Nothing is integrated numerically.
 
 use super::bulldozing::{self, WallResistance};
+use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::mirror::from_both_sides;
@@ -28,7 +29,9 @@ pub struct Bekker;
 
 impl WheelSoilModel for Bekker {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        from_both_sides(contact, sinkage, |contact, _| entering_front(contact, sinkage))
+        from_both_sides(contact, sinkage, |contact, _| {
+            bounded(contact, sinkage, entering_front(contact, sinkage))
+        })
     }
 }
 

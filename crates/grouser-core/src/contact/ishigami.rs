@@ -13,6 +13,7 @@
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
@@ -75,7 +76,7 @@ impl WheelSoilModel for Ishigami {
 fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
     let wall = WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
     let reaction = arc.reaction(&wall, sinkage);
-    forces(contact, &reaction, &reaction.side_wall)
+    bounded(contact, sinkage, forces(contact, &reaction, &reaction.side_wall))
 }
 
 /// The stresses on the rim and the load on the side wall, added up.

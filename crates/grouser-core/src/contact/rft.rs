@@ -23,6 +23,7 @@ mod facet;
 mod sums;
 mod surface;
 
+use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::gauss::{GAUSS_4, GAUSS_16, GAUSS_64, Rule};
 use super::inputs::Contact;
@@ -83,11 +84,12 @@ impl WheelSoilModel for Rft {
         let back = half(&mirrored);
         let peak = entering(contact.slip.entering_side, &front, &back);
         let arc = ContactPatch::of_depth(sinkage / contact.wheel.shearing_radius(), 0.0, 1.0);
-        WheelForces {
+        let both = WheelForces {
             max_normal_stress: front.max_normal_stress.max(back.max_normal_stress),
             patch: ContactPatch { max_stress: peak, ..arc },
             ..front + back.front_to_back()
-        }
+        };
+        bounded(contact, sinkage, both)
     }
 }
 

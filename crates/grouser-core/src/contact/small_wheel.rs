@@ -21,6 +21,7 @@
 //! [`Slip::total`]: super::slip::Slip::total
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::coulomb_cone;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::ishigami;
@@ -90,10 +91,11 @@ fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
     let pushed = wheel.width * wall.at(sinkage);
 
     // Only the first of them carries.
-    ishigami::forces(contact, &reaction, &wall_load)
+    let forces = ishigami::forces(contact, &reaction, &wall_load)
         + face_friction(contact, &wall_load)
         + bow_wave(contact, pushed, sinkage)
-        + rear_mound(contact, pushed)
+        + rear_mound(contact, pushed);
+    coulomb_cone::within_the_cone(contact, forces, sinkage)
 }
 
 /// What the soil makes of a wheel's motion.
@@ -102,10 +104,11 @@ fn response(contact: &Contact) -> Response {
     let terms = &contact.soil.small_wheel;
     let (total_slip, beta) = (contact.slip.total(), contact.slip.angle);
     Response {
-        surface_growth: terms.sinkage.at_the_surface(total_slip, beta),
+        sinkage_growth: terms.sinkage.at(total_slip, beta),
         exit_ratio: terms.exit.ratio(classical.exit_ratio, total_slip, beta),
         friction: terms
-            .interface_friction_angle
+            .interface
+            .friction_angle_of(&contact.wheel, &contact.soil)
             .map_or(classical.friction, |delta| classical.friction.min(wide::tan(delta))),
     }
 }

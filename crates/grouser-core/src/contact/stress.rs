@@ -12,8 +12,7 @@ use super::patch::ContactPatch;
 use super::slip::Slip;
 use crate::elementary;
 use crate::soil::pressure_sinkage::ScaledPressure;
-use crate::soil::small_wheel::SinkageGrowth;
-use crate::soil::{Shear, Soil};
+use crate::soil::{Shear, ShearBound, Soil};
 
 /// Stress of the soil on the rim at one angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,14 +70,13 @@ pub(super) struct StressLaw {
     /// θ_m/θ_f [-].
     peak_share: f64,
     exit_ratio: f64,
-    surface_growth: f64,
 }
 
 /// What a model decides about a soil under a moving wheel before the stresses are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Response {
-    /// Sinkage growth near the surface, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
-    pub(super) surface_growth: f64,
+    /// Sinkage growth, *ζ* [-]: the pressure at depth z is the law's at z/ζ.
+    pub(super) sinkage_growth: f64,
     /// Exit-angle ratio, *λ* [-].
     pub(super) exit_ratio: f64,
     /// Coefficient of friction between rim and soil [-].
@@ -89,7 +87,7 @@ impl Response {
     /// That of the classical model.
     pub(super) fn classical(contact: &Contact) -> Self {
         Self {
-            surface_growth: 1.0,
+            sinkage_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
             friction: contact.soil.friction(),
         }
@@ -109,14 +107,14 @@ impl StressLaw {
             radius,
             slip: *slip,
             pressure: at_scale,
-            scale: scale / radius,
+            // σ = K (z/ζ)ⁿ
+            scale: scale * response.sinkage_growth / radius,
             exponent,
             cohesion: soil.cohesion,
             friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
             peak_share: soil.stress_peak.share(slip.ratio),
             exit_ratio: response.exit_ratio,
-            surface_growth: response.surface_growth,
         }
     }
 
@@ -132,18 +130,13 @@ impl StressLaw {
         let patch = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
         let ContactPatch { entry, max_stress, exit } = patch;
         let (ahead, behind) = (entry - max_stress, max_stress - exit);
-        let mut scale = self.scale;
-        if self.surface_growth != 1.0 {
-            // σ = K (z/ζ)ⁿ
-            scale *= SinkageGrowth::at_depth(self.surface_growth, depth);
-        }
         // The height of the surface is the depth: no need to ask the angle.
         let height = depth.clamp(0.0, 2.0);
         StressField {
             patch,
             entry_sin: (height * (2.0 - height)).sqrt(),
             entry_height: height,
-            per_scale: 1.0 / scale,
+            per_scale: 1.0 / self.scale,
             squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
             law: *self,
         }
@@ -160,7 +153,7 @@ impl StressLaw {
     pub(super) fn shallow(&self) -> (f64, f64) {
         let (n, front) = (self.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
-        let scale = self.scale * self.radius * self.surface_growth;
+        let scale = self.scale * self.radius;
         let profile = elementary::pow(front * (2.0 - front * node) / scale, n) / (n + 1.0);
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
         (self.pressure * arc, n + 0.5)
@@ -171,6 +164,7 @@ impl StressLaw {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum MobilisedShear {
     Anisotropic(AnisotropicShear),
+    Bounded(BoundedShear),
     Isotropic(IsotropicShear),
 }
 
@@ -181,6 +175,10 @@ pub(super) struct AnisotropicShear {
     per_lateral: f64,
 }
 
+/// The same, with a resultant within the soil's strength.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoundedShear(AnisotropicShear);
+
 /// 1/*K* [1/m].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct IsotropicShear {
@@ -190,10 +188,16 @@ pub(super) struct IsotropicShear {
 impl MobilisedShear {
     fn new(soil: &Soil, slip_angle: f64) -> Self {
         match &soil.shear {
-            Shear::Anisotropic { longitudinal, lateral } => Self::Anisotropic(AnisotropicShear {
-                per_longitudinal: 1.0 / longitudinal.at(slip_angle),
-                per_lateral: 1.0 / lateral.at(slip_angle),
-            }),
+            Shear::Anisotropic { longitudinal, lateral } => {
+                let each = AnisotropicShear {
+                    per_longitudinal: 1.0 / longitudinal.at(slip_angle),
+                    per_lateral: 1.0 / lateral.at(slip_angle),
+                };
+                match soil.shear_bound {
+                    ShearBound::None => Self::Anisotropic(each),
+                    ShearBound::Coulomb => Self::Bounded(BoundedShear(each)),
+                }
+            }
             Shear::Isotropic { modulus } => {
                 Self::Isotropic(IsotropicShear { per_modulus: 1.0 / modulus.at(slip_angle) })
             }
@@ -205,8 +209,13 @@ impl MobilisedShear {
 ///
 /// ```text
 /// anisotropic   τ_x = ±(c + σ tan φ)(1 − e^(−|j_x|/K_x)) with the sign of j_x; τ_y alike, against v_y
+/// bounded       both of them by the factor √(1 − m_x² m_y²/(m_x² + m_y²)), m the shares mobilised
 /// isotropic     |τ| = (c + σ tan φ)(1 − e^(−|j|/K)), against the slip velocity
 /// ```
+///
+/// The bounded law has |τ|² = (c + σ tan φ)² (1 − (1 − m_x²)(1 − m_y²)): within the strength, equal to it
+/// only where one axis is fully mobilised, and the anisotropic one where the wheel slips along one axis
+/// alone. A factor that sets in only beyond the strength would bend the stress within the arc.
 pub(super) trait ShearLaw {
     fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64);
 }
@@ -218,6 +227,20 @@ impl ShearLaw for AnisotropicShear {
         let across = -strength * mobilised(j_y, self.per_lateral);
         let along = strength * mobilised(j_x, self.per_longitudinal);
         (along, if j_y == 0.0 { 0.0 } else { across })
+    }
+}
+
+impl ShearLaw for BoundedShear {
+    #[inline(always)]
+    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+        let (j_x, j_y) = field.displacement(point);
+        let along = mobilised(j_x, self.0.per_longitudinal);
+        let across = mobilised(j_y, self.0.per_lateral);
+        let (x_2, y_2) = (along * along, across * across);
+        let sum = x_2 + y_2;
+        let both = x_2 * y_2 / if sum > f64::MIN_POSITIVE { sum } else { 1.0 };
+        let within = strength * (1.0 - both).sqrt();
+        (within * along, if j_y == 0.0 { 0.0 } else { -within * across })
     }
 }
 
@@ -280,6 +303,7 @@ impl StressField {
             let point = self.point(self.patch.entry - angle);
             match self.law.shear {
                 MobilisedShear::Anisotropic(law) => self.stress(&law, self.normal(&point), &point),
+                MobilisedShear::Bounded(law) => self.stress(&law, self.normal(&point), &point),
                 MobilisedShear::Isotropic(law) => self.stress(&law, self.normal(&point), &point),
             }
         } else {
@@ -297,7 +321,7 @@ impl StressField {
     #[inline(always)]
     pub(super) fn has_two_pieces(&self) -> bool {
         let margin = match self.law.shear {
-            MobilisedShear::Anisotropic(_) => 1.0,
+            MobilisedShear::Anisotropic(_) | MobilisedShear::Bounded(_) => 1.0,
             MobilisedShear::Isotropic(_) => TURNS_UNDER_HUB,
         };
         self.law.slip.rim >= margin * self.law.slip.forward

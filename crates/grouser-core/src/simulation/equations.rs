@@ -21,6 +21,8 @@ pub struct Equations<'a> {
     ground: Ground<'a>,
     rim_speeds: &'a [f64],
     wheel_speeds: Vec<f64>,
+    /// The yaw rate that is held, if one is [rad/s].
+    held_yaw_rate: Option<f64>,
     work: Cell<Work>,
     failure: RefCell<Option<ReactionError>>,
 }
@@ -49,6 +51,10 @@ pub struct Rates {
     pub soil_power: f64,
 }
 
+/// Time in which a yaw rate returns to the one that is held [s]. It never leaves it by more than
+/// rounding: the time only tells a solver the way. Source: ours, as long as slip takes to settle.
+const BACK_TO_HELD_RATE: f64 = 1e-2;
+
 impl<'a> Equations<'a> {
     /// The equations of a scenario, for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
@@ -71,9 +77,15 @@ impl<'a> Equations<'a> {
             ground,
             rim_speeds,
             wheel_speeds,
+            held_yaw_rate: None,
             work: Cell::default(),
             failure: RefCell::new(None),
         }
+    }
+
+    /// The same for a rover whose yaw rate something holds, if it does [rad/s].
+    pub(super) fn holding(self, yaw_rate: Option<f64>) -> Self {
+        Self { held_yaw_rate: yaw_rate, ..self }
     }
 
     /// The soil's reaction on each wheel: kinematics, slip, loads, sinkage, forces.
@@ -116,7 +128,13 @@ impl<'a> Equations<'a> {
         let stance = self.ground.stance(state);
         let wheels = self.reactions_at(state, &stance)?;
         let forces = forces_of(&wheels);
-        let acceleration = dynamics::acceleration(rover, stance.pull, state, forces, own_moments);
+        let (acceleration, holding_moment) = match self.held_yaw_rate {
+            None => (dynamics::acceleration(rover, stance.pull, state, forces, own_moments), 0.0),
+            Some(rate) => {
+                let back = (rate - state.yaw_rate) / BACK_TO_HELD_RATE;
+                dynamics::held_acceleration(rover, stance.pull, state, forces, own_moments, back)
+            }
+        };
         let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount));
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
@@ -126,7 +144,7 @@ impl<'a> Equations<'a> {
             velocity_slope: stance.slope_from_body * state.velocity,
             yaw_rate: state.yaw_rate,
             acceleration,
-            motor_power,
+            motor_power: motor_power + holding_moment * state.yaw_rate,
             soil_power,
         };
         Ok(Evaluation { rates, wheels })

@@ -25,7 +25,7 @@ pub(super) struct Leg<'a> {
     pub(super) scenario: &'a Scenario,
     pub(super) state: &'a mut State,
     pub(super) records: &'a mut Vec<Record>,
-    /// Whether the wheels had other speeds before.
+    /// Whether the wheels had other speeds before, or a held yaw another rate.
     pub(super) is_new_command: bool,
     /// Until when they are expected to keep them [s].
     pub(super) kept_until: f64,
@@ -57,7 +57,8 @@ impl Leg<'_> {
     /// Goes on through the given times and looks at the rover at each; with none, at the start.
     fn go_through(&mut self, times: &[f64]) -> Result<(), RunError> {
         let rim_speeds = std::mem::take(&mut self.state.rim_speeds);
-        let equations = Equations::of(self.scenario, &rim_speeds);
+        let yaw_rate = self.scenario.yaw.as_ref().map(|yaw| yaw.rate_from(self.state.time));
+        let equations = Equations::of(self.scenario, &rim_speeds).holding(yaw_rate);
         let mut times = times;
         let mut done = Ok(());
         if self.state.method == Method::QuasiSteady {

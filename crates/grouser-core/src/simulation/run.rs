@@ -157,7 +157,7 @@ impl Run {
         }
         let until = snapped(self.state.time + span, WATCH_PERIOD);
         self.records.truncate(self.kept);
-        let done = self.leg(is_new_command, until, Some(until)).go_to(until);
+        let done = self.go_to(is_new_command, until, Some(until));
         self.record_now();
         done
     }
@@ -229,10 +229,32 @@ impl Run {
                 let periods = (self.state.time / period).round() + 1.0;
                 (periods * period).min(until)
             });
-            led = self.leg(is_new_command, next, None).go_to(next);
+            led = self.go_to(is_new_command, next, None);
             self.kept = self.records.len();
         }
         led
+    }
+
+    /// Goes on to a time in legs, each of which ends where a prescribed yaw begins to turn otherwise.
+    fn go_to(
+        &mut self,
+        is_new_command: bool,
+        until: f64,
+        only_at: Option<f64>,
+    ) -> Result<(), RunError> {
+        let time = self.state.time;
+        let turns = self.scenario.yaw.iter().flat_map(|yaw| yaw.turns_between(time, until));
+        let ends: Vec<f64> = turns.chain([until]).collect();
+        let mut is_new_command = is_new_command;
+        for end in ends {
+            is_new_command |= self.state.follow_yaw(&self.scenario);
+            self.leg(is_new_command, end, only_at).go_to(end)?;
+            if self.state.outcome.is_some() {
+                break;
+            }
+            is_new_command = false;
+        }
+        Ok(())
     }
 
     fn leg(&mut self, is_new_command: bool, kept_until: f64, only_at: Option<f64>) -> Leg<'_> {

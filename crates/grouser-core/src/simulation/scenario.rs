@@ -1,8 +1,10 @@
 //! Everything that determines a run.
 
+use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
+use crate::soil::SlopeStability;
 use crate::units::Vec2;
 use crate::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState};
 
@@ -39,6 +41,10 @@ pub struct Scenario {
     pub own_moments: OwnMoments,
     /// What turns the wheels.
     pub drive: DriveLaw,
+    /// The yaw over time, if something holds it; without it the wheels' moments turn the rover.
+    pub yaw: Option<PrescribedYaw>,
+    /// What is asked of the ground's own strength by those who plan on it; a run is not changed by it.
+    pub stability: SlopeStability,
     /// How the run starts.
     pub start: Start,
     /// How long it lasts [s].
@@ -124,6 +130,13 @@ pub enum Motion {
 /// Speed of a rolling start over the rim's speed [-]. Source: ours, a light slip.
 pub const ROLLING_SHARE: f64 = 0.95;
 
+/// That the complete load transfer has the wheels' own moments in it.
+#[must_use]
+pub fn neglected_moments() -> ParameterError {
+    let name = "share of the wheels' own moments in a complete load transfer";
+    ParameterError::new(name, 0.0, "1: they are part of it")
+}
+
 /// The longest run [s]: a day.
 pub const LONGEST_DURATION: f64 = 86_400.0;
 
@@ -135,7 +148,18 @@ impl Scenario {
     pub fn check(&self) -> Result<(), ParameterError> {
         self.site.check()?;
         self.drive.check(&self.rover)?;
+        self.stability.check()?;
         finite("start yaw [rad]", self.start.yaw)?;
+        if let Some(yaw) = &self.yaw {
+            yaw.check()?;
+            if self.start.yaw != 0.0 && self.start.yaw != yaw.at(0.0) {
+                let expected = "that of the yaw over time, or left out";
+                return Err(ParameterError::new("start yaw [rad]", self.start.yaw, expected));
+            }
+        }
+        if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
+            return Err(neglected_moments());
+        }
         positive("duration [s]", self.duration)?;
         if self.duration > LONGEST_DURATION {
             let expected = "at most a day, 86400 s";
@@ -153,7 +177,11 @@ impl Scenario {
     /// * `rim_speeds`: ω r_s of each wheel [m/s]
     #[must_use]
     pub fn start_state(&self, rim_speeds: &[f64]) -> RoverState {
-        let at_rest = RoverState { yaw: self.start.yaw, ..RoverState::default() };
+        let (yaw, yaw_rate) = match &self.yaw {
+            Some(yaw) => (yaw.at(0.0), yaw.rate_from(0.0)),
+            None => (self.start.yaw, 0.0),
+        };
+        let at_rest = RoverState { yaw, yaw_rate, ..RoverState::default() };
         match self.start.motion {
             Motion::Rest => at_rest,
             Motion::Rolling => {

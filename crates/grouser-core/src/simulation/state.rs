@@ -92,6 +92,21 @@ impl State {
         self.work
     }
 
+    /// That the rover turns from now on as the scenario prescribes, if it prescribes a turn here; whether
+    /// it does. What a jump of the yaw rate takes, its holder gives.
+    pub(super) fn follow_yaw(&mut self, scenario: &Scenario) -> bool {
+        let Some(yaw) = scenario.yaw.as_ref().filter(|yaw| yaw.turns_at(self.time)) else {
+            return false;
+        };
+        let before = power::kinetic_energy(&scenario.rover, &self.point.state);
+        self.point.state.yaw = yaw.at(self.time);
+        self.point.state.yaw_rate = yaw.rate_from(self.time);
+        let after = power::kinetic_energy(&scenario.rover, &self.point.state);
+        self.point.motors += after - before;
+        self.history.clear();
+        true
+    }
+
     /// That the motors turn the wheels at other speeds from now on.
     ///
     /// * `rim_speeds`: of each wheel [m/s]

@@ -54,20 +54,56 @@ pub fn acceleration<'a>(
     wheels: impl IntoIterator<Item = &'a WheelForces>,
     own_moments: OwnMoments,
 ) -> Acceleration {
+    let right_hand_side = right_hand_side(rover, pull, state, wheels, own_moments);
+    // m I > |S|² for every rigid body, so the matrix has an inverse.
+    let rates = mass_matrix(rover).lu().solve(&right_hand_side).unwrap_or_default();
+    Acceleration { velocity_rate: rates.xy(), yaw_acceleration: rates.z }
+}
+
+/// The same of a rover whose yaw is held: it turns with a yaw acceleration of its own, for which
+/// something gives it the moment that is returned [N·m].
+///
+/// * `yaw_acceleration`: *γ̈* [rad/s²]
+#[must_use]
+pub fn held_acceleration<'a>(
+    rover: &Rover,
+    pull: Vec2,
+    state: &RoverState,
+    wheels: impl IntoIterator<Item = &'a WheelForces>,
+    own_moments: OwnMoments,
+    yaw_acceleration: f64,
+) -> (Acceleration, f64) {
+    let right_hand_side = right_hand_side(rover, pull, state, wheels, own_moments);
+    let (m, s) = (rover.mass(), rover.first_moment());
+    let x_rate = (right_hand_side.x + s.y * yaw_acceleration) / m;
+    let y_rate = (right_hand_side.y - s.x * yaw_acceleration) / m;
+    let rates = Vector3::new(x_rate, y_rate, yaw_acceleration);
+    let moment = (mass_matrix(rover) * rates - right_hand_side).z;
+    (Acceleration { velocity_rate: rates.xy(), yaw_acceleration }, moment)
+}
+
+fn mass_matrix(rover: &Rover) -> Matrix3<f64> {
+    let (m, s, i) = (rover.mass(), rover.first_moment(), rover.yaw_inertia());
+    Matrix3::new(m, 0.0, -s.y, 0.0, m, s.x, -s.y, s.x, i)
+}
+
+/// Forces [N] and moment [N·m] of soil and weight, and what turning takes of them.
+fn right_hand_side<'a>(
+    rover: &Rover,
+    pull: Vec2,
+    state: &RoverState,
+    wheels: impl IntoIterator<Item = &'a WheelForces>,
+    own_moments: OwnMoments,
+) -> Vector3<f64> {
     let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
     let force = soil_force + pull;
     let moment = soil_moment + rover.centre_of_mass().perp(&pull);
-
-    let (m, s, i) = (rover.mass(), rover.first_moment(), rover.yaw_inertia());
+    let (m, s) = (rover.mass(), rover.first_moment());
     let (u, v, rate) = (state.velocity.x, state.velocity.y, state.yaw_rate);
-    let mass_matrix = Matrix3::new(m, 0.0, -s.y, 0.0, m, s.x, -s.y, s.x, i);
     let turning = Vector3::new(
         m * rate * v + s.x * rate * rate,
         -m * rate * u + s.y * rate * rate,
         -rate * (s.x * u + s.y * v),
     );
-    let right_hand_side = Vector3::new(force.x, force.y, moment) + turning;
-    // m I > |S|² for every rigid body, so the matrix has an inverse.
-    let rates = mass_matrix.lu().solve(&right_hand_side).unwrap_or_default();
-    Acceleration { velocity_rate: rates.xy(), yaw_acceleration: rates.z }
+    Vector3::new(force.x, force.y, moment) + turning
 }

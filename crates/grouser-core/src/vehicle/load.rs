@@ -24,22 +24,34 @@ use crate::units::Vec2;
 /// Load transfer: what moves load from wheel to wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoadSharing {
-    /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll.
+    /// The whole wrench of every wheel: forces at the hubs, with the wheels' torque in pitch and their
+    /// overturning moments in roll. It goes with [`OwnMoments::Included`].
     #[default]
+    Complete,
+    /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll: the
+    /// source paper's.
     QuasiStatic,
-    /// The same, but with the wheels' torque in the pitch balance: the complete one.
+    /// The same, but with the wheels' torque in the pitch balance.
     QuasiStaticTorque,
     /// Equal loads.
     Uniform,
+}
+
+impl LoadSharing {
+    /// Whether the wheels' torque is in the pitch balance.
+    #[must_use]
+    pub fn has_torque(self) -> bool {
+        matches!(self, Self::Complete | Self::QuasiStaticTorque)
+    }
 }
 
 /// Whether the overturning and aligning moments of the wheels act on the rover.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OwnMoments {
     /// They are reported only.
-    #[default]
     Neglected,
     /// Overturning moments enter the roll balance, aligning moments the yaw balance.
+    #[default]
     Included,
 }
 
@@ -81,6 +93,7 @@ pub(super) fn pull(weight: &Weight, slope_from_body: &Rotation2<f64>) -> Vec2 {
 /// quasi-static      P = H G_x                          R = H G_y
 /// with torque       P = −(H − r_s) ΣF_x − ΣT
 /// own moments                                          R = H G_y + r_s ΣF_y − ΣM_x
+/// complete          P of the second line, R of the third
 /// ```
 ///
 /// The first line puts the wheels' forces into the contact plane; the others take them to the
@@ -114,7 +127,7 @@ pub fn moments(
         return balance_of_each(rover, balance, sharing, own_moments, wheels);
     };
     let sum = |part: fn(&WheelForces) -> f64| wheels.iter().map(part).sum::<f64>();
-    if sharing == LoadSharing::QuasiStaticTorque {
+    if sharing.has_torque() {
         balance.x = -(height - radius) * sum(|w| w.drawbar_pull) - sum(|w| w.torque);
     }
     if own_moments == OwnMoments::Included {
@@ -133,7 +146,7 @@ fn balance_of_each(
     own_moments: OwnMoments,
     wheels: &[WheelForces],
 ) -> Vec2 {
-    let of_torque = sharing == LoadSharing::QuasiStaticTorque;
+    let of_torque = sharing.has_torque();
     if of_torque {
         balance.x = 0.0;
     }

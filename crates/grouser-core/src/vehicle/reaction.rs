@@ -102,7 +102,7 @@ impl Ground<'_> {
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
-        let coupled = sharing == LoadSharing::QuasiStaticTorque
+        let coupled = sharing.has_torque()
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
         let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
         let mut wheels = self.settle_under(stance, moments, slips, &[])?;
@@ -138,7 +138,8 @@ impl Ground<'_> {
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, model, sharing, .. } = *self;
-        let Stance { place, slope_from_body, weight, .. } = *stance;
+        let Stance { place, slope_from_body, weight, pull } = *stance;
+        let steepness = if weight > 0.0 { pull.norm() / weight } else { 0.0 };
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
@@ -146,7 +147,7 @@ impl Ground<'_> {
             let at = place + slope_from_body * mount.position.xy();
             let contact = Contact {
                 wheel: mount.unit.wheel,
-                soil: site.terrain.soil(at, mount.footprint(&slope_from_body)).into_owned(),
+                soil: site.terrain.soil(at, mount.footprint(&slope_from_body)).on_slope(steepness),
                 slip,
                 gravity: site.gravity,
             };

@@ -49,16 +49,9 @@ pub fn in_words(finding: &Finding) -> String {
     let unit = unit(flag);
     let number = |value: f64| {
         let written = unit.from_si(value);
-        // Four significant digits, without an exponent where it can be read without.
-        let digits = if written == 0.0 { 0.0 } else { written.abs().log10().floor() };
-        let decimals = (3.0 - digits).clamp(0.0, 9.0) as usize;
-        let text = format!("{written:.decimals$}");
-        let text = if text.contains('.') {
-            text.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            &text
-        };
-        text.to_owned()
+        // Four significant digits, without an exponent.
+        let rounded: f64 = format!("{written:.3e}").parse().unwrap_or(written);
+        rounded.to_string()
     };
     let range = match allowed {
         Span { low, high } if low == high => number(low),

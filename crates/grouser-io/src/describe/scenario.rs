@@ -4,8 +4,8 @@
 use std::ops::RangeInclusive;
 
 use super::super::field::{
-    At, DEG, Field, Fill, Form, Inner, Law, Laws, M_S, ONE, S, Table, number, numbers, part,
-    positive, table, word, words,
+    At, DEG, Field, Fill, Form, Inner, Law, Laws, M, M_S, ONE, S, Table, number, numbers, pairs,
+    part, positive, table, word, words,
 };
 use super::super::kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 use super::about::{assumed, gravity, model, notes, purpose, schema, source};
@@ -13,8 +13,9 @@ use super::rover::{self, ROVER};
 use super::soil::{self, SOIL};
 use grouser_core::contact::Theory;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
-use grouser_core::simulation::{Approach, Motion, Numerics, Scenario, Start};
+use grouser_core::simulation::{Approach, Motion, Numerics, PrescribedYaw, Scenario, Start};
 use grouser_core::site::Site;
+use grouser_core::soil::SlopeStability;
 use grouser_core::vehicle::drive::SlipTarget;
 use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
@@ -45,9 +46,11 @@ pub(crate) fn blank() -> Scenario {
         rover: Rover::draft(rover::BLANK),
         site: Site::plane(soil::BLANK, 0.0, 0.0),
         theory: Theory::default(),
-        sharing: LoadSharing::QuasiStatic,
-        own_moments: OwnMoments::Neglected,
+        sharing: LoadSharing::Complete,
+        own_moments: OwnMoments::Included,
         drive: DriveLaw::Constant(0.0),
+        yaw: None,
+        stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 0.0,
         numerics: Numerics::default(),
@@ -98,23 +101,28 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
             "Load transfer: how the weight is shared among the wheels.",
             &[
                 word(
+                    "complete",
+                    "The wheels' torque in pitch, their overturning moments in roll, and their aligning moments in yaw.",
+                    |run: &mut Scenario| run.sharing = LoadSharing::Complete,
+                ),
+                word(
                     "quasi-static",
-                    "The weight's pull along the slope, in pitch and roll.",
+                    "The weight's pull along the slope, in pitch and roll: the source paper's.",
                     |run: &mut Scenario| run.sharing = LoadSharing::QuasiStatic,
                 ),
                 word(
                     "quasi-static-torque",
-                    "The same, with the wheels' torque in the pitch balance.",
+                    "The same, with the wheels' torque in pitch.",
                     |run: &mut Scenario| run.sharing = LoadSharing::QuasiStaticTorque,
                 ),
                 word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
             ],
         )
-        .otherwise(Fill::Keyword("quasi-static"))
+        .otherwise(Fill::Keyword("complete"))
         .formerly("loads"),
         words(
             "wheel_moments",
-            "Whether the wheels' own overturning and aligning moments act on the rover.",
+            "Whether the wheels' own overturning and aligning moments act on the rover; without it they do where the load transfer is complete.",
             &[
                 word("neglected", "They are reported only.", |run: &mut Scenario| {
                     run.own_moments = OwnMoments::Neglected;
@@ -124,7 +132,15 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
                 }),
             ],
         )
-        .otherwise(Fill::Keyword("neglected"))
+        .following(
+            "load_transfer",
+            &[
+                ("complete", "included"),
+                ("quasi-static", "neglected"),
+                ("quasi-static-torque", "neglected"),
+                ("uniform", "neglected"),
+            ],
+        )
         .formerly("moments"),
         words(
             "simulation",
@@ -144,7 +160,13 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
         table(
             "drive",
             "What turns the wheels.",
-            &At { inner: &DRIVE, at: |run: &mut Scenario| &mut run.drive },
+            &DRIVE,
+        )
+        .otherwise(Fill::Keys(&[])),
+        table(
+            "slope_stability",
+            "What is asked of the ground's own strength (infinite slope) by headings, maps and cards; a run is not changed by it.",
+            &At { inner: &SLOPE_STABILITY, at: |run: &mut Scenario| &mut run.stability },
         )
         .otherwise(Fill::Keys(&[])),
         table(
@@ -156,7 +178,7 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
     ],
 };
 
-static DRIVE: Laws<DriveLaw> = Laws {
+static DRIVE: Laws<Scenario> = Laws {
     doc: "What turns the wheels.",
     key: "law",
     may_be_left_out: true,
@@ -165,7 +187,7 @@ static DRIVE: Laws<DriveLaw> = Laws {
         Law {
             name: "constant",
             word: Some("Constant wheel speeds."),
-            choose: |law| *law = DriveLaw::Constant(0.0),
+            choose: |run| run.drive = DriveLaw::Constant(0.0),
             table: Table {
                 doc: "Constant wheel speeds, as in the source's experiments.",
                 fields: &[numbers(
@@ -177,66 +199,107 @@ static DRIVE: Laws<DriveLaw> = Laws {
                         "Rim speed of each mount's wheel, in the mounts' order",
                     ),
                     "Speed of the rim, (r + h_g) ω []; a list gives one for each mount, in their order",
-                    |law: &mut DriveLaw, count| {
-                        *law = count.map_or(DriveLaw::Constant(0.0), |count| {
+                    |run: &mut Scenario, count| {
+                        run.drive = count.map_or(DriveLaw::Constant(0.0), |count| {
                             DriveLaw::ConstantEach(vec![0.0; count])
                         });
                     },
-                    |law: &mut DriveLaw, place| match law {
+                    |run: &mut Scenario, place| match &mut run.drive {
                         DriveLaw::Constant(speed) if place == 0 => Some(speed),
                         DriveLaw::ConstantEach(speeds) => speeds.get_mut(place),
                         _ => None,
                     },
                 )
                 .or(PAPERS_SPEED)
-                .formerly("speed_m_s")],
+                .formerly("speed_m_s"), YAW],
             },
         },
         Law {
             name: "eq18-as-printed",
             word: Some("As printed."),
-            choose: |law| *law = DriveLaw::Eq18AsPrinted(NO_TARGET),
+            choose: |run| run.drive = DriveLaw::Eq18AsPrinted(NO_TARGET),
             table: Table {
                 doc: "Eq. 18 of the source as printed.",
-                fields: &[DESIRED_SPEED, REFERENCE_SLIP],
+                fields: &[DESIRED_SPEED, REFERENCE_SLIP, YAW],
             },
         },
         Law {
             name: "eq18",
             word: Some("Corrected."),
-            choose: |law| *law = DriveLaw::Eq18(NO_TARGET),
+            choose: |run| run.drive = DriveLaw::Eq18(NO_TARGET),
             table: Table {
                 doc: "Eq. 18 of the source, corrected.",
-                fields: &[DESIRED_SPEED, REFERENCE_SLIP],
+                fields: &[DESIRED_SPEED, REFERENCE_SLIP, YAW],
             },
         },
     ],
 };
 
-const DESIRED_SPEED: Field<DriveLaw> = positive(
+const DESIRED_SPEED: Field<Scenario> = positive(
     "ground_speed_m_s",
     M_S,
     FASTEST,
     "Desired speed along the contour, v_des",
-    |law: &mut DriveLaw| Some(&mut target(law)?.speed),
+    |run: &mut Scenario| Some(&mut target(run)?.speed),
 )
 .or(PAPERS_SPEED)
 .formerly("speed_m_s");
-const REFERENCE_SLIP: Field<DriveLaw> = number(
+const REFERENCE_SLIP: Field<Scenario> = number(
     "reference_slip_ratio",
     ONE,
     0.0..=0.95,
     "Reference slip ratio, s_ref",
-    |law: &mut DriveLaw| Some(&mut target(law)?.slip_ratio),
+    |run: &mut Scenario| Some(&mut target(run)?.slip_ratio),
 )
 .or(PAPERS_SLIP);
 
-fn target(law: &mut DriveLaw) -> Option<&mut SlipTarget> {
-    match law {
+/// The yaw over time.
+const YAW: Field<Scenario> = pairs(
+    "yaw_deg",
+    [S, DEG],
+    [0.0..=LONGEST_DURATION, -LARGEST_YAW..=LARGEST_YAW],
+    "Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before and after; without it the wheels' moments turn the rover",
+    |run: &mut Scenario, count| {
+        run.yaw = Some(PrescribedYaw { points: vec![(0.0, 0.0); count] });
+    },
+    |run: &mut Scenario, place| {
+        let (time, yaw) = run.yaw.as_mut()?.points.get_mut(place)?;
+        Some([time, yaw])
+    },
+)
+.optional();
+
+/// The largest yaw of a course over time [°]: ten turns.
+const LARGEST_YAW: f64 = 3600.0;
+
+fn target(run: &mut Scenario) -> Option<&mut SlipTarget> {
+    match &mut run.drive {
         DriveLaw::Eq18AsPrinted(target) | DriveLaw::Eq18(target) => Some(target),
         DriveLaw::Constant(_) | DriveLaw::ConstantEach(_) => None,
     }
 }
+
+static SLOPE_STABILITY: Table<SlopeStability> = Table {
+    doc: "The least factor of safety of the ground against sliding by its own weight.",
+    fields: &[
+        number(
+            "factor_of_safety",
+            ONE,
+            0.1..=10.0,
+            "Least factor of safety, FS",
+            |asked: &mut SlopeStability| Some(&mut asked.factor_of_safety),
+        )
+        .or(SlopeStability::USUAL.factor_of_safety),
+        positive(
+            "depth_m",
+            M,
+            1000.0,
+            "Depth of the layer that would slide, z, straight down; it counts where there is cohesion",
+            |asked: &mut SlopeStability| Some(&mut asked.depth),
+        )
+        .or(SlopeStability::USUAL.depth),
+    ],
+};
 
 static START: Table<Start> = Table {
     doc: "How the run starts.",

@@ -18,7 +18,7 @@ use discrepancy::DISCREPANCY;
 use domain::DOMAIN;
 use exit::EXIT;
 use grouser_core::soil::{
-    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, SmallWheel, Soil, StressPeak,
+    Bulldozing, Discrepancy, Domain, Exit, Rft, Shear, ShearBound, SmallWheel, Soil, StressPeak,
 };
 use pressure_sinkage::{PRESSURE_SINKAGE, REECE};
 use shear::{LINEAR, SHEAR};
@@ -27,7 +27,7 @@ use small_wheel::SMALL_WHEEL;
 pub(crate) use exit::LARGEST_EXIT_RATIO;
 pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
 
-/// A soil before its numbers are put in: without the terms of single models.
+/// A soil before its numbers are put in: the terms of single models have their general values.
 pub(crate) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
@@ -35,9 +35,10 @@ pub(crate) const BLANK: Soil = Soil {
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
     shear: Shear::Isotropic { modulus: LINEAR },
+    shear_bound: ShearBound::None,
     exit: Exit::Ratio(0.0),
     bulldozing: Bulldozing::None,
-    small_wheel: SmallWheel::OFF,
+    small_wheel: SmallWheel::GENERAL,
     rft: Rft::PUBLISHED,
     domain: Domain::UNSTATED,
     discrepancy: None,
@@ -84,11 +85,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
             &At { inner: &STRESS_PEAK, at: |soil: &mut Soil| &mut soil.stress_peak },
         )
         .or_prior(),
-        table(
-            "shear",
-            "How shear stress is mobilised.",
-            &At { inner: &SHEAR, at: |soil: &mut Soil| &mut soil.shear },
-        ),
+        table("shear", "How shear stress is mobilised.", &SHEAR),
         table(
             "exit",
             "Where the wheel leaves the soil.",
@@ -103,7 +100,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .or_prior(),
         table(
             "small_wheel",
-            "Terms of the model `small-wheel`, for one wheel on this soil; all off without it.",
+            "Terms of the model `small-wheel`, for one wheel on this soil; general values without it.",
             &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
         .optional()

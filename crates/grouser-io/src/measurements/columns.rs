@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 use std::sync::LazyLock;
 
+use super::super::columns::flags::FLAGS;
 use super::super::columns::wheel::{NORMAL_FORCE, WHEEL};
 use super::super::columns::{
     DRAWBAR_PULL, LOAD, Quantity as Named, RIM_SPEED_SETTING, SIDE_FORCE, SINKAGE, SLIP_ANGLE,
@@ -91,7 +92,7 @@ const fn of(quantity: Named, meaning: Meaning, range: RangeInclusive<f64>) -> Co
 /// What stands write. Names of the same meaning differ in unit, or in whose files they
 /// are: `longitudinal_force_n`, `normal_force_n` and `peripheral_speed_…` are those of the open
 /// single-wheel data of Carnegie Mellon University.
-const READ: [Column; 31] = {
+const READ: [Column; 32] = {
     use Meaning::{
         Cell, Load, LoadSetting, Reading, RimSpeed, RimSpeedSetting, Scatter, SlipAngle, SlipRatio,
         Status, TotalSlip, TravelSpeed, Trial, Unused, Wheel,
@@ -129,6 +130,7 @@ const READ: [Column; 31] = {
         column("sinkage_std_mm", Scatter(Sinkage), MM, NOT_NEGATIVE),
         column("status", Status, ONE, ANY),
         column("normal_force_std_n", Unused, N, ANY),
+        column(FLAGS, Unused, ONE, ANY),
     ]
 };
 

@@ -38,6 +38,7 @@ from ._errors import (
     DocumentNotFoundError,
     DocumentUnreadableError,
     GrouserError,
+    OutsideDomainError,
     ParameterError,
     SimulationError,
 )
@@ -46,7 +47,15 @@ from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, TraverseBand, simulate
-from ._validation import Ranking, Validation, validate, validate_all
+from ._validation import (
+    Ranking,
+    SlopeValidation,
+    Validation,
+    validate,
+    validate_all,
+    validate_slopes,
+)
+from ._validity import FLAGS, require_inside
 from ._wheel_test import SimulatedWheelTest, WheelTest, WheelTestBand, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -65,11 +74,13 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "FLAGS",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
     "HeadingMapBand",
     "Headings",
+    "OutsideDomainError",
     "ParameterError",
     "Ranking",
     "Rollout",
@@ -95,11 +106,13 @@ __all__ = [
     "campaign",
     "heading",
     "heading_map",
+    "require_inside",
     "rollout",
     "settle",
     "simulate",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test",
 ]

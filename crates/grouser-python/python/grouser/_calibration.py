@@ -119,8 +119,8 @@ class Calibration(_tables.Tabular):
     cross_validation: tuple[Mapping[str, Any], ...] = ()
     """With ``cross_validate=True``, errors at each slip angle of a fit without that angle, as
     groups of a `Validation`; with samples also, for each quantity, ``coverage_50`` and
-    ``coverage_95``, the shares of cells within the predictive bands, and ``interval_score`` of the
-    95 % bands, in the quantity's unit."""
+    ``coverage_95``, the shares of cells within the predictive bands, ``interval_score`` of the
+    95 % bands, in the quantity's unit, and the number of ``cells_with_band``."""
     cross_validation_overall: Mapping[str, Any] | None = None
     """The same of all left-out cells together; None without ``cross_validate=True``."""
     target: str | None = None

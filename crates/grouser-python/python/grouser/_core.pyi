@@ -33,6 +33,8 @@ __all__ = [
     "check_shard",
     "find_campaign",
     "find_document",
+    "flag_names",
+    "flags",
     "heading",
     "heading_band",
     "heading_map",
@@ -57,6 +59,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_slopes",
     "wheel_forces",
     "wheel_test_band",
 ]
@@ -77,6 +80,8 @@ class Document:
     def kind(self) -> str: ...
     @property
     def assumptions(self) -> list[str]: ...
+    @property
+    def assumed(self) -> list[str]: ...
     @property
     def files(self) -> dict[str, str]: ...
     def to_toml(self) -> str: ...
@@ -186,6 +191,8 @@ def wheel_forces(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
 ) -> tuple[_Floats, list[str]]: ...
+def flag_names(bits: Sequence[int]) -> list[str]: ...
+def flags() -> list[tuple[str, str]]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
 def rollout(
@@ -245,7 +252,10 @@ def validate(
     wheel_label: str | None,
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
-def validate_all(folder: str | os.PathLike[str] | None) -> list[dict[str, Any]]: ...
+def validate_slopes(
+    data: str | os.PathLike[str], scenario: Document, conditions: Sequence[str]
+) -> dict[str, Any]: ...
+def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
 def calibrate_wheel_tests(
     data: str | os.PathLike[str],
     soil: Document,

@@ -125,6 +125,11 @@ class _Description:
         """The assumed values, each with the name of its document."""
         return tuple(self._document.assumptions)
 
+    @property
+    def assumed(self) -> tuple[str, ...]:
+        """The keys that it, or its soil, takes from priors because they are not stated."""
+        return tuple(self._document.assumed)
+
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)

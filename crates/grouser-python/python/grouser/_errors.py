@@ -112,6 +112,23 @@ class DocumentUnreadableError(GrouserError, OSError):
         return type(self), (str(self), self.filename)
 
 
+class OutsideDomainError(GrouserError, ValueError):
+    """Results carry flags of validity where none is accepted.
+
+    Attributes
+    ----------
+    flags : tuple of str
+        The flags, in the order of the list.
+    """
+
+    def __init__(self, message: str, flags: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.flags = flags
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return type(self), (str(self), self.flags)
+
+
 class SimulationError(GrouserError, ArithmeticError):
     """A run that cannot be computed.
 

@@ -38,6 +38,8 @@ class Headings(_tables.Tabular):
     """What ends the curve there."""
     status: NDArray[np.object_]
     """Of each slope: ``ok``, or why no heading offset holds the contour."""
+    flags: NDArray[np.object_]
+    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
@@ -57,7 +59,7 @@ class Headings(_tables.Tabular):
 
     def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, **band}
+        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, "flags": self.flags, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -142,7 +144,9 @@ def heading(
         count = whole_number("samples", samples, most=2**32 - 1)
         band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
     status = np.array(found.pop("status"), dtype=object)
-    return Headings(limit_slope_deg=limit, limit_message=reason, status=status, band=band, **found)
+    flags = np.array(found.pop("flags"), dtype=object)
+    end = {"limit_slope_deg": limit, "limit_message": reason}
+    return Headings(**end, status=status, flags=flags, band=band, **found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,6 +162,8 @@ class HeadingMap(_tables.Tabular):
     """Slopes [°]; shape (slopes,)."""
     status: NDArray[np.object_]
     """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
+    flags: NDArray[np.object_]
+    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``; the same shape."""
     yaw_deg: Floats
     """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
@@ -180,7 +186,8 @@ class HeadingMap(_tables.Tabular):
     def _columns(self) -> dict[str, Any]:
         names = (*_HELD, "power_w", "limit_slope_deg")
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, names), "status": self.status, **band}
+        texts = {"status": self.status, "flags": self.flags}
+        return {**columns_of(self, names), **texts, **band}
 
     def _table(self) -> dict[str, Any]:
         soil, course, slope = np.meshgrid(
@@ -267,7 +274,9 @@ def heading_map(
     found = _core.heading_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
     numbers = {name: found[name].reshape(shape) for name in (*_HEADING, "limit_slope_deg")}
-    status = np.array(found["status"], dtype=object).reshape(shape)
+    texts = {
+        name: np.array(found[name], dtype=object).reshape(shape) for name in ("status", "flags")
+    }
     band = None
     if uncertainty:
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
@@ -278,7 +287,7 @@ def heading_map(
         soil=tuple(run.soil.name for run in runs),
         course_deg=courses,
         slope_deg=slopes,
-        status=status,
         band=band,
+        **texts,
         **numbers,
     )

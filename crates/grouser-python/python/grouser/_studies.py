@@ -6,6 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from . import _core, _tables
 from ._arrays import Floats, whole_number
 from ._descriptions import Scenario, Soil, Source
@@ -107,6 +110,10 @@ class Trajectory(_tables.Tabular):
     """``dynamic``, ``quasi-steady``, or ``fell-back`` from the second to the first."""
     simulation_message: str | None
     """Time and reason of the fallback."""
+    flags: NDArray[np.object_]
+    """Why each record is an extrapolation: names of `FLAGS`, joined by ``;``; shape (records,)."""
+    flags_raised: Mapping[str, float]
+    """Each flag of the run, with the time at which it was raised first [s]."""
     energy_error_j: float
     """Error of the energy balance [J]."""
     wheel_names: tuple[str, ...]
@@ -141,7 +148,7 @@ class Trajectory(_tables.Tabular):
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _table(self) -> dict[str, Any]:
-        columns = columns_of(self, SAMPLE)
+        columns: dict[str, Any] = {**columns_of(self, SAMPLE), "flags": self.flags}
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
         return columns
@@ -246,6 +253,8 @@ def simulate(
         message=found["reason"],
         simulation=found["simulation"],
         simulation_message=found["simulation_reason"],
+        flags=np.array(found["flags"], dtype=object),
+        flags_raised=dict(found["flags_raised"]),
         energy_error_j=found["energy_error_j"],
         wheel_names=tuple(found["wheels"]),
         wheel=found["each_wheel"],

@@ -1,4 +1,4 @@
-"""Errors of wheel–soil models against measured wheel tests."""
+"""Errors of wheel–soil models against measured wheel tests, and rovers measured on slopes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core, _tables
-from ._descriptions import Soil, Source, Wheel
+from ._descriptions import Rover, Soil, Source, Wheel
+from ._studies import scenario_of
 from ._wheels import setting
 
 if TYPE_CHECKING:
@@ -24,8 +25,9 @@ class Validation(_tables.Tabular):
 
     A group of cells is a mapping: ``slip_angle_deg``, ``motion``, ``cells``, ``trials``,
     ``unsettled_trials``, and for each of ``drawbar_pull_n``, ``side_force_n``, ``sinkage_mm`` and
-    ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability``
-    and ``cells``, or None where it was not measured.
+    ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability``,
+    ``cells``, ``largest_measured``, ``rmse_share`` and ``bias_share`` of that, ``aim`` and
+    ``within_aim``, or None where it was not measured.
     """
 
     overall: Mapping[str, Any]
@@ -36,12 +38,20 @@ class Validation(_tables.Tabular):
     """The skidding cells; None if there are none."""
     groups: tuple[Mapping[str, Any], ...]
     """The cells of each slip angle, driven and skidding."""
+    yardsticks: tuple[Mapping[str, Any], ...]
+    """Errors of predictions without physics: ``yardstick`` (``mean``, ``interpolation`` or
+    ``angle-left-out``), and the groups ``driven`` and ``overall``."""
     cells: Mapping[str, Any]
     """Columns over cells: repeated trials under one condition, measured means and predictions."""
     trials: Mapping[str, Any]
     """Columns over trials, in the order of the file."""
     notes: tuple[str, ...]
     """Remarks on the file."""
+
+    @property
+    def flags(self) -> Any:
+        """Why each cell is an extrapolation: names of `FLAGS`, joined by ``;``."""
+        return self.cells["flags"]
 
     def _table(self) -> Mapping[str, Any]:
         return self.trials
@@ -114,8 +124,88 @@ def validate(
 
 def validation_of(found: dict[str, Any]) -> Validation:
     """The result of the native half."""
-    found["groups"], found["notes"] = tuple(found["groups"]), tuple(found["notes"])
+    for name in ("groups", "yardsticks", "notes"):
+        found[name] = tuple(found[name])
     return Validation(**found)
+
+
+@dataclass(frozen=True, eq=False)
+class SlopeValidation(_tables.Tabular):
+    """Errors of a wheel–soil model against a rover's measured slip or yaw on slopes, with the names
+    of ``grouser validate --rover``.
+    """
+
+    overall: Mapping[str, Any]
+    """``cells`` (slopes), ``not_held`` (those on which no heading holds the course), and the errors
+    of ``slip_ratio`` and ``yaw_deg`` as in a `Validation`, or None where it was not measured."""
+    yardsticks: tuple[Mapping[str, Any], ...]
+    """Errors of predictions without physics: ``yardstick`` and ``overall``."""
+    slopes: Mapping[str, Any]
+    """Columns over slopes: ``slope_deg``, ``course_deg``, ``measured_slip_ratio``, ``slip_ratio``,
+    ``measured_yaw_deg``, ``yaw_deg``, ``status`` and others. Where no heading holds a course along
+    or up the slope, the slip ratio is 1."""
+    notes: tuple[str, ...]
+    """Remarks on the file."""
+
+    def _table(self) -> Mapping[str, Any]:
+        return self.slopes
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each slope."""
+        return _tables.frame(self._table())
+
+    def plot(self, axes: Axes | None = None, *, name: str = "slip_ratio", **style: Any) -> Axes:
+        """Plots a quantity over the slope: measured as dots, predicted as a line."""
+        axes = _tables.axes_or_new(axes)
+        slope = self.slopes["slope_deg"]
+        axes.plot(slope, self.slopes[name], **style)
+        axes.plot(slope, self.slopes[f"measured_{name}"], ls="", marker="o")
+        axes.set_xlabel(_tables.label("slope_deg"))
+        axes.set_ylabel(_tables.label(name))
+        return axes
+
+    def __repr__(self) -> str:
+        return f"<SlopeValidation on {self.overall['cells']} slopes>"
+
+
+def validate_slopes(
+    data: str | os.PathLike[str],
+    soil: Soil | Source,
+    rover: Rover | Source,
+    *,
+    where: Sequence[str] | str = (),
+    **changes: Any,
+) -> SlopeValidation:
+    """Compares a wheel–soil model with a rover's measured slip or yaw on slopes.
+
+    Parameters
+    ----------
+    data : str or path
+        A data set that comes with Grouser, such as ``"viper-slip-slope"``, or a CSV file in the
+        layout of ``docs/guide/data.md``.
+    soil, rover
+        The soil, and the rover that was driven.
+    where : sequence of str
+        As for `validate`.
+    **changes
+        Keys of the scenario with other values, such as ``model`` or ``gravity_m_s2``.
+
+    Returns
+    -------
+    SlopeValidation
+
+    Raises
+    ------
+    DocumentError
+        For a file that cannot be used, with its line.
+    DocumentNotFoundError, ParameterError
+        As `heading`, and for a file that is not there.
+    """
+    scenario = scenario_of(None, {"soil": soil, "rover": rover, **changes})
+    conditions = [where] if isinstance(where, str) else list(where)
+    found = _core.validate_slopes(os.fspath(data), scenario._document, conditions)
+    found["yardsticks"], found["notes"] = tuple(found["yardsticks"]), tuple(found["notes"])
+    return SlopeValidation(**found)
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,14 +213,20 @@ class Ranking(_tables.Tabular):
     """Wheel–soil models ranked by their errors, with the names of the program's ranking: a mapping
     for each model with a soil on a part of a data set, best first.
 
-    It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``score`` (root mean square error
-    over the standard deviation of the measurements, averaged over the measured quantities [-]: 0 is
-    perfect, 1 no better than a constant), ``unsettled_trials``, and the groups ``driven`` and
-    ``overall`` of a `Validation`.
+    It has ``data_set``, ``case``, ``rank``, ``model``, ``soil``, ``in_sample`` (whether the soil was
+    fitted to these rows), ``score`` (root mean square error over the standard deviation of the
+    measurements, averaged over the measured quantities [-]: 0 is perfect, 1 no better than a
+    constant), ``unsettled_trials``, and the groups ``driven`` and ``overall`` of a `Validation`, or
+    ``overall`` of a `SlopeValidation`.
     """
 
     rows: tuple[Mapping[str, Any], ...]
     """Data set by data set and part by part."""
+    yardsticks: tuple[Mapping[str, Any], ...] = ()
+    """Predictions without physics on each part, with ``yardstick`` in place of ``model``."""
+    models: tuple[Mapping[str, Any], ...] = ()
+    """Each model, then each yardstick, over all parts with soils that were not fitted to them:
+    ``model`` or ``yardstick``, ``parts``, ``score``, ``aims_met`` of ``aims``, ``scores``."""
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -147,6 +243,7 @@ class Ranking(_tables.Tabular):
         return {
             **{name: column(name, object) for name in ("data_set", "case", "model", "soil")},
             **{name: column(name, int) for name in ("rank", "unsettled_trials")},
+            "in_sample": column("in_sample", bool),
             # None is NaN among numbers.
             "score": column("score", float),
             **{f"{quantity}_rmse": rmse(quantity) for quantity in quantities},
@@ -194,4 +291,5 @@ def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
         For a document or a file of measurements that cannot be used.
     """
     place = None if folder is None else os.fspath(folder)
-    return Ranking(tuple(_core.validate_all(place)))
+    found = _core.validate_all(place)
+    return Ranking(**{name: tuple(all_of_them) for name, all_of_them in found.items()})

@@ -94,6 +94,11 @@ class WheelTest(_tables.Tabular):
     def _bands(self) -> dict[str, Any]:
         return {} if self.band is None else self.band._table()
 
+    @property
+    def flags(self) -> NDArray[np.object_]:
+        """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
+        return self.wheels.flags
+
     def _table(self) -> dict[str, Any]:
         return {**self.wheels._table(), "status": self.wheels.messages, **self._bands()}
 

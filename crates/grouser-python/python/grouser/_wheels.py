@@ -14,6 +14,7 @@ from . import _core, _tables
 from ._arrays import Floats, broadcast, number
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
+from ._validity import flags_of
 
 if TYPE_CHECKING:
     import pandas
@@ -118,6 +119,9 @@ class Settled(WheelForces):
     capacity_n: Floats
     """The most that the soil carries down to axle depth [N], where that is less than the load; else
     NaN."""
+    flags: NDArray[np.object_]
+    """Why each wheel is an extrapolation: names of `FLAGS`, joined by ``;``; empty inside the
+    domain."""
 
     @property
     def messages(self) -> NDArray[np.object_]:
@@ -191,7 +195,8 @@ def settle(
     found = dict(zip(names, rows.reshape(len(names), *shape)))
     found |= zip(inputs, (array.reshape(shape) for array in arrays))
     status = np.isnan(found["normal_force_n"]).astype(np.int8)
-    return Settled(**found, status=status)
+    flags = flags_of(found.pop("flag_bits"))
+    return Settled(**found, status=status, flags=flags)
 
 
 def wheel_forces(
@@ -230,7 +235,7 @@ def wheel_forces(
     depths, ratios, angles = arrays
     rows, names = _core.wheel_forces(*stand.documents, depths, ratios, angles, stand.index)
     found = dict(zip(names, rows.reshape(len(names), *shape)))
-    del found["given_sinkage_mm"]
+    del found["given_sinkage_mm"], found["flag_bits"]
     found |= zip(inputs, (array.reshape(shape) for array in arrays))
     return WheelForces(**found)
 

@@ -26,7 +26,7 @@ use self::inputs::Prepared;
 use self::rows::Base;
 use super::error::DocumentError;
 use super::table::{Cell, Table};
-use super::{Document, Kind, Overrides, Source, Written, written};
+use super::{Assumed, Document, Kind, Overrides, Source, Written, assumed, written};
 use crate::studies::ensemble::{Ensemble, outputs_while};
 pub use rows::STATUSES;
 
@@ -168,6 +168,14 @@ impl Campaign {
     #[must_use]
     pub fn assumptions(&self) -> &[String] {
         &self.assumptions
+    }
+
+    /// The keys that its soil takes from priors because they are not stated.
+    #[must_use]
+    pub fn assumed(&self) -> Vec<Assumed> {
+        let soil = |place: &str| self.document().part(Kind::Soil, place);
+        let soil = soil("scenario.soil").or_else(|| soil("wheel_test.soil"));
+        soil.as_ref().map_or_else(Vec::new, assumed)
     }
 
     /// Run number `index`: its row. It depends on the document and the number alone.

@@ -65,9 +65,9 @@ pub struct RankedTheory {
 #[derive(Clone, Debug)]
 pub enum Found {
     /// Of a wheel's trials.
-    Wheel(Validation),
+    Wheel(Box<Validation>),
     /// Of a rover's slopes.
-    Slope(SlopeValidation),
+    Slope(Box<SlopeValidation>),
 }
 
 /// A prediction without physics on a part of a data set.
@@ -342,7 +342,7 @@ impl Part<'_> {
                 unsettled_trials: validation.overall.unsettled,
                 driven: validation.driven.as_ref().map(GroupRecord::from),
                 overall: PartErrors::Wheel(GroupRecord::from(&validation.overall)),
-                ..self.ranked(theory, name, Found::Wheel(validation))
+                ..self.ranked(theory, name, Found::Wheel(Box::new(validation)))
             }
         };
         self.pairs().map(one).collect()
@@ -363,7 +363,7 @@ impl Part<'_> {
                 score: validation.score(),
                 unsettled_trials: validation.points.iter().filter(is_yaw_missing).count(),
                 overall: PartErrors::Slope(SlopeErrorsRecord::from(&validation)),
-                ..self.ranked(theory, name, Found::Slope(validation))
+                ..self.ranked(theory, name, Found::Slope(Box::new(validation)))
             })
         };
         self.pairs().map(one).collect()
@@ -424,7 +424,7 @@ fn heading_study(
     gravity: f64,
 ) -> HeadingStudy {
     let (rover, soil) = (rover.value.clone(), soil.value);
-    HeadingStudy { rover, soil, theory, gravity, ..HeadingStudy::of(usual) }
+    HeadingStudy { rover, soil, gravity, theory, ..HeadingStudy::of(usual) }
 }
 
 /// Each model and each yardstick over all parts: first the models, then the yardsticks, best first.

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde_json::{Value as Json, json};
 
 use super::varied::{Key, Numbers, Varied, meant_number};
-use super::{Described, Document, Kind, Misfit, range, without_uncertainty};
+use super::{Described, Document, Kind, Misfit, range, without_priors_of, without_uncertainty};
 use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::soil::Soil;
@@ -159,7 +159,8 @@ impl SoilFamily {
         theory: Option<Theory>,
         samples: Option<&str>,
     ) -> Document {
-        let document = self.document(values);
+        let keys: Vec<&str> = self.keys().collect();
+        let document = without_priors_of(&self.document(values), &keys);
         let is_fitted = |assumed: &Json| {
             let key = assumed.as_str().and_then(|text| text.split(':').next());
             self.keys.iter().any(|fitted| Some(&*fitted.path) == key)

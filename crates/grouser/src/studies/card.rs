@@ -127,6 +127,8 @@ pub struct CardRow {
     pub verdict: Verdict,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
+    /// Why no heading holds the contour on the soil as written; nothing where one does.
+    pub refusal: Option<String>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
     /// the contour [-]; `None` where the rover slides.
     pub drift: Option<f64>,
@@ -170,6 +172,7 @@ struct Draw {
     limit: Result<(f64, String), String>,
     /// On each slope.
     levels: Vec<Option<Level>>,
+    refusals: Vec<Option<String>>,
     drifts: Vec<Option<f64>>,
 }
 
@@ -269,12 +272,19 @@ impl CardStudy {
         findings: &[Vec<Finding>],
     ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
+        let ground = self.heading.ground_limit();
         let row = |(place, slope): (usize, &f64)| {
-            worst = worst.max(self.rule.verdict(&judged[place]));
+            // Ground that slides by itself is no place to drive, whatever samples of it would hold.
+            let verdict = match *slope > ground {
+                true => Verdict::NoGo,
+                false => self.rule.verdict(&judged[place]),
+            };
+            worst = worst.max(verdict);
             CardRow {
                 slope: *slope,
                 verdict: worst,
                 level: nominal.levels[place],
+                refusal: nominal.refusals[place].clone(),
                 drift: nominal.drifts[place],
                 bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
                 findings: findings[place].clone(),
@@ -297,6 +307,10 @@ impl CardStudy {
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
+            refusals: slopes
+                .iter()
+                .map(|slope| Some(level.at(*slope).err()?.to_string()))
+                .collect(),
             levels: slopes.iter().map(|slope| on(&level, *slope).as_ref().map(keep)).collect(),
             drifts: slopes.iter().map(|slope| Some(on(&drift, *slope)?.drift())).collect(),
         })

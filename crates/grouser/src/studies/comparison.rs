@@ -29,6 +29,13 @@ impl MeasuredTraverse {
     pub fn yaw_loss(&self) -> f64 {
         self.initial_yaw - self.final_yaw
     }
+
+    /// Mean of the measured yaw at the start and at the end [rad]: what a heading that holds the contour
+    /// is comparable with.
+    #[must_use]
+    pub fn mean_yaw(&self) -> f64 {
+        0.5 * (self.initial_yaw + self.final_yaw)
+    }
 }
 
 /// Relative error of a measured yaw against a predicted one, as the source defines it [-]:

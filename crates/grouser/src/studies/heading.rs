@@ -17,6 +17,10 @@
 //! The curve is followed by its arc length, so that the fold is a point like any other. The yaw
 //! moment is not balanced: it is reported.
 //!
+//! The ground itself has to stand before a rover crosses it: the curve ends at the latest on the
+//! steepest slope that the soil holds by its own strength
+//! ([`stable_slope`](crate::soil::Soil::stable_slope)), and [`LimitedBy`] names what ended it.
+//!
 //! A contour traverse has one course among many. On a course χ, the direction of travel counted from
 //! the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and the
 //! same two equations hold, at the yaw γ = χ + c. And a rover that does nothing against the slope,
@@ -29,7 +33,6 @@ mod study;
 use nalgebra::Vector3;
 
 use self::path::{Held, JUST_TURNED, Path, Place, Point};
-use self::study::STEEPEST;
 pub use self::study::{HeadingStudy, STRAIGHT_UP};
 use super::validity::RoverOnSlope;
 use crate::contact::validity::Finding;
@@ -37,9 +40,11 @@ use crate::elementary::wide;
 use crate::error::{ParameterError, finite};
 use crate::root;
 use crate::simulation::Scenario;
+use crate::simulation::scenario::neglected_moments;
 use crate::site::Site;
+use crate::units::STEEPEST_SLOPE;
 use crate::vehicle::reaction::forces_of;
-use crate::vehicle::{Mount, Rover, WheelReaction, dynamics};
+use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
 /// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The
 /// course 0 is the contour.
@@ -135,7 +140,45 @@ pub enum NoHeading {
         /// What ends the curve there.
         reason: String,
     },
+    /// The slope is steeper than the ground stands by its own strength.
+    #[error(
+        "ground-strength: the ground itself stands up to {:.2}° with a factor of safety of \
+         {factor_of_safety}",
+        (.limit.to_degrees() * 100.0).floor() / 100.0
+    )]
+    GroundStrength {
+        /// The steepest slope on which the ground stands [rad].
+        limit: f64,
+        /// The factor of safety that was asked of it [-].
+        factor_of_safety: f64,
+    },
 }
+
+/// What ends a curve of headings at its steepest slope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LimitedBy {
+    /// The wheels: on steeper slopes no heading balances the forces.
+    Wheels,
+    /// The strength of the ground, which would slide by itself.
+    GroundStrength,
+    /// Neither: the range of slopes that is looked at.
+    Range,
+}
+
+impl LimitedBy {
+    /// One word: `wheels`, `ground-strength`, `range`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Wheels => "wheels",
+            Self::GroundStrength => "ground-strength",
+            Self::Range => "range",
+        }
+    }
+}
+
+/// Why a curve ends where the ground would slide by itself.
+const BEYOND_STRENGTH: &str = "where the ground's own strength ends";
 
 /// The heading offsets of a course, from level ground to the steepest slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,7 +218,15 @@ impl HeadingStudy {
             theory: scenario.theory,
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
+            stability: scenario.stability,
         }
+    }
+
+    /// The steepest slope on which the ground stands by its own strength [rad], at most
+    /// [`STEEPEST_SLOPE`].
+    #[must_use]
+    pub fn ground_limit(&self) -> f64 {
+        self.soil.stable_slope(self.gravity, self.stability)
     }
 
     /// Follows the curve of contour traverses from level ground to its end.
@@ -195,7 +246,7 @@ impl HeadingStudy {
         if course.abs() > STRAIGHT_UP {
             return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
         }
-        self.follow(Held::Course(course), STEEPEST)
+        self.follow(Held::Course(course), STEEPEST_SLOPE)
     }
 
     /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
@@ -206,7 +257,7 @@ impl HeadingStudy {
     /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
     /// holds the contour there.
     pub fn on_slope(&self, slope: f64) -> Result<Result<HeadingOffset, NoHeading>, ParameterError> {
-        Ok(self.follow(Held::Course(0.0), slope.min(STEEPEST))?.at(slope))
+        Ok(self.follow(Held::Course(0.0), slope)?.at(slope))
     }
 
     /// Follows the curve of drift: the nose stays along the contour, γ = 0, and the course turns
@@ -215,13 +266,17 @@ impl HeadingStudy {
     /// # Errors
     /// As [`curve`](Self::curve).
     pub fn drift_curve(&self) -> Result<HeadingCurve, ParameterError> {
-        self.follow(Held::Yaw(0.0), STEEPEST)
+        self.follow(Held::Yaw(0.0), STEEPEST_SLOPE)
     }
 
     /// The curve of a held course or yaw, as far as its first point that is not below a slope, or to its
     /// end.
     fn follow(&self, held: Held, slope: f64) -> Result<HeadingCurve, ParameterError> {
         Site::plane(self.soil, 0.0, self.gravity).check()?;
+        self.stability.check()?;
+        if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
+            return Err(neglected_moments());
+        }
         for mount in self.rover.mounts() {
             if mount.steering != 0.0 {
                 let name = format!("steering of wheel {} [rad]", mount.name);
@@ -236,7 +291,7 @@ impl HeadingStudy {
             Ok(start) => {
                 held_below = start.place.z;
                 points.push(start);
-                path.follow(&mut points, slope)
+                path.follow(&mut points, slope.min(self.ground_limit()))
             }
         };
         let settled_wheels = path.settled_wheels();
@@ -262,10 +317,26 @@ impl HeadingCurve {
     /// # Errors
     /// [`NoHeading::CannotMove`] if there is none.
     pub fn limit(&self) -> Result<(f64, &str), NoHeading> {
-        match self.points.last() {
-            Some(last) => Ok((last.place.z.min(STEEPEST), &self.end)),
-            None => Err(NoHeading::CannotMove(self.end.clone())),
-        }
+        let Some(last) = self.points.last() else {
+            return Err(NoHeading::CannotMove(self.end.clone()));
+        };
+        let ground = self.study.ground_limit();
+        Ok(match self.limited_by() {
+            Some(LimitedBy::GroundStrength) => (ground, BEYOND_STRENGTH),
+            _ => (last.place.z.min(ground), &self.end),
+        })
+    }
+
+    /// What ends the curve at its [`limit`](Self::limit): the wheels or the ground; nothing where the
+    /// rover cannot move.
+    #[must_use]
+    pub fn limited_by(&self) -> Option<LimitedBy> {
+        let (last, ground) = (self.points.last()?, self.study.ground_limit());
+        Some(match () {
+            () if last.place.z < ground => LimitedBy::Wheels,
+            () if ground < STEEPEST_SLOPE => LimitedBy::GroundStrength,
+            () => LimitedBy::Range,
+        })
     }
 
     /// The heading offset on a slope [rad].
@@ -274,6 +345,11 @@ impl HeadingCurve {
     /// [`NoHeading`] if no heading holds the course there, or no drift holds the rover.
     pub fn at(&self, slope: f64) -> Result<HeadingOffset, NoHeading> {
         let (limit, reason) = self.limit()?;
+        let (ground, stability) = (self.study.ground_limit(), self.study.stability);
+        if slope > ground && ground < STEEPEST_SLOPE {
+            let factor_of_safety = stability.factor_of_safety;
+            return Err(NoHeading::GroundStrength { limit: ground, factor_of_safety });
+        }
         if slope > limit {
             let reason = reason.into();
             return Err(NoHeading::TooSteep { course: self.course(), limit, reason });

@@ -164,7 +164,11 @@ impl OfSample {
     fn of(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Self {
         let on_slope = |slope: &f64| match curve.at(*slope) {
             Ok(heading) => Kept::of(&heading, rover),
-            Err(NoHeading::CannotMove(_) | NoHeading::TooSteep { .. }) => Kept::stuck(rover),
+            Err(
+                NoHeading::CannotMove(_)
+                | NoHeading::TooSteep { .. }
+                | NoHeading::GroundStrength { .. },
+            ) => Kept::stuck(rover),
         };
         Self {
             limit: curve.limit().ok().map(|(slope, _)| slope),

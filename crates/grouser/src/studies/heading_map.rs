@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use super::ensemble::samples::Sample;
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading};
 use super::heading_band::HeadingBand;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
@@ -29,6 +29,8 @@ pub struct HeadingRow {
     pub course: f64,
     /// The steepest slope on which a heading holds the course [rad], and what ends the curve there.
     pub limit: Result<(f64, String), NoHeading>,
+    /// Whether the wheels or the ground end the curve; nothing where the rover cannot move.
+    pub limited_by: Option<LimitedBy>,
     /// The heading offset on each slope, or why no heading holds the course.
     pub cells: Vec<Result<HeadingOffset, NoHeading>>,
     /// The flags of each.
@@ -122,6 +124,7 @@ impl HeadingRow {
             study,
             course: curve.course(),
             limit: curve.limit().map(|(slope, reason)| (slope, reason.to_owned())),
+            limited_by: curve.limited_by(),
             cells,
             findings,
             settled_wheels: curve.settled_wheels() + asked,

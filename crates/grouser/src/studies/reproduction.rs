@@ -5,9 +5,11 @@ use super::comparison::MeasuredTraverse;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::wheel_test::{WheelTest, WheelTestRow};
 use crate::error::ParameterError;
-use crate::simulation::{Motion, Numerics, Run, RunError, Scenario, Start, Trajectory};
+use crate::simulation::{
+    Motion, Numerics, PrescribedYaw, Run, RunError, Scenario, Start, Trajectory,
+};
 use crate::soil::{Shear, ShearModulus, Soil};
-use crate::vehicle::LoadSharing;
+use crate::vehicle::{LoadSharing, OwnMoments};
 
 /// The inputs of the study: the paper's rover, soil and drive, and its measurements.
 ///
@@ -18,8 +20,9 @@ use crate::vehicle::LoadSharing;
 /// use grouser::document::{self, Overrides, Source, experiment};
 /// use grouser::studies::reproduction::Plan;
 ///
+/// let as_in_the_paper = Overrides::parse(["scenario.load_transfer=quasi-static"])?;
 /// let plan = Plan {
-///     scenario: document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value,
+///     scenario: document::read_scenario(&Source::default_scenario(), &as_in_the_paper)?.value,
 ///     measured: vec![experiment::table_4()[1]],
 ///     wheel_load: 17.0,
 ///     longitudinal_moduli: vec![0.036],
@@ -37,7 +40,8 @@ use crate::vehicle::LoadSharing;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Rover, soil, drive and duration of every traverse; slope and start are set for each.
+    /// Rover, soil, drive and duration of every traverse; slope and start are set for each. Its load
+    /// transfer is that of headings and of traverses that say no other.
     pub scenario: Scenario,
     /// The measured traverses.
     pub measured: Vec<MeasuredTraverse>,
@@ -88,10 +92,15 @@ pub struct SlopeRuns {
     pub uncompensated: Trajectory,
     /// Started at our heading offset, where a heading holds the contour.
     pub compensated: Option<Trajectory>,
-    /// Started at the measured yaw.
+    /// Started at the measured yaw, with quasi-static load transfer.
     pub from_measured_yaw: Trajectory,
     /// The same, with the wheels' torque in the pitch balance.
     pub from_measured_yaw_with_torque: Trajectory,
+    /// The same with the complete load transfer.
+    pub from_measured_yaw_complete: Trajectory,
+    /// Held at the measured yaw, which is taken to go straight from its start to its end: the balance of
+    /// forces alone decides how the rover drifts.
+    pub at_measured_yaw: Trajectory,
 }
 
 /// Which measured slope the run from rest is on.
@@ -170,28 +179,40 @@ impl Plan {
         headings: &HeadingCurve,
         progress: &mut dyn FnMut(&str),
     ) -> Result<SlopeRuns, ReproductionError> {
-        let mut run = |yaw: f64, sharing: LoadSharing| {
+        let mut run = |scenario: Scenario| {
             progress("traverse");
-            let scenario = Scenario { sharing, ..self.traverse(measured.slope, yaw) };
             Run::new(&scenario)?.to_end()
         };
-        let sharing = self.scenario.sharing;
+        let traverse = |yaw: f64| self.traverse(measured.slope, yaw);
+        let from_measured_yaw = |sharing: LoadSharing| {
+            let own_moments = match sharing {
+                LoadSharing::Complete => OwnMoments::Included,
+                _ => OwnMoments::Neglected,
+            };
+            Scenario { sharing, own_moments, ..traverse(measured.initial_yaw) }
+        };
         let heading = headings.at(measured.slope);
         Ok(SlopeRuns {
             measured: *measured,
-            uncompensated: run(0.0, sharing)?,
+            uncompensated: run(traverse(0.0))?,
             compensated: heading
                 .as_ref()
                 .ok()
-                .map(|heading| run(heading.yaw, sharing))
+                .map(|heading| run(traverse(heading.yaw)))
                 .transpose()?,
-            from_measured_yaw: run(measured.initial_yaw, LoadSharing::QuasiStatic)?,
-            from_measured_yaw_with_torque: run(
-                measured.initial_yaw,
-                LoadSharing::QuasiStaticTorque,
-            )?,
+            from_measured_yaw: run(from_measured_yaw(LoadSharing::QuasiStatic))?,
+            from_measured_yaw_with_torque: run(from_measured_yaw(LoadSharing::QuasiStaticTorque))?,
+            from_measured_yaw_complete: run(from_measured_yaw(LoadSharing::Complete))?,
+            at_measured_yaw: run(self.at_measured_yaw(measured))?,
             heading,
         })
+    }
+
+    fn at_measured_yaw(&self, measured: &MeasuredTraverse) -> Scenario {
+        let end = (self.scenario.duration, measured.final_yaw);
+        let points = vec![(0.0, measured.initial_yaw), end];
+        let yaw = Some(PrescribedYaw { points });
+        Scenario { yaw, ..self.traverse(measured.slope, measured.initial_yaw) }
     }
 
     fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
@@ -216,7 +237,7 @@ impl Plan {
 }
 
 /// Runs in [`SlopeRuns`].
-const RUNS_PER_SLOPE: usize = 4;
+const RUNS_PER_SLOPE: usize = 6;
 
 /// The soil with another K_x at slip angle 0; isotropic soils and quadratic moduli alike.
 fn with_longitudinal_modulus(soil: &Soil, modulus: f64) -> Soil {

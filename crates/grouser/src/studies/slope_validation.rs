@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::heading::{HeadingCurve, HeadingStudy};
 use super::validation::{Aim, Comparison, Errors, Placed, Yardstick, mean_score};
+use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::studies::slope_tests::{Mean, SlopePoint, SlopeTests};
 use crate::units::deg;
@@ -72,6 +73,8 @@ pub struct SlopeComparison {
     pub yaw: Option<f64>,
     /// Why no heading holds the course; `None` where one does.
     pub not_held: Option<String>,
+    /// Why the prediction is an extrapolation.
+    pub findings: Vec<Finding>,
 }
 
 /// The errors of predictions without physics.
@@ -114,6 +117,7 @@ impl SlopeComparison {
         let found = curve.at(point.slope);
         let dug_in = (point.course >= 0.0).then_some(DUG_IN);
         Self {
+            findings: curve.findings(point.slope, &found),
             point: point.clone(),
             slip_ratio: found.as_ref().map_or(dug_in, |heading| Some(heading.slip_ratio)),
             yaw: found.as_ref().ok().map(|heading| heading.yaw),
@@ -204,7 +208,13 @@ mod tests {
         let slip_ratio = Some(Mean { value: measured, rows: 1, deviation: None });
         let (slope, course) = (deg(slope), deg(90.0));
         let point = SlopePoint { line: 2, slope, course, slip_ratio, yaw: None };
-        SlopeComparison { point, slip_ratio: Some(predicted), yaw: None, not_held: None }
+        SlopeComparison {
+            point,
+            slip_ratio: Some(predicted),
+            yaw: None,
+            not_held: None,
+            findings: Vec::new(),
+        }
     }
 
     /// Errors beyond 15° are in the root mean square, and not in the aim.

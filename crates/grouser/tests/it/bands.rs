@@ -352,7 +352,9 @@ fn a_campaign_counts_wheels_that_sink() {
         let counted = campaign.counted(name, &runs, table.numbers(name), statuses);
         counted.iter().all(|it| it.is_some_and(|it| (it - value).abs() < 1e-9 * value.abs()))
     };
-    assert!(all("sinkage_mm", 110.0) && all("drawbar_pull_n", -60000.0) && all("torque_nm", 6600.0));
+    assert!(
+        all("sinkage_mm", 110.0) && all("drawbar_pull_n", -60000.0) && all("torque_nm", 6600.0)
+    );
     let thrust = campaign.counted("thrust_n", &runs, table.numbers("thrust_n"), statuses);
     assert!(thrust.iter().all(Option::is_none));
 }

@@ -474,7 +474,10 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
         ],
     );
     check_refused(&attitude("runs = 0"), &["runs", "1 to"]);
-    check_refused(&attitude("runs = 4\nsoil_uncertainty = true"), &["how well it is known"]);
+    let exact = Overrides::parse(["soil.priors=none"]).expect("it is written so");
+    let whole = Source::text("campaign", attitude("runs = 4\nsoil_uncertainty = true"));
+    let error = document::read_campaign(&whole, &exact).expect_err("it is exact").to_string();
+    assert!(error.contains("how well it is known"), "{error}");
     check_refused(&attitude(""), &["`runs` is missing"]);
     check_refused(&text("attitude", "runs = 4", ""), &["`scenario` is missing", "traverse-10-deg"]);
     check_refused(&text("wheel-test", "runs = 4", "[scenario]\n"), &["does not use this table"]);

@@ -15,12 +15,18 @@ use grouser::document::{self, Kind};
 use serde_json::Value;
 
 /// Keys that name different numbers in different places, and how many rows they have.
-const DIFFERENT_NUMBERS: [(&str, usize); 3] = [
+const DIFFERENT_NUMBERS: [(&str, usize); 8] = [
     // Of the soil in itself, and between soil and wheel.
     ("friction_angle_deg", 2),
     // Of the body, and of a wheel with its motor.
     ("mass_kg", 2),
     ("inertia_kg_m2", 2),
+    // Of a wheel, a stand or a scenario, and the range that a soil's constants were fitted to.
+    ("radius_m", 2),
+    ("width_m", 2),
+    ("load_n", 2),
+    ("slip_angle_deg", 2),
+    ("gravity_m_s2", 2),
 ];
 
 /// The keys of all kinds of documents that end with a unit.

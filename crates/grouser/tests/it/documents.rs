@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
-    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
+    Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent,
+    SlopeStability, Soil,
 };
 use grouser::units::deg;
 use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
@@ -108,8 +109,13 @@ fn every_file_of_the_data_is_a_preset() {
 }
 
 fn soil(name: &str) -> Soil {
+    soil_with(name, &[])
+}
+
+fn soil_with(name: &str, settings: &[&str]) -> Soil {
     let source = Source::find(Kind::Soil, name).expect("a preset");
-    document::read_soil(&source, &Overrides::none()).expect("it is read").value
+    let overrides = Overrides::parse(settings).expect("they are written so");
+    document::read_soil(&source, &overrides).expect("it is read").value
 }
 
 fn wheel(name: &str) -> Wheel {
@@ -151,6 +157,7 @@ fn reference_soil(case: &str) -> Soil {
             longitudinal: modulus("longitudinal"),
             lateral: modulus("lateral"),
         },
+        shear_bound: ShearBound::None,
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
@@ -163,7 +170,10 @@ fn reference_soil(case: &str) -> Soil {
 /// All equal; the moduli to the last but one bit, which is how well the JSON is read here.
 fn check_constants(soil: &Soil, reference: &Soil) {
     let pressure_sinkage = reference.pressure_sinkage;
-    assert_eq!(&Soil { pressure_sinkage, ..*soil }, reference);
+    // The reference has no bound of the shear stresses, and what a preset states of its domain is no
+    // constant.
+    let (shear_bound, domain) = (reference.shear_bound, reference.domain);
+    assert_eq!(&Soil { pressure_sinkage, shear_bound, domain, ..*soil }, reference);
     let stiffness = |soil: &Soil| soil.pressure_sinkage.stiffness(0.1, soil.cohesion, 1e4, 0.0);
     let (ours, theirs) = (stiffness(soil), stiffness(reference));
     assert_eq!(ours.exponent, theirs.exponent);
@@ -174,7 +184,18 @@ fn check_constants(soil: &Soil, reference: &Soil) {
 fn presets_have_the_constants_of_the_reference() {
     check_constants(&soil("toyoura"), &reference_soil("toyoura_17n"));
     check_constants(&soil("simulant-2007"), &reference_soil("simulant_2007"));
-    check_constants(&soil("lunar-nominal"), &reference_soil("lunar_nominal"));
+    // What the reference assumes, and the preset leaves to priors.
+    let lunar = soil_with(
+        "lunar-nominal",
+        &[
+            "soil.stress_peak={ a0 = 0.4, a1 = 0.15 }",
+            "soil.exit.ratio=1",
+            "soil.shear.lateral_m=0.018",
+            "soil.shear.longitudinal_per_rad_m=0",
+            "soil.shear.lateral_per_rad_m=0",
+        ],
+    );
+    check_constants(&lunar, &reference_soil("lunar_nominal"));
     let grousers = Some(Grousers { height: 0.010, count: 24 });
     assert_eq!(wheel("hakuto"), Wheel { radius: 0.10, width: 0.08, grousers });
     assert_eq!(wheel("jfr-2007"), Wheel { radius: 0.092, width: 0.107, grousers: None });
@@ -250,9 +271,83 @@ fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
     assert_eq!(run.duration, 20.0);
     assert_eq!(run.theory, Theory::Ishigami);
     assert_eq!(run.drive, DriveLaw::Constant(0.06));
-    assert_eq!((run.sharing, run.own_moments), (LoadSharing::QuasiStatic, OwnMoments::Neglected));
+    assert_eq!((run.sharing, run.own_moments), (LoadSharing::Complete, OwnMoments::Included));
+    assert_eq!((run.yaw, run.stability), (None, SlopeStability::USUAL));
     assert_eq!(run.site.terrain.soil, soil("toyoura"));
     assert_eq!(run.rover.mounts()[0].name, "front-left");
+}
+
+fn scenario_with(settings: &[&str]) -> Result<document::LoadedScenario, document::DocumentError> {
+    let overrides = Overrides::parse(settings)?;
+    document::read_scenario(&Source::default_scenario(), &overrides)
+}
+
+/// The wheels' own moments follow the load transfer, and may not contradict it.
+#[test]
+fn the_complete_load_transfer_includes_the_wheels_own_moments() {
+    use grouser::vehicle::{LoadSharing::*, OwnMoments::*};
+    for (settings, expected) in [
+        (&[][..], (Complete, Included)),
+        (&["scenario.load_transfer=complete"], (Complete, Included)),
+        (&["scenario.loads=quasi-static"], (QuasiStatic, Neglected)),
+        (&["scenario.load_transfer=quasi-static-torque"], (QuasiStaticTorque, Neglected)),
+        (&["scenario.load_transfer=uniform", "scenario.moments=included"], (Uniform, Included)),
+        (&["scenario.wheel_moments=included"], (Complete, Included)),
+    ] {
+        let read = scenario_with(settings).expect("it is read");
+        assert_eq!((read.value.sharing, read.value.own_moments), expected, "{settings:?}");
+        let word = if expected.1 == Included { "included" } else { "neglected" };
+        assert_eq!(read.document.text("wheel_moments"), Some(word), "the document says it");
+    }
+    for settings in [
+        &["scenario.load_transfer=complete", "scenario.wheel_moments=neglected"][..],
+        &["scenario.wheel_moments=neglected"],
+    ] {
+        let refused = scenario_with(settings).expect_err("they contradict each other").to_string();
+        assert!(refused.contains("wheel_moments") && refused.contains("complete"), "{refused}");
+    }
+}
+
+#[test]
+fn a_scenario_takes_a_yaw_over_time_and_writes_it_again() {
+    let read = scenario_with(&["scenario.drive.yaw_deg=[[0, 3.31], [20, 0.56]]"]).expect("read");
+    let points = vec![(0.0, deg(3.31)), (20.0, deg(0.56))];
+    assert_eq!(read.value.yaw, Some(grouser::simulation::PrescribedYaw { points }));
+    let again = Source::text("resolved", &read.to_toml());
+    let again = document::read_scenario(&again, &Overrides::none()).expect("what was written");
+    assert_eq!(again.value, read.value);
+    for (wrong, message) in [
+        ("[[0, 1], [0, 2]]", "later than the one before it"),
+        ("[[0, 1, 2]]", "must have 2"),
+        ("[]", "must have 1 or more"),
+        ("[[-1, 2]]", "from 0 to a day"),
+        ("3.0", "a list"),
+        ("[[0, nan]]", "finite"),
+    ] {
+        let setting = format!("scenario.drive.yaw_deg={wrong}");
+        let refused = scenario_with(&[&setting]).expect_err(wrong).to_string();
+        assert!(refused.contains(message) && refused.contains("yaw_deg"), "{wrong}: {refused}");
+    }
+}
+
+/// A number of the table varies like any other: campaigns reach it by its place.
+#[test]
+fn the_yaw_over_time_has_keys() {
+    use grouser::document::Described;
+    let read = scenario_with(&["scenario.drive.yaw_deg=[[0, 3.31], [20, 0.56]]"]).expect("read");
+    let changed = read.value.with([("drive.yaw_deg.1.1", 2.0), ("drive.yaw_deg.1.0", 10.0)]);
+    let yaw = changed.expect("they fit").yaw.expect("it is there");
+    assert_eq!(yaw.points[1], (10.0, deg(2.0)));
+}
+
+/// What the source does not say otherwise resists within its friction; the paper's law keeps its answers.
+#[test]
+fn presets_but_toyouras_and_the_fitted_ones_are_bounded() {
+    for preset in document::presets(Kind::Soil) {
+        let is_as_published = preset.name.starts_with("toyoura") || preset.name.starts_with("cmu-");
+        let expected = if is_as_published { ShearBound::None } else { ShearBound::Coulomb };
+        assert_eq!(soil(preset.name).shear_bound, expected, "{}", preset.name);
+    }
 }
 
 #[test]
@@ -437,7 +532,7 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
     for (from, to, message) in [
         ("cohesion_kpa ", "cohesion_pka ", "hint: did you mean `cohesion_kpa`?"),
         ("cohesion_kpa ", "cohesion ", "unknown key `cohesion`\n"),
-        ("cohesion_kpa       = 0.0", "", ":1:1: `cohesion_kpa` is missing"),
+        ("friction_angle_deg = 38.0", "", ":1:1: `friction_angle_deg` is missing"),
         ("= 38.0", "= \"38.0\"", "`friction_angle_deg` is the text \"38.0\", it must be a number"),
         ("= 38.0", "= true", "is the truth value true, it must be a number"),
         ("= 38.0", "= 2020-01-01", "is the date 2020-01-01, it must be a number"),
@@ -556,7 +651,7 @@ fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
         ("drive = { reference_slip_ratio = 0.1 }", "unknown key `drive.reference_slip_ratio`"),
         ("start.yaw_deg = 181", "`start.yaw_deg` is 181, it must be -180 to 180"),
         ("soil = \"hakuto\"", "there is no soil preset and no file called `hakuto`"),
-        ("[soil]\ndensity_kg_m3 = 1500", "`soil.cohesion_kpa` is missing"),
+        ("[soil]\ndensity_kg_m3 = 1500", "`soil.friction_angle_deg` is missing"),
         ("[rover.wheel_unit.wheel]\nradius = 1", "did you mean `radius_m`?"),
     ] {
         let error = fail(Kind::Scenario, &format!("schema = \"scenario/1\"\n{lines}\n"));
@@ -721,9 +816,10 @@ fn what_a_document_leaves_out_is_told() {
                 shear = { law = \"isotropic\", longitudinal_m = 0.02 }\n";
     let loaded = document::read_soil(&Source::text("short", text), &Overrides::none());
     let loaded = loaded.expect("all that is needed is there");
-    assert_eq!(loaded.value.exit, Exit::Ratio(1.0));
+    let Exit::Ratio(ratio) = loaded.value.exit else { panic!("it is one number") };
+    assert!((ratio - 0.293).abs() < 5e-4, "{ratio}");
     assert_eq!(loaded.value.bulldozing, Bulldozing::Sine);
-    for key in ["exit.ratio", "bulldozing.law", "source"] {
+    for key in ["exit.ratio", "shear.longitudinal_per_rad_m", "bulldozing.law", "source"] {
         let start = format!("soil unnamed: {key}: not");
         assert!(loaded.assumptions.iter().any(|one| one.starts_with(&start)), "{key}");
     }

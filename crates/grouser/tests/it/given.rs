@@ -6,8 +6,8 @@ use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::{
-    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent,
-    SmallWheel, Soil, StressPeak,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, SmallWheel, Soil, StressPeak,
 };
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
@@ -59,6 +59,7 @@ pub(crate) fn toyoura() -> Soil {
             longitudinal: linear(0.036, 0.043),
             lateral: linear(0.013, 0.020),
         },
+        shear_bound: ShearBound::None,
         exit: Exit::Ratio(1.0),
         bulldozing: Bulldozing::Sine,
         small_wheel: SmallWheel::OFF,
@@ -118,6 +119,8 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(RIM_SPEED),
+        yaw: None,
+        stability: grouser::soil::SlopeStability::USUAL,
         start: Start { yaw, motion: Motion::Rolling },
         duration: 20.0,
         numerics: Numerics::default(),
@@ -208,6 +211,11 @@ pub(crate) fn any_isotropic(least: f64) -> impl Strategy<Value = Shear> {
     any_modulus(least).prop_map(|modulus| Shear::Isotropic { modulus })
 }
 
+/// With Coulomb's bound and without.
+pub(crate) fn any_shear_bound() -> impl Strategy<Value = ShearBound> {
+    proptest::sample::select(&[ShearBound::None, ShearBound::Coulomb][..])
+}
+
 /// Both exit laws, at most λ.
 pub(crate) fn any_exit(most: f64) -> impl Strategy<Value = Exit> {
     let quadratic = (0.0..1.0, -2.0..0.0, 0.0..2.0).prop_map(
@@ -231,10 +239,12 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
     let cohesion = prop_oneof![Just(0.0), 0.0..5000.0];
     let strength = (cohesion, deg(10.0)..deg(50.0), 500.0..3000.0);
     let peak = (0.0..0.7, 0.0..0.3).prop_map(|(a0, a1)| StressPeak { a0, a1 });
+    let shear = (shear, any_shear_bound());
     let bulldozing = proptest::sample::select(&BULLDOZING[..]);
     (strength, any_pressure_sinkage(), peak, shear, any_exit(1.2), bulldozing).prop_map(
         |(strength, pressure_sinkage, stress_peak, shear, exit, bulldozing)| {
             let (cohesion, friction_angle, density) = strength;
+            let (shear, shear_bound) = shear;
             Soil {
                 cohesion,
                 friction_angle,
@@ -242,6 +252,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
                 pressure_sinkage,
                 stress_peak,
                 shear,
+                shear_bound,
                 exit,
                 bulldozing,
                 small_wheel: SmallWheel::OFF,

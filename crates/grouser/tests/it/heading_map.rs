@@ -17,6 +17,7 @@ fn study() -> HeadingStudy {
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
+        stability: grouser::soil::SlopeStability::USUAL,
     }
 }
 

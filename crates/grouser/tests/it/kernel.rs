@@ -5,8 +5,8 @@ use grouser::contact::{
     settle_from, settle_many,
 };
 use grouser::soil::{
-    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, Soil,
-    StressPeak, small_wheel,
+    Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
+    SinkageExponent, Soil, StressPeak, small_wheel,
 };
 use grouser::units::deg;
 use grouser::wheel::Wheel;
@@ -54,6 +54,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
         },
         stress_peak: StressPeak { a0: draw.between(0.1, 0.5), a1: draw.between(0.0, 0.2) },
         shear,
+        shear_bound: ShearBound::None,
         exit: Exit::Ratio(draw.between(0.1, 1.2)),
         bulldozing: Bulldozing::Sine,
         small_wheel: small_wheel::SmallWheel::OFF,

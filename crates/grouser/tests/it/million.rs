@@ -7,8 +7,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, WheelForces, settle};
 use grouser::soil::{
-    Domain, Exit, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil,
-    StressPeak,
+    Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus, SinkageExponent,
+    SmallWheel, Soil, StressPeak,
 };
 use grouser::units::deg;
 use grouser::wheel::{Grousers, Wheel};
@@ -123,6 +123,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
             a1: draw.or_special(0.0, 1.0, &[0.0, 1.0]),
         },
         shear,
+        shear_bound: draw.one_of(&[ShearBound::None, ShearBound::Coulomb]),
         exit,
         bulldozing: draw.one_of(&BULLDOZING),
         small_wheel: SmallWheel::OFF,

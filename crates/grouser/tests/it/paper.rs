@@ -258,6 +258,7 @@ fn curve_with(soil: Soil, sharing: LoadSharing) -> HeadingCurve {
         theory: Theory::Ishigami,
         sharing,
         own_moments: OwnMoments::Neglected,
+        stability: grouser::soil::SlopeStability::USUAL,
     };
     study.curve().expect("sand and gravity")
 }
@@ -439,6 +440,7 @@ fn the_assumed_wheel_decides_little_on_10_degrees() {
                 theory: Theory::Ishigami,
                 sharing: LoadSharing::QuasiStatic,
                 own_moments: OwnMoments::Neglected,
+                stability: grouser::soil::SlopeStability::USUAL,
             };
             let yaw = yaw_on(&study.curve().expect("sand and gravity"), 10.0);
             assert!((yaw - 5.04).abs() < 1.5, "{yaw}° with r {radius}, b {width} m");

@@ -54,6 +54,7 @@ fn soil_of(soil: &Value) -> Soil {
             longitudinal: linear("longitudinal"),
             lateral: linear("lateral"),
         },
+        shear_bound: grouser::soil::ShearBound::None,
         exit: Exit::Ratio(number(&soil["exit_angle_ratio"])),
         bulldozing: Bulldozing::Sine,
         small_wheel: grouser::soil::SmallWheel::OFF,
@@ -160,6 +161,7 @@ fn hakuto_study(sharing: LoadSharing) -> HeadingStudy {
         theory: Theory::Ishigami,
         sharing,
         own_moments: OwnMoments::Neglected,
+        stability: grouser::soil::SlopeStability::USUAL,
     }
 }
 

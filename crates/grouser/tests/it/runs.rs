@@ -417,6 +417,7 @@ fn the_level_attitude_does_not_depend_on_gravity_in_weighing_sand() {
             theory: Theory::Ishigami,
             sharing: LoadSharing::QuasiStatic,
             own_moments: OwnMoments::Neglected,
+            stability: grouser::soil::SlopeStability::USUAL,
         };
         let curve = study.curve().expect("sand and gravity");
         let yaw = curve.at(deg(15.0)).expect("it can be crossed").yaw;

@@ -91,7 +91,9 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
             let fit = |radius| Domain { radius: Span::new(radius, radius), ..stated };
             [Trial::within(fit(0.0625)), Trial::within(fit(0.101))]
         }
-        Flag::SinkageOutside => [Trial { load: 150.0, ..quiet() }, Trial { load: 80.0, ..quiet() }],
+        Flag::SinkageOutside => {
+            [Trial { load: 200.0, ..quiet() }, Trial { load: 100.0, ..quiet() }]
+        }
         Flag::SlipOutside => {
             [Trial { slip_ratio: 0.95, ..quiet() }, Trial { slip_ratio: 0.9, ..quiet() }]
         }

@@ -109,9 +109,9 @@ fn coverage(groups: &[&LeftOutRecord]) -> String {
         "interval_score",
     ];
     let row = |group: &LeftOutRecord, quantity: Quantity| {
-        let (errors, bands) = (group.errors.errors(quantity)?, group.coverage(quantity));
+        let bands = group.coverage(quantity);
         let mut row = condition(&group.errors);
-        row.extend([column_of(quantity).name.to_owned(), errors.cells.to_string()]);
+        row.extend([column_of(quantity).name.to_owned(), bands.cells_with_band?.to_string()]);
         let shares = [bands.coverage_50?, bands.coverage_95?];
         row.extend(shares.map(|share| format!("{share:.2}")));
         row.push(four_digits(bands.interval_score?));

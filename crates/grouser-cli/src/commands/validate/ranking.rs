@@ -183,19 +183,17 @@ fn text_of(ranking: &Ranking) -> String {
             .iter()
             .filter(|it| (&it.data_set, &it.case) == (&first.data_set, &first.case))
             .collect();
-        let mut block =
-            format!("{}, {}\n{}", first.data_set, first.case, all_cells(part, &yardsticks));
-        let of_skid = first.driven.as_ref().is_some_and(|driven| {
+        let title = format!("{}, {}\n", first.data_set, first.case);
+        let mut pieces = vec![title, all_cells(part, &yardsticks)];
+        let has_skid = first.driven.as_ref().is_some_and(|driven| {
             matches!(&first.overall, PartErrors::Wheel(all) if all.0.cells > driven.0.cells)
         });
-        if of_skid {
-            block += &format!("driven cells alone\n{}", driven_cells(part, &yardsticks));
+        if has_skid {
+            pieces.extend(["driven cells alone\n".to_owned(), driven_cells(part, &yardsticks)]);
         }
-        block += &repeatability(&first.overall);
-        for quantity in [SLIP_RATIO, YAW] {
-            block += &over_slopes(part, quantity);
-        }
-        blocks.push(block);
+        pieces.push(repeatability(&first.overall));
+        pieces.extend([SLIP_RATIO, YAW].map(|quantity| over_slopes(part, quantity)));
+        blocks.push(pieces.concat());
     }
     if ranking.models.first().is_some_and(|first| first.scores.len() > 1) {
         blocks.push(all_parts(&ranking.models));

@@ -14,8 +14,9 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::super::Answer;
+use super::super::strict;
 use super::figures;
-use crate::args::ValidateArgs;
+use crate::args::{StrictArgs, ValidateArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
@@ -49,6 +50,8 @@ pub(super) fn run(
     let heading = HeadingStudy::of(&scenario.value);
     let validation = SlopeValidationStudy { tests: &tests, heading: &heading }.run()?;
     let table = slope::slopes(&validation.points);
+    let flags = validation.points.iter().map(|point| &*point.findings);
+    strict::check(&StrictArgs { strict: args.strict }, flags, &table, &slope::SETTINGS)?;
     let rows = Rows::of_table(&table);
     let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
     let overall = SlopeErrorsRecord::from(&validation);

@@ -66,6 +66,7 @@ pub(in crate::contact) fn up(field: &StressField, rule: &ArcRule) -> f64 {
 fn over_arc<const ALL: bool>(field: &StressField, rule: &ArcRule, sums: &mut LaneSums) {
     match field.shear_law() {
         MobilisedShear::Anisotropic(law) => over_pieces::<ALL>(field, &law, rule, sums),
+        MobilisedShear::Bounded(law) => over_pieces::<ALL>(field, &law, rule, sums),
         MobilisedShear::Isotropic(law) => over_pieces::<ALL>(field, &law, rule, sums),
     }
 }

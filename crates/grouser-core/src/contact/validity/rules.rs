@@ -5,15 +5,9 @@ use std::f64::consts::{PI, TAU};
 use super::super::theory::Theory;
 use super::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
-use crate::soil::{PressureSinkage, SmallWheel, Soil, Span};
+use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
 use crate::units::EARTH_GRAVITY;
 use crate::wheel::Grousers;
-
-/// The factor of safety of the ground below which a slope is flagged [-]. Source: usual for temporary slopes.
-const SAFE_SLOPE: f64 = 1.3;
-
-/// How far below the surface the ground may slide [m]. Source: assumed; without cohesion it does not matter.
-const SLIDING_DEPTH: f64 = 1.0;
 
 /// How far gravity may be from the Earth's where Bekker's moduli state none, as a share [-]. Source: ours; gravity
 /// on Earth differs by half a hundredth from place to place.
@@ -122,8 +116,9 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         criterion: "an infinite slope that slides 1 m below its surface has a factor of safety below 1.3",
         source: "limit equilibrium of the infinite slope; 1.3 is usual for temporary slopes",
         judge: |it| {
-            let is_inclined = it.slope > 0.0;
-            is_inclined.then(|| (safety(it.soil, it.gravity, it.slope), Span::at_least(SAFE_SLOPE)))
+            let SlopeStability { factor_of_safety, depth } = SlopeStability::USUAL;
+            let safety = || it.soil.slope_safety(it.slope, it.gravity, depth);
+            (it.slope > 0.0).then(|| (safety(), Span::at_least(factor_of_safety)))
         },
     },
     Rule {
@@ -169,7 +164,8 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "force-beyond-friction",
         meaning: "The soil holds the wheel along the ground by more than its friction and cohesion allow.",
         quantity: "force along the ground",
-        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width",
+        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; not where \
+                    `shear.bound` keeps it within what the soil resists",
         source: "Mohr-Coulomb",
         judge: force_beyond_friction,
     },
@@ -245,19 +241,6 @@ fn bekker_modulus(it: &Situation<'_>) -> Option<f64> {
     }
 }
 
-/// Factor of safety of an infinite slope that slides along its dip [-].
-///
-/// ```text
-/// F = tan φ/tan α + c/(ρ g d sin α cos α)
-/// ```
-///
-/// * `slope`: *α* [rad], above 0
-fn safety(soil: &Soil, gravity: f64, slope: f64) -> f64 {
-    let (sin, cos) = (wide::sin(slope), wide::cos(slope));
-    let cohesion = soil.cohesion / (soil.unit_weight(gravity) * SLIDING_DEPTH * sin * cos);
-    soil.friction() * cos / sin + cohesion
-}
-
 /// Grousers that the model takes as dense: those of all models but resistive force theory.
 fn dense_grousers(it: &Situation<'_>) -> Option<Grousers> {
     let has_faces = it.theory == Theory::Rft;
@@ -285,6 +268,9 @@ fn grousers_apart(it: &Situation<'_>) -> Option<(f64, Span)> {
 }
 
 fn force_beyond_friction(it: &Situation<'_>) -> Option<(f64, Span)> {
+    if it.soil.shear_bound == ShearBound::Coulomb {
+        return None;
+    }
     let forces = &it.settled?.forces;
     let arc = (forces.patch.entry - forces.patch.exit).abs() * it.wheel.shearing_radius();
     let most = it.soil.cohesion * arc * it.wheel.width + forces.normal_force * it.soil.friction();

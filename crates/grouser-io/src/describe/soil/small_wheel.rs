@@ -2,13 +2,13 @@
 
 use super::super::super::field::{At, DEG, Fill, ONE, Table, number, table};
 use grouser_core::soil::SmallWheel;
-use grouser_core::soil::small_wheel::{ExitShift, Mounds, SideWall, SinkageGrowth};
+use grouser_core::soil::small_wheel::{ExitShift, Interface, Mounds, SideWall, SinkageGrowth};
 
 const DEFAULTS: Fill = Fill::Keys(&[]);
-const OFF: SmallWheel = SmallWheel::OFF;
+const GENERAL: SmallWheel = SmallWheel::GENERAL;
 
 pub(super) static SMALL_WHEEL: Table<SmallWheel> = Table {
-    doc: "What a small wheel's soil does beyond the classical law. Each key is off by default.",
+    doc: "What a small wheel's soil does beyond the classical law. A key that is left out has its general value.",
     fields: &[
         table(
             "sinkage",
@@ -22,9 +22,13 @@ pub(super) static SMALL_WHEEL: Table<SmallWheel> = Table {
             &At { inner: &EXIT_SHIFT, at: |terms: &mut SmallWheel| &mut terms.exit },
         )
         .otherwise(DEFAULTS),
-        table("interface", "Friction between wheel and soil.", &INTERFACE)
-            .otherwise(DEFAULTS)
-            .formerly("rim"),
+        table(
+            "interface",
+            "Friction between wheel and soil.",
+            &At { inner: &INTERFACE, at: |terms: &mut SmallWheel| &mut terms.interface },
+        )
+        .otherwise(DEFAULTS)
+        .formerly("rim"),
         table(
             "side_wall",
             "The soil's load on the side wall of the wheel.",
@@ -52,7 +56,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
             "Growth per sin β/(cos β + 0.3)",
             |growth: &mut SinkageGrowth| Some(&mut growth.with_slip_angle),
         )
-        .or(OFF.sinkage.with_slip_angle),
+        .or(GENERAL.sinkage.with_slip_angle),
         number(
             "with_slip",
             ONE,
@@ -60,7 +64,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
             "Growth with the slip by total speed, S/(1 − bend S)",
             |growth: &mut SinkageGrowth| Some(&mut growth.with_slip),
         )
-        .or(OFF.sinkage.with_slip),
+        .or(GENERAL.sinkage.with_slip),
         number(
             "bend",
             ONE,
@@ -68,7 +72,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
             "How that growth bends: above 0 it speeds up with slip, below 0 it slows down",
             |growth: &mut SinkageGrowth| Some(&mut growth.bend),
         )
-        .or(OFF.sinkage.bend),
+        .or(GENERAL.sinkage.bend),
         number(
             "locked",
             ONE,
@@ -76,7 +80,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
             "Growth of a locked wheel",
             |growth: &mut SinkageGrowth| Some(&mut growth.locked),
         )
-        .or(OFF.sinkage.locked),
+        .or(GENERAL.sinkage.locked),
         number(
             "sharpness",
             ONE,
@@ -84,7 +88,7 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
             "How much the larger of two growths hides the smaller; at 1 they add up",
             |growth: &mut SinkageGrowth| Some(&mut growth.sharpness),
         )
-        .or(OFF.sinkage.sharpness),
+        .or(GENERAL.sinkage.sharpness),
     ],
 };
 
@@ -98,7 +102,7 @@ static EXIT_SHIFT: Table<ExitShift> = Table {
             "Growth with the slip by total speed, while driving",
             |shift: &mut ExitShift| Some(&mut shift.with_slip),
         )
-        .or(OFF.exit.with_slip),
+        .or(GENERAL.exit.with_slip),
         number(
             "with_slip_angle",
             ONE,
@@ -106,20 +110,30 @@ static EXIT_SHIFT: Table<ExitShift> = Table {
             "Growth with |sin β|",
             |shift: &mut ExitShift| Some(&mut shift.with_slip_angle),
         )
-        .or(OFF.exit.with_slip_angle),
+        .or(GENERAL.exit.with_slip_angle),
     ],
 };
 
-static INTERFACE: Table<SmallWheel> = Table {
+static INTERFACE: Table<Interface> = Table {
     doc: "Friction between wheel and soil.",
-    fields: &[number(
-        "friction_angle_deg",
-        DEG,
-        1.0..=60.0,
-        "Friction angle of the wheel-soil interface, δ, where below the soil's own",
-        |terms: &mut SmallWheel| Some(terms.interface_friction_angle.get_or_insert(0.0)),
-    )
-    .optional()],
+    fields: &[
+        number(
+            "friction_angle_deg",
+            DEG,
+            1.0..=60.0,
+            "Friction angle of the wheel-soil interface, δ, where below the soil's own",
+            |interface: &mut Interface| Some(interface.friction_angle.get_or_insert(0.0)),
+        )
+        .optional(),
+        number(
+            "friction_share",
+            ONE,
+            0.01..=1.0,
+            "Without it: δ of a wheel without grousers, as a share of the soil's friction angle",
+            |interface: &mut Interface| Some(&mut interface.friction_share),
+        )
+        .or(GENERAL.interface.friction_share),
+    ],
 };
 
 static SIDE_WALL: Table<SideWall> = Table {
@@ -132,7 +146,7 @@ static SIDE_WALL: Table<SideWall> = Table {
             "Factor on the passive pressure, for the bow wave at the wall and for its ends",
             |wall: &mut SideWall| Some(&mut wall.pressure_factor),
         )
-        .or(OFF.side_wall.pressure_factor),
+        .or(GENERAL.side_wall.pressure_factor),
         number(
             "fading",
             ONE,
@@ -140,7 +154,7 @@ static SIDE_WALL: Table<SideWall> = Table {
             "How fast the load fades with slip or skid: e^(−fading |S|)",
             |wall: &mut SideWall| Some(&mut wall.fading),
         )
-        .or(OFF.side_wall.fading),
+        .or(GENERAL.side_wall.fading),
         number(
             "friction",
             ONE,
@@ -148,7 +162,7 @@ static SIDE_WALL: Table<SideWall> = Table {
             "Coefficient of friction of the side face, μ_f",
             |wall: &mut SideWall| Some(&mut wall.friction),
         )
-        .or(OFF.side_wall.friction),
+        .or(GENERAL.side_wall.friction),
     ],
 };
 
@@ -162,7 +176,7 @@ static MOUNDS: Table<Mounds> = Table {
             "In front of a wheel that skids",
             |mounds: &mut Mounds| Some(&mut mounds.bow_wave),
         )
-        .or(OFF.mounds.bow_wave)
+        .or(GENERAL.mounds.bow_wave)
         .formerly("front"),
         number(
             "rear_mound",
@@ -171,7 +185,7 @@ static MOUNDS: Table<Mounds> = Table {
             "Behind a wheel that spins",
             |mounds: &mut Mounds| Some(&mut mounds.rear_mound),
         )
-        .or(OFF.mounds.rear_mound)
+        .or(GENERAL.mounds.rear_mound)
         .formerly("behind"),
     ],
 };

@@ -27,6 +27,8 @@ pub struct CoverageRecord {
     pub coverage_95: Option<f64>,
     /// Mean interval score of the 95 % bands, in the quantity's unit; smaller is better.
     pub interval_score: Option<f64>,
+    /// How many cells have a band: none of the side force straight ahead.
+    pub cells_with_band: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -52,6 +54,7 @@ impl LeftOutRecord {
             coverage_50: Some(it.share_within_50),
             coverage_95: Some(it.share_within_95),
             interval_score: Some(unit.from_si(it.interval_score)),
+            cells_with_band: Some(it.cells),
         })
     }
 

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::super::measurements::Measurements;
 use super::super::soil_family::DISCREPANCY;
 use super::super::validation::GroupRecord;
-use super::super::{Document, SAMPLES_FILE, SoilFamily};
+use super::super::{Document, SAMPLES_FILE, SoilFamily, with_priors_held};
 use super::{
     DiscrepancyRecord, LeftOutRecord, LengthRecord, ParameterRecord, ProposalRecord, SamplerRecord,
     Solved, handed_on,
@@ -133,10 +133,12 @@ impl WheelProblem<'_> {
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
         let values = &solved.solution.fit.values;
         let fitted = self.family.fitted(values, &source, Some(self.theory), samples);
-        handed_on::nominal(solved).map_or_else(
+        let fitted = handed_on::nominal(solved).map_or_else(
             || fitted.clone(),
             |none| fitted.changed(|keys| drop(keys.insert(DISCREPANCY.to_owned(), none))),
-        )
+        );
+        // The samples were found with the other numbers as they are.
+        if samples.is_some() { with_priors_held(&fitted) } else { fitted }
     }
 }
 

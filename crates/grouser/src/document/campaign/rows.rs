@@ -47,13 +47,16 @@ const UNFIT: &str = "not possible together";
 const NO_HEADING: &str = "no level attitude";
 /// Not even on level ground.
 const CANNOT_MOVE: &str = "cannot move";
+/// The slope is steeper than the ground stands by its own strength.
+const GROUND_STRENGTH: &str = "ground-strength";
 /// The soil carries less than the load.
 const SUNK: &str = "soil cannot carry the load";
 /// The solver gave up.
 const NOT_COMPUTED: &str = "not computed";
 
 /// All statuses of a row; `ok` first.
-pub const STATUSES: [&str; 6] = [OK, UNFIT, NO_HEADING, CANNOT_MOVE, SUNK, NOT_COMPUTED];
+pub const STATUSES: [&str; 7] =
+    [OK, UNFIT, NO_HEADING, CANNOT_MOVE, GROUND_STRENGTH, SUNK, NOT_COMPUTED];
 
 /// Statuses of rows that could not be computed: all others are answers, or findings.
 pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
@@ -76,8 +79,8 @@ pub(super) fn columns(
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     all.extend(has_models.then(|| Column::new(MODEL, ColumnKind::Text, Role::Input)));
     let words: &[&str] = match study {
-        Study::Traverse => &["status", "reason", "outcome", "simulation", FLAGS],
-        Study::Heading | Study::WheelTest => &["status", "reason", FLAGS],
+        Study::Traverse => &["status", "reason", "outcome", "simulation"],
+        Study::Heading | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let names: Vec<&str> = match study {
@@ -86,6 +89,7 @@ pub(super) fn columns(
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
+    all.push(Column::new(FLAGS, ColumnKind::Text, Role::Status));
     all
 }
 
@@ -221,6 +225,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
             let status = match error {
                 NoHeading::CannotMove(_) => CANNOT_MOVE,
                 NoHeading::TooSteep { .. } => NO_HEADING,
+                NoHeading::GroundStrength { .. } => GROUND_STRENGTH,
             };
             Failure { status, reason: error.to_string() }
         })?;
@@ -230,7 +235,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     };
     let held_row = Held { heading: &heading, rover: &scenario.rover, rim_speed };
     let flags = RoverOnSlope::of(scenario).findings(heading.wheels.iter());
-    Ok(cells([Cell::Text(None), joined(&flags)], &held(), &held_row).collect())
+    Ok(cells([Cell::Text(None)], &held(), &held_row).chain([joined(&flags)]).collect())
 }
 
 /// Flags as one text: shards have no lists.
@@ -256,11 +261,10 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::Text(run.outcome.reason()),
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
-        joined(
-            &RoverOnSlope::of(scenario).over(&run).iter().map(|it| it.finding).collect::<Vec<_>>(),
-        ),
     ];
-    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect())
+    let raised = RoverOnSlope::of(scenario).over(&run);
+    let flags = joined(&raised.iter().map(|it| it.finding).collect::<Vec<_>>());
+    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).chain([flags]).collect())
 }
 
 fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
@@ -281,5 +285,6 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         slip: Some(contact.slip),
         settled: Some(&settled),
     };
-    Ok(cells([Cell::Text(None), joined(&situation.findings())], &WHEEL, &settled).collect())
+    let flags = joined(&situation.findings());
+    Ok(cells([Cell::Text(None)], &WHEEL, &settled).chain([flags]).collect())
 }

@@ -9,7 +9,6 @@ use super::{
     quantity, text, whole,
 };
 use crate::studies::card::{Card, CardRow, Verdict};
-use crate::studies::heading::NoHeading;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -73,13 +72,7 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
 
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
-    match (&it.row.level, &it.card.limit) {
-        (Some(_), _) => OK.to_owned(),
-        (None, Ok((limit, reason))) => {
-            NoHeading::TooSteep { course: 0.0, limit: *limit, reason: reason.clone() }.to_string()
-        }
-        (None, Err(reason)) => reason.clone(),
-    }
+    it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
 /// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and

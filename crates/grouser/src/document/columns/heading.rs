@@ -9,7 +9,7 @@ use super::{
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
 };
 use crate::contact::validity::Finding;
-use crate::studies::heading::{HeadingCurve, HeadingOffset, NoHeading};
+use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
@@ -88,11 +88,14 @@ const fn place<'a>() -> [Column<OnSlope<'a>>; 2] {
 }
 
 /// Columns of a map after the results.
-const fn limit<'a>() -> [Column<OnSlope<'a>>; 1] {
-    [LIMIT_SLOPE
-        .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
-            it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
-        })]
+const fn limit<'a>() -> [Column<OnSlope<'a>>; 2] {
+    [
+        LIMIT_SLOPE
+            .maybe("The steepest slope of the soil and course, the same on every slope", |it| {
+                it.row?.limit.as_ref().ok().map(|(slope, _)| *slope)
+            }),
+        text(LIMITED_BY, WHAT_LIMITS, |it| it.row?.limited_by.map(|by| by.name().to_owned())),
+    ]
 }
 
 /// The flags on each slope [rad].
@@ -154,24 +157,30 @@ pub fn curve(curve: &HeadingCurve) -> Table {
 /// The steepest slope, and what ends the curve there: one row.
 #[must_use]
 pub fn steepest(curve: &HeadingCurve) -> Table {
-    type Limit = Result<(f64, String), String>;
-    const LIMIT: [Column<Limit>; 2] = [
-        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |it| {
+    type Limit = (Result<(f64, String), String>, Option<LimitedBy>);
+    const LIMIT: [Column<Limit>; 3] = [
+        LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the course", |(it, _)| {
             it.as_ref().ok().map(|(slope, _)| *slope)
         }),
-        text(LIMIT_REASON, "What ends the curve there", |it| {
+        text(LIMIT_REASON, "What ends the curve there", |(it, _)| {
             Some(it.as_ref().map_or_else(Clone::clone, |(_, reason)| reason.clone()))
         }),
+        text(LIMITED_BY, WHAT_LIMITS, |(_, by)| by.map(|by| by.name().to_owned())),
     ];
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
         Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
+        Err(beyond @ NoHeading::GroundStrength { .. }) => Err(beyond.to_string()),
     };
-    Table::of(&LIMIT, &[limit])
+    Table::of(&LIMIT, &[(limit, curve.limited_by())])
 }
 
 /// What ends a curve.
 pub const LIMIT_REASON: &str = "limit_reason";
+/// The same as one of a few words.
+pub const LIMITED_BY: &str = "limited_by";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`) or the \
+     `range` of slopes";
 
 /// A row for each soil, course and slope of a map.
 ///

@@ -1,11 +1,12 @@
 //! The columns of a rover on slopes: slip and yaw, measured and predicted.
 
 use super::super::table::Table;
+use super::flags::{self, FLAGS};
 use super::{COURSE, Column, OK, SLIP_RATIO, SLOPE, STATUS, YAW, text, whole};
 use crate::studies::slope_tests::Mean;
 use crate::studies::slope_validation::SlopeComparison;
 
-const COLUMNS: [Column<SlopeComparison>; 6] = [
+const COLUMNS: [Column<SlopeComparison>; 7] = [
     SLOPE.given("Slopes", |it| Some(it.point.slope)),
     COURSE.given("Directions of travel from the contour, positive uphill", |it| {
         Some(it.point.course)
@@ -22,7 +23,11 @@ const COLUMNS: [Column<SlopeComparison>; 6] = [
     text(STATUS, "`ok`, or why no heading holds the course", |it| {
         Some(it.not_held.clone().unwrap_or_else(|| OK.to_owned()))
     }),
+    flags::flags(|it| flags::names(&it.findings)),
 ];
+
+/// The columns that tell slopes apart.
+pub const SETTINGS: [&str; 2] = [COURSE.name, SLOPE.name];
 
 fn beside(measured: Option<Mean>, predicted: Option<f64>) -> [Option<f64>; 3] {
     [measured.map(|mean| mean.value), measured.and_then(|mean| mean.deviation), predicted]
@@ -44,5 +49,5 @@ pub fn brief(points: &[SlopeComparison]) -> Vec<String> {
     let measured = [slip, yaw].into_iter().flatten();
     let pairs = measured.flat_map(|it| [it.measurement(), it.name.to_owned()]);
     let place = [SLOPE, COURSE].map(|it| it.name.to_owned());
-    place.into_iter().chain(pairs).chain([STATUS.to_owned()]).collect()
+    place.into_iter().chain(pairs).chain([STATUS, FLAGS].map(str::to_owned)).collect()
 }

@@ -25,11 +25,12 @@ pub struct LeftOut {
     pub fit: Fit,
     /// The trials left out, by their places, each predicted at its own load and motion.
     pub predictions: Vec<(usize, Result<Settled, SettleError>)>,
-    /// The bands of the cells left out; none without sampling.
+    /// The bands of the cells left out; none without sampling, and none of a side force straight ahead.
     pub bands: Vec<LeftOutBand>,
 }
 
-/// The predicted band of one quantity in a cell that was left out, in SI units.
+/// The predicted band of the mean that the stand reads in a cell that was left out, in SI units: of the samples'
+/// predictions with their discrepancies, and with the scatter of the cell's trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftOutBand {
     /// The cell, by its place.
@@ -38,7 +39,7 @@ pub struct LeftOutBand {
     pub quantity: Quantity,
     /// Its mean over the trials.
     pub measured: f64,
-    /// The values that 2.5, 25, 75 and 97.5 % of the samples lie below.
+    /// The values that 2.5, 25, 75 and 97.5 % lie below.
     pub quantiles: [f64; 4],
 }
 
@@ -57,7 +58,7 @@ pub struct Coverage {
     pub share_within_95: f64,
     /// Mean interval score of the 95 % bands, in the unit of the quantity: smaller is better.
     pub interval_score: f64,
-    /// Number of cells.
+    /// Number of cells that have a band.
     pub cells: usize,
 }
 
@@ -187,11 +188,37 @@ fn bands(
         outputs(&soils, |soil| cells.iter().map(|&cell| all.cell_readings(soil, cell)).collect());
     let band = |(&(quantity, cell), observation): (&(Quantity, usize), &super::Observation)| {
         let place = cells.binary_search(&cell).ok()?;
-        let mut values: Vec<f64> = predicted.iter().map(|one| one[place][quantity]).collect();
-        values.sort_by(f64::total_cmp);
-        let at = |share| quantile(&values, share).unwrap_or(f64::NAN);
-        let (measured, quantiles) = (observation.value, SHARES.map(at));
+        let values: Vec<f64> = predicted.iter().map(|one| one[place][quantity]).collect();
+        let measured = observation.value;
+        let quantiles = quantiles_with_scatter(values, observation.scatter)?;
         Some(LeftOutBand { cell, quantity, measured, quantiles })
     };
     Ok(asked.into_iter().filter_map(band).collect())
+}
+
+/// The quantiles of what would be read where samples predict some values: each of them scattered. None where all
+/// samples predict the same: straight ahead no soil has a side force, by symmetry, and what a stand
+/// reads there is its own.
+fn quantiles_with_scatter(mut values: Vec<f64>, scatter: f64) -> Option<[f64; 4]> {
+    values.sort_by(f64::total_cmp);
+    if values.first() == values.last() {
+        return None;
+    }
+    // Quantiles of the normal distribution at the middles of nine equal shares.
+    const NINTHS: [f64; 9] = [
+        -1.593_218_8,
+        -0.967_421_6,
+        -0.589_455_8,
+        -0.282_216_1,
+        0.0,
+        0.282_216_1,
+        0.589_455_8,
+        0.967_421_6,
+        1.593_218_8,
+    ];
+    let scattered = values.iter().flat_map(|value| NINTHS.map(|z| value + z * scatter));
+    let mut scattered: Vec<f64> = scattered.collect();
+    scattered.sort_by(f64::total_cmp);
+    let at = |share| quantile(&scattered, share).unwrap_or(f64::NAN);
+    Some(SHARES.map(at))
 }

@@ -396,3 +396,162 @@ fn lengths_to_find(sites: &[Site]) -> Vec<Parameter> {
 pub(super) fn residuals(observations: &[Observation], predictions: &[f64]) -> Vec<f64> {
     observations.iter().zip(predictions).map(|(one, prediction)| one.value - prediction).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::ensemble::normal_numbers;
+    use super::super::experiment::Channel;
+    use super::*;
+    use crate::error::ParameterError;
+
+    /// Observations of one quantity at some slips, of which nothing is predicted.
+    struct Read {
+        observations: Vec<Observation>,
+        places: Vec<Place>,
+    }
+
+    impl Read {
+        fn new(slips: &[f64], angles: &[f64], scatter: f64) -> Self {
+            let sites = angles
+                .iter()
+                .flat_map(|&slip_angle| slips.iter().map(move |&slip| (slip, slip_angle)));
+            let places: Vec<Place> = sites
+                .map(|(slip, slip_angle)| Place {
+                    family: 0,
+                    site: Site { slip, slip_angle },
+                    weight: 7.0,
+                })
+                .collect();
+            let one = Observation { value: 0.0, scatter, channel: 0 };
+            Self { observations: vec![one; places.len()], places }
+        }
+    }
+
+    impl Experiment for Read {
+        fn channels(&self) -> &[Channel] {
+            &[Channel::Other]
+        }
+
+        fn observations(&self) -> &[Observation] {
+            &self.observations
+        }
+
+        fn places(&self) -> &[Place] {
+            &self.places
+        }
+
+        fn predict(&self, _: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
+            predictions.fill(0.0);
+            Ok(())
+        }
+    }
+
+    const SLIPS: [f64; 9] = [-1.0, -0.7, -0.5, -0.2, 0.0, 0.23, 0.5, 0.75, 0.9];
+
+    /// A correlation of ρ between two: the bivariate normal density.
+    #[test]
+    fn two_observations_have_the_density_of_two_normal_numbers() {
+        let errors = Errors::of(&Read::new(&[0.0, 0.4], &[0.0], 0.3));
+        let (delta, length) = (0.8, 0.6);
+        let x = 3.0_f64.sqrt() * 0.4 / length;
+        let (variance, covariance) = (0.09 + 0.64, 0.64 * (1.0 + x) * (-x).exp());
+        let (a, b) = (0.5, -0.2);
+        let determinant = variance * variance - covariance * covariance;
+        let square = (variance * (a * a + b * b) - 2.0 * covariance * a * b) / determinant;
+        let expected = -0.5 * (square + determinant.ln());
+        let found = errors.log_density(&[a, b], &[delta, length]);
+        // The jitter is 1e-8 of the variance.
+        assert!((found - expected).abs() < 1e-6, "{found}, {expected}");
+    }
+
+    /// Over lengths below the distances of the settings nothing is correlated, and without a
+    /// discrepancy the scatter is all.
+    #[test]
+    fn without_a_length_or_a_discrepancy_errors_are_independent() {
+        let correlated = Errors::of(&Read::new(&SLIPS, &[0.0, 0.5], 0.2));
+        let mut alone = Read::new(&SLIPS, &[0.0, 0.5], 0.2);
+        alone.places.clear();
+        let independent = Errors::of(&alone);
+        let residuals = normal_numbers(3, 1, 18);
+        let density = |delta: f64, length: f64| {
+            (
+                correlated.log_density(&residuals, &[delta, length, length]),
+                independent.log_density(&residuals, &[delta]),
+            )
+        };
+        for (delta, length, within) in [(0.7, 1e-3, 1e-6), (1e-9, 0.5, 1e-6)] {
+            let (one, other) = density(delta, length);
+            assert!((one - other).abs() < within, "{delta}, {length}: {one} and {other}");
+        }
+        let (one, other) = density(0.7, 0.5);
+        assert!((one - other).abs() > 1.0, "correlated ones differ: {one} and {other}");
+    }
+
+    /// Whitened residuals have the same squares as the density has.
+    #[test]
+    fn whitened_residuals_weigh_as_much_as_correlated_ones() {
+        let errors = Errors::of(&Read::new(&SLIPS, &[0.0, 0.5], 0.2));
+        let found = [0.7, 0.4, 0.3];
+        let residuals = normal_numbers(5, 1, 18);
+        let square = |residuals: &[f64]| {
+            let white = errors.whitener(&found).whitened(residuals);
+            white.iter().map(|one| one * one).sum::<f64>()
+        };
+        let zeros = vec![0.0; 18];
+        let difference =
+            errors.log_density(&zeros, &found) - errors.log_density(&residuals, &found);
+        assert!((difference - 0.5 * square(&residuals)).abs() < 1e-9 * difference);
+    }
+
+    /// Twenty series of simulated residuals with lengths of 0.4 and 20°: on average the most likely lengths are
+    /// those, and those of independent ones are the shortest that can be.
+    #[test]
+    fn correlation_lengths_are_recovered_from_residuals() {
+        let errors = Errors::of(&Read::new(&SLIPS, &[0.0, deg(15.0), deg(45.0), deg(75.0)], 0.1));
+        let truth = [1.0, 0.4, deg(20.0)];
+        let factor = &errors.whitener(&truth).factors[0].1;
+        let mean_logs = |simulate: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let mut sums = [0.0; 2];
+            for series in 0..20 {
+                let lengths =
+                    errors.likely_lengths(&simulate(&normal_numbers(17, series, 36)), &[1.0]);
+                for (sum, length) in sums.iter_mut().zip(lengths) {
+                    *sum += ln(length) / 20.0;
+                }
+            }
+            sums.map(f64::exp)
+        };
+        let smooth = mean_logs(&|numbers| {
+            (factor * DVector::from_column_slice(numbers)).iter().copied().collect()
+        });
+        // One series knows a length to 40 % or so, twenty to 10 %; the grid's steps are 1.4.
+        for (found, truth) in smooth.iter().zip(&truth[1..]) {
+            assert!((found / truth).ln().abs() < 0.35, "{found} instead of {truth}");
+        }
+        let rough = mean_logs(&<[f64]>::to_vec);
+        assert!(rough[0] < 0.15, "{rough:?}");
+    }
+
+    /// What was read without scatter is known there, and nothing is known far away.
+    #[test]
+    fn a_draw_passes_through_what_was_read() {
+        let errors = Errors::of(&Read::new(&SLIPS, &[0.0], 1e-3));
+        let (found, read) = ([2.0, 0.1], normal_numbers(9, 2, 9));
+        let sites = [SLIPS[2], SLIPS[7], 20.0].map(|slip| Site { slip, slip_angle: 0.0 });
+        let draws: Vec<Vec<f64>> = (0..400)
+            .map(|number| {
+                let numbers = normal_numbers(4, number, 3);
+                let drawn = errors.drawn(0, &sites, &read, &found, &|_| true, &numbers);
+                let both = drawn.mean.iter().zip(&drawn.deviation);
+                both.map(|(mean, away)| found[0] * (mean + away)).collect()
+            })
+            .collect();
+        for draw in &draws {
+            // Five standard deviations of the scatter.
+            assert!((draw[0] - read[2]).abs() < 5e-3 && (draw[1] - read[7]).abs() < 5e-3);
+        }
+        let square = draws.iter().map(|draw| draw[2] * draw[2]).sum::<f64>() / 400.0;
+        // 400 draws know a deviation to 3.5 %.
+        assert!((square.sqrt() / 2.0 - 1.0).abs() < 0.14, "{square}");
+    }
+}

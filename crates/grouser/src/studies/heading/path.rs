@@ -4,13 +4,13 @@ use std::cell::Cell;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::study::{HeadingStudy, STEEPEST, STRAIGHT_UP};
+use super::study::{HeadingStudy, STRAIGHT_UP};
 use crate::contact::Slip;
 use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::site::Site;
-use crate::units::Vec2;
+use crate::units::{STEEPEST_SLOPE, Vec2};
 use crate::vehicle::reaction::{Ground, forces_of};
 use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics};
 
@@ -177,7 +177,7 @@ impl<'a> Path<'a> {
                 return self.point(place).map_err(|error| error.to_string());
             }
             // The slope's pull across the rover goes with the cosine of its yaw.
-            slope = asin((sin(slope) + left_over / cos(yaw)).clamp(0.0, sin(STEEPEST)));
+            slope = asin((sin(slope) + left_over / cos(yaw)).clamp(0.0, sin(STEEPEST_SLOPE)));
         }
         Err("the start of the curve was not found".into())
     }

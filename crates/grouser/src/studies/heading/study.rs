@@ -1,7 +1,7 @@
-//! What a study of heading offsets is about, and how steep its slopes may be.
+//! What a study of heading offsets is about.
 
 use crate::contact::Theory;
-use crate::soil::Soil;
+use crate::soil::{SlopeStability, Soil};
 use crate::vehicle::{LoadSharing, OwnMoments, Rover};
 
 /// Finds heading offsets of a rover on a soil, for any slope.
@@ -19,10 +19,9 @@ pub struct HeadingStudy {
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
     pub own_moments: OwnMoments,
+    /// What is asked of the ground's own strength before a rover crosses it.
+    pub stability: SlopeStability,
 }
-
-/// The steepest slope that is looked at [rad]: 60°. Source: the documents' range.
-pub(super) const STEEPEST: f64 = std::f64::consts::FRAC_PI_3;
 
 /// The farthest course from the contour [rad]: straight up or down the slope. Beyond it a rover
 /// travels the other way, and is its own mirror image.
