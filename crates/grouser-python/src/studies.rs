@@ -114,15 +114,15 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
-/// The heading offset that holds the contour on each slope, the steepest slope, and what ends the curve
-/// there.
+/// The heading offset that holds the contour on each slope, the steepest slope, what ends the curve
+/// there in a sentence, and in a word.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
-) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String)> {
+) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String, Option<String>)> {
     let slopes = slopes(&slope_deg)?;
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
@@ -134,7 +134,8 @@ pub(crate) fn heading<'py>(
     })?;
     let (table, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
     let reason = limit.texts(columns::heading::LIMIT_REASON)[0].clone().unwrap_or_default();
-    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason))
+    let limited_by = limit.texts(columns::heading::LIMITED_BY)[0].clone();
+    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason, limited_by))
 }
 
 /// The heading offset over slope, course and soil: a row for each, slopes fastest, then courses.

@@ -136,14 +136,39 @@ def test_a_simulated_stand_scatters_about_the_theory() -> None:
 
 
 def test_the_heading_offset_holds_the_contour() -> None:
-    """The heading offset neglects the remaining yaw moment, so the run turns a little: 1 mm in 20 s, as
-    the library's own example has it."""
+    """The heading offset neglects the remaining yaw moment: held at its yaw the rover stays, left to
+    itself it turns downhill and leaves the contour."""
     level = gr.heading(slope_deg=[10.0, 30.0])
     assert level.status[0] == "ok" and "steepest slope" in level.status[1]
     assert np.isnan(level.yaw_deg).tolist() == [False, True]
     assert level.limit_slope_deg is not None and 20.0 < level.limit_slope_deg < 21.0
-    run = gr.simulate(slope_deg=10.0, start={"yaw_deg": level.yaw_deg[0]})
-    assert abs(run.y_m[-1]) < 1e-3
+    assert level.limited_by == "wheels"
+    held = gr.simulate(slope_deg=10.0, drive={"yaw_deg": [[0.0, level.yaw_deg[0]]]})
+    assert abs(held.y_m[-1]) < 1e-3 and np.ptp(held.yaw_deg) < 1e-9
+    free = gr.simulate(slope_deg=10.0, start={"yaw_deg": level.yaw_deg[0]})
+    assert free.yaw_deg[-1] < level.yaw_deg[0] - 1.0 and free.y_m[-1] < -1e-3
+
+
+def test_a_yaw_over_time_is_followed() -> None:
+    course = [[0.0, 5.51], [20.0, 3.1]]
+    run = gr.simulate(slope_deg=10.0, load_transfer="quasi-static", drive={"yaw_deg": course})
+    assert run.scenario.drive["yaw_deg"] == course
+    assert np.allclose(run.yaw_deg, np.interp(run.time_s, *np.transpose(course)), atol=1e-6)
+    # [FourWheel], Table 4, measured 13 mm, without a sign.
+    assert run.y_m[-1] == pytest.approx(-0.014, abs=1e-3)
+    with pytest.raises(gr.ParameterError, match="later than the one before it"):
+        gr.Scenario(drive={"yaw_deg": [[1.0, 2.0], [0.0, 3.0]]})
+
+
+def test_the_ground_ends_what_its_strength_does_not_hold() -> None:
+    downhill = gr.heading_map(slope_deg=[10.0, 33.0], course_deg=[-90.0])
+    assert set(downhill.limited_by.ravel()) == {"ground-strength"}
+    assert downhill.status[0, 0, 1].startswith("ground-strength")
+    assert downhill.limit_slope_deg[0, 0, 0] == pytest.approx(31.0, abs=0.05)
+    firmer = gr.heading_map(
+        slope_deg=[33.0], course_deg=[-90.0], slope_stability={"factor_of_safety": 1.0}
+    )
+    assert firmer.status[0, 0, 0] == "ok"
 
 
 def test_a_heading_map_has_the_heading_offsets_on_course_0() -> None:

@@ -63,11 +63,18 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     write_report(&mut folder, &study, &scenario)?;
     folder.finish()?;
     output::print(&format!(
-        "{}\n{}\n\nreport: {}\n",
+        "{}\n{}\n\n{}\n{}\nreport: {}\n",
         tables::headings(&study).to_text(),
         tables::limit_sentence(&study),
+        titled(&tables::mean_yaw(&study)),
+        titled(&tables::measured_yaw_drift(&study)),
         escape::path(&target.join(REPORT))
     ))
+}
+
+/// A table under its caption.
+fn titled(table: &Table) -> String {
+    format!("{}\n{}", table.caption, table.to_text())
 }
 
 /// Opens the output folder: the default one may be replaced if it is an earlier report, another one only with `--force`.

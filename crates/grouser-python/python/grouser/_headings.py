@@ -36,6 +36,9 @@ class Headings(_tables.Tabular):
     """The steepest slope on which the contour can be held [°]; None where the rover cannot move."""
     limit_message: str
     """What ends the curve there."""
+    limited_by: str | None
+    """The same in a word: ``wheels``; ``ground-strength``, where the ground itself would slide; or
+    ``range``, of the slopes; None where the rover cannot move."""
     status: NDArray[np.object_]
     """Of each slope: ``ok``, or why no heading offset holds the contour."""
     flags: NDArray[np.object_]
@@ -138,14 +141,14 @@ def heading(
     True
     """
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    found, limit, reason = _core.heading(run._document, slopes)
+    found, limit, reason, limited_by = _core.heading(run._document, slopes)
     band = None
     if uncertainty:
         count = whole_number("samples", samples, most=2**32 - 1)
         band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
     status = np.array(found.pop("status"), dtype=object)
     flags = np.array(found.pop("flags"), dtype=object)
-    end = {"limit_slope_deg": limit, "limit_message": reason}
+    end = {"limit_slope_deg": limit, "limit_message": reason, "limited_by": limited_by}
     return Headings(**end, status=status, flags=flags, band=band, **found)
 
 
@@ -180,13 +183,15 @@ class HeadingMap(_tables.Tabular):
     """Power of the motors at the rim speed of the map [W]."""
     limit_slope_deg: Floats
     """The steepest slope of the soil and course [°], the same on every slope."""
+    limited_by: NDArray[np.object_]
+    """What ends the curve there: ``wheels``, ``ground-strength`` or ``range``, as in `Headings`."""
     band: HeadingMapBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _columns(self) -> dict[str, Any]:
         names = (*_HELD, "power_w", "limit_slope_deg")
         band = {} if self.band is None else self.band._table()
-        texts = {"status": self.status, "flags": self.flags}
+        texts = {"status": self.status, "flags": self.flags, "limited_by": self.limited_by}
         return {**columns_of(self, names), **texts, **band}
 
     def _table(self) -> dict[str, Any]:
@@ -275,7 +280,8 @@ def heading_map(
     shape = (len(runs), len(courses), len(slopes))
     numbers = {name: found[name].reshape(shape) for name in (*_HEADING, "limit_slope_deg")}
     texts = {
-        name: np.array(found[name], dtype=object).reshape(shape) for name in ("status", "flags")
+        name: np.array(found[name], dtype=object).reshape(shape)
+        for name in ("status", "flags", "limited_by")
     }
     band = None
     if uncertainty:

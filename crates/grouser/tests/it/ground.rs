@@ -366,6 +366,23 @@ fn the_drift_at_the_measured_yaw_is_that_of_the_independent_computation() {
     }
 }
 
+/// The heading offset leaves a yaw moment over. Held against it the rover stays on the contour, whatever
+/// the load transfer.
+#[test]
+fn a_rover_held_at_its_heading_offset_holds_the_contour() {
+    for (sharing, own_moments) in [
+        (LoadSharing::QuasiStatic, OwnMoments::Neglected),
+        (LoadSharing::Complete, OwnMoments::Included),
+    ] {
+        let scenario = Scenario { sharing, own_moments, ..traverse(deg(15.0), 0.0) };
+        let curve = HeadingStudy::of(&scenario).curve().expect("sand and gravity");
+        let yaw = curve.at(deg(15.0)).expect("it can be crossed").yaw;
+        let end = run(&held(vec![(0.0, yaw)], scenario)).last().state.position;
+        // The rolling start does not slip yet as it will.
+        assert!(end.y.abs() < 1e-4 && end.x > 0.8, "{sharing:?}: {end}");
+    }
+}
+
 /// A run that is held at the yaw that it would take by itself goes the same way.
 #[test]
 fn a_run_at_its_own_yaw_is_itself() {

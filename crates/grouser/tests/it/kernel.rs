@@ -87,12 +87,13 @@ fn error(contact: &Contact, sinkage: f64) -> f64 {
 }
 
 /// Errors of many contacts in rising order.
-fn errors(count: u64, motion: Motion, isotropic: bool) -> Vec<f64> {
+fn errors(count: u64, motion: Motion, isotropic: bool, shear_bound: ShearBound) -> Vec<f64> {
     let mut errors: Vec<f64> = (0..count)
         .map(|case| {
             let mut draw = Draw::of_case(case);
             let (contact, sinkage) = any_contact(&mut draw, motion, isotropic);
-            error(&contact, sinkage)
+            let soil = Soil { shear_bound, ..contact.soil };
+            error(&Contact { soil, ..contact }, sinkage)
         })
         .collect();
     errors.sort_by(f64::total_cmp);
@@ -101,7 +102,17 @@ fn errors(count: u64, motion: Motion, isotropic: bool) -> Vec<f64> {
 
 /// * `usual`: bound for 99 of 100, `most`: for all
 fn check_errors(motion: Motion, isotropic: bool, usual: f64, most: f64) {
-    let errors = errors(20_000, motion, isotropic);
+    check_errors_of(motion, isotropic, ShearBound::None, usual, most);
+}
+
+fn check_errors_of(
+    motion: Motion,
+    isotropic: bool,
+    shear_bound: ShearBound,
+    usual: f64,
+    most: f64,
+) {
+    let errors = errors(20_000, motion, isotropic, shear_bound);
     let last = errors.len() - 1;
     let (at_99, at_last) = (errors[last - last / 100], errors[last]);
     println!(
@@ -123,6 +134,14 @@ fn most_other_wheels_are_integrated_to_a_few_millionths() {
     check_errors(Motion::Locked, false, 2e-5, 1e-4);
     check_errors(Motion::Driving, true, 1e-6, 1e-3);
     check_errors(Motion::Skidding, true, 1e-5, 1e-3);
+}
+
+/// The bound's factor is smooth: it costs no digits.
+#[test]
+fn bounded_shear_is_integrated_as_well() {
+    check_errors_of(Motion::Driving, false, ShearBound::Coulomb, 1e-6, 1e-6);
+    check_errors_of(Motion::Skidding, false, ShearBound::Coulomb, 3e-6, 2e-3);
+    check_errors_of(Motion::Locked, false, ShearBound::Coulomb, 2e-5, 1e-4);
 }
 
 /// All numbers of a reaction as bits.

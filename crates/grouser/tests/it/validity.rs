@@ -161,9 +161,9 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
                 let soil = Soil { small_wheel, ..given::toyoura() };
                 Trial { theory: Theory::SmallWheel, soil, ..quiet() }
             };
-            let mut terms = SmallWheel::OFF;
+            let mut terms = SmallWheel::GENERAL;
             terms.mounds.rear_mound = 1.0;
-            [small(SmallWheel::OFF), small(terms)]
+            [small(SmallWheel::GENERAL), small(terms)]
         }
         Flag::Assumed => [Trial::within(Domain { assumed_values: 1, ..stated }), quiet()],
     }

@@ -193,12 +193,13 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::TermsMissing,
         name: "terms-missing",
-        meaning: "The soil has no terms for the model `small-wheel`: the result is that of `ishigami`.",
+        meaning: "The soil states no terms for the model `small-wheel`: general values stand for them.",
         quantity: "sets of terms for the small-wheel model",
         criterion: "`small-wheel` on a soil without `small_wheel`",
-        source: "the model's equations",
+        source: "two wheels on one sand, Pavlov and Johnson (2022); Lyasko (2010)",
         judge: |it| {
-            let terms = if it.soil.small_wheel == SmallWheel::OFF { 0.0 } else { 1.0 };
+            let level = SmallWheel { wedge_share: 1.0, ..it.soil.small_wheel };
+            let terms = if level == SmallWheel::GENERAL { 0.0 } else { 1.0 };
             (it.theory == Theory::SmallWheel).then_some((terms, Span::at_least(1.0)))
         },
     },
