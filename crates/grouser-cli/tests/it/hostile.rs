@@ -57,7 +57,6 @@ fn messages_and_tables_stay_on_their_lines() {
     check_shown("several wheels", &answer.stderr);
     assert!(answer.stderr.contains("\\u{1b}[2J\\u{202e}a"), "{}", answer.stderr);
     for line in [
-        "attitude --uncertainty --soil soil.toml",
         "traverse --set scenario.soil=\"\u{202e}\"",
         "check \u{202e}.toml",
     ] {
