@@ -67,8 +67,8 @@ fn rmse(group: &Group) -> [f64; 3] {
 #[test]
 fn the_fitted_soils_agree_with_their_trials() {
     for (kind, driven, all) in [
-        ("smooth", [0.75, 0.80, 0.95], [1.20, 0.85, 1.30]),
-        ("grouser", [0.85, 0.95, 1.70], [0.95, 1.00, 1.45]),
+        ("smooth", [0.65, 0.75, 1.40], [1.10, 0.80, 1.60]),
+        ("grouser", [0.85, 0.95, 1.75], [0.95, 0.95, 1.50]),
     ] {
         let measured = trials(kind);
         let validation = validation(&measured, kind, &format!("cmu-direct90-{kind}"));
