@@ -329,7 +329,7 @@ pub(crate) fn stand(
     )?;
     let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
     let chosen = setting.model.as_ref().map(|_| run.theory);
-    let theory = chosen.or_else(|| soil.document.theory()).unwrap_or_default();
+    let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
     let band = BandInputs::of_soil(&soil, chosen);
     Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory, band })
 }

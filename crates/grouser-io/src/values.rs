@@ -302,8 +302,7 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_of_soil();
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
@@ -372,8 +371,7 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        let of_soil = || document.theory_of_soil();
-        self.theory = document.theory().or_else(of_soil).unwrap_or_default();
+        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }

@@ -435,6 +435,7 @@ pub(crate) fn campaign_frequencies<'py>(
 ///
 /// * `runs`: first and one after the last, in order
 /// * `columns`: values of these runs, NaN where there is none
+/// * `statuses`: of these runs
 /// * `shares`: of the quantiles [-]
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -443,6 +444,7 @@ pub(crate) fn campaign_summary<'py>(
     campaign: &Document,
     runs: Vec<(u64, u64)>,
     columns: Vec<(String, PyReadonlyArray1<'py, f64>)>,
+    statuses: Vec<Option<String>>,
     shares: Vec<f64>,
 ) -> PyResult<Bound<'py, PyList>> {
     let campaign = Arc::clone(&campaign.campaign()?.campaign);
@@ -455,7 +457,8 @@ pub(crate) fn campaign_summary<'py>(
     }
     let all = listening(py, move |_| {
         let of = |(name, values): &(String, Vec<Option<f64>>)| {
-            (name.clone(), QuantityStatistics::of(&campaign, &runs, values, &shares))
+            let counted = campaign.counted(name, &runs, values, &statuses);
+            (name.clone(), QuantityStatistics::of(&campaign, &runs, &counted, &shares))
         };
         quantities.par_iter().map(of).collect::<Vec<_>>()
     })?;

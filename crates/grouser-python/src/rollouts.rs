@@ -23,7 +23,7 @@ pub(crate) struct Runs {
     /// The scenarios, and whether each names its wheel–soil model itself.
     bases: Vec<(Scenario, bool)>,
     base_of: Option<Vec<usize>>,
-    soils: Vec<(Soil, Option<Theory>)>,
+    soils: Vec<(Soil, Theory)>,
     soil_of: Option<Vec<usize>>,
     /// Keys of scenarios, with a value for each run.
     varied: Vec<(&'static str, Vec<f64>)>,
@@ -61,7 +61,7 @@ impl Runs {
         });
         let soils = soils.iter().map(|it| {
             let loaded = it.soil()?;
-            Ok((loaded.value, loaded.document.theory()))
+            Ok((loaded.value, loaded.document.usual_theory("")))
         });
         let bases = bases.collect::<PyResult<Vec<_>>>()?;
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
@@ -87,7 +87,7 @@ impl Runs {
         if let Some((soil, theory)) = self.soils.get(of(&self.soil_of)) {
             scenario.site.terrain.soil = *soil;
             if !names_its_model {
-                scenario.theory = theory.unwrap_or_default();
+                scenario.theory = *theory;
             }
         }
         scenario_with(&scenario, self.varied.iter().map(|(key, values)| (*key, values[place])))

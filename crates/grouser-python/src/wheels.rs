@@ -104,7 +104,10 @@ pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> 
 pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
     let setting = setting.scenario()?;
     let named = setting.document.theory().is_some().then_some(setting.value.theory);
-    let theory = named.or_else(|| soil.soil().ok()?.document.theory()).unwrap_or_default();
+    let theory = match named {
+        Some(theory) => theory,
+        None => soil.soil()?.document.usual_theory(""),
+    };
     Ok((theory, setting.value.site.gravity))
 }
 

@@ -155,7 +155,7 @@ fn a_slope_without_any_level_attitude_has_slip_1() {
 #[test]
 fn a_wheel_test_has_bands_beside_its_values() {
     let place = Place::new();
-    let flags = "--slip-ratio 0.1,0.4 --slip-angle-deg 0,15";
+    let flags = "--slip-ratio 0.1,0.4 --slip-angle-deg 0,15 --set soil.priors=none";
     let plain = place.json(&format!("wheel-test {flags}"));
     let json = place.json(&format!("wheel-test {flags} --uncertainty --samples 40"));
     let rows = json["rows"].as_array().expect("rows");
@@ -186,7 +186,8 @@ fn a_wheel_test_has_bands_beside_its_values() {
 #[test]
 fn a_map_has_bands_where_it_has_no_value_too() {
     let place = Place::new();
-    let flags = "--course-deg 90 --slope-deg 5,15,21.5,50 --uncertainty --samples 30";
+    let flags = "--course-deg 90 --slope-deg 5,15,21.5,50 --uncertainty --samples 30 \
+                 --set soil.priors=none";
     let json = place.json(&format!("attitude-map {flags}"));
     let rows = json["rows"].as_array().expect("rows");
     assert_eq!(rows.len(), 4);
@@ -206,6 +207,60 @@ fn a_map_has_bands_where_it_has_no_value_too() {
     assert_eq!(band(&rows[3]), [1.0, 1.0]);
     let again = place.json(&format!("heading-map {flags}"));
     assert_eq!(again["rows"], json["rows"]);
+}
+
+#[test]
+fn a_traverse_has_bands_over_time_and_at_its_end() {
+    let place = Place::new();
+    let flags = "traverse --slope-deg 10 --duration-s 2 --uncertainty --samples 6 \
+                 --set soil.priors=none";
+    let json = place.json(&format!("{flags} --out run"));
+    let (samples, bands) = (json["samples"].as_array(), json["bands"].as_array());
+    let (samples, bands) = (samples.expect("samples"), bands.expect("bands"));
+    assert_eq!(samples.len(), bands.len());
+    for (sample, band) in samples.iter().zip(bands) {
+        assert_eq!(sample["time_s"], band["time_s"]);
+        for word in ["x_m", "y_m", "yaw_deg", "energy_j"] {
+            let [low, high] = ["p2_5", "p97_5"].map(|end| number(&band[format!("{word}_{end}")]));
+            let value = number(&sample[word]);
+            assert!(low <= value && value <= high, "{word}: {band}");
+        }
+    }
+    assert_eq!(
+        (&json["band"]["probability_completed"], &json["band"]["draws"]),
+        (&json!(1.0), &json!(6))
+    );
+    assert!(number(&json["band"]["y_m_p2_5"]) < number(&json["band"]["y_m_p97_5"]));
+    let csv = place.read("run/traverse.csv");
+    assert_eq!(csv.lines().count(), bands.len() + 1);
+    assert!(csv.lines().next().expect("a header").contains(",y_m_p97_5,"));
+    assert!(place.read("run/traverse.svg").contains("95 % of the samples"));
+    assert!(place.results(flags).contains("6 samples: 6 completed"));
+    let all = place.json("traverse --slope-deg 10 --duration-s 1 --model all --out all");
+    let rows = all["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        let model = row["model"].as_str().expect("a name");
+        let one = place.json(&format!("traverse all/scenario-{model}.toml"));
+        assert_eq!((&row["y_m"], &row["outcome"]), (&one["final"]["y_m"], &one["outcome"]));
+    }
+}
+
+/// Where the run of the soil as written ends early, its rows go on with the bands.
+#[test]
+fn bands_of_a_traverse_outlast_its_run() {
+    let place = Place::new();
+    let line = "traverse --slope-deg 40 --duration-s 3 --uncertainty --samples 6";
+    let csv = place.results(&format!("{line} --format csv"));
+    let rows: Vec<&str> = csv.lines().skip(1).collect();
+    let is_over = |row: &&&str| row.split(',').nth(1).expect("x_m").is_empty();
+    let over = rows.iter().filter(is_over).count();
+    assert!(over > 0 && over < rows.len(), "{over} of {}", rows.len());
+    assert!(rows.last().expect("rows").starts_with("3,"), "{csv}");
+    let json = place.json(line);
+    assert_eq!(json["outcome"], "sliding");
+    assert_eq!(json["bands"].as_array().expect("bands").len(), rows.len());
+    assert!(number(&json["band"]["draws_sliding"]) > 0.0);
 }
 
 #[test]

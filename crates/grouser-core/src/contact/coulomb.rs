@@ -12,6 +12,7 @@
 //!
 //! with the contact's length ℓ along the ground, and Rankine's passive earth pressure P on a wall of the
 //! height h and of the width that the wheel shows in the direction of the force, w = (b |F_x| + ℓ |F_y|)/F.
+//! On a slope the weight of wedges counts by [`Soil::on_slope`](crate::soil::Soil::on_slope).
 //! Any such mechanism bounds the resistance from above (limit analysis; Chen 1975). Beyond the bound all
 //! parts of the horizontal force, the torque and the moments that go with them shrink alike, so that the
 //! soil is never given less work than it takes.
@@ -50,8 +51,8 @@ pub fn most_resistance(contact: &Contact, sinkage: f64, forces: &WheelForces) ->
     let length = r * (reach(forces.patch.entry) - reach(forces.patch.exit));
     let width = if horizontal > 0.0 { (b * f_x + length * f_y) / horizontal } else { 0.0 };
     let root = soil.destructive_cot();
-    let pressure =
-        0.5 * root * root * soil.unit_weight(*gravity) * h * h + 2.0 * soil.cohesion * root * h;
+    let unit_weight = soil.small_wheel.wedge_share * soil.unit_weight(*gravity);
+    let pressure = 0.5 * root * root * unit_weight * h * h + 2.0 * soil.cohesion * root * h;
     forces.normal_force.max(0.0) * soil.friction() + soil.cohesion * b * length + width * pressure
 }
 

@@ -19,6 +19,10 @@
 //! the wheel it is the buried segment of one side wall, taken as a parabola: h(l) = h (1 − l²/a²),
 //! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact.
 //!
+//! [`coulomb`](super::coulomb) has a tighter bound, by bare wedges, for the other models on soils
+//! that state it. The mounds and the side wall of the small-wheel model are of piled-up soil, and it has
+//! this one on every soil.
+//!
 //! On a slope the wedges resist less against being pushed downhill ([`Soil::on_slope`]), and not at
 //! all where it is as steep as the angle of friction: a rover on cohesionless soil holds on no
 //! steeper slope.

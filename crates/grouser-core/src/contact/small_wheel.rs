@@ -1,13 +1,14 @@
 //! The small-wheel model: the classical one with the terms that small rovers need. One parameter set
 //! serves a wheel and a soil.
 //!
-//! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to
-//! a moving wheel, and four forces more. Each term is off unless the soil sets it
-//! ([`crate::soil::small_wheel`]); with none the model is `ishigami`, to the last bit.
+//! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to a moving wheel, and
+//! four forces more, all within what the ground resists ([`coulomb_cone`]). The terms are the soil's
+//! ([`crate::soil::small_wheel`]); with all of them off the model is `ishigami` within that bound, to
+//! the last bit.
 //!
 //! ```text
 //! σ   = K_σ (z/ζ)ⁿ                                     ζ(S, β): the moving wheel digs itself in
-//! λ   = λ₀ + λ_s S⁺ + λ_β |sin β|                      within 0 and 1
+//! λ   = λ₀ (1 − f_λ S⁺) + λ_s S⁺ + λ_β |sin β|         within 0 and 1
 //! |τ| ≤ c + σ min(tan φ, tan δ)                        friction of the wheel–soil interface
 //! F_s = k_f e^(−ζ_b |S|) ∫ R_b(h(θ)) [r_s − h cos θ] dθ     the side wall, loaded by the soil piled up at it
 //! X_f = μ_f |F_s sin β| u_x/√(u_x² + v_y²)             u_x = ω r_F − v_x: friction of the side face

@@ -45,9 +45,11 @@ pub struct SinkageGrowth {
     pub sharpness: f64,
 }
 
-/// What is added to the wheel sinkage ratio *λ*.
+/// How the wheel sinkage ratio *λ* moves with the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExitShift {
+    /// Share of λ that a wheel spinning on the spot has lost [-].
+    pub fading: f64,
     /// Growth with slip [-].
     pub with_slip: f64,
     /// Growth with |sin β| [-].
@@ -100,7 +102,7 @@ impl SmallWheel {
             locked: 0.0,
             sharpness: 1.0,
         },
-        exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
+        exit: ExitShift { fading: 0.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 1.0 },
         side_wall: SideWall { pressure_factor: 1.0, fading: 0.0, friction: 0.0 },
         mounds: Mounds { bow_wave: 0.0, rear_mound: 0.0 },
@@ -111,9 +113,12 @@ impl SmallWheel {
     ///
     /// Slip makes a wheel sink as the published slip-sinkage law has it, ζ = (1 + s)/(1 − 0.5 s)
     /// (Lyasko 2010), and a smooth rim has two thirds of the soil's friction angle, the usual value
-    /// for steel in sand. All else was chosen on both wheels of Pavlov and Johnson (2022) on their sand,
-    /// at slip angles of 0 to 75° (`docs/models/small-wheel.md`): side wall and mounds are the
-    /// presets', the two growths lie within two standard deviations of the fit to either wheel.
+    /// for steel in sand. The soil behind the wheel stays as low as the wheel while that spins on the
+    /// spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form, and that there is no rear mound, were
+    /// chosen on the smooth wheel of Ding et al. (2011), whose pull does not rise at high slip. All else
+    /// was chosen on both wheels of Pavlov and Johnson (2022) on their sand, at slip angles of 0 to 75°
+    /// (`docs/models/small-wheel.md`): side wall and bow wave are the presets', the two growths lie
+    /// within two standard deviations of the fit to either wheel.
     pub const GENERAL: Self = Self {
         sinkage: SinkageGrowth {
             with_slip_angle: 2.0,
@@ -122,10 +127,10 @@ impl SmallWheel {
             locked: 4.1,
             sharpness: 4.0,
         },
-        exit: ExitShift { with_slip: 0.0, with_slip_angle: 0.0 },
+        exit: ExitShift { fading: 1.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 2.0 / 3.0 },
         side_wall: SideWall { pressure_factor: 5.2, fading: 0.6, friction: 0.2 },
-        mounds: Mounds { bow_wave: 2.5, rear_mound: 0.85 },
+        mounds: Mounds { bow_wave: 2.5, rear_mound: 0.0 },
         wedge_share: 1.0,
     };
 
@@ -146,6 +151,7 @@ impl SmallWheel {
             let name = "sharpness of the sinkage growth";
             return Err(ParameterError::new(name, sinkage.sharpness, "finite and at least 1"));
         }
+        not_negative("fading of the exit ratio", exit.fading)?;
         finite("exit ratio's growth with slip", exit.with_slip)?;
         finite("exit ratio's growth with slip angle", exit.with_slip_angle)?;
         if let Some(angle) = interface.friction_angle {
@@ -220,14 +226,18 @@ impl ExitShift {
     /// The wheel sinkage ratio *λ* [-] of a moving wheel: at least 0, and above 1 only where the
     /// soil at rest already is.
     ///
-    /// * `at_rest`: the classical *λ* [-]
+    /// ```text
+    /// λ = λ₀ (1 − fading S⁺) + with_slip S⁺ + with_slip_angle |sin β|
+    /// ```
+    ///
+    /// * `at_rest`: the classical *λ₀* [-]
     /// * `total_slip`: *S* [-], −1 to 1
     /// * `slip_angle`: *β* [rad]
     #[must_use]
     pub fn ratio(&self, at_rest: f64, total_slip: f64, slip_angle: f64) -> f64 {
-        let shift = self.with_slip * total_slip.clamp(0.0, 1.0)
-            + self.with_slip_angle * wide::sin(slip_angle).abs();
-        (at_rest + shift).clamp(0.0, at_rest.max(1.0))
+        let spin = total_slip.clamp(0.0, 1.0);
+        let shift = self.with_slip * spin + self.with_slip_angle * wide::sin(slip_angle).abs();
+        (at_rest * (1.0 - self.fading * spin) + shift).clamp(0.0, at_rest.max(1.0))
     }
 }
 

@@ -356,6 +356,14 @@ impl Rover {
         &self.mounts
     }
 
+    /// Mean height of the axles over the lowest points of their wheels [m]: the sinkage of a rover whose wheels are all
+    /// sunk to the axle.
+    #[must_use]
+    pub fn mean_axle_height(&self) -> f64 {
+        let radii = self.mounts.iter().map(Mount::shearing_radius);
+        radii.sum::<f64>() / self.mounts.len() as f64
+    }
+
     /// How many wheels there are.
     #[must_use]
     pub fn wheel_count(&self) -> usize {

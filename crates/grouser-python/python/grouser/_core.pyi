@@ -332,5 +332,6 @@ def campaign_summary(
     campaign: Document,
     runs: Sequence[tuple[int, int]],
     columns: Sequence[tuple[str, _Floats]],
+    statuses: Sequence[str | None],
     shares: Sequence[float],
 ) -> list[dict[str, Any]]: ...

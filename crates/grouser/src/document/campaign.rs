@@ -73,7 +73,12 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
     let (base, prepared) = inputs::prepare(&document, &settings, &tree)?;
     Ok(Campaign {
         study: settings.study,
-        columns: rows::columns(settings.study, settings.sensitivity, prepared.keys()),
+        columns: rows::columns(
+            settings.study,
+            settings.sensitivity,
+            prepared.keys(),
+            prepared.has_models(),
+        ),
         base,
         shard_runs: settings.shard_runs,
         resolved: prepared.resolved.to_toml(),
@@ -183,12 +188,40 @@ impl Campaign {
             row.push(Cell::Whole(Some(place.point)));
             row.push(Cell::text(self.prepared.matrix(place.matrix)));
         }
-        row.extend(inputs.values.iter().map(|value| Cell::Float(Some(*value))));
-        rows::run(self.study, &self.base, self.prepared.keys(), &inputs.values, &mut row);
+        let (values, theory) = self.prepared.split(&inputs.values);
+        row.extend(values.iter().map(|value| Cell::Float(Some(*value))));
+        row.extend(theory.map(|theory| Cell::text(theory.name())));
+        rows::run(self.study, &self.base, self.prepared.keys(), values, theory, &mut row);
         // A row without an answer has its status, and nothing in the columns after it.
         let missing = self.columns[row.len()..].iter().map(|column| Cell::none(column.kind));
         row.extend(missing);
         row
+    }
+
+    /// What the runs count as in the statistics of a quantity: their values, and where a run has none because the
+    /// rover does not get on, or the soil does not carry the wheel, one on the safe side (slip 1, sunk to the axles),
+    /// so that it is not left out. A run that could not be computed, and a quantity that such a run has no value of,
+    /// stay without.
+    ///
+    /// * `runs`: their numbers, in order
+    /// * `values`, `statuses`: theirs
+    #[must_use]
+    pub fn counted(
+        &self,
+        quantity: &str,
+        runs: &[std::ops::Range<u64>],
+        values: &[Option<f64>],
+        statuses: &[Option<String>],
+    ) -> Vec<Option<f64>> {
+        let one = |(run, (value, status)): (u64, (&Option<f64>, &Option<String>))| {
+            value.or_else(|| {
+                let inputs = self.ensemble().inputs(run);
+                let (values, _) = self.prepared.split(&inputs.values);
+                let status = status.as_deref()?;
+                rows::counted(&self.base, self.prepared.keys(), values, status, quantity)
+            })
+        };
+        runs.iter().cloned().flatten().zip(values.iter().zip(statuses)).map(one).collect()
     }
 
     /// All runs of a shard, shared among threads and in their order; `None` if `go_on` was false before

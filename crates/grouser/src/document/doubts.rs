@@ -30,7 +30,7 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
             scenario.site = scenario.site.with_soil(soil.value);
             let wheel = &scenario.rover.mounts()[0].unit.wheel;
             let situation = Situation {
-                theory: soil.document.theory().unwrap_or_default(),
+                theory: soil.document.usual_theory(""),
                 wheel,
                 soil: &soil.value,
                 gravity: scenario.site.gravity,

@@ -12,6 +12,7 @@
 //! The meaning of the values, and the computation, are the caller's.
 
 pub mod design;
+pub mod model_discrepancy;
 pub mod models;
 mod permutation;
 pub mod samples;

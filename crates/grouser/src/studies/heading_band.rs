@@ -11,7 +11,7 @@ use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use crate::error::ParameterError;
-use crate::vehicle::{Mount, Rover};
+use crate::vehicle::Rover;
 
 /// Heading offsets and the steepest slope, with quantiles over the samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -189,8 +189,7 @@ impl Kept {
 
     /// No heading holds the course: the wheels turn on the spot, and dig in down to their axles.
     fn stuck(rover: &Rover) -> Self {
-        let radii = rover.mounts().iter().map(Mount::shearing_radius);
-        let sinkage = radii.sum::<f64>() / rover.mounts().len() as f64;
+        let sinkage = rover.mean_axle_height();
         Self { yaw: None, slip_ratio: 1.0, sinkage, energy_per_metre: f64::INFINITY }
     }
 }

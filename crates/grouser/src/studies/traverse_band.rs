@@ -9,7 +9,7 @@ use super::drive::Drive;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use crate::simulation::{Outcome, Record, Run, RunError, Scenario, Trajectory, WheelRecord};
-use crate::vehicle::{Mount, Rover};
+use crate::vehicle::Rover;
 
 /// A traverse with quantiles over the samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -214,13 +214,12 @@ impl At {
 
     /// The rover where it is, with its wheels spinning, down to their axles.
     fn stuck(record: &Record, rover: &Rover) -> Self {
-        let radii = rover.mounts().iter().map(Mount::shearing_radius);
         Self {
             x: record.state.position.x,
             y: record.state.position.y,
             yaw: record.state.yaw,
             slip_ratio: 1.0,
-            sinkage: radii.sum::<f64>() / rover.mounts().len() as f64,
+            sinkage: rover.mean_axle_height(),
             energy: record.energy.motors,
         }
     }

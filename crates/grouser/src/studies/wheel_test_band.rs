@@ -38,6 +38,29 @@ struct Kept {
     torque: f64,
 }
 
+/// What a wheel that the soil does not carry counts as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sunk {
+    /// Down to the axle [m].
+    pub sinkage: f64,
+    /// The load's own weight backwards [N].
+    pub drawbar_pull: f64,
+    /// None [N].
+    pub side_force: f64,
+    /// That which turns the rim against the whole load [N·m].
+    pub torque: f64,
+}
+
+impl Sunk {
+    /// * `load`: [N]
+    #[must_use]
+    pub fn of(wheel: &Wheel, load: f64, slip_ratio: f64) -> Self {
+        let sinkage = wheel.shearing_radius();
+        let torque = (load * sinkage).copysign(slip_ratio);
+        Self { sinkage, drawbar_pull: -load, side_force: 0.0, torque }
+    }
+}
+
 impl WheelTest {
     /// The bands of each setting, in the order of [`run`](Self::run); `self.soil` and `self.theory` are not
     /// used. `None` if `go_on` was false before the end. The samples are shared among threads and keep their order: the
@@ -112,13 +135,16 @@ impl Kept {
                 side_force: settled.forces.side_force,
                 torque: settled.forces.torque,
             }),
-            Err(SettleError::SunkToAxle { load, .. }) => Some(Self {
-                is_carried: false,
-                sinkage: wheel.shearing_radius(),
-                drawbar_pull: -load,
-                side_force: 0.0,
-                torque: (load * wheel.shearing_radius()).copysign(row.slip_ratio),
-            }),
+            Err(SettleError::SunkToAxle { load, .. }) => {
+                let sunk = Sunk::of(wheel, load, row.slip_ratio);
+                Some(Self {
+                    is_carried: false,
+                    sinkage: sunk.sinkage,
+                    drawbar_pull: sunk.drawbar_pull,
+                    side_force: sunk.side_force,
+                    torque: sunk.torque,
+                })
+            }
             Err(SettleError::BadLoad { .. }) => None,
         }
     }

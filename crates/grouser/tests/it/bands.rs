@@ -1,7 +1,10 @@
 //! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
 
 use grouser::contact::Theory;
-use grouser::document::{self, Kind, LoadedScenario, LoadedSoil, Overrides, Source};
+use grouser::document::{
+    self, Campaign, DocumentError, Kind, LoadedScenario, LoadedSoil, Overrides, Source,
+};
+use grouser::simulation::Outcome;
 use grouser::soil::{PressureSinkage, Soil};
 use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, WEIGHTS};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
@@ -9,6 +12,7 @@ use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
+use grouser::studies::traverse_band::TraverseBand;
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::deg;
 
@@ -20,6 +24,9 @@ fn scenario(settings: &[&str]) -> LoadedScenario {
     let overrides = Overrides::parse(settings.iter().copied()).expect("settings");
     document::read_scenario(&Source::default_scenario(), &overrides).expect("a scenario")
 }
+
+/// A setting with which the numbers that a soil states are exact.
+const EXACT: &str = "soil.priors=none";
 
 fn soil(name: &str) -> LoadedSoil {
     let source = Source::find(Kind::Soil, name).expect("a preset");
@@ -126,7 +133,7 @@ fn a_sample_depends_on_the_seed_and_its_number_alone() {
 
 #[test]
 fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
-    let scenario = scenario(&[]);
+    let scenario = scenario(&[EXACT]);
     let soil = scenario.value.site.terrain.soil;
     let samples = samples(&scenario, 200);
     let test = stand(soil, Theory::Ishigami);
@@ -155,7 +162,7 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
 
 #[test]
 fn one_model_on_an_exact_soil_is_a_point() {
-    let scenario = scenario(&["scenario.model=rft"]);
+    let scenario = scenario(&["scenario.model=rft", EXACT]);
     let samples = samples(&scenario, 20);
     let test = stand(scenario.value.site.terrain.soil, Theory::Rft);
     let mut computed = std::sync::atomic::AtomicUsize::new(0);
@@ -242,6 +249,117 @@ fn the_number_of_threads_changes_no_band() {
         })
     };
     assert_eq!(on(1), on(3));
+}
+
+/// The solver's part of a traverse: an exact soil and one model give the run itself.
+#[test]
+fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
+    let settings = ["scenario.duration_s=2", "scenario.slope_deg=8", EXACT];
+    let spread = scenario(&settings);
+    let times = [0.0, 1.0, 2.0];
+    let band = |scenario: &LoadedScenario, count| {
+        let samples = samples(scenario, count);
+        let band = TraverseBand::of(&scenario.value, &samples, &times, &|| true);
+        band.expect("it can be computed").expect("not stopped")
+    };
+    let of_all = band(&spread, 9);
+    assert_eq!(of_all.run.completed, Probability { successes: 9, trials: 9 });
+    for theory in ["ishigami", "rft"] {
+        let model = format!("scenario.model={theory}");
+        let one = scenario(&[settings[0], settings[1], settings[2], &model]);
+        let run = given::run(&one.value);
+        let alone = band(&one, 3);
+        for (place, time) in times.iter().enumerate() {
+            let record = run.records.iter().find(|it| (it.time - time).abs() < 1e-9);
+            let state = record.expect("a record").state;
+            let (alone, all) = (alone.times[place], of_all.times[place]);
+            let exactly = |value| Some(Band { low: value, median: value, high: value });
+            assert_eq!((alone.x, alone.y), (exactly(state.position.x), exactly(state.position.y)));
+            assert!(contains(all.y, state.position.y) && contains(all.yaw, state.yaw));
+        }
+    }
+}
+
+/// A rover that gets stuck counts as slip 1 from then on, where it is.
+#[test]
+fn a_run_that_ends_early_is_not_left_out() {
+    let good = scenario(&["scenario.duration_s=6", "scenario.slope_deg=5"]).value;
+    let mut slick = good.site.terrain.soil;
+    slick.friction_angle = deg(5.0);
+    let of = |soil| Sample { soil, theory: Theory::Ishigami };
+    let samples = [of(good.site.terrain.soil), of(slick), of(slick)];
+    let mut stuck = good.clone();
+    stuck.site.terrain.soil = slick;
+    let run = given::run(&stuck);
+    assert!(run.outcome != Outcome::Completed && run.last().time < 6.0, "{:?}", run.outcome);
+    let band = TraverseBand::of(&good, &samples, &[0.1, 6.0], &|| true);
+    let band = band.expect("it can be computed").expect("not stopped");
+    assert_eq!(band.run.completed, Probability { successes: 1, trials: 3 });
+    assert_eq!(band.run.immobilised + band.run.sliding, 2);
+    let at_end = band.times[1];
+    let slip = at_end.slip_ratio.expect("there are samples");
+    assert!(slip.median == 1.0 && slip.low < 0.2, "{slip:?}");
+    let x = at_end.x.expect("there are samples");
+    assert_eq!(x.median, run.last().state.position.x);
+    let energy = band.run.energy_per_metre.expect("there are samples");
+    assert!(energy.low.is_finite() && energy.median == f64::INFINITY);
+}
+
+// ---- Campaigns ----
+
+fn campaign(base: &str) -> Result<Campaign, DocumentError> {
+    let text = format!(
+        "schema = \"campaign/1\"\nruns = 30\nsampling = \"latin-hypercube\"\n\
+         model_uncertainty = true\n{base}\n"
+    );
+    document::read_campaign(&Source::text("study.toml", text), &Overrides::none())
+}
+
+/// On 22° one of the three models holds the contour: the others' runs have no slip, and count as slip 1.
+#[test]
+fn a_campaign_draws_models_and_leaves_no_run_out() {
+    let base = "study = \"heading\"\nscenario = { soil = \"toyoura\", slope_deg = 22.0 }";
+    let campaign = campaign(base).expect("a campaign");
+    let table = campaign.shard(0, &|| true).expect("not stopped");
+    let (models, statuses) = (table.texts("model"), table.texts("status"));
+    let runs = [0..campaign.runs()];
+    let slips = table.numbers("slip_ratio");
+    let counted = campaign.counted("slip_ratio", &runs, slips, statuses);
+    let yaws = campaign.counted("yaw_deg", &runs, table.numbers("yaw_deg"), statuses);
+    let mut of_rft = 0;
+    for run in 0..table.rows() {
+        let is_rft = models[run].as_deref() == Some("rft");
+        of_rft += usize::from(is_rft);
+        assert_eq!(statuses[run].as_deref(), Some(if is_rft { "ok" } else { "no level attitude" }));
+        assert_eq!(counted[run], if is_rft { slips[run] } else { Some(1.0) });
+        assert_eq!(yaws[run].is_some(), is_rft);
+    }
+    // A Latin hypercube has the models by their shares.
+    assert_eq!(of_rft, 10);
+    assert_eq!(campaign.factors(), ["model"]);
+    let named = base.replace("slope_deg", "model = \"rft\", slope_deg");
+    let error = self::campaign(&named).expect_err("the model is named");
+    assert!(error.to_string().contains("the base names its model"), "{error}");
+}
+
+/// A wheel that the soil does not carry counts as what the bands of a wheel test have for it.
+#[test]
+fn a_campaign_counts_wheels_that_sink() {
+    let base = "study = \"wheel-test\"\nwheel_test = { soil = \"toyoura\", wheel = \"hakuto\", \
+                load_n = 60000.0, slip_ratio = 0.2 }";
+    let campaign = campaign(base).expect("a campaign");
+    let table = campaign.shard(0, &|| true).expect("not stopped");
+    let (statuses, runs) = (table.texts("status"), [0..campaign.runs()]);
+    assert!(statuses.iter().all(|it| it.as_deref() == Some("soil cannot carry the load")));
+    let all = |name: &str, value: f64| {
+        let counted = campaign.counted(name, &runs, table.numbers(name), statuses);
+        counted.iter().all(|it| it.is_some_and(|it| (it - value).abs() < 1e-9 * value.abs()))
+    };
+    assert!(
+        all("sinkage_mm", 110.0) && all("drawbar_pull_n", -60000.0) && all("torque_nm", 6600.0)
+    );
+    let thrust = campaign.counted("thrust_n", &runs, table.numbers("thrust_n"), statuses);
+    assert!(thrust.iter().all(Option::is_none));
 }
 
 // ---- What the guide says ----

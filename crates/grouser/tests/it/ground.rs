@@ -164,7 +164,8 @@ proptest! {
         }
     }
 
-    /// Whatever its motion, a wheel gets no more from the ground than friction, cohesion and a wedge.
+    /// Whatever its motion, a wheel gets no more from the ground than friction, cohesion and a wedge. (The
+    /// small-wheel model piles soil up, and has a bound of its own.)
     #[test]
     fn a_wheels_horizontal_force_stays_within_what_the_ground_resists(
         soil in given::any_soil(),
@@ -174,7 +175,7 @@ proptest! {
     ) {
         let contact = given::on_stand(bounded(soil), given::hakuto_wheel(), s, beta);
         let sinkage = depth * contact.wheel.shearing_radius();
-        for theory in Theory::ALL {
+        for theory in [Theory::Ishigami, Theory::Bekker, Theory::Rft] {
             let forces = theory.model().forces(&contact, sinkage);
             let most = coulomb::most_resistance(&contact, sinkage, &forces);
             let horizontal = forces.drawbar_pull.hypot(forces.side_force);
@@ -225,7 +226,7 @@ fn steepest_to_park_on(soil: Soil, theory: Theory, yaw: f64) -> f64 {
 }
 
 /// Today's presets without cohesion, and sand of the paper: a parked rover slides at its soil's friction
-/// angle, and at most by the passive wedge's share later.
+/// angle, where no wedge lies safe below it any more.
 #[test]
 fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
     let sands = preset_soils()
@@ -244,7 +245,7 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
     for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();
         assert!(
-            found > phi - 0.5 && found < phi + 3.0,
+            found > phi - 0.5 && found < phi + 0.1,
             "{name} at a yaw of {yaw}: {found}°, φ {phi}°"
         );
     }

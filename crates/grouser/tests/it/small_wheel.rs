@@ -6,10 +6,13 @@ use grouser::contact::{
     settle,
 };
 use grouser::document::{self, Kind, Overrides, Source};
-use grouser::soil::small_wheel::{Mounds, SideWall, SinkageGrowth};
-use grouser::soil::{self, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil};
+use grouser::soil::small_wheel::{Interface, Mounds, SideWall, SinkageGrowth};
+use grouser::soil::{
+    self, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent, SlopeStability, Soil,
+};
 use grouser::studies::heading::HeadingStudy;
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
+use grouser::vehicle::{LoadSharing, OwnMoments};
 use grouser::wheel::Wheel;
 use proptest::prelude::*;
 
@@ -134,7 +137,8 @@ proptest! {
         sinkage in 1e-6..0.05,
     ) {
         let slip = Slip::of_motion(rim, Vec2::new(v_x, v_y));
-        let soil = Soil { small_wheel: soil::SmallWheel::OFF, ..soil(name) };
+        let (small_wheel, shear_bound) = (soil::SmallWheel::OFF, ShearBound::None);
+        let soil = Soil { small_wheel, shear_bound, ..soil(name) };
         let contact = Contact { wheel: wheel("cmu-grouser"), soil, slip, gravity: EARTH_GRAVITY };
         let (ours, theirs) = (
             SmallWheel::DEFAULT.forces(&contact, sinkage),
@@ -376,7 +380,13 @@ fn no_contour_is_held_on_sand_steeper_than_its_angle_of_friction() {
 }
 
 fn steepest_contour(soil: Soil, gravity: f64) -> f64 {
-    let study = HeadingStudy { soil, gravity, theory: Theory::SmallWheel, ..heading_study() };
+    // The wheels alone: the ground's own strength ends no curve with so small a factor of safety.
+    let stability = SlopeStability { factor_of_safety: 0.1, ..SlopeStability::USUAL };
+    let theory = Theory::SmallWheel;
+    // Without the wheels' torque in the loads: beyond any mound a rover would tip over first.
+    let (sharing, own_moments) = (LoadSharing::QuasiStatic, OwnMoments::Neglected);
+    let base = heading_study();
+    let study = HeadingStudy { soil, gravity, theory, stability, sharing, own_moments, ..base };
     study.curve().expect("a soil").limit().expect("it moves").0
 }
 
@@ -384,6 +394,59 @@ fn heading_study() -> HeadingStudy {
     let source = Source::find(Kind::Scenario, "traverse-10-deg").expect("a preset");
     let scenario = document::read_scenario(&source, &Overrides::none()).expect("it is read");
     HeadingStudy::of(&scenario.value)
+}
+
+/// Source: Rankine's pressures below a surface inclined by α: their coefficients are
+/// cos α (cos α ± √(cos² α − cos² φ))/(cos α ∓ √(cos² α − cos² φ)).
+#[test]
+fn on_a_slope_wedges_resist_as_rankine_has_it() {
+    let sand = soil("cmu-direct90-smooth");
+    let phi = sand.friction_angle;
+    let resistance = |slope: f64| {
+        let (cos, root) = (slope.cos(), (slope.cos().powi(2) - phi.cos().powi(2)).sqrt());
+        cos * (cos + root) / (cos - root) - cos * (cos - root) / (cos + root)
+    };
+    for degrees in [0.0, 5.0, 15.0, 25.0, 28.9] {
+        let slope = deg(degrees);
+        let share = sand.on_slope(slope.tan()).small_wheel.wedge_share;
+        assert!((share - resistance(slope) / resistance(0.0)).abs() < 1e-9, "{degrees}°: {share}");
+    }
+    for degrees in [29.0 + 1e-9, 35.0, 80.0] {
+        assert_eq!(sand.on_slope(deg(degrees).tan()).small_wheel.wedge_share, 0.0);
+    }
+}
+
+/// A document without the table means the general values, not that the terms are off; and a key that it
+/// leaves out has its own.
+#[test]
+fn what_a_soil_does_not_state_has_its_general_value() {
+    let general = soil::SmallWheel::GENERAL;
+    assert_eq!(soil("toyoura").small_wheel, general);
+    let set = Overrides::parse(&["soil.small_wheel.mounds.bow_wave=1".to_owned()]).expect("a key");
+    let source = Source::find(Kind::Soil, "toyoura").expect("a preset");
+    let stated = document::read_soil(&source, &set).expect("it is read").value.small_wheel;
+    let mounds = Mounds { bow_wave: 1.0, ..general.mounds };
+    assert_eq!(stated, soil::SmallWheel { mounds, ..general });
+}
+
+/// On a smooth rim δ is a share of φ; between grousers soil slides on soil; a stated δ is that of any
+/// wheel.
+#[test]
+fn a_smooth_rim_has_a_share_of_the_soils_friction() {
+    let slip = Slip::on_test_stand(0.4, deg(10.0));
+    let forces = |kind: &str, friction_angle: Option<f64>, friction_share: f64| {
+        let mut contact = cmu(kind, slip);
+        contact.soil.small_wheel.interface = Interface { friction_angle, friction_share };
+        SmallWheel::DEFAULT.forces(&contact, 0.02)
+    };
+    let phi = soil("cmu-direct90-smooth").friction_angle;
+    for share in [0.5, 2.0 / 3.0] {
+        assert_eq!(forces("smooth", None, share), forces("smooth", Some(share * phi), 1.0));
+        assert_eq!(forces("grouser", None, share), forces("grouser", None, 1.0));
+        let rough = forces("smooth", None, 1.0);
+        assert!(forces("smooth", None, share).thrust < rough.thrust);
+        assert_eq!(forces("grouser", Some(0.3), share), forces("grouser", Some(0.3), 1.0));
+    }
 }
 
 /// Deeper with load, as a soil that yields further under more of it.

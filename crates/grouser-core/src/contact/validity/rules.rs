@@ -76,7 +76,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slip-angle-outside",
         meaning: "The slip angle is outside the tests of the model or of the soil's fit.",
         quantity: "slip angle",
-        criterion: "|β| is above 45° (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
+        criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
         source: "Ishigami et al. (2007); Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.angle.abs(), it.domain(|domain| domain.slip_angle))),
     },
@@ -193,12 +193,13 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::TermsMissing,
         name: "terms-missing",
-        meaning: "The soil has no terms for the model `small-wheel`: the result is that of `ishigami`.",
+        meaning: "The soil states no terms for the model `small-wheel`: general values stand for them.",
         quantity: "sets of terms for the small-wheel model",
         criterion: "`small-wheel` on a soil without `small_wheel`",
-        source: "the model's equations",
+        source: "two wheels on one sand, Pavlov and Johnson (2022); Lyasko (2010)",
         judge: |it| {
-            let terms = if it.soil.small_wheel == SmallWheel::OFF { 0.0 } else { 1.0 };
+            let level = SmallWheel { wedge_share: 1.0, ..it.soil.small_wheel };
+            let terms = if level == SmallWheel::GENERAL { 0.0 } else { 1.0 };
             (it.theory == Theory::SmallWheel).then_some((terms, Span::at_least(1.0)))
         },
     },

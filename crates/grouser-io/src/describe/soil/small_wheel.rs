@@ -93,8 +93,16 @@ static SINKAGE_GROWTH: Table<SinkageGrowth> = Table {
 };
 
 static EXIT_SHIFT: Table<ExitShift> = Table {
-    doc: "Terms added to the wheel sinkage ratio λ, which stays within 0 and 1.",
+    doc: "How the wheel sinkage ratio λ moves with the motion; it stays within 0 and 1.",
     fields: &[
+        number(
+            "fading",
+            ONE,
+            0.0..=1.0,
+            "Share of λ that a wheel spinning on the spot has lost, in proportion to the slip by total speed",
+            |shift: &mut ExitShift| Some(&mut shift.fading),
+        )
+        .or(GENERAL.exit.fading),
         number(
             "with_slip",
             ONE,

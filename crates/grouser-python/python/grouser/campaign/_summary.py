@@ -127,15 +127,16 @@ def summary_of(
     runs = results._runs()
     texts = results._columns([name for name in ("status", "outcome") if name in results.columns])
     outcomes = texts.get("outcome", ())
-    found = _core.campaign_frequencies(
-        campaign._document, runs, list(texts["status"]), list(outcomes)
-    )
+    statuses = list(texts["status"])
+    found = _core.campaign_frequencies(campaign._document, runs, statuses, list(outcomes))
     quantities = {}
     at_once = max(1, _BYTES // (8 * max(1, len(results))))
     for start in range(0, len(names), at_once):
         columns = results._columns(names[start : start + at_once])
         values = [(name, np.ascontiguousarray(column)) for name, column in columns.items()]
-        for one in _core.campaign_summary(campaign._document, runs, values, shares):
+        for one in _core.campaign_summary(
+            campaign._document, runs, values, statuses, shares
+        ):
             quantities[one["quantity"]] = _quantity(one)
     status, outcome = _shares(found["status"]), _shares(found["outcome"])
     return Summary(found["samples"], status, outcome, quantities)

@@ -7,8 +7,10 @@ use super::super::uncertainty::{Inputs, Stated, Statement};
 use super::super::varied::{Key, NoNumber, Numbers};
 use super::super::{Document, Kind, Misfit, Node, stated_by_priors, stated_of};
 use super::rows::Base;
+use crate::contact::Theory;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
-use crate::studies::ensemble::{Ensemble, Matrix};
+use crate::studies::ensemble::models::ModelSpread;
+use crate::studies::ensemble::{Distribution, Ensemble, Marginal, Matrix};
 use grouser_io::campaign::{Sampling, Settings, Study};
 
 /// The uncertain inputs, resolved.
@@ -19,16 +21,30 @@ pub(super) struct Prepared {
     /// The factors of sensitivities: the parameters, then the samples as one.
     factors: Vec<String>,
     pub(super) ensemble: Ensemble,
+    /// The models of the runs, if they are drawn; their place is the last of the ensemble's values.
+    models: Option<ModelSpread>,
     /// The document with everything that is uncertain in its own keys.
     pub(super) resolved: Document,
 }
 
 /// The factor that rows of samples are.
 const SAMPLES: &str = "samples";
+/// The factor that the wheel–soil model is.
+const MODEL: &str = "model";
 
 impl Prepared {
     pub(super) fn keys(&self) -> &[Key] {
         &self.keys
+    }
+
+    pub(super) fn has_models(&self) -> bool {
+        self.models.is_some()
+    }
+
+    /// The values of the keys, and the model, if it is drawn.
+    pub(super) fn split<'v>(&self, values: &'v [f64]) -> (&'v [f64], Option<Theory>) {
+        let (keys, place) = values.split_at(self.keys.len());
+        (keys, self.models.as_ref().zip(place.first()).map(|(models, place)| models.at(*place)))
     }
 
     pub(super) fn factors(&self) -> &[String] {
@@ -73,15 +89,22 @@ pub(super) fn prepare(
         statements.push(Statement { stated: believed, tree, table, prefix, yields: true });
     }
     let numbers = StudyNumbers { study: settings.study, base: base.numbers() };
-    let inputs = Inputs::read(&numbers, &statements)?.cut();
+    let mut inputs = Inputs::read(&numbers, &statements)?.cut();
+    let models = models(document, settings, place, tree)?;
+    if models.is_some() {
+        let place = Marginal::Uniform { low: 0.0, high: 1.0 };
+        let place = Distribution::of_marginals(vec![place], &[]).unwrap_or_default();
+        inputs.distribution = inputs.distribution.and(place);
+    }
     check_design(settings, &inputs, tree)?;
     let mut factors: Vec<String> =
         inputs.keys[..inputs.parameters].iter().map(|key| key.path.clone()).collect();
     factors.extend(inputs.samples.as_ref().map(|_| SAMPLES.to_owned()));
+    factors.extend(models.as_ref().map(|_| MODEL.to_owned()));
     let resolved = resolved(document, place, &statements, &inputs);
     let Settings { sampling, runs, seed, sensitivity, .. } = *settings;
     let ensemble = Ensemble::new(sampling, runs, seed, inputs.distribution, sensitivity);
-    Ok((base, Prepared { keys: inputs.keys, factors, ensemble, resolved }))
+    Ok((base, Prepared { keys: inputs.keys, factors, ensemble, models, resolved }))
 }
 
 /// The key of the base that is varied.
@@ -104,6 +127,28 @@ fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError
         _ => "a preset such as scenario = \"traverse-10-deg\", a path, or a table".to_owned(),
     };
     Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
+}
+
+/// The models of the runs, if they are drawn.
+///
+/// * `place`: the key of the base
+fn models(
+    document: &Document,
+    settings: &Settings,
+    place: &str,
+    tree: &Node,
+) -> Result<Option<ModelSpread>, DocumentError> {
+    if !settings.model_uncertainty {
+        return Ok(None);
+    }
+    if document.theory_at(&format!("{place}.model")).is_some() {
+        let problem = Problem::Conflict("the base names its model, which is then that of all runs");
+        let origin = tree.origin_of("model_uncertainty");
+        return Err(DocumentError::at(origin, problem)
+            .with_hint(format!("leave out `{place}.model` or `model_uncertainty`")));
+    }
+    let made_for = document.theory_at(&format!("{place}.soil.model"));
+    Ok(Some(ModelSpread::all(made_for)))
 }
 
 /// What keys of the base's soil begin with.
@@ -171,11 +216,11 @@ fn unused_keys(study: Study) -> &'static [&'static str] {
 }
 
 fn check_design(settings: &Settings, inputs: &Inputs, tree: &Node) -> Result<(), DocumentError> {
-    if inputs.keys.is_empty() {
+    if inputs.distribution.dimensions() == 0 {
         let problem = Problem::MissingKey { key: "parameter".to_owned() };
         return Err(DocumentError::at(&tree.origin, problem).with_hint(
             "name keys with their distributions as [[parameter]], or a file of samples, or set \
-             soil_uncertainty = true"
+             soil_uncertainty = true or model_uncertainty = true"
                 .to_owned(),
         ));
     }

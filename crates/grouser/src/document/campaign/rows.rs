@@ -4,7 +4,9 @@ use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
-use super::super::columns::{self, OK};
+use super::super::columns::{
+    self, DRAWBAR_PULL, MODEL, OK, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE,
+};
 use super::super::error::DocumentError;
 use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
@@ -16,6 +18,7 @@ use crate::simulation::{Run, Scenario};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
 use crate::studies::validity::RoverOnSlope;
+use crate::studies::wheel_test_band::Sunk;
 use crate::vehicle::DriveLaw;
 use grouser_io::campaign::{Stand, Study};
 
@@ -61,13 +64,20 @@ pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
 /// The columns of a study.
 ///
 /// * `keys`: of the inputs
-pub(super) fn columns(study: Study, sensitivity: bool, keys: &[Key]) -> Vec<Column> {
+/// * `has_models`: whether the model is one of them
+pub(super) fn columns(
+    study: Study,
+    sensitivity: bool,
+    keys: &[Key],
+    has_models: bool,
+) -> Vec<Column> {
     let mut all = vec![Column::new("run", ColumnKind::Whole, Role::Index)];
     if sensitivity {
         all.push(Column::new("point", ColumnKind::Whole, Role::Index));
         all.push(Column::new("matrix", ColumnKind::Text, Role::Index));
     }
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
+    all.extend(has_models.then(|| Column::new(MODEL, ColumnKind::Text, Role::Input)));
     let words: &[&str] = match study {
         Study::Traverse => &["status", "reason", "outcome", "simulation"],
         Study::Heading | Study::WheelTest => &["status", "reason"],
@@ -88,8 +98,18 @@ fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str
 }
 
 /// Runs the base with sampled values, and adds the results to the row: at least the status.
-pub(super) fn run(study: Study, base: &Base, keys: &[Key], values: &[f64], row: &mut Vec<Cell>) {
-    let answer = base.with(keys, values).and_then(|case| match (study, case) {
+///
+/// * `theory`: the model, where it is not the base's
+pub(super) fn run(
+    study: Study,
+    base: &Base,
+    keys: &[Key],
+    values: &[f64],
+    theory: Option<Theory>,
+    row: &mut Vec<Cell>,
+) {
+    let case = base.with(keys, values).map(|case| case.in_model(theory));
+    let answer = case.and_then(|case| match (study, case) {
         (Study::Heading, Case::Scenario(scenario)) => heading(&scenario),
         (_, Case::Scenario(scenario)) => traverse(&scenario),
         (_, Case::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
@@ -100,6 +120,56 @@ pub(super) fn run(study: Study, base: &Base, keys: &[Key], values: &[f64], row: 
             row.extend(cells);
         }
         Err(Failure { status, reason }) => row.extend([Cell::text(status), Cell::text(reason)]),
+    }
+}
+
+/// What a quantity of a run without an answer counts as in statistics, in the column's unit: values on the safe
+/// side, as in bands ([`heading_band`](crate::studies::heading_band),
+/// [`wheel_test_band`](crate::studies::wheel_test_band)). Nothing for what could not be computed, and for what has no
+/// such value: a yaw, or work and power.
+pub(super) fn counted(
+    base: &Base,
+    keys: &[Key],
+    values: &[f64],
+    status: &str,
+    quantity: &str,
+) -> Option<f64> {
+    let case = match status {
+        NO_HEADING | CANNOT_MOVE | SUNK => base.with(keys, values).ok()?,
+        _ => return None,
+    };
+    match case {
+        Case::Scenario(scenario) => match quantity {
+            name if name == SLIP_RATIO.name => Some(1.0),
+            name if name == SINKAGE.name => {
+                Some(SINKAGE.unit.from_si(scenario.rover.mean_axle_height()))
+            }
+            _ => None,
+        },
+        Case::WheelTest { contact, load, .. } => {
+            let sunk = Sunk::of(&contact.wheel, load, contact.slip.ratio);
+            let quantities = [
+                (SINKAGE, sunk.sinkage),
+                (DRAWBAR_PULL, sunk.drawbar_pull),
+                (SIDE_FORCE, sunk.side_force),
+                (TORQUE, sunk.torque),
+            ];
+            let (found, value) = quantities.into_iter().find(|(it, _)| it.name == quantity)?;
+            Some(found.unit.from_si(value))
+        }
+    }
+}
+
+impl Case {
+    /// The same in another model, if there is one.
+    fn in_model(mut self, theory: Option<Theory>) -> Self {
+        if let Some(theory) = theory {
+            match &mut self {
+                Self::Scenario(scenario) => scenario.theory = theory,
+                Self::WheelTest { theory: own, .. } => *own = theory,
+            }
+        }
+        self
     }
 }
 

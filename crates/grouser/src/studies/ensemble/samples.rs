@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::model_discrepancy::with_discrepancy;
 use super::models::ModelSpread;
 use super::outputs_while;
 use crate::contact::Theory;
@@ -56,14 +57,18 @@ impl BandInputs {
         &self.models
     }
 
-    /// Sample number `index`, which depends on the seed and that number alone. A soil that its document leaves
-    /// nothing open of is the same in every sample.
+    /// Sample number `index`, which depends on the seed and that number alone: a soil with what its document
+    /// leaves open and with what a model may get wrong in it, and a model. A soil whose numbers are all taken as
+    /// exact is the same in every sample.
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn sample(&self, seed: u64, index: u64) -> Result<Sample, NothingAccepted> {
-        let drawn = self.soils.as_ref().map(|soils| soils.draw(seed, index)).transpose()?;
-        Ok(Sample { soil: drawn.unwrap_or(self.soil), theory: self.models.theory(seed, index) })
+        let soil = match &self.soils {
+            Some(soils) => with_discrepancy(soils.draw(seed, index)?, seed, index),
+            None => self.soil,
+        };
+        Ok(Sample { soil, theory: self.models.theory(seed, index) })
     }
 
     /// The first samples.

@@ -107,13 +107,18 @@ impl Statistics {
         let is_result =
             |column: &&Column| column.role == Role::Result && column.kind == ColumnKind::Float;
         let columns: Vec<&Column> = campaign.columns().iter().filter(is_result).collect();
+        let (mut words, _) = results.columns(&["status"])?;
+        let Some(Values::Text(statuses)) = words.pop() else {
+            unreachable!("every campaign has statuses")
+        };
         for batch in columns.chunks(columns_at_once(&runs)) {
             let names: Vec<&str> = batch.iter().map(|column| column.name.as_str()).collect();
             let (all, found) = results.columns(&names)?;
             finished = found;
             for (column, values) in batch.iter().zip(all) {
                 if let Values::Float(values) = values {
-                    statistics.add(campaign, column, &runs, &values);
+                    let counted = campaign.counted(&column.name, &runs, &values, &statuses);
+                    statistics.add(campaign, column, &runs, &counted);
                 }
             }
         }
