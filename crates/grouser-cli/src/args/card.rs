@@ -32,7 +32,7 @@ pub(crate) struct CardArgs {
     #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true, alias = "speed-m-s")]
     pub(crate) rim_speed_m_s: Option<Numbers>,
     /// Number of samples, 2 to 100000.
-    #[arg(long, value_name = "N", default_value_t = 500)]
+    #[arg(long, value_name = "N", default_value_t = 200)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
     /// Seed of the samples: the same seed gives the same soils and models.

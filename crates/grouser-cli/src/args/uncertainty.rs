@@ -10,7 +10,7 @@ pub(crate) struct SamplingArgs {
     #[arg(long, group = DRAWN)]
     pub(crate) uncertainty: bool,
     /// Number of samples, 2 to 100000.
-    #[arg(long, value_name = "N", default_value_t = 500, requires = "uncertainty")]
+    #[arg(long, value_name = "N", default_value_t = 200, requires = "uncertainty")]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
 }

@@ -95,7 +95,7 @@ def heading(
     *,
     slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
     uncertainty: bool = False,
-    samples: int = 500,
+    samples: int = 200,
     seed: int = 1,
     **changes: Any,
 ) -> Headings:
@@ -235,7 +235,7 @@ def heading_map(
     course_deg: ArrayLike = tuple(range(-60, 61, 15)),
     rim_speed_m_s: float = 0.06,
     uncertainty: bool = False,
-    samples: int = 500,
+    samples: int = 200,
     seed: int = 1,
     **changes: Any,
 ) -> HeadingMap:

@@ -200,7 +200,7 @@ def simulate(
     /,
     *,
     uncertainty: bool = False,
-    samples: int = 500,
+    samples: int = 200,
     seed: int = 1,
     **changes: Any,
 ) -> Trajectory:

@@ -255,7 +255,7 @@ def wheel_test(
     noise_mm: float = 0.5,
     noise_nm: float = 0.02,
     uncertainty: bool = False,
-    samples: int = 500,
+    samples: int = 200,
     seed: int = 1,
 ) -> WheelTest | SimulatedWheelTest:
     """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio

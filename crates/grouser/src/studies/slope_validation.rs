@@ -11,10 +11,9 @@ use super::validation::{Aim, Comparison, Errors, Placed, Yardstick, mean_score};
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::studies::slope_tests::{Mean, SlopePoint, SlopeTests};
-use crate::units::deg;
 
 /// Slip on slopes up to this one has an aim [rad]: 15°. Source: ours.
-const AIM_UP_TO_DEG: f64 = 15.0;
+const AIM_UP_TO: f64 = std::f64::consts::PI / 12.0;
 /// The largest error of slip there that is within the aim [-]. Source: ours.
 const AIM: f64 = 0.1;
 
@@ -177,7 +176,7 @@ fn errors(pairs: impl Iterator<Item = (Option<Mean>, Option<f64>)>) -> Option<Er
 
 /// The errors of slip with their aim: the largest on slopes up to 15° is at most 0.1.
 fn with_aim(errors: Errors, points: &[SlopeComparison]) -> Errors {
-    let gentle = points.iter().filter(|it| it.point.slope <= deg(AIM_UP_TO_DEG) * (1.0 + 1e-12));
+    let gentle = points.iter().filter(|it| it.point.slope <= AIM_UP_TO * (1.0 + 1e-12));
     let slips = gentle.filter_map(|it| beside(it.point.slip_ratio, it.slip_ratio));
     let all: Vec<f64> = slips.map(|slip| (slip.predicted - slip.measured).abs()).collect();
     let is_met = all.iter().all(|error| *error <= AIM + 1e-12);
@@ -203,6 +202,7 @@ fn reference(points: &[SlopeComparison], yardstick: Yardstick) -> Option<SlopeRe
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::units::deg;
 
     fn point(slope: f64, measured: f64, predicted: f64) -> SlopeComparison {
         let slip_ratio = Some(Mean { value: measured, rows: 1, deviation: None });

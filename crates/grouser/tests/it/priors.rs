@@ -3,7 +3,7 @@
 use grouser::document::{
     self, DocumentError, FitKey, Kind, LoadedSoil, Overrides, SoilFamily, Source,
 };
-use grouser::soil::{Bulldozing, Exit, Shear, Soil};
+use grouser::soil::{Bulldozing, Exit, Shear, SmallWheel, Soil};
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -15,7 +15,7 @@ const STATED: &str =
 const TABLES: &str = "[pressure_sinkage]\nlaw = \"bekker\"\nk_c = 0.0\nk_phi = 1e6\nn = 1.0\n\
      [shear]\nlaw = \"anisotropic\"\nlongitudinal_m = 0.02\n";
 /// All that it then leaves to priors.
-const MISSING: [&str; 9] = [
+const MISSING: [&str; 11] = [
     "cohesion_kpa",
     "density_kg_m3",
     "stress_peak.a0",
@@ -24,6 +24,8 @@ const MISSING: [&str; 9] = [
     "shear.lateral_m",
     "shear.longitudinal_per_rad_m",
     "shear.lateral_per_rad_m",
+    "small_wheel.sinkage.with_slip",
+    "small_wheel.interface.friction_share",
     "bulldozing.law",
 ];
 
@@ -366,7 +368,8 @@ fn a_prior_may_cover_any_number_of_a_soil() {
     assert_eq!((&again.value, &again.assumed), (&loaded.value, &loaded.assumed));
     assert_eq!(draws(&again, 50), soils);
     let stated = soil(&format!("{text}\n[small_wheel.sinkage]\nlocked = 2.0\n{rows}"));
-    assert!(stated.assumed.is_empty() && stated.value.small_wheel.sinkage.with_slip == 0.0);
+    let general = SmallWheel::GENERAL.sinkage.with_slip;
+    assert!(stated.assumed.is_empty() && stated.value.small_wheel.sinkage.with_slip == general);
 }
 
 #[test]

@@ -15,13 +15,14 @@
 //! about twice the force. With both lengths near zero the discrepancies are independent, as they are
 //! where observations have no place.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::experiment::{Experiment, Observation, Place, Site};
 use super::parameter::{Parameter, Scale};
 use crate::elementary::exp;
 use crate::elementary::wide::{ln, powi};
-use crate::units::deg;
 
 /// Correlation lengths in slip [-]: from less than any two settings differ, to the whole range.
 const SLIP_LENGTHS: [f64; 2] = [0.05, 2.0];
@@ -29,11 +30,11 @@ const SLIP_LENGTHS: [f64; 2] = [0.05, 2.0];
 /// Where the search for that length starts [-].
 const START_SLIP_LENGTH: f64 = 0.5;
 
-/// Correlation lengths in slip angle [°], likewise.
-const ANGLE_LENGTHS: [f64; 2] = [3.0, 90.0];
+/// Correlation lengths in slip angle [rad], likewise.
+const ANGLE_LENGTHS: [f64; 2] = [PI / 60.0, PI / 2.0];
 
-/// Where the search for that length starts [°].
-const START_ANGLE_LENGTH: f64 = 20.0;
+/// Where the search for that length starts [rad].
+const START_ANGLE_LENGTH: f64 = PI / 9.0;
 
 /// Observations at one place differ by this share of the discrepancy's variance at least [-], so that
 /// their covariance can be inverted.
@@ -393,8 +394,7 @@ fn lengths_to_find(sites: &[Site]) -> Vec<Parameter> {
         start,
     };
     let slip = parameter("correlation length in slip", SLIP_LENGTHS, START_SLIP_LENGTH);
-    let angles = ANGLE_LENGTHS.map(deg);
-    let angle = parameter("correlation length in slip angle", angles, deg(START_ANGLE_LENGTH));
+    let angle = parameter("correlation length in slip angle", ANGLE_LENGTHS, START_ANGLE_LENGTH);
     let has_angles = sites.iter().any(|site| site.slip_angle != sites[0].slip_angle);
     if has_angles { vec![slip, angle] } else { vec![slip] }
 }
@@ -410,6 +410,7 @@ mod tests {
     use super::super::experiment::Channel;
     use super::*;
     use crate::error::ParameterError;
+    use crate::units::deg;
 
     /// Observations of one quantity at some slips, of which nothing is predicted.
     struct Read {

@@ -17,14 +17,13 @@ use crate::error::ParameterError;
 use crate::soil::discrepancy::{LARGEST, SLIP_ANGLES, SLIPS, VALUES};
 use crate::soil::{Discrepancy, Soil};
 use crate::studies::measurement::{DRIVEN_FROM, Quantity};
-use crate::units::deg;
 
 /// Streams of random numbers that no walker has.
 const STREAMS: u64 = 0xFF << 56;
 
 /// A side force tells of the model's only from half the first slip angle with a value on: straight
 /// ahead it has none by symmetry, and what a stand reads there is its own.
-const LEAST_SIDE_ANGLE: f64 = 7.5;
+const LEAST_SIDE_ANGLE: f64 = std::f64::consts::PI / 24.0;
 
 /// Mean of (1 − u)² + u² and of 2 u (1 − u) for u = 3t² − 2t³, t from 0 to 1: variance of a blend
 /// of two values, of their own and by their correlation [-].
@@ -106,7 +105,7 @@ impl Quantified<'_> {
         let angles = if is_side { &SLIP_ANGLES[1..] } else { &SLIP_ANGLES[..] };
         let at = |&slip_angle: &f64| SLIPS.map(|slip| Site { slip, slip_angle });
         let sites: Vec<Site> = angles.iter().flat_map(at).collect();
-        let counts = |site: &Site| !is_side || site.slip_angle >= deg(LEAST_SIDE_ANGLE);
+        let counts = |site: &Site| !is_side || site.slip_angle >= LEAST_SIDE_ANGLE;
         let drawn = self.errors.drawn(family, &sites, read, self.found, &counts, numbers);
         let spread = spread_by_blending(&self.errors.lengths_in(self.found)).sqrt();
         let value = |(place, site): (usize, &Site)| {
