@@ -21,7 +21,7 @@ use crate::error::{ParameterError, finite};
 /// let scenario = Scenario { yaw: Some(PrescribedYaw { points }), ..hakuto::traverse()? };
 /// let end = Run::new(&scenario)?.to_end()?.last().state;
 /// assert_eq!(format!("{:.2}°", end.yaw.to_degrees()), "3.10°");
-/// assert_eq!(format!("{:.0} mm downhill", -1e3 * end.position.y), "15 mm downhill");
+/// assert_eq!(format!("{:.0} mm downhill", -1e3 * end.position.y), "14 mm downhill");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]

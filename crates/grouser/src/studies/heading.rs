@@ -205,7 +205,7 @@ impl HeadingStudy {
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
     /// let curve = HeadingStudy::of(&scenario).curve()?;
-    /// assert_eq!(format!("{:.2}°", curve.at(deg(10.0))?.yaw.to_degrees()), "5.04°");
+    /// assert_eq!(format!("{:.2}°", curve.at(deg(10.0))?.yaw.to_degrees()), "5.03°");
     /// assert_eq!(format!("{:.1}°", curve.limit()?.0.to_degrees()), "20.2°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

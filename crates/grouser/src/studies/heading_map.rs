@@ -59,7 +59,7 @@ impl HeadingMap {
     ///     Err(reason) => reason.to_string(),
     /// };
     /// assert_eq!(crab(0), "4.60°");
-    /// assert_eq!(crab(1), "5.04°");
+    /// assert_eq!(crab(1), "5.03°");
     /// assert_eq!(crab(2), "5.07°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
