@@ -139,7 +139,7 @@ impl<T> Table<T> {
 impl<T> Table<T> {
     /// Numbers in thousands of a unit, under the keys that say so, as numbers in the unit. One under both its keys
     /// stays, and is reported as unknown.
-    fn from_thousands(&self, table: &mut Node) {
+    fn read_thousands(&self, table: &mut Node) {
         for field in self.fields {
             let Some(key) = field.in_thousands else { continue };
             if table.entry(field.key).is_some() {
@@ -184,7 +184,7 @@ impl<T> Rows for Table<T> {
             Names::Former => field.formerly.unwrap_or(field.key),
         };
         if to == Names::Today {
-            self.from_thousands(table);
+            self.read_thousands(table);
         }
         // A key under both its names stays unknown by the former one, and is reported so.
         let is_there = |field: &&Field<T>| table.entry(named(field)).is_some();

@@ -124,8 +124,9 @@ impl Domain {
             ("gravity [m/s²]", self.gravity),
         ];
         for (name, range) in ranges {
-            // So is NaN.
-            if !(range.low <= range.high) {
+            let is_ordered = range.low <= range.high;
+            // NaN is in no order.
+            if !is_ordered {
                 let name = format!("the upper end of the domain's {name}");
                 return Err(ParameterError::new(name, range.high, "at least the lower end"));
             }
