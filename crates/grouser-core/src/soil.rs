@@ -13,7 +13,7 @@ pub mod small_wheel;
 use std::f64::consts::FRAC_PI_4;
 
 pub use discrepancy::Discrepancy;
-pub use domain::{Domain, Span};
+pub use domain::{AssumedValues, Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 pub use slope::SlopeStability;

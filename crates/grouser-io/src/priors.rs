@@ -175,7 +175,7 @@ pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let are_kept = |pair: &Pair| pair.between.iter().all(is_kept);
     keep(&mut kept, "correlation", rows.correlations.iter().map(are_kept));
     if let Value::Table(entries) = &mut kept.value {
-        entries.retain(|entry| entry.key != "notes");
+        entries.retain(|entry| !["source", "notes"].contains(&&*entry.key));
     }
     if let Some(entry) = tree.entry_mut(KEY) {
         entry.node = kept;

@@ -15,10 +15,10 @@ use super::field::Inner;
 use super::kind::Kind;
 use super::priors;
 use super::tree::Node;
-use grouser_core::contact::validity;
+use grouser_core::contact::{Theory, validity};
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
-use grouser_core::soil::{Exit, PressureSinkage, Shear, ShearModulus, Soil};
+use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
@@ -139,10 +139,33 @@ impl Described for Soil {
     }
 }
 
-/// How many values of a soil stand in for ones that its document does not state.
-fn assumed_values(soil: Option<&Document>) -> u32 {
-    let count = soil.map_or(0, |soil| priors::assumed(soil).len());
-    u32::try_from(count).unwrap_or(u32::MAX)
+/// How many values of a soil stand in for ones that its document does not state, of those that each model uses.
+fn assumed_values(soil: Option<&Document>) -> AssumedValues {
+    /// Beginnings of the keys that a model leaves aside.
+    const LEFT_ASIDE: [(Theory, &[&str]); 4] = [
+        (Theory::Ishigami, &["small_wheel.", "rft."]),
+        (Theory::Bekker, &["small_wheel.", "rft.", "exit.", "stress_peak."]),
+        (Theory::SmallWheel, &["rft."]),
+        (
+            Theory::Rft,
+            &[
+                "small_wheel.",
+                "exit.",
+                "stress_peak.",
+                "shear.",
+                "bulldozing.",
+                "cohesion_kpa",
+                "pressure_sinkage.",
+            ],
+        ),
+    ];
+    let assumed = soil.map_or_else(Vec::new, priors::assumed);
+    let [ishigami, bekker, small_wheel, rft] = LEFT_ASIDE.map(|(_, left_aside)| {
+        let is_used = |key: &str| !left_aside.iter().any(|start| key.starts_with(start));
+        let count = assumed.iter().filter(|it| is_used(&it.key)).count();
+        u32::try_from(count).unwrap_or(u32::MAX)
+    });
+    AssumedValues { ishigami, bekker, small_wheel, rft }
 }
 
 /// A document has one limit for both axes.

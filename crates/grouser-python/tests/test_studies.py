@@ -106,14 +106,16 @@ def test_an_uncertain_soil_has_a_band() -> None:
 
 
 def test_models_alone_have_a_band_and_one_of_them_has_none() -> None:
+    exact = gr.Soil("toyoura", priors="none")
     settings = {"load_n": 17, "slip_ratio": [0.1, 0.4], "uncertainty": True, "samples": 12}
+    settings |= {"soil": exact}
     spread, alone = gr.wheel_test(**settings), gr.wheel_test(**settings, model="rft")  # type: ignore[call-overload]
     assert spread.band is not None and alone.band is not None
     assert (spread.band.drawbar_pull_n_p2_5 < spread.band.drawbar_pull_n_p97_5).all()
     assert (alone.band.drawbar_pull_n_p2_5 == alone.wheels.drawbar_pull_n).all()
     assert (alone.band.drawbar_pull_n_p97_5 == alone.wheels.drawbar_pull_n).all()
     assert spread.to_xarray().torque_nm_p97_5.attrs["units"] == "N·m" and spread.plot()
-    run = gr.simulate(duration_s=1.0, uncertainty=True, samples=6)
+    run = gr.simulate(soil=exact, duration_s=1.0, uncertainty=True, samples=6)
     assert run.band is not None and run.band.run["probability_completed"] == 1.0
     assert run.band.y_m_p2_5[-1] <= run.y_m[-1] <= run.band.y_m_p97_5[-1]
     assert run.band.to_pandas().shape[0] == run.time_s.size

@@ -247,7 +247,7 @@ fn wrong_soils() {
         ("comma", "= 38.0", "= 38,0"),
         ("word", "\"reece\"", "\"rece\""),
         ("law", "\"anisotropic\"", "\"isotropic\""),
-        ("missing", "density_kg_m3 ", "#"),
+        ("missing", "friction_angle_deg ", "#"),
         ("twice", "density_kg_m3 ", "cohesion_kpa "),
         ("no-schema", "schema", "# schema"),
         ("version", "soil/1", "soil/2"),

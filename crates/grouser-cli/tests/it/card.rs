@@ -81,14 +81,15 @@ fn the_page_says_what_it_must() {
 #[test]
 fn without_stated_uncertainty_the_page_says_so_and_draws_no_band() {
     let place = Place::new();
-    let table = place.results("card --model ishigami --out card.svg --margin-deg 4");
+    let table =
+        place.results("card --model ishigami --set soil.priors=none --out card.svg --margin-deg 4");
     assert!(table.contains("no uncertainty of this soil is stated: no bands"));
     let svg = place.read("card.svg");
     let texts = texts(&svg).join("\n");
     assert!(texts.contains("NOT STATED: no bands"));
     assert!(texts.contains("a slope 4° steeper"));
     assert!(!texts.contains("95 %") && !svg.contains("rgb(219,219,219)"), "a band is drawn");
-    let json = place.json("card --model ishigami");
+    let json = place.json("card --model ishigami --set soil.priors=none");
     assert!(rows(&json).iter().all(|row| row["yaw_deg_p50"].is_null() && row["draws"].is_null()));
 }
 
@@ -96,12 +97,13 @@ fn without_stated_uncertainty_the_page_says_so_and_draws_no_band() {
 #[test]
 fn models_alone_have_bands_and_keep_the_margin() {
     let place = Place::new();
-    let table = place.results("card --samples 30 --out card.svg --margin-deg 4");
+    let table =
+        place.results("card --samples 30 --set soil.priors=none --out card.svg --margin-deg 4");
     assert!(table.contains("bands are of the models alone; slopes are judged with a margin"));
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("a slope 4° steeper") && texts.contains("NOT STATED: bands"));
     assert!(texts.contains("rft 33.33 %"), "{texts}");
-    let card = place.json("card --samples 30 --margin-deg 4");
+    let card = place.json("card --samples 30 --set soil.priors=none --margin-deg 4");
     let row = row(&card, 10.0);
     let models = place.json("heading --slope-deg 10 --model all");
     for word in ["yaw_deg", "slip_ratio"] {
@@ -138,10 +140,11 @@ fn flags_change_the_verdicts_and_the_rule_on_the_page() {
         let goes = rows(&answer).iter().filter(|row| row["verdict"] == "go");
         goes.map(|row| number(&row["slope_deg"])).fold(0.0, f64::max)
     };
+    let margin = |deg| format!("card --set soil.priors=none --margin-deg {deg}");
     let usual = last_go(UNCERTAIN);
     assert!(last_go(&format!("{UNCERTAIN} --go-slip-ratio 0.15")) < usual);
     assert!(last_go(&format!("{UNCERTAIN} --go-probability 0.8")) > usual);
-    assert!(last_go("card --margin-deg 2") > last_go("card --margin-deg 8"));
+    assert!(last_go(&margin(2)) > last_go(&margin(8)));
     let strict = "--no-go-probability 0.9 --no-go-slip-ratio 0.4";
     place.results(&format!("{UNCERTAIN} {strict} --out card.svg"));
     let texts = texts(&place.read("card.svg")).join("\n");

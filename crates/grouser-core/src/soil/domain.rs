@@ -57,6 +57,24 @@ impl Span {
     }
 }
 
+/// How many of a soil's values are assumed, of those that each model uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AssumedValues {
+    /// Of `ishigami`.
+    pub ishigami: u32,
+    /// Of `bekker`.
+    pub bekker: u32,
+    /// Of `small-wheel`.
+    pub small_wheel: u32,
+    /// Of `rft`.
+    pub rft: u32,
+}
+
+impl AssumedValues {
+    /// Every value is the source's.
+    pub const NONE: Self = Self { ishigami: 0, bekker: 0, small_wheel: 0, rft: 0 };
+}
+
 /// The ranges within which constants were measured or fitted, or a model was tested.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Domain {
@@ -75,7 +93,7 @@ pub struct Domain {
     /// Gravity, *g* [m/s²].
     pub gravity: Span,
     /// How many of the soil's values are assumed, for want of a printed one.
-    pub assumed_values: u32,
+    pub assumed_values: AssumedValues,
 }
 
 impl Domain {
@@ -88,7 +106,7 @@ impl Domain {
         slip_ratio: Span::ANY,
         slip_angle: Span::ANY,
         gravity: Span::ANY,
-        assumed_values: 0,
+        assumed_values: AssumedValues::NONE,
     };
 
     /// That no range ends before it starts.

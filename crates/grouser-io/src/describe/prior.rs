@@ -2,7 +2,7 @@
 
 use super::super::field::{Each, Table, list, note, text};
 use super::super::stated::{KeywordPrior, Pair, Parameter, Priors};
-use super::about::{name, notes, schema, source};
+use super::about::{name, notes, schema};
 use super::uncertainty::{CORRELATION_OF_PRIOR, OF_PRIOR, REASON_DOC};
 
 pub(crate) static PRIORS: Table<Priors> = Table {
@@ -11,7 +11,7 @@ pub(crate) static PRIORS: Table<Priors> = Table {
     fields: &[
         schema("prior/1"),
         name(),
-        source(),
+        note("source", "Where the rows come from.").optional(),
         notes(),
         list(
             "missing",

@@ -158,7 +158,7 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
     doc: "What is believed of a number of a soil.",
     key: "distribution",
     may_be_left_out: true,
-    is_written_last: false,
+    is_written_last: true,
     all: &[
         Law {
             name: "normal",

@@ -25,6 +25,9 @@ fn scenario(settings: &[&str]) -> LoadedScenario {
     document::read_scenario(&Source::default_scenario(), &overrides).expect("a scenario")
 }
 
+/// A setting with which the numbers that a soil states are exact.
+const EXACT: &str = "soil.priors=none";
+
 fn soil(name: &str) -> LoadedSoil {
     let source = Source::find(Kind::Soil, name).expect("a preset");
     document::read_soil(&source, &Overrides::none()).expect("a soil")
@@ -130,7 +133,7 @@ fn a_sample_depends_on_the_seed_and_its_number_alone() {
 
 #[test]
 fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
-    let scenario = scenario(&[]);
+    let scenario = scenario(&[EXACT]);
     let soil = scenario.value.site.terrain.soil;
     let samples = samples(&scenario, 200);
     let test = stand(soil, Theory::Ishigami);
@@ -159,7 +162,7 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
 
 #[test]
 fn one_model_on_an_exact_soil_is_a_point() {
-    let scenario = scenario(&["scenario.model=rft"]);
+    let scenario = scenario(&["scenario.model=rft", EXACT]);
     let samples = samples(&scenario, 20);
     let test = stand(scenario.value.site.terrain.soil, Theory::Rft);
     let mut computed = std::sync::atomic::AtomicUsize::new(0);
@@ -251,7 +254,7 @@ fn the_number_of_threads_changes_no_band() {
 /// The solver's part of a traverse: an exact soil and one model give the run itself.
 #[test]
 fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
-    let settings = ["scenario.duration_s=2", "scenario.slope_deg=8"];
+    let settings = ["scenario.duration_s=2", "scenario.slope_deg=8", EXACT];
     let spread = scenario(&settings);
     let times = [0.0, 1.0, 2.0];
     let band = |scenario: &LoadedScenario, count| {
@@ -263,7 +266,7 @@ fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
     assert_eq!(of_all.run.completed, Probability { successes: 9, trials: 9 });
     for theory in ["ishigami", "rft"] {
         let model = format!("scenario.model={theory}");
-        let one = scenario(&[settings[0], settings[1], &model]);
+        let one = scenario(&[settings[0], settings[1], settings[2], &model]);
         let run = given::run(&one.value);
         let alone = band(&one, 3);
         for (place, time) in times.iter().enumerate() {

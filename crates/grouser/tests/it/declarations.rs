@@ -15,7 +15,7 @@ use grouser::document::{self, Kind};
 use serde_json::Value;
 
 /// Keys that name different numbers in different places, and how many rows they have.
-const DIFFERENT_NUMBERS: [(&str, usize); 8] = [
+const DIFFERENT_NUMBERS: [(&str, usize); 9] = [
     // Of the soil in itself, and between soil and wheel.
     ("friction_angle_deg", 2),
     // Of the body, and of a wheel with its motor.
@@ -27,6 +27,8 @@ const DIFFERENT_NUMBERS: [(&str, usize); 8] = [
     ("load_n", 2),
     ("slip_angle_deg", 2),
     ("gravity_m_s2", 2),
+    // At the start, and over time.
+    ("yaw_deg", 2),
 ];
 
 /// The keys of all kinds of documents that end with a unit.

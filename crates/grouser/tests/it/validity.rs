@@ -5,7 +5,7 @@ use grouser::contact::{Settled, Slip, Theory, settle};
 use grouser::document::validity::OutsideDomain;
 use grouser::document::{self, Kind, Overrides, Source, doubts, presets};
 use grouser::simulation::{Run, Scenario};
-use grouser::soil::{Domain, SmallWheel, Soil, Span};
+use grouser::soil::{AssumedValues, Domain, SmallWheel, Soil, Span};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::validity::RoverOnSlope;
 use grouser::studies::wheel_test::WheelTest;
@@ -165,7 +165,10 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
             terms.mounds.rear_mound = 1.0;
             [small(SmallWheel::GENERAL), small(terms)]
         }
-        Flag::Assumed => [Trial::within(Domain { assumed_values: 1, ..stated }), quiet()],
+        Flag::Assumed => {
+            let one_assumed = AssumedValues { ishigami: 1, ..AssumedValues::NONE };
+            [Trial::within(Domain { assumed_values: one_assumed, ..stated }), quiet()]
+        }
     }
 }
 
@@ -193,6 +196,8 @@ fn every_flag_has_its_own_rule_and_name() {
         assert_eq!(Flag::of_name(flag.name()), Some(flag));
         let said = [flag.rule().meaning, flag.rule().criterion, flag.rule().source];
         assert!(said.iter().all(|text| !text.is_empty()), "{flag:?}");
+        // A bar would break the table of the guide.
+        assert!(said.iter().all(|text| !text.contains('|')), "{flag:?}");
     }
 }
 
@@ -355,6 +360,19 @@ fn a_soil_that_does_not_carry_the_rover_is_told_by_check() {
     let heavy = doubts(&Source::text("rover", text("1000"))).unwrap();
     assert!(heavy.iter().any(|doubt| doubt.contains("the soil carries at most")), "{heavy:?}");
     assert_eq!(doubts(&Source::text("rover", text("5.24"))).unwrap(), [""; 0]);
+}
+
+/// A value that the model leaves aside is not assumed by its result.
+#[test]
+fn assumed_values_count_where_the_model_uses_them() {
+    let overrides = Overrides::none();
+    let toyoura = Source::find(Kind::Soil, "toyoura").unwrap();
+    let toyoura = document::read_soil(&toyoura, &overrides).unwrap().value.domain.assumed_values;
+    assert_eq!((toyoura.ishigami, toyoura.bekker, toyoura.rft), (0, 0, 0));
+    let text = bekker("k_c = 0\nk_phi = 8e5").replace("[exit]\nratio = 1.0\n", "");
+    let without_exit = read(&text).unwrap().value.domain.assumed_values;
+    assert!(without_exit.ishigami > without_exit.bekker, "{without_exit:?}");
+    assert_eq!(without_exit.rft, 0);
 }
 
 /// What a preset states of its domain holds for the wheel that it names.

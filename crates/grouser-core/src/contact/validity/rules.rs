@@ -76,7 +76,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slip-angle-outside",
         meaning: "The slip angle is outside the tests of the model or of the soil's fit.",
         quantity: "slip angle",
-        criterion: "|β| is above 45° (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
+        criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
         source: "Ishigami et al. (2007); Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.angle.abs(), it.domain(|domain| domain.slip_angle))),
     },
@@ -208,9 +208,18 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "assumed",
         meaning: "Values that the soil's source does not print are the medians of priors.",
         quantity: "number of assumed values",
-        criterion: "the soil's document leaves out a value",
+        criterion: "the soil's document leaves out a value that the model uses",
         source: "the soil's document",
-        judge: |it| Some((f64::from(it.soil.domain.assumed_values), NONE)),
+        judge: |it| {
+            let assumed = it.soil.domain.assumed_values;
+            let count = match it.theory {
+                Theory::Ishigami => assumed.ishigami,
+                Theory::Bekker => assumed.bekker,
+                Theory::SmallWheel => assumed.small_wheel,
+                Theory::Rft => assumed.rft,
+            };
+            Some((f64::from(count), NONE))
+        },
     },
 ];
 

@@ -165,6 +165,13 @@ impl Errors {
         each.map(|(&channel, weight)| found[channel] * weight).collect()
     }
 
+    /// Variances for least squares, s² + δ²: every cell of a channel counts by its scatter alone.
+    #[must_use]
+    pub fn variances_alike(&self, found: &[f64]) -> Vec<f64> {
+        let each = self.scatters.iter().zip(&self.channels);
+        each.map(|(scatter, &channel)| scatter.powi(2) + found[channel].powi(2)).collect()
+    }
+
     /// Variances of all observations about the model, s² + δ² f².
     #[must_use]
     pub fn variances(&self, found: &[f64]) -> Vec<f64> {

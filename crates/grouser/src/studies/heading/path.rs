@@ -139,16 +139,38 @@ impl<'a> Path<'a> {
 
     /// Slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope.
     pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, String> {
-        let pull = |slip_ratio: f64| self.imbalance(&Place::new(slip_ratio, crab, slope));
-        let most = pull(MOST_SLIP).map_err(|error| error.to_string())?[0];
-        if most < 0.0 {
-            let lacking = -most * self.study.rover.mass() * self.study.gravity;
-            return Err(format!("even spinning, they lack {lacking:.2} N of thrust"));
-        }
         /// In skid the wheels hold the rover back on any slope that they can be driven on.
         const DEEPEST_SKID: f64 = -0.9;
-        let thrust = |slip_ratio: f64| pull(slip_ratio).map_or(-1.0, |left_over| left_over[0]);
-        Ok(root::between(thrust, DEEPEST_SKID, MOST_SLIP, 1e-13))
+        let left_over = |slip_ratio: f64| {
+            self.imbalance(&Place::new(slip_ratio, crab, slope)).map(|left_over| left_over[0])
+        };
+        // Wheels that no sinkage carries move nothing.
+        let thrust = |slip_ratio: f64| left_over(slip_ratio).unwrap_or(-1.0);
+        let enough = if thrust(MOST_SLIP) >= 0.0 { MOST_SLIP } else { self.enough(&left_over)? };
+        Ok(root::between(thrust, DEEPEST_SKID, enough, 1e-13))
+    }
+
+    /// A slip at which the thrust suffices, below that at which the wheels have dug themselves in.
+    ///
+    /// * `left_over`: of the thrust at a slip, over the weight [-]
+    fn enough(&self, left_over: &dyn Fn(f64) -> Result<f64, ReactionError>) -> Result<f64, String> {
+        /// Pulls rise and fall over tenths of slip.
+        const STEPS: u32 = 25;
+        let mut best = f64::NEG_INFINITY;
+        let mut fault = None;
+        for step in 0..=STEPS {
+            let slip_ratio = MOST_SLIP * f64::from(step) / f64::from(STEPS);
+            match left_over(slip_ratio) {
+                Ok(enough) if enough >= 0.0 => return Ok(slip_ratio),
+                Ok(less) => best = best.max(less),
+                Err(error) => fault = fault.or(Some(error)),
+            }
+        }
+        if let (Some(error), f64::NEG_INFINITY) = (fault, best) {
+            return Err(error.to_string());
+        }
+        let lacking = -best * self.study.rover.mass() * self.study.gravity;
+        Err(format!("at any slip they lack {lacking:.2} N of thrust or more"))
     }
 
     /// A point that is known to be on the curve.
