@@ -7,6 +7,7 @@ use grouser::contact::{
 use grouser::document::{self, Kind, LoadedSoil, Overrides, Source};
 use grouser::soil::discrepancy::{SIDE_VALUES, VALUES};
 use grouser::soil::{Discrepancy, Soil};
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use nalgebra::{DMatrix, DVector};
 
@@ -243,4 +244,26 @@ fn samples_may_hold_a_discrepancy() {
     let mut expected = [0.0; VALUES];
     (expected[2], expected[19]) = (0.05, -0.5);
     assert_eq!(found, expected);
+}
+
+/// What a calibration found wrong with one model is not what another gets wrong: samples of others have
+/// what any model may miss.
+#[test]
+fn a_discrepancy_goes_with_the_model_that_it_was_found_with() {
+    let text = document::preset(Kind::Soil, "toyoura").expect("a preset").text;
+    let soil = format!(
+        "{}\n[discrepancy]\ndrawbar_pull = {}\n[uncertainty.samples]\ncsv = '''\n{}'''\n",
+        text.replacen("schema = \"soil/1\"\n", "schema = \"soil/1\"\nmodel = \"ishigami\"\n", 1),
+        list(&[0.0; VALUES]),
+        "discrepancy.drawbar_pull.2\n0.05\n0.06\n",
+    );
+    let source = Source::text("sand.toml", &soil);
+    let loaded = document::read_soil(&source, &Overrides::none()).expect("it is right");
+    let samples = BandInputs::of_soil(&loaded, None).samples(1, 100).expect("samples");
+    let pull =
+        |sample: &Sample| sample.soil.discrepancy.expect("every sample has one").drawbar_pull;
+    let (own, others): (Vec<&Sample>, Vec<&Sample>) =
+        samples.iter().partition(|sample| sample.theory == Theory::Ishigami);
+    assert!(own.iter().all(|it| [0.05, 0.06].contains(&pull(it)[2]) && pull(it)[0] == 0.0));
+    assert!(!others.is_empty() && others.iter().all(|it| pull(it)[0] != 0.0));
 }

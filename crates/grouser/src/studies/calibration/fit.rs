@@ -284,7 +284,7 @@ const STEP: f64 = 1e-5;
 
 impl<'a> Weighted<'a> {
     fn new(calibration: &'a Calibration<'a>, discrepancies: &[f64], prior: Prior) -> Self {
-        let variances = calibration.errors.variances(discrepancies);
+        let variances = calibration.errors.variances_alike(discrepancies);
         let deviations = variances.into_iter().map(f64::sqrt).collect();
         Self { calibration, whitener: Whitener::independent(deviations), prior }
     }

@@ -26,6 +26,8 @@ pub struct BandInputs {
     soil: Soil,
     /// The soils that it may be, if its document leaves any of that open.
     soils: Option<UncertainSoil>,
+    /// The model that its values, and their discrepancy, were found with.
+    made_for: Option<Theory>,
     models: ModelSpread,
 }
 
@@ -38,6 +40,7 @@ impl BandInputs {
         Self {
             soil: scenario.value.site.terrain.soil,
             soils: scenario.uncertain.clone(),
+            made_for,
             models: spread(chosen, made_for),
         }
     }
@@ -47,8 +50,9 @@ impl BandInputs {
     /// * `chosen`: the model that is asked for by name
     #[must_use]
     pub fn of_soil(soil: &LoadedSoil, chosen: Option<Theory>) -> Self {
-        let models = spread(chosen, soil.document.theory());
-        Self { soil: soil.value, soils: soil.uncertain.clone(), models }
+        let made_for = soil.document.theory();
+        let models = spread(chosen, made_for);
+        Self { soil: soil.value, soils: soil.uncertain.clone(), made_for, models }
     }
 
     /// The models with their shares.
@@ -64,11 +68,23 @@ impl BandInputs {
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn sample(&self, seed: u64, index: u64) -> Result<Sample, NothingAccepted> {
+        let theory = self.models.theory(seed, index);
         let soil = match &self.soils {
-            Some(soils) => with_discrepancy(soils.draw(seed, index)?, seed, index),
+            Some(soils) => {
+                let drawn = self.as_known_to(theory, soils.draw(seed, index)?);
+                with_discrepancy(drawn, seed, index)
+            }
             None => self.soil,
         };
-        Ok(Sample { soil, theory: self.models.theory(seed, index) })
+        Ok(Sample { soil, theory })
+    }
+
+    /// A soil without what a calibration found wrong with another model than this.
+    fn as_known_to(&self, theory: Theory, soil: Soil) -> Soil {
+        match self.made_for {
+            Some(own) if own != theory => Soil { discrepancy: None, ..soil },
+            _ => soil,
+        }
     }
 
     /// The first samples.
