@@ -12,7 +12,7 @@
 //! with one correlation length ℓ_S in slip and one ℓ_β in slip angle for all families: a Gaussian
 //! process with a Matérn kernel (Rasmussen and Williams 2006, Eq. 4.17), as Kennedy and O'Hagan
 //! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a wheel under twice the load is mistaken
-//! about twice the force. With both lengths near zero the discrepancies are independent, as they are
+//! about twice the force. An observation of weight 0 can have no discrepancy. With both lengths near zero the discrepancies are independent, as they are
 //! where observations have no place.
 
 use std::f64::consts::PI;
@@ -112,7 +112,10 @@ impl Errors {
             if place.family >= errors.families.len() {
                 errors.families.resize(place.family + 1, Vec::new());
             }
-            errors.families[place.family].push(number);
+            // Where nothing can be wrong, what is read beyond the model tells nothing of it.
+            if place.weight != 0.0 {
+                errors.families[place.family].push(number);
+            }
             let site = place.site;
             let known = errors.sites.iter().position(|one| *one == site);
             errors.site_of.push(known.unwrap_or_else(|| {
@@ -166,25 +169,19 @@ impl Errors {
         each.map(|(&channel, weight)| found[channel] * weight).collect()
     }
 
-    /// Variances for least squares, s² + δ²: every cell of a channel counts by its scatter alone.
+    /// Variances of observations on their own, s² + δ²: those of least squares, in which every cell of a channel
+    /// counts by its scatter alone.
     #[must_use]
     pub fn variances_alike(&self, found: &[f64]) -> Vec<f64> {
         let each = self.scatters.iter().zip(&self.channels);
         each.map(|(scatter, &channel)| scatter.powi(2) + found[channel].powi(2)).collect()
     }
 
-    /// Variances of all observations about the model, s² + δ² f².
-    #[must_use]
-    pub fn variances(&self, found: &[f64]) -> Vec<f64> {
-        let each = self.scatters.iter().zip(self.deviations(found));
-        each.map(|(scatter, deviation)| scatter.powi(2) + deviation.powi(2)).collect()
-    }
-
     /// Logarithm of the density of residuals, up to a constant.
     #[must_use]
     pub fn log_density(&self, residuals: &[f64], found: &[f64]) -> f64 {
         if self.families.is_empty() {
-            let each = residuals.iter().zip(self.variances(found));
+            let each = residuals.iter().zip(self.variances_alike(found));
             return each.map(|(r, variance)| -0.5 * (r * r / variance + ln(variance))).sum();
         }
         let Some(families) = self.factored(found) else { return f64::NEG_INFINITY };
@@ -194,7 +191,7 @@ impl Errors {
     /// Independent residuals of deviation 1 that say the same as correlated ones.
     #[must_use]
     pub(super) fn whitener(&self, found: &[f64]) -> Whitener {
-        let deviations = self.variances(found).into_iter().map(f64::sqrt).collect();
+        let deviations = self.variances_alike(found).into_iter().map(f64::sqrt).collect();
         let factors = self.factored(found).unwrap_or_default();
         let factors = factors.into_iter().map(|one| (one.members.to_vec(), one.factor.unpack()));
         Whitener { deviations, factors: factors.collect() }
@@ -261,10 +258,8 @@ impl Errors {
         best.map(|best| grid[best].clone()).unwrap_or_default()
     }
 
-    /// Discrepancies at sites, in units of their deviations: drawn given the residuals of some
-    /// members of a family.
+    /// Discrepancies at sites, in units of their deviations: drawn given the residuals of a family.
     ///
-    /// * `counts`: whether an observation tells of these sites
     /// * `numbers`: normal ones, one for each site
     #[must_use]
     pub(super) fn drawn(
@@ -273,16 +268,11 @@ impl Errors {
         sites: &[Site],
         residuals: &[f64],
         found: &[f64],
-        counts: &dyn Fn(&Site) -> bool,
         numbers: &[f64],
     ) -> Drawn {
         let lengths = self.lengths_in(found);
         let deviations = self.deviations(found);
-        let members: Vec<usize> = self.families[family]
-            .iter()
-            .copied()
-            .filter(|&one| counts(&self.sites[self.site_of[one]]))
-            .collect();
+        let members = &self.families[family];
         let site = |one: usize| &self.sites[self.site_of[one]];
         let covariance = DMatrix::from_fn(members.len(), members.len(), |i, j| {
             let (one, other) = (members[i], members[j]);
@@ -549,7 +539,7 @@ mod tests {
         let draws: Vec<Vec<f64>> = (0..400)
             .map(|number| {
                 let numbers = normal_numbers(4, number, 3);
-                let drawn = errors.drawn(0, &sites, &read, &found, &|_| true, &numbers);
+                let drawn = errors.drawn(0, &sites, &read, &found, &numbers);
                 let both = drawn.mean.iter().zip(&drawn.deviation);
                 both.map(|(mean, away)| found[0] * (mean + away)).collect()
             })

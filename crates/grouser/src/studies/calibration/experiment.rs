@@ -58,8 +58,9 @@ pub struct Place {
     pub family: usize,
     /// Its motion.
     pub site: Site,
-    /// What its discrepancy is proportional to, in the channel's unit, not 0: the load of a wheel for
-    /// its forces. It has a sign where the quantity changes it in a mirror.
+    /// What its discrepancy is proportional to, in the channel's unit: the load of a wheel for its
+    /// forces. It has the sign that the quantity changes in a mirror, and is 0 where by symmetry there
+    /// is none: what is read there beyond the model is the stand's.
     pub weight: f64,
 }
 

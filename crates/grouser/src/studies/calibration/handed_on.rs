@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::errors::{Errors, Lengths, residuals};
 use super::experiment::{Channel, Experiment, Regime, Site};
-use super::wheel_test::WheelTestExperiment;
+use super::wheel_test::{WheelTestExperiment, sideways};
 use super::{Calibration, ensemble};
 use crate::error::ParameterError;
 use crate::soil::discrepancy::{LARGEST, SLIP_ANGLES, SLIPS, VALUES};
@@ -20,10 +20,6 @@ use crate::studies::measurement::{DRIVEN_FROM, Quantity};
 
 /// Streams of random numbers that no walker has.
 const STREAMS: u64 = 0xFF << 56;
-
-/// A side force tells of the model's only from half the first slip angle with a value on: straight
-/// ahead it has none by symmetry, and what a stand reads there is its own.
-const LEAST_SIDE_ANGLE: f64 = std::f64::consts::PI / 24.0;
 
 /// Mean of (1 − u)² + u² and of 2 u (1 − u) for u = 3t² − 2t³, t from 0 to 1: variance of a blend
 /// of two values, of their own and by their correlation [-].
@@ -105,8 +101,7 @@ impl Quantified<'_> {
         let angles = if is_side { &SLIP_ANGLES[1..] } else { &SLIP_ANGLES[..] };
         let at = |&slip_angle: &f64| SLIPS.map(|slip| Site { slip, slip_angle });
         let sites: Vec<Site> = angles.iter().flat_map(at).collect();
-        let counts = |site: &Site| !is_side || site.slip_angle >= LEAST_SIDE_ANGLE;
-        let drawn = self.errors.drawn(family, &sites, read, self.found, &counts, numbers);
+        let drawn = self.errors.drawn(family, &sites, read, self.found, numbers);
         let spread = spread_by_blending(&self.errors.lengths_in(self.found)).sqrt();
         let value = |(place, site): (usize, &Site)| {
             let value = drawn.mean[place] + spread * drawn.deviation[place];
@@ -130,7 +125,12 @@ impl Quantified<'_> {
             Regime::Skid => !driven,
         };
         let channel = of(&is_own).or_else(|| of(&|_| true));
-        channel.map_or(0.0, |channel| self.found[channel] / self.errors.usual_weight(channel))
+        let size = match self.quantity {
+            Quantity::SideForce => sideways(site.slip_angle),
+            _ => 1.0,
+        };
+        let share = |channel: usize| self.found[channel] / self.errors.usual_weight(channel);
+        size * channel.map_or(0.0, share)
     }
 }
 

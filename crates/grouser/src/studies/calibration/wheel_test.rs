@@ -4,7 +4,7 @@ use super::experiment::{Channel, Experiment, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
 use crate::contact::discrepancy::sense_of_rolling;
 use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
-use crate::elementary::wide::ln;
+use crate::elementary::wide::{ln, sin};
 use crate::error::{ParameterError, finite, not_negative};
 use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, Reading, Trial, WheelTests};
@@ -215,14 +215,12 @@ impl<'a> WheelTestExperiment<'a> {
         let sense = sense_of_rolling(&run.slip);
         let rolling = sense.abs().max(LEAST_SENSE).copysign(sense);
         let radius = self.setup.wheel.shearing_radius();
-        let weight = match quantity {
+        match quantity {
             Quantity::DrawbarPull => run.load * rolling,
-            Quantity::SideForce => run.load.copysign(run.slip.angle),
+            Quantity::SideForce => run.load * sideways(run.slip.angle),
             Quantity::Torque => run.load * radius * rolling,
             Quantity::Sinkage => read.max(LEAST_SINKAGE * radius),
-        };
-        // An unloaded wheel has no discrepancy: nearly none, so that it can be divided by.
-        weight.abs().max(f64::MIN_POSITIVE).copysign(weight)
+        }
     }
 
     /// Adds the observations of a quantity, if there are any.
@@ -279,6 +277,15 @@ fn repeats_of(
         values: read.iter().map(|(reading, expected)| reading.value - (expected - mean)).collect(),
         within: read.iter().filter_map(|(reading, _)| reading.scatter).collect(),
     }
+}
+
+/// What the discrepancy of a side force is proportional to, beside the load [-]: sin β, as the side
+/// force is itself, and 0 straight ahead by symmetry. In between it counts as that of 7.5° at least:
+/// half-way to the first slip angle at which a soil's discrepancy has values.
+pub(super) fn sideways(slip_angle: f64) -> f64 {
+    /// sin 7.5°.
+    const LEAST: f64 = 0.130_526_192_220_051_6;
+    if slip_angle == 0.0 { 0.0 } else { sin(slip_angle.abs()).max(LEAST).copysign(slip_angle) }
 }
 
 /// A locked wheel that is dragged sideways rolls this much at least, for the weight of its
