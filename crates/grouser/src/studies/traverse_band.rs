@@ -101,7 +101,7 @@ impl TraverseBand {
     /// use grouser::studies::ensemble::samples::BandInputs;
     /// use grouser::studies::traverse_band::TraverseBand;
     ///
-    /// let overrides = Overrides::parse(["scenario.duration_s=5"])?;
+    /// let overrides = Overrides::parse(["scenario.duration_s=5", "soil.priors=none"])?;
     /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?;
     /// let samples = BandInputs::of_scenario(&scenario).samples(1, 12)?;
     /// let band = TraverseBand::of(&scenario.value, &samples, &[5.0], &|| true)?;

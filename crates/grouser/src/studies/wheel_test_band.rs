@@ -73,7 +73,9 @@ impl WheelTest {
     /// use grouser::studies::ensemble::samples::BandInputs;
     /// use grouser::studies::wheel_test::WheelTest;
     ///
-    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
+    /// // What the soil's document prints is taken as exact.
+    /// let overrides = Overrides::parse(["soil.priors=none"])?;
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?;
     /// let test = WheelTest {
     ///     wheel: scenario.value.rover.mounts()[0].unit.wheel,
     ///     soil: scenario.value.site.terrain.soil,
