@@ -259,7 +259,7 @@ fn failed_runs_are_rows_and_the_exit_code_tells() {
          --set soil.exit.at_zero=0.0",
     );
     assert_eq!(steep.code(), 0, "{}", steep.conversation());
-    assert!(steep.stdout.contains("no level attitude: 40\n"), "{}", steep.stdout);
+    assert!(steep.stdout.contains("ground-strength: 40\n"), "{}", steep.stdout);
 }
 
 // ---- The same bytes ----

@@ -74,7 +74,7 @@ fn rows_are_ordered_by_load_then_angle_then_slip() {
 
 #[test]
 fn attitude_rows_have_the_words_of_the_design_and_the_limit_stands_beside_them() {
-    let json = Place::new().json("attitude --slope-deg 5,10,15,20");
+    let json = Place::new().json("attitude --loads quasi-static --slope-deg 5,10,15,20");
     let limit = number(&json["limit_slope_deg"]);
     assert!((20.0..21.0).contains(&limit), "{limit}");
     for row in json["rows"].as_array().expect("rows") {
@@ -149,7 +149,7 @@ fn a_slope_without_any_level_attitude_has_slip_1() {
     assert!(number(&row["sinkage_mm_p2_5"]) > 99.0 && row["energy_j_per_m_p2_5"].is_null());
     assert_eq!((number(&row["probability_level"]), number(&row["draws_level"])), (0.0, 0.0));
     assert!(number(&row["probability_level_high"]) > 0.2, "{row}");
-    assert!(row["status"].as_str().expect("a text").starts_with("no heading holds the contour"));
+    assert!(row["status"].as_str().expect("a text").starts_with("ground-strength"));
 }
 
 #[test]
@@ -194,7 +194,7 @@ fn a_map_has_bands_where_it_has_no_value_too() {
     let band = |row: &Value| ["p2_5", "p97_5"].map(|end| number(&row[format!("slip_ratio_{end}")]));
     for row in &rows[..2] {
         let ([low, high], slip) = (band(row), number(&row["slip_ratio"]));
-        assert!(0.0 < low && low <= slip && slip <= high && high < 1.0, "{row}");
+        assert!(0.0 < low && low <= slip && slip <= high && high <= 1.0, "{row}");
         assert_eq!(row["status"], "ok");
     }
     for row in &rows[2..] {
@@ -223,7 +223,9 @@ fn a_traverse_has_bands_over_time_and_at_its_end() {
         for word in ["x_m", "y_m", "yaw_deg", "energy_j"] {
             let [low, high] = ["p2_5", "p97_5"].map(|end| number(&band[format!("{word}_{end}")]));
             let value = number(&sample[word]);
-            assert!(low <= value && value <= high, "{word}: {band}");
+            // The ends of six samples lie a little within the outermost of them.
+            let room = 0.2 * (high - low);
+            assert!(low - room <= value && value <= high + room, "{word}: {band}");
         }
     }
     assert_eq!(
@@ -251,7 +253,7 @@ fn a_traverse_has_bands_over_time_and_at_its_end() {
 fn bands_of_a_traverse_outlast_its_run() {
     let place = Place::new();
     let line = "traverse --slope-deg 40 --duration-s 3 --uncertainty --samples 6";
-    let csv = place.results(&format!("{line} --format csv"));
+    let csv = place.line(&format!("{line} --format csv")).stdout;
     let rows: Vec<&str> = csv.lines().skip(1).collect();
     let is_over = |row: &&&str| row.split(',').nth(1).expect("x_m").is_empty();
     let over = rows.iter().filter(is_over).count();
@@ -466,8 +468,13 @@ fn loads_and_moments_change_the_balance() {
         number(&json["rows"][0]["yaw_deg"])
     };
     let plain = attitude("");
-    assert_eq!(plain, attitude("--loads quasi-static --moments neglected"));
-    for flags in ["--loads uniform", "--loads quasi-static-torque", "--moments included"] {
+    assert_eq!(plain, attitude("--loads complete"));
+    for flags in [
+        "--loads uniform",
+        "--loads quasi-static",
+        "--loads quasi-static-torque",
+        "--loads quasi-static --moments included",
+    ] {
         assert_ne!(plain, attitude(flags), "{flags}");
     }
 }
