@@ -122,11 +122,11 @@ fn the_day_of_the_soil_is_on_the_page() {
     let dated =
         |day: &str| changed_preset("soil", "toyoura", "name ", &format!("date = \"{day}\"\nname "));
     place.write("soil.toml", dated("2026-11-20"));
-    place.results("card --soil soil.toml --out card.svg");
+    place.results("card --samples 4 --soil soil.toml --out card.svg");
     assert!(texts(&place.read("card.svg")).join("\n").contains("Date of the soil: 2026-11-20"));
     for day in ["2026-02-29", "20.11.2026", "yesterday", "2026-13-01"] {
         place.write("soil.toml", dated(day));
-        let answer = place.line("card --soil soil.toml");
+        let answer = place.line("card --samples 4 --soil soil.toml");
         assert_eq!(answer.code(), 2, "{day}");
         assert!(answer.stderr.contains("soil.toml:") && answer.stderr.contains("date"));
     }
@@ -161,7 +161,7 @@ fn files_are_what_their_names_say_and_are_not_replaced() {
         ("card.png", b"\x89PNG"),
         ("card.html", b"<!doctype html>"),
     ] {
-        let line = format!("card --out {name}");
+        let line = format!("card --samples 4 --out {name}");
         place.results(&line);
         let bytes = std::fs::read(place.file(name)).expect("it is written");
         assert!(bytes.starts_with(start), "{name}");
@@ -218,7 +218,7 @@ fn measured_yaws_are_placed_beside_the_band() {
         ("slope_deg,yaw_deg\n95,1\n", "0 to 60"),
     ] {
         place.write("yaws.csv", content);
-        let answer = place.line("card --measured yaws.csv");
+        let answer = place.line("card --samples 4 --measured yaws.csv");
         assert_eq!(answer.code(), 2, "{content}");
         assert!(answer.stderr.contains(part), "{}", answer.stderr);
     }
@@ -231,14 +231,14 @@ fn a_lopsided_rover_has_a_card_for_each_side() {
     let place = Place::new();
     let text = changed_preset("rover", "hakuto", "0.24", "0.30");
     place.write("rover.toml", text);
-    let line = "card --rover rover.toml --out";
+    let line = "card --samples 4 --rover rover.toml --out";
     place.results(&format!("{line} left.svg"));
     place.results(&format!("{line} right.svg --uphill right"));
     assert!(texts(&place.read("left.svg")).join("\n").contains("rover's LEFT"));
     assert!(texts(&place.read("right.svg")).join("\n").contains("rover's RIGHT"));
     let heading = |line: &str| number(&row(&place.json(line), 10.0)["yaw_deg"]);
-    let left = heading("card --rover rover.toml");
-    assert!((left - heading("card --rover rover.toml --uphill right")).abs() > 1e-3);
+    let left = heading("card --samples 4 --rover rover.toml");
+    assert!((left - heading("card --samples 4 --rover rover.toml --uphill right")).abs() > 1e-3);
 }
 
 /// Where the rover cannot even drive on level ground the card is a single no-go.
@@ -246,7 +246,7 @@ fn a_lopsided_rover_has_a_card_for_each_side() {
 fn a_rover_that_cannot_move_has_a_card_that_forbids_it() {
     let place = Place::new();
     let slick = "--set soil.friction_angle_deg=5 --set soil.exit.ratio=0";
-    place.results(&format!("card {slick} --out card.svg"));
+    place.results(&format!("card --samples 4 {slick} --out card.svg"));
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("NO-GO   on any slope"), "{texts}");
 }

@@ -136,7 +136,7 @@ fn heading_map_as_a_table_and_for_programs() {
 
 #[test]
 fn card_as_a_table_and_for_programs() {
-    check_conversation("card", "card");
+    check_conversation("card", "card --samples 20");
     let line = "card --soil toyoura-uncertain --samples 20";
     check_conversation("card-with-bands", line);
     check_rounded("card-csv", &format!("{line} --format csv"), rounded_csv);

@@ -38,7 +38,7 @@ fn check_markup(what: &str, text: &str) {
 #[test]
 fn a_card_shows_the_name_of_its_soil_and_nothing_else_happens() {
     let place = hostile_place();
-    let answer = place.line("card --soil soil.toml --out card");
+    let answer = place.line("card --samples 4 --soil soil.toml --out card");
     assert_eq!(answer.code(), 0, "{}", answer.stderr);
     for file in ["card/card.svg", "card/card.html"] {
         check_markup(file, &place.read(file));

@@ -115,6 +115,7 @@ impl Ground<'_> {
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * site.gravity * reach;
         let mut change = f64::INFINITY;
+        let mut mixing = Mixing::default();
         for _ in 0..MOST_ROUNDS {
             let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
             let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);
@@ -122,7 +123,7 @@ impl Ground<'_> {
             if change <= AGREED {
                 return Ok(wheels);
             }
-            moments = next;
+            moments = mixing.next(moments, next);
             wheels = self.settle_under(stance, moments, slips, &wheels)?;
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
@@ -163,7 +164,73 @@ impl Ground<'_> {
     }
 }
 
+/// Rounds of a fixed point, each of which starts where the last two point to.
+///
+/// The moments that follow from moments are nearly a linear function of them. Of two rounds before
+/// this one the secants tell where it ends (Anderson 1965, with as many rounds as there are moments);
+/// rounds that tell nothing of a direction leave it as it is.
+#[derive(Default)]
+struct Mixing {
+    /// The changes of a round, and what came out of it: the last first.
+    before: Vec<(Vec2, Vec2)>,
+}
+
+impl Mixing {
+    /// Where the next round starts.
+    fn next(&mut self, moments: Vec2, found: Vec2) -> Vec2 {
+        /// Secants whose directions differ less than this tell of one only [-].
+        const PARALLEL: f64 = 1e-6;
+        let change = found - moments;
+        let secant = |one: (Vec2, Vec2), other: (Vec2, Vec2)| (one.0 - other.0, one.1 - other.1);
+        let mixed = match self.before[..] {
+            [last, ..] if change.norm() >= last.0.norm() => found,
+            [last, first] => {
+                let (here, there) = (secant((change, found), last), secant(last, first));
+                let across = here.0.perp(&there.0);
+                if across.abs() <= PARALLEL * here.0.norm() * there.0.norm() {
+                    along_one(change, found, here)
+                } else {
+                    let shares = (change.perp(&there.0) / across, here.0.perp(&change) / across);
+                    found - here.1 * shares.0 - there.1 * shares.1
+                }
+            }
+            [last] => along_one(change, found, secant((change, found), last)),
+            _ => found,
+        };
+        self.before.insert(0, (change, found));
+        self.before.truncate(2);
+        mixed
+    }
+}
+
+/// What is found, less what one secant explains of the change.
+fn along_one(change: Vec2, found: Vec2, secant: (Vec2, Vec2)) -> Vec2 {
+    let size = secant.0.norm_squared();
+    if size == 0.0 { found } else { found - secant.1 * (secant.0.dot(&change) / size) }
+}
+
 /// The soil's forces of each wheel.
 pub fn forces_of(wheels: &[WheelReaction]) -> impl Iterator<Item = &WheelForces> {
     wheels.iter().map(|wheel| &wheel.settled.forces)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix2;
+
+    use super::*;
+
+    /// A linear map is at its fixed point after three rounds, however slowly plain rounds close in.
+    #[test]
+    fn mixing_solves_a_linear_map_in_three_rounds() {
+        let map = Matrix2::new(0.7, 0.3, -0.2, -0.5);
+        let offset = Vec2::new(1.0, -2.0);
+        let fixed = (Matrix2::identity() - map).try_inverse().expect("it has one") * offset;
+        let mut mixing = Mixing::default();
+        let mut moments = Vec2::new(5.0, 3.0);
+        for _ in 0..3 {
+            moments = mixing.next(moments, map * moments + offset);
+        }
+        assert!((moments - fixed).norm() < 1e-12, "{moments} and {fixed}");
+    }
 }
