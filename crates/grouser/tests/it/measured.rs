@@ -148,7 +148,7 @@ fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
             let pull = (one.forces.drawbar_pull - two.forces.drawbar_pull).abs();
             // About the standard deviation that the fit has there.
             assert!(pull < 1.0, "{kind}, {degrees}°: pulls differ by {pull} N");
-            assert!((one.sinkage - two.sinkage).abs() < 0.8e-3, "{kind}, {degrees}°");
+            assert!((one.sinkage - two.sinkage).abs() < 2e-3, "{kind}, {degrees}°");
         }
     }
 }
