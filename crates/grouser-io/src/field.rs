@@ -264,7 +264,7 @@ pub(crate) const fn numbers<T>(
 pub(crate) const fn pairs<T>(
     key: &'static str,
     units: [Unit; 2],
-    ranges: [RangeInclusive<f64>; 2],
+    ranges: &[RangeInclusive<f64>; 2],
     doc: &'static str,
     begin: fn(&mut T, usize),
     reach: fn(&mut T, usize) -> Option<[&mut f64; 2]>,

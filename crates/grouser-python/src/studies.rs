@@ -114,6 +114,9 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
+/// Results on each slope, the steepest slope [°], what ends the curve there in a sentence, and in a word.
+type Headings<'py> = (Bound<'py, PyDict>, Option<f64>, String, Option<String>);
+
 /// The heading offset that holds the contour on each slope, the steepest slope, what ends the curve
 /// there in a sentence, and in a word.
 #[pyfunction]
@@ -122,7 +125,7 @@ pub(crate) fn heading<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
-) -> PyResult<(Bound<'py, PyDict>, Option<f64>, String, Option<String>)> {
+) -> PyResult<Headings<'py>> {
     let slopes = slopes(&slope_deg)?;
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {

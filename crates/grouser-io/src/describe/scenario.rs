@@ -257,7 +257,7 @@ const REFERENCE_SLIP: Field<Scenario> = number(
 const YAW: Field<Scenario> = pairs(
     "yaw_deg",
     [S, DEG],
-    [0.0..=LONGEST_DURATION, -LARGEST_YAW..=LARGEST_YAW],
+    &[0.0..=LONGEST_DURATION, -LARGEST_YAW..=LARGEST_YAW],
     "Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before and after; without it the wheels' moments turn the rover",
     |run: &mut Scenario, count| {
         run.yaw = Some(PrescribedYaw { points: vec![(0.0, 0.0); count] });

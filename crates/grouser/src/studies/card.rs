@@ -275,10 +275,8 @@ impl CardStudy {
         let ground = self.heading.ground_limit();
         let row = |(place, slope): (usize, &f64)| {
             // Ground that slides by itself is no place to drive, whatever samples of it would hold.
-            let verdict = match *slope > ground {
-                true => Verdict::NoGo,
-                false => self.rule.verdict(&judged[place]),
-            };
+            let verdict =
+                if *slope > ground { Verdict::NoGo } else { self.rule.verdict(&judged[place]) };
             worst = worst.max(verdict);
             CardRow {
                 slope: *slope,

@@ -322,10 +322,11 @@ fn a_campaign_draws_models_and_leaves_no_run_out() {
     let campaign = campaign(base).expect("a campaign");
     let table = campaign.shard(0, &|| true).expect("not stopped");
     let (models, statuses) = (table.texts("model"), table.texts("status"));
-    let runs = [0..campaign.runs()];
+    let all = 0..campaign.runs();
+    let runs = std::slice::from_ref(&all);
     let slips = table.numbers("slip_ratio");
-    let counted = campaign.counted("slip_ratio", &runs, slips, statuses);
-    let yaws = campaign.counted("yaw_deg", &runs, table.numbers("yaw_deg"), statuses);
+    let counted = campaign.counted("slip_ratio", runs, slips, statuses);
+    let yaws = campaign.counted("yaw_deg", runs, table.numbers("yaw_deg"), statuses);
     let study = HeadingStudy::of(&scenario(&[]).value);
     let (mut held, mut lost) = (0, 0);
     for (theory, _) in ModelSpread::all(None).shares() {
@@ -356,16 +357,17 @@ fn a_campaign_counts_wheels_that_sink() {
                 load_n = 60000.0, slip_ratio = 0.2 }";
     let campaign = campaign(base).expect("a campaign");
     let table = campaign.shard(0, &|| true).expect("not stopped");
-    let (statuses, runs) = (table.texts("status"), [0..campaign.runs()]);
+    let all = 0..campaign.runs();
+    let (statuses, runs) = (table.texts("status"), std::slice::from_ref(&all));
     assert!(statuses.iter().all(|it| it.as_deref() == Some("soil cannot carry the load")));
     let all = |name: &str, value: f64| {
-        let counted = campaign.counted(name, &runs, table.numbers(name), statuses);
+        let counted = campaign.counted(name, runs, table.numbers(name), statuses);
         counted.iter().all(|it| it.is_some_and(|it| (it - value).abs() < 1e-9 * value.abs()))
     };
     assert!(
         all("sinkage_mm", 110.0) && all("drawbar_pull_n", -60000.0) && all("torque_nm", 6600.0)
     );
-    let thrust = campaign.counted("thrust_n", &runs, table.numbers("thrust_n"), statuses);
+    let thrust = campaign.counted("thrust_n", runs, table.numbers("thrust_n"), statuses);
     assert!(thrust.iter().all(Option::is_none));
 }
 

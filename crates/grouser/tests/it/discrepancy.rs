@@ -2,7 +2,8 @@
 
 use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{
-    Contact, Settled, Slip, SteppingWheel, Theory, TimeStep, settle, settle_from, settle_many,
+    Contact, Settled, Slip, SteppingWheel, Theory, TimeStep, WheelForces, settle, settle_from,
+    settle_many,
 };
 use grouser::document::{self, Kind, LoadedSoil, Overrides, Source};
 use grouser::soil::discrepancy::{SIDE_VALUES, VALUES};
@@ -112,7 +113,7 @@ fn a_wheel_without_load_or_at_rest_has_no_discrepancy() {
     for theory in Theory::ALL {
         let slip = slip_of((0.06, 0.03, 0.01));
         let unloaded = settled(theory, Some(uneven()), slip, 0.0);
-        assert_eq!((unloaded.sinkage, unloaded.forces), (0.0, Default::default()));
+        assert_eq!((unloaded.sinkage, unloaded.forces), (0.0, WheelForces::default()));
         let rest = slip_of((0.0, 0.0, 0.0));
         let (with, plain) =
             (settled(theory, Some(uneven()), rest, LOAD), settled(theory, None, rest, LOAD));
@@ -199,7 +200,7 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
 
 fn read(addition: &str) -> LoadedSoil {
     let text = document::preset(Kind::Soil, "toyoura").expect("a preset").text;
-    let source = Source::text("sand.toml", &format!("{text}\n{addition}\n"));
+    let source = Source::text("sand.toml", format!("{text}\n{addition}\n"));
     document::read_soil(&source, &Overrides::none()).expect("it is right")
 }
 
@@ -225,7 +226,7 @@ fn a_documents_discrepancy_is_the_soils() {
     let expected = Discrepancy { drawbar_pull, side_force, ..Discrepancy::NONE };
     let loaded = read(&table);
     assert_eq!(loaded.value.discrepancy, Some(expected));
-    let again = Source::text("sand.toml", &loaded.to_toml());
+    let again = Source::text("sand.toml", loaded.to_toml());
     let again = document::read_soil(&again, &Overrides::none()).expect("it is right");
     assert_eq!(again.value.discrepancy, Some(expected));
 }

@@ -313,7 +313,7 @@ fn a_scenario_takes_a_yaw_over_time_and_writes_it_again() {
     let read = scenario_with(&["scenario.drive.yaw_deg=[[0, 3.31], [20, 0.56]]"]).expect("read");
     let points = vec![(0.0, deg(3.31)), (20.0, deg(0.56))];
     assert_eq!(read.value.yaw, Some(grouser::simulation::PrescribedYaw { points }));
-    let again = Source::text("resolved", &read.to_toml());
+    let again = Source::text("resolved", read.to_toml());
     let again = document::read_scenario(&again, &Overrides::none()).expect("what was written");
     assert_eq!(again.value, read.value);
     for (wrong, message) in [

@@ -184,7 +184,8 @@ fn discrepancies(solved: &Solved) -> String {
         .collect();
     if !lengths.is_empty() {
         let header = ["along", "correlation_length"].map(str::to_owned);
-        text += &format!("\n{}", aligned(&header, &lengths));
+        text.push('\n');
+        text.push_str(&aligned(&header, &lengths));
     }
     text
 }

@@ -297,7 +297,7 @@ impl Errors {
             }
             _ => (DVector::zeros(sites.len()), prior),
         };
-        Drawn { mean: mean.iter().copied().collect(), deviation: deviation_of(spread, numbers) }
+        Drawn { mean: mean.iter().copied().collect(), deviation: deviation_of(&spread, numbers) }
     }
 }
 
@@ -308,12 +308,12 @@ pub(super) struct Drawn {
 }
 
 /// Numbers of a covariance from independent ones.
-fn deviation_of(covariance: DMatrix<f64>, numbers: &[f64]) -> Vec<f64> {
+fn deviation_of(covariance: &DMatrix<f64>, numbers: &[f64]) -> Vec<f64> {
     let size = covariance.nrows();
     let mut jitter = JITTER;
     // Rounding may leave a covariance that is not quite positive.
     let factor = loop {
-        let raised = &covariance + DMatrix::identity(size, size) * jitter;
+        let raised = covariance + DMatrix::identity(size, size) * jitter;
         if let Some(factor) = raised.cholesky() {
             break factor;
         }

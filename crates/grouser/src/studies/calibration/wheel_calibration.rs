@@ -156,7 +156,7 @@ impl WheelCalibration<'_> {
         // Trials of no cell are in no error.
         let mut predictions = self.judge((self.setup.soil_of)(&first.fit.values)?).predictions;
         for (trial, prediction) in fits.iter().flat_map(|left| &left.predictions) {
-            predictions[*trial] = prediction.clone();
+            predictions[*trial] = *prediction;
         }
         Ok(Validation::of(self.tests, predictions))
     }
