@@ -44,7 +44,8 @@
 //! let start = Start { yaw: attitude.yaw, ..scenario.start };
 //! let run = Run::new(&Scenario { start, ..scenario })?.to_end()?;
 //! assert_eq!(run.outcome, Outcome::Completed);
-//! assert!(run.last().state.position.y.abs() < 1e-3);
+//! // The moment that is left over turns the nose downhill by 1.2°: a tenth of the drift remains.
+//! assert!(run.last().state.position.y.abs() < 0.015);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

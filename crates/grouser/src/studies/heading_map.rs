@@ -60,7 +60,7 @@ impl HeadingMap {
     /// };
     /// assert_eq!(crab(0), "4.60°");
     /// assert_eq!(crab(1), "5.03°");
-    /// assert_eq!(crab(2), "5.07°");
+    /// assert_eq!(crab(2), "5.06°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
