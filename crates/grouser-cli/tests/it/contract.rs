@@ -199,7 +199,10 @@ fn a_map_has_bands_where_it_has_no_value_too() {
     }
     for row in &rows[2..] {
         assert!(row["slip_ratio"].is_null(), "{row}");
-        assert!(row["status"].as_str().expect("a text").starts_with("no heading holds"));
+        let status = row["status"].as_str().expect("a text");
+        let is_too_steep =
+            ["no heading holds", "ground-strength"].iter().any(|it| status.starts_with(it));
+        assert!(is_too_steep, "{status}");
     }
     // One of the models still climbs the first of them, none the last.
     let [low, high] = band(&rows[2]);
@@ -258,7 +261,7 @@ fn bands_of_a_traverse_outlast_its_run() {
     let is_over = |row: &&&str| row.split(',').nth(1).expect("x_m").is_empty();
     let over = rows.iter().filter(is_over).count();
     assert!(over > 0 && over < rows.len(), "{over} of {}", rows.len());
-    assert!(rows.last().expect("rows").starts_with("3,"), "{csv}");
+    assert!(rows.last().expect("rows").starts_with('3'), "{csv}");
     let json = place.json(line);
     assert_eq!(json["outcome"], "sliding");
     assert_eq!(json["bands"].as_array().expect("bands").len(), rows.len());
@@ -834,7 +837,7 @@ fn check_reference_row(expected: &Value, row: &Value) {
 
 #[test]
 fn attitudes_of_the_reference_through_the_program() {
-    let json = Place::new().json("attitude --slope-deg 5,10,15,20");
+    let json = Place::new().json("attitude --loads quasi-static --slope-deg 5,10,15,20");
     let rows = json["rows"].as_array().expect("rows");
     let expected = reference(include_str!("../../../grouser/tests/it/reference/attitude.json"));
     assert_eq!(rows.len(), expected.len());
