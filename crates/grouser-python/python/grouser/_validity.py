@@ -20,7 +20,7 @@ def flags_of(bits: Floats) -> NDArray[np.object_]:
     different, index = np.unique(bits.astype(np.int64), return_inverse=True)
     names = np.empty(len(different), dtype=object)
     names[:] = _core.flag_names(different.tolist())
-    return names[index].reshape(bits.shape)
+    return names[index.ravel()].reshape(bits.shape)
 
 
 def require_inside(result: Any) -> Any:

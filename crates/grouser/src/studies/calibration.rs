@@ -47,7 +47,7 @@ pub mod solution;
 pub mod wheel_calibration;
 pub mod wheel_test;
 
-pub use experiment::{Channel, Experiment, Observation, Place, Regime, Site};
+pub use experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
 pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
@@ -258,7 +258,7 @@ impl<'a> Calibration<'a> {
         let Some(predictions) = self.predictions(&self.space.values(parameters)) else {
             return f64::NEG_INFINITY;
         };
-        let residuals = errors::residuals(self.experiment.observations(), &predictions);
+        let residuals = self.errors.residuals(self.experiment.observations(), &predictions);
         let found = self.discrepancies.values(discrepancies);
         let log_density =
             ParameterSpace::log_prior(coordinates) + self.errors.log_density(&residuals, &found);

@@ -705,13 +705,14 @@ fn coverage_of_left_out_cells(theory: Theory, seeds: std::ops::Range<u64>) -> [C
 }
 
 /// Data of resistive force theory, fitted by Ishigami's model: neither angle nor model is known to the
-/// fit. DIFFERENCE: 95 % bands should hold 90 % of what is left out and hold about two thirds of it.
+/// fit. Six stands; the slow test has twenty, and two more models.
 #[test]
 fn bands_of_a_wrong_model_hold_the_cells_left_out() {
-    let [all, between, _] = coverage_of_left_out_cells(Theory::Rft, 0..1);
-    assert!(all.share_within_95 >= 0.60, "{all:?}");
-    assert!(between.share_within_95 >= 0.60, "{between:?}");
-    assert!(all.share_within_50 < 0.95, "bands that hold everything say nothing: {all:?}");
+    let [all, between, _] = coverage_of_left_out_cells(Theory::Rft, 0..6);
+    println!("{all:?}, between {between:?}");
+    assert!(all.share_within_95 >= 0.90, "{all:?}");
+    assert!(between.share_within_95 >= 0.85, "{between:?}");
+    assert!(all.share_within_50 < 0.70, "bands that hold everything say nothing: {all:?}");
 }
 
 #[test]

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::experiment::{Experiment, Observation, Place, Site};
+use super::experiment::{Experiment, Measure, Observation, Place, Site};
 use super::parameter::{Parameter, Scale};
 use crate::elementary::exp;
 use crate::elementary::wide::{ln, powi};
@@ -52,6 +52,8 @@ pub struct Errors {
     weights: Vec<f64>,
     /// Of each channel, the weight at which a discrepancy is δ.
     usual_weights: Vec<f64>,
+    /// Of each observation that is counted by its logarithm, what a logarithm of 1 counts as.
+    logarithmic: Vec<Option<f64>>,
     /// Observations whose discrepancies are correlated; none if all are independent.
     families: Vec<Vec<usize>>,
     /// Where the observations are, each place once.
@@ -104,6 +106,7 @@ impl Errors {
         let places = experiment.places();
         let mut errors = Self { scatters, channels, channel_count, ..Self::default() };
         errors.weights = vec![1.0; observations.len()];
+        errors.logarithmic = vec![None; observations.len()];
         if places.is_empty() {
             return errors;
         }
@@ -111,6 +114,9 @@ impl Errors {
         for (number, place) in places.iter().enumerate() {
             if place.family >= errors.families.len() {
                 errors.families.resize(place.family + 1, Vec::new());
+            }
+            if place.measure == Measure::Logarithmic {
+                errors.logarithmic[number] = Some(place.weight);
             }
             // Where nothing can be wrong, what is read beyond the model tells nothing of it.
             if place.weight != 0.0 {
@@ -145,6 +151,20 @@ impl Errors {
     #[must_use]
     pub fn usual_weight(&self, channel: usize) -> f64 {
         self.usual_weights.get(channel).copied().unwrap_or(1.0)
+    }
+
+    /// What was measured beyond what was predicted, as discrepancies are counted.
+    #[must_use]
+    pub(super) fn residuals(&self, observations: &[Observation], predictions: &[f64]) -> Vec<f64> {
+        let pairs = observations.iter().zip(predictions).zip(&self.logarithmic);
+        pairs
+            .map(|((one, &predicted), logarithmic)| match logarithmic {
+                Some(weight) if one.value > 0.0 && predicted > 0.0 => {
+                    weight * (ln(one.value) - ln(predicted))
+                }
+                _ => one.value - predicted,
+            })
+            .collect()
     }
 
     /// The correlation lengths, as parameters with priors uniform by the logarithm.
@@ -389,11 +409,6 @@ fn lengths_to_find(sites: &[Site]) -> Vec<Parameter> {
     if has_angles { vec![slip, angle] } else { vec![slip] }
 }
 
-/// What was measured beyond what was predicted.
-pub(super) fn residuals(observations: &[Observation], predictions: &[f64]) -> Vec<f64> {
-    observations.iter().zip(predictions).map(|(one, prediction)| one.value - prediction).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::ensemble::normal_numbers;
@@ -418,6 +433,7 @@ mod tests {
                     family: 0,
                     site: Site { slip, slip_angle },
                     weight: 7.0,
+                    measure: Measure::Linear,
                 })
                 .collect();
             let one = Observation { value: 0.0, scatter, channel: 0 };
@@ -445,6 +461,21 @@ mod tests {
     }
 
     const SLIPS: [f64; 9] = [-1.0, -0.7, -0.5, -0.2, 0.0, 0.23, 0.5, 0.75, 0.9];
+
+    /// Three times what is predicted is ln 3 of what is read; what is no ratio is a difference.
+    #[test]
+    fn a_sinkage_is_counted_by_its_logarithm() {
+        let mut read = Read::new(&[0.2, 0.4], &[0.0], 0.1);
+        for (observation, value) in read.observations.iter_mut().zip([3.0, -1.0]) {
+            observation.value = value;
+        }
+        for place in &mut read.places {
+            place.measure = Measure::Logarithmic;
+        }
+        let residuals = Errors::of(&read).residuals(&read.observations, &[1.0, 1.0]);
+        assert!((residuals[0] - 7.0 * 3.0_f64.ln()).abs() < 1e-12);
+        assert_eq!(residuals[1], -2.0);
+    }
 
     /// A correlation of ρ between two: the bivariate normal density.
     #[test]

@@ -62,6 +62,18 @@ pub struct Place {
     /// forces. It has the sign that the quantity changes in a mirror, and is 0 where by symmetry there
     /// is none: what is read there beyond the model is the stand's.
     pub weight: f64,
+    /// How its discrepancy is counted.
+    pub measure: Measure,
+}
+
+/// How the discrepancy of an observation is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// As a difference.
+    Linear,
+    /// As the logarithm of a ratio, times the observation's weight: of what is positive, and may be
+    /// several times what a model says.
+    Logarithmic,
 }
 
 /// Measurements, and the model that predicts them.
@@ -97,8 +109,8 @@ const LEAST_OF_SPREAD: f64 = 1e-4;
 /// The model discrepancy of each channel, δ, as a parameter: its standard deviation.
 ///
 /// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it
-/// is not distinguishable from zero) to the spread of the measured values (above which the model predicts
-/// nothing).
+/// is not distinguishable from zero) to the size of the measured values, their root mean square (above
+/// which the model predicts nothing).
 #[must_use]
 pub fn discrepancies(experiment: &dyn Experiment) -> Vec<Parameter> {
     let channels = 0..experiment.channels().len();
@@ -118,6 +130,7 @@ fn discrepancy(observations: &[Observation], channel: usize) -> Parameter {
     let spread = spread.max(scatter);
     let lower = (LEAST_OF_SCATTER * scatter).max(LEAST_OF_SPREAD * spread);
     let start = (LEAST_OF_SCATTER * spread).max(lower);
+    let upper = spread.max(size);
     let name = format!("discrepancy of channel {channel}");
-    Parameter { name, lower, upper: spread, scale: Scale::Logarithmic, start }
+    Parameter { name, lower, upper, scale: Scale::Logarithmic, start }
 }

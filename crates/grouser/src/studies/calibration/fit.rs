@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::errors::{Whitener, residuals};
+use super::errors::Whitener;
 use super::least_squares::{Minimum, Residuals, minimise};
 use super::parameter::{ParameterSpace, coordinate_of};
 use super::{Calibration, CalibrationError};
@@ -111,7 +111,7 @@ impl Calibration<'_> {
     ) -> Result<Fit, CalibrationError> {
         let first_guess: Vec<f64> =
             self.discrepancies.parameters().iter().map(|parameter| parameter.start).collect();
-        let weighted = Weighted::new(self, &first_guess, Prior::Ignored);
+        let weighted = Weighted::new(self, &first_guess);
         let starts = self.starts(&weighted, settings);
         let interrupted = AtomicBool::new(false);
         let search = |start: &Vec<f64>| {
@@ -181,13 +181,13 @@ impl Calibration<'_> {
         let mut minimum = best.clone();
         for _ in 0..ROUNDS {
             discrepancies = self.discrepancies_at(&minimum.coordinates);
-            let weighted = Weighted::new(self, &discrepancies, Prior::Ignored);
+            let weighted = Weighted::new(self, &discrepancies);
             minimum = minimise(&weighted, &minimum.coordinates, POLISHING_PATIENCE);
         }
         let Minimum { coordinates, cost, converged } = minimum;
         let values = self.space.values(&coordinates);
         let predictions = self.predictions(&values).ok_or_else(|| self.no_start(&[]))?;
-        let residuals = residuals(self.experiment.observations(), &predictions);
+        let residuals = self.errors.residuals(self.experiment.observations(), &predictions);
         discrepancies.extend(self.errors.likely_lengths(&residuals, &discrepancies));
         let covariance = Weighted::correlated(self, &discrepancies).covariance(&coordinates);
         Ok(Fit {
@@ -263,18 +263,20 @@ fn spread_point(number: usize, dimension: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Whether the prior counts among the residuals.
+/// What the residuals add up to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Prior {
-    Included,
-    Ignored,
+enum Purpose {
+    /// Differences, weighted.
+    LeastSquares,
+    /// Discrepancies as they are counted, and the prior.
+    Posterior,
 }
 
 /// The residuals under given discrepancies, independent and of deviation 1.
 struct Weighted<'a> {
     calibration: &'a Calibration<'a>,
     whitener: Whitener,
-    prior: Prior,
+    purpose: Purpose,
 }
 
 /// Step of the difference quotients in a coordinate [-], in which parameters change by about their
@@ -283,16 +285,20 @@ struct Weighted<'a> {
 const STEP: f64 = 1e-5;
 
 impl<'a> Weighted<'a> {
-    fn new(calibration: &'a Calibration<'a>, discrepancies: &[f64], prior: Prior) -> Self {
+    fn new(calibration: &'a Calibration<'a>, discrepancies: &[f64]) -> Self {
         let variances = calibration.errors.variances_alike(discrepancies);
         let deviations = variances.into_iter().map(f64::sqrt).collect();
-        Self { calibration, whitener: Whitener::independent(deviations), prior }
+        Self {
+            calibration,
+            whitener: Whitener::independent(deviations),
+            purpose: Purpose::LeastSquares,
+        }
     }
 
     /// With correlated errors, and the prior.
     fn correlated(calibration: &'a Calibration<'a>, discrepancies: &[f64]) -> Self {
         let whitener = calibration.errors.whitener(discrepancies);
-        Self { calibration, whitener, prior: Prior::Included }
+        Self { calibration, whitener, purpose: Purpose::Posterior }
     }
 
     /// Half the sum of squares; infinite where there are no predictions.
@@ -319,11 +325,18 @@ impl Residuals for Weighted<'_> {
         let calibration = self.calibration;
         let predictions = calibration.predictions(&calibration.space.values(coordinates))?;
         let observations = calibration.experiment.observations();
-        let pairs = observations.iter().zip(predictions);
-        let beyond: Vec<f64> =
-            pairs.map(|(observation, prediction)| prediction - observation.value).collect();
+        let beyond: Vec<f64> = match self.purpose {
+            Purpose::LeastSquares => {
+                let pairs = observations.iter().zip(predictions);
+                pairs.map(|(observation, prediction)| prediction - observation.value).collect()
+            }
+            Purpose::Posterior => {
+                let residuals = calibration.errors.residuals(observations, &predictions);
+                residuals.into_iter().map(|residual| -residual).collect()
+            }
+        };
         let mut residuals = self.whitener.whitened(&beyond);
-        if self.prior == Prior::Included {
+        if self.purpose == Purpose::Posterior {
             residuals.extend(coordinates.iter().map(|&coordinate| prior_residual(coordinate)));
         }
         residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)

@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::errors::{Errors, Lengths, residuals};
+use super::errors::{Errors, Lengths};
 use super::experiment::{Channel, Experiment, Regime, Site};
 use super::wheel_test::{WheelTestExperiment, sideways};
 use super::{Calibration, ensemble};
@@ -70,7 +70,7 @@ fn discrepancy(
     if experiment.predict(values, &mut predictions).is_err() {
         return drawn;
     }
-    let read = residuals(observations, &predictions);
+    let read = calibration.errors().residuals(observations, &predictions);
     for (numbers, quantity) in numbers.chunks(VALUES).zip(Quantity::ALL) {
         let of = Quantified { errors: calibration.errors(), experiment, quantity, found };
         let Some(values) = of.values(&read, numbers) else { continue };

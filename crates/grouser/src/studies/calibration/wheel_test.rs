@@ -1,6 +1,6 @@
 //! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test series.
 
-use super::experiment::{Channel, Experiment, Observation, Place, Regime, Site};
+use super::experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
 use crate::contact::discrepancy::sense_of_rolling;
 use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
@@ -202,7 +202,12 @@ impl<'a> WheelTestExperiment<'a> {
                 slip: run.slip.total(),
                 slip_angle: self.tests.cells[cell].slip_angle.abs(),
             };
-            Place { family, site, weight: self.weight(quantity, &run, observation.value) }
+            let weight = self.weight(quantity, &run, observation.value);
+            let measure = match quantity {
+                Quantity::Sinkage => Measure::Logarithmic,
+                _ => Measure::Linear,
+            };
+            Place { family, site, weight, measure }
         };
         self.sources.iter().zip(&self.observations).map(place).collect()
     }
