@@ -67,7 +67,7 @@ fn rmse(group: &Group) -> [f64; 3] {
 #[test]
 fn the_fitted_soils_agree_with_their_trials() {
     for (kind, driven, all) in [
-        ("smooth", [0.65, 0.75, 1.40], [1.10, 0.80, 1.60]),
+        ("smooth", [0.75, 0.80, 0.95], [1.20, 0.85, 1.30]),
         ("grouser", [0.85, 0.95, 1.75], [0.95, 0.95, 1.50]),
     ] {
         let measured = trials(kind);
@@ -146,9 +146,8 @@ fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
             };
             let (one, two) = (under(shipped.value), under(fitted));
             let pull = (one.forces.drawbar_pull - two.forces.drawbar_pull).abs();
-            // About the standard deviation that the fit has there.
-            assert!(pull < 1.0, "{kind}, {degrees}°: pulls differ by {pull} N");
-            assert!((one.sinkage - two.sinkage).abs() < 2e-3, "{kind}, {degrees}°");
+            assert!(pull < 0.1, "{kind}, {degrees}°: pulls differ by {pull} N");
+            assert!((one.sinkage - two.sinkage).abs() < 0.2e-3, "{kind}, {degrees}°");
         }
     }
 }
