@@ -258,11 +258,17 @@ impl Search<'_> {
     fn interpolated(&mut self, start: Point) -> Option<f64> {
         /// Points are used up to this many: a cubic.
         const MOST_POINTS: usize = 4;
+        /// Sinkages that are tried: every usual law is solved by then.
+        const MOST_STEPS: usize = 8;
         /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
         const STEEPEST: f64 = 4.0;
+        /// The next point's error is below the product of the last points' (three, or the only two), times
+        /// this.
+        const CURVATURE: f64 = 0.05;
         let (axle, exponent) = (self.axle, self.exponent);
         let mut points = [start; MOST_POINTS];
-        for count in 1..=MOST_POINTS {
+        let mut count = 1;
+        for _ in 0..MOST_STEPS {
             let (here, excess) = points[count - 1];
             if excess.abs() <= LOAD_TOLERANCE {
                 return Some(here);
@@ -281,16 +287,24 @@ impl Search<'_> {
             if !(next < axle && (next - here).abs() < LONGEST_STEP) {
                 return None;
             }
-            /// The next point's error is below the product of the last points' (three, or the only two), times
-            /// this.
-            const CURVATURE: f64 = 0.05;
             let error: f64 =
                 points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
             let last = count >= 2 && CURVATURE * error < LOAD_TOLERANCE;
-            if last || count == MOST_POINTS {
-                return (self.final_excess(next).abs() <= LOAD_TOLERANCE).then_some(next);
+            let excess = if last || count == MOST_POINTS {
+                let excess = self.final_excess(next);
+                if excess.abs() <= LOAD_TOLERANCE {
+                    return Some(next);
+                }
+                excess
+            } else {
+                self.excess(next)
+            };
+            if count == MOST_POINTS {
+                points.rotate_left(1);
+            } else {
+                count += 1;
             }
-            points[count] = (next, self.excess(next));
+            points[count - 1] = (next, excess);
         }
         None
     }

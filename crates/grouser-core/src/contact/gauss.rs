@@ -5,12 +5,11 @@
 /// A rule for integrals over (0, 1).
 pub(super) type Rule = [(f64, f64)];
 
-/// Exact for polynomials up to degree 7.
-pub(super) static GAUSS_4: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+/// Exact for polynomials up to degree 5.
+pub(super) static GAUSS_3: [(f64, f64); 3] = [
+    (0.112_701_665_379_258_31, 0.277_777_777_777_777_8),
+    (0.5, 0.444_444_444_444_444_4),
+    (0.887_298_334_620_741_7, 0.277_777_777_777_777_8),
 ];
 
 /// Exact for polynomials up to degree 15.
@@ -127,7 +126,7 @@ mod tests {
 
     #[test]
     fn the_rules_are_exact_for_the_degrees_they_state() {
-        check_exact_up_to(7, &GAUSS_4);
+        check_exact_up_to(5, &GAUSS_3);
         check_exact_up_to(15, &GAUSS_8);
         check_exact_up_to(31, &GAUSS_16);
         check_exact_up_to(127, &GAUSS_64);

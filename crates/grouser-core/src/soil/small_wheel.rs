@@ -116,21 +116,21 @@ impl SmallWheel {
     /// for steel in sand. The soil behind the wheel stays as low as the wheel while that spins on the
     /// spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form, and that there is no rear mound, were
     /// chosen on the smooth wheel of Ding et al. (2011), whose pull does not rise at high slip. All else
-    /// was chosen on both wheels of Pavlov and Johnson (2022) on their sand, at slip angles of 0 to 75°
-    /// (`docs/models/small-wheel.md`): side wall and bow wave are the presets', the two growths lie
-    /// within two standard deviations of the fit to either wheel.
+    /// was chosen on both wheels of Pavlov and Johnson (2022), at slip angles of 0 to 75°, with their
+    /// sand's published constants, under which a wheel lies deeper than with fitted ones: growths, side wall
+    /// and bow wave are smaller than the presets' (`docs/models/small-wheel.md`).
     pub const GENERAL: Self = Self {
         sinkage: SinkageGrowth {
-            with_slip_angle: 2.0,
+            with_slip_angle: 1.0,
             with_slip: 1.5,
             bend: 0.5,
-            locked: 4.1,
+            locked: 3.0,
             sharpness: 4.0,
         },
         exit: ExitShift { fading: 1.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 2.0 / 3.0 },
-        side_wall: SideWall { pressure_factor: 5.2, fading: 0.6, friction: 0.2 },
-        mounds: Mounds { bow_wave: 2.5, rear_mound: 0.0 },
+        side_wall: SideWall { pressure_factor: 2.0, fading: 0.6, friction: 0.2 },
+        mounds: Mounds { bow_wave: 1.5, rear_mound: 0.0 },
         wedge_share: 1.0,
     };
 

@@ -101,11 +101,29 @@ impl Ground<'_> {
         stance: &Stance,
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
+        self.reactions_near(stance, slips, &[])
+    }
+
+    /// As [`reactions`](Self::reactions), from those in a stance and a motion nearby: loads and
+    /// sinkages are sought from there. The answer is the same but for its last digits, as that of
+    /// [`settle_from`].
+    ///
+    /// * `near`: of all wheels, or of none
+    ///
+    /// # Errors
+    /// As [`reactions`](Self::reactions).
+    pub fn reactions_near(
+        &self,
+        stance: &Stance,
+        slips: &[Slip],
+        near: &[WheelReaction],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
         let coupled = sharing.has_torque()
             || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
-        let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
-        let mut wheels = self.settle_under(stance, moments, slips, &[])?;
+        let forces: Vec<WheelForces> = forces_of(near).copied().collect();
+        let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
+        let mut wheels = self.settle_under(stance, moments, slips, near)?;
         if !coupled {
             return Ok(wheels);
         }
@@ -129,8 +147,7 @@ impl Ground<'_> {
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }
 
-    /// * `before`: the wheels in the round before, near which they settle now; none in the first. (What
-    ///   they were a moment ago is not asked: the same motion has the same bits, whatever came before.)
+    /// * `before`: the wheels in the round before, near which they settle now, or none
     fn settle_under(
         &self,
         stance: &Stance,

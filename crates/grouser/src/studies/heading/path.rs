@@ -1,6 +1,6 @@
 //! Follows the curve of heading offsets: predict along it, correct across it, stop where it folds.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -71,6 +71,8 @@ pub(super) struct Path<'a> {
     study: &'a HeadingStudy,
     held: Held,
     settled_wheels: Cell<u64>,
+    /// The place looked at last, and the wheels there.
+    last: RefCell<Option<(Place, Vec<WheelReaction>)>>,
 }
 
 /// Longest step along the curve [-, rad].
@@ -79,6 +81,8 @@ const LONGEST_STEP: f64 = 0.05;
 const FIRST_STEP: f64 = 0.005;
 /// A step this short means that the curve ends here [-, rad].
 const SHORTEST_STEP: f64 = 1e-7;
+/// Places closer than this have wheels that are nearly alike [-, rad]: two of the longest steps.
+const NEARBY: f64 = 0.1;
 /// Force left over, over the weight, below which a rover counts as balanced [-].
 const BALANCED: f64 = 1e-10;
 /// Stands for c = 0⁺, where a side-wall law that jumps has its full force [rad].
@@ -88,7 +92,7 @@ const MOST_SLIP: f64 = 0.999;
 
 impl<'a> Path<'a> {
     pub(super) fn new(study: &'a HeadingStudy, held: Held) -> Self {
-        Self { study, held, settled_wheels: Cell::new(0) }
+        Self { study, held, settled_wheels: Cell::new(0), last: RefCell::default() }
     }
 
     /// How many wheels were settled so far.
@@ -119,7 +123,14 @@ impl<'a> Path<'a> {
             own_moments: *own_moments,
         };
         let stance = ground.stance(&self.state(crab));
-        Ok((ground.reactions(&stance, &slips)?, stance.pull))
+        let wheels = match &*self.last.borrow() {
+            Some((last, wheels)) if (place - last).norm() < NEARBY => {
+                ground.reactions_near(&stance, &slips, wheels)?
+            }
+            _ => ground.reactions(&stance, &slips)?,
+        };
+        self.last.replace(Some((*place, wheels.clone())));
+        Ok((wheels, stance.pull))
     }
 
     /// The wheels at a place, and the forces left over there, over the weight: along and across
