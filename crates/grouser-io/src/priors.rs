@@ -5,6 +5,8 @@
 //! rows beside it that hold for this soil: a resolved document has them as its `priors`, so that it gives the same
 //! soil and the same samples when it is read again. [`stated_by_priors`] makes distributions of them.
 
+use std::sync::Arc;
+
 use serde_json::Value as Json;
 
 use super::check::keys_at;
@@ -20,7 +22,7 @@ use super::read::written;
 use super::schema::range;
 use super::source::Source;
 use super::stated::{Pair, Parameter, Priors, Soils, Stated};
-use super::tree::{Entry, Node, Origin, Value, number};
+use super::tree::{Entry, Node, Origin, Text, Value, number};
 use crate::statistics::Marginal;
 
 /// The key of a soil under which its priors stand.
@@ -151,11 +153,12 @@ fn priors_of(given: &Json) -> Priors {
 pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let Some(entry) = tree.entry(KEY) else { return };
     let (rows, mut kept) = (priors_of(&entry.node.to_json()), entry.node.clone());
-    let name = match kept.entry("name").map(|entry| &entry.node.value) {
-        Some(Value::String(name)) => name.clone(),
-        _ => "its priors".to_owned(),
+    let (name, given_in) = match kept.entry("name").map(|entry| &entry.node) {
+        Some(Node { value: Value::String(name), origin }) => (name.clone(), origin.text.clone()),
+        _ => ("its priors".to_owned(), entry.node.origin.text.clone()),
     };
-    let mut soil = Filled { written: tree.clone(), tree, name, is_resolved, missing: Vec::new() };
+    let missing = Vec::new();
+    let mut soil = Filled { written: tree.clone(), tree, name, given_in, is_resolved, missing };
     let own = soil.take_own();
     keep(&mut kept, "missing", rows.missing.iter().map(|row| soil.takes(row, &own)));
     keep(
@@ -204,6 +207,8 @@ struct Filled<'t> {
     tree: &'t mut Node,
     /// The name of its priors.
     name: String,
+    /// The text that has them.
+    given_in: Arc<Text>,
     is_resolved: bool,
     /// The keys that are the priors'.
     missing: Vec<String>,
@@ -239,7 +244,7 @@ impl Filled<'_> {
             return false;
         }
         let is_the_priors = match at(self.tree, key) {
-            Some(node) => self.is_resolved && !node.origin.text.is_argument,
+            Some(node) => self.is_resolved && !self.is_from_outside(node),
             None => self.median(row).is_some_and(|median| {
                 let origin = self.tree.origin_of(KEY).clone();
                 let is_put = self.put(key, Value::Float(median), &origin);
@@ -262,7 +267,7 @@ impl Filled<'_> {
     /// The same of a keyword.
     fn takes_word(&mut self, key: &str, word: &str, reason: &str) -> bool {
         if let Some(node) = at(self.tree, key) {
-            return self.is_resolved && !node.origin.text.is_argument;
+            return self.is_resolved && !self.is_from_outside(node);
         }
         let origin = self.tree.origin_of(KEY).clone();
         let is_put = self.put(key, Value::String(word.to_owned()), &origin);
@@ -279,9 +284,16 @@ impl Filled<'_> {
         let is_otherwise_known = |other: &String| other == key;
         let Some(node) = at(self.tree, key) else { return false };
         self.is_about(row)
-            && !node.origin.text.is_argument
+            && !self.is_from_outside(node)
             && !own.iter().chain(&self.missing).any(is_otherwise_known)
             && self.marginal(row).is_some()
+    }
+
+    /// Whether an argument set a value. A soil that is given as one argument is a document like any other: its
+    /// values stand beside its priors.
+    fn is_from_outside(&self, node: &Node) -> bool {
+        let text = &node.origin.text;
+        text.is_argument && !Arc::ptr_eq(text, &self.given_in)
     }
 
     /// Whether a row is about this soil.

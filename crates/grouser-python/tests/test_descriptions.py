@@ -153,3 +153,12 @@ def test_what_is_no_document_says_what_is() -> None:
         gr.Soil.from_toml(gr.Wheel("hakuto").to_toml())
     with pytest.raises(AttributeError, match="it has schema, name"):
         gr.Soil("toyoura").nothing  # noqa: B018
+
+
+def test_a_soil_put_into_a_scenario_keeps_what_it_leaves_to_priors() -> None:
+    own = gr.Scenario(soil="lunar-nominal")
+    for soil in ("lunar-nominal", gr.Soil("lunar-nominal")):
+        other = gr.Scenario().replace(soil=soil)
+        assert other.to_dict()["soil"] == own.to_dict()["soil"] and other.assumed == own.assumed
+    stated = own.replace(soil={"exit": {"ratio": 0.5}})
+    assert "exit.ratio" in own.assumed and "exit.ratio" not in stated.assumed

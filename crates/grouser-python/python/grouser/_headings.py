@@ -148,8 +148,15 @@ def heading(
         band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
     status = np.array(found.pop("status"), dtype=object)
     flags = np.array(found.pop("flags"), dtype=object)
-    end = {"limit_slope_deg": limit, "limit_message": reason, "limited_by": limited_by}
-    return Headings(**end, status=status, flags=flags, band=band, **found)
+    return Headings(
+        limit_slope_deg=limit,
+        limit_message=reason,
+        limited_by=limited_by,
+        status=status,
+        flags=flags,
+        band=band,
+        **found,
+    )
 
 
 @dataclass(frozen=True, eq=False)

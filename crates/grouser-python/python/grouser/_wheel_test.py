@@ -339,8 +339,8 @@ def wheel_test(
         documents = (soil_of(soil)._document, wheel._document, stand._document)
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         found = _core.wheel_test_band(*documents, loads, angles, ratios, *drawn)
-        shape = (len(loads), len(angles), len(ratios))
-        band = WheelTestBand(**{name: values.reshape(shape) for name, values in found.items()})
+        sizes = (len(loads), len(angles), len(ratios))
+        band = WheelTestBand(**{name: values.reshape(sizes) for name, values in found.items()})
     return WheelTest(
         load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels, band=band
     )
