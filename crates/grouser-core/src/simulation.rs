@@ -41,4 +41,4 @@ pub use state::State;
 pub use steady_state::NotSteady;
 pub use trajectory::Trajectory;
 pub use work::Work;
-pub use yaw::PrescribedYaw;
+pub use yaw::{FASTEST_TURN, PrescribedYaw, TooFast};

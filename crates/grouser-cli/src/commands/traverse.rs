@@ -105,7 +105,9 @@ impl OfModel {
         }
         match args.output.format {
             Format::Table => {
-                output::print(&(table(&self.run, &self.scenario.value) + &self.band_table()))
+                let model = inputs::model_line(&self.scenario.document, "soil");
+                let table = table(&self.run, &self.scenario.value);
+                output::print(&(table + &model + &self.band_table()))
             }
             Format::Csv => {
                 tell_end(&self.run);
@@ -200,7 +202,8 @@ fn output_all(
     match args.output.format {
         Format::Table => {
             let mut names = vec![MODEL.to_owned()];
-            names.extend(run::summary_brief());
+            let has_bands = args.uncertainty.sampling.uncertainty;
+            names.extend(if has_bands { run::summary_bands_brief() } else { run::summary_brief() });
             output::print(&rows.to_table(&names))
         }
         Format::Csv => output::print(&rows.to_csv()?),
