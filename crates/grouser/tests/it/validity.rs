@@ -305,7 +305,9 @@ fn moduli_in_kilonewtons_are_those_in_newtons() {
         assert_eq!(kilo.document.number("pressure_sinkage.k_phi"), Some(820_000.0));
     }
     let both = read(&bekker("k_c = 1400\nk_phi = 8.2e5\nk_phi_kn = 820")).unwrap_err();
-    assert!(both.to_string().contains("k_phi_kn"), "{both}");
+    let message = both.to_string();
+    assert!(message.contains("`pressure_sinkage.k_phi_kn` is `k_phi` in thousands"), "{message}");
+    assert!(message.contains("given too") && message.contains("remove one of them"), "{message}");
 }
 
 #[test]
