@@ -19,7 +19,7 @@ pub(crate) struct TraverseArgs {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
     /// Yaw at the start [°], positive uphill; or over the whole run, as pairs of time [s] and yaw:
-    /// `[[0, 5.51], [20, 3.10]]`. Either stands in place of the scenario's own, of both kinds.
+    /// `[[0, 5.51], [20, 3.10]]`. A yaw of the scenario, of either kind, is then not used.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<String>,
     /// Length of the run [s].
