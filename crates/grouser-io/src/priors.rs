@@ -78,6 +78,7 @@ pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, D
 }
 
 /// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.
+///
 /// * `soil`: its resolved document
 #[must_use]
 pub fn stated_by_priors(soil: &Document) -> Stated {
@@ -153,10 +154,11 @@ fn priors_of(given: &Json) -> Priors {
 pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let Some(entry) = tree.entry(KEY) else { return };
     let (rows, mut kept) = (priors_of(&entry.node.to_json()), entry.node.clone());
-    let (name, given_in) = match kept.entry("name").map(|entry| &entry.node) {
-        Some(Node { value: Value::String(name), origin }) => (name.clone(), origin.text.clone()),
-        _ => ("its priors".to_owned(), entry.node.origin.text.clone()),
+    let name = match kept.entry("name").map(|entry| &entry.node.value) {
+        Some(Value::String(name)) => name.clone(),
+        _ => "its priors".to_owned(),
     };
+    let given_in = tree.origin.text.clone();
     let missing = Vec::new();
     let mut soil = Filled { written: tree.clone(), tree, name, given_in, is_resolved, missing };
     let own = soil.take_own();
@@ -207,7 +209,7 @@ struct Filled<'t> {
     tree: &'t mut Node,
     /// The name of its priors.
     name: String,
-    /// The text that has them.
+    /// The text that has the soil.
     given_in: Arc<Text>,
     is_resolved: bool,
     /// The keys that are the priors'.
