@@ -364,6 +364,19 @@ fn a_soil_that_does_not_carry_the_rover_is_told_by_check() {
     assert_eq!(doubts(&Source::text("rover", text("5.24"))).unwrap(), [""; 0]);
 }
 
+/// The priors fill in two of the terms, and the others stay general.
+#[test]
+fn a_preset_without_terms_is_flagged_under_the_small_wheel_model() {
+    for (name, is_raised) in
+        [("lunar-nominal", true), ("grc-1", true), ("cmu-direct90-smooth", false)]
+    {
+        let soil = Source::find(Kind::Soil, name).unwrap();
+        let soil = document::read_soil(&soil, &Overrides::none()).unwrap().value;
+        let trial = Trial { theory: Theory::SmallWheel, soil, ..Trial::quiet() };
+        assert_eq!(trial.flags().contains(&Flag::TermsMissing), is_raised, "{name}");
+    }
+}
+
 /// A value that the model leaves aside is not assumed by its result.
 #[test]
 fn assumed_values_count_where_the_model_uses_them() {
