@@ -4,8 +4,7 @@ use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
 use super::describe;
-use super::kind::Kind;
-use super::priors::KEY as PRIORS;
+use super::kind::{Kind, PRIORS_KEY};
 use grouser_core::contact::Theory;
 
 /// The keys of a document in their own units: every named part in its place, every default filled in, keys
@@ -176,7 +175,7 @@ impl Document {
 fn number_keys(given: &Json) -> Vec<String> {
     let mut children: Vec<(String, &Json)> = match given {
         Json::Object(keys) => {
-            let own = keys.iter().filter(|(key, _)| *key != PRIORS);
+            let own = keys.iter().filter(|(key, _)| *key != PRIORS_KEY);
             own.map(|(key, given)| (key.clone(), given)).collect()
         }
         Json::Array(all) => {

@@ -16,17 +16,11 @@ use super::describe::uncertainty::UNCERTAINTY;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
-use super::kind::Kind;
-use super::overrides::Overrides;
-use super::read::written;
+use super::kind::{Kind, PRIORS_KEY as KEY};
 use super::schema::range;
-use super::source::Source;
 use super::stated::{Pair, Parameter, Priors, Soils, Stated};
 use super::tree::{Entry, Node, Origin, Text, Value, number};
 use crate::statistics::Marginal;
-
-/// The key of a soil under which its priors stand.
-pub(crate) const KEY: &str = "priors";
 
 /// A number, or a keyword, of a soil that its document does not state.
 ///
@@ -67,14 +61,6 @@ pub fn assumed(soil: &Document) -> Vec<Assumed> {
         value: soil.number(key),
     };
     keys("missing").chain(keys("keyword")).map(one).collect()
-}
-
-/// Checks a document of priors.
-///
-/// # Errors
-/// [`DocumentError`] for whatever is wrong first.
-pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, DocumentError> {
-    Ok(written(Kind::Prior, source, overrides)?.document)
 }
 
 /// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.

@@ -1,7 +1,6 @@
 //! A yaw that is prescribed over time: as it was measured, or as something outside holds it.
 
-use super::scenario::LONGEST_DURATION;
-use super::times::is_same_time;
+use super::times::{LONGEST_DURATION, is_same_time};
 use crate::error::{ParameterError, finite};
 
 /// Yaw over time: straight between its points, and constant before the first and after the last.

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::theory::Theory;
-use super::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
+use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
 use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
 use crate::units::EARTH_GRAVITY;
