@@ -1,0 +1,63 @@
+//! The motion that a rover settles into at a yaw, within milliseconds, while its wheels turn at given speeds:
+//! what it does at that instant if nobody corrects it.
+
+use super::equations::Equations;
+use super::quasi_steady::rolling;
+use super::steady_state::{Memory, NotSteady, SteadySolver};
+use crate::elementary::wide;
+use crate::units::Vec2;
+use crate::vehicle::WheelReaction;
+use crate::vehicle::reaction::Ground;
+
+/// A steady motion at a yaw: forces and yaw moment are balanced, so that the rover goes straight on or turns at a
+/// steady rate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SteadyMotion {
+    /// Yaw, *γ* [rad].
+    pub yaw: f64,
+    /// Velocity of the body's centre of mass *(u, v)*, in the body frame [m/s].
+    pub velocity: Vec2,
+    /// Yaw rate [rad/s].
+    pub yaw_rate: f64,
+    /// The wheels, in the mounts' order.
+    pub wheels: Vec<WheelReaction>,
+}
+
+impl SteadyMotion {
+    /// The steady motion of a rover whose wheels turn at given rim speeds [m/s], at a yaw [rad].
+    ///
+    /// # Errors
+    /// [`NotSteady`] where no velocities are found at which nothing accelerates.
+    pub fn of(ground: Ground<'_>, rim_speeds: &[f64], yaw: f64) -> Result<Self, NotSteady> {
+        let equations = Equations::new(ground, rim_speeds);
+        let mut solver = SteadySolver::new(&equations, Memory::default());
+        let found = solver.find(yaw, &rolling(&equations))?;
+        let velocity = found.velocities.xy();
+        Ok(Self { yaw, velocity, yaw_rate: found.velocities.z, wheels: found.wheels })
+    }
+
+    /// Speed [m/s].
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.velocity.norm()
+    }
+
+    /// Course, *χ* [rad]: direction of travel from the contour, positive uphill.
+    #[must_use]
+    pub fn course(&self) -> f64 {
+        self.yaw + wide::atan2(self.velocity.y, self.velocity.x)
+    }
+
+    /// Change of the yaw over the way [rad/m]: negative where the nose falls.
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        self.yaw_rate / self.speed()
+    }
+
+    /// Mean slip ratio of the wheels [-].
+    #[must_use]
+    pub fn slip_ratio(&self) -> f64 {
+        let sum: f64 = self.wheels.iter().map(|wheel| wheel.slip.ratio).sum();
+        sum / self.wheels.len() as f64
+    }
+}

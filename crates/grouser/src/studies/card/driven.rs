@@ -1,0 +1,164 @@
+//! What becomes of a rover that is driven as the card says: nose set to the row's heading, and set again after
+//! every leg.
+//!
+//! A contour traverse balances forces, not the yaw moment: the nose turns on the way. In the steady motion at the
+//! heading γ it turns by κ over the way, so that over a leg of length L the heading is γ + κ L/2 on average, and
+//! the drift is that of the steady motion there.
+
+use super::super::ensemble::Band;
+use super::super::ensemble::samples::{Sample, outputs_of_samples};
+use super::super::heading::HeadingStudy;
+use super::{STRAIGHT_DOWN, STUCK};
+use crate::elementary::wide::{asin, atan2, cos, sin};
+use crate::simulation::{NotSteady, SteadyMotion};
+
+/// The heading may be off by this much before it is set again [rad]: 2°. Source: ours; about what a driver reads off
+/// an instrument that shows whole degrees.
+const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// The heading is set again after this way at the latest [m]. Source: ours.
+const LONGEST_LEG: f64 = 10.0;
+
+/// A slope, driven as the card says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// Heading that is set at the start of every leg, *γ* [rad], positive uphill.
+    pub yaw: f64,
+    /// Roll that instruments show then [rad], positive with the uphill side higher.
+    pub roll: f64,
+    /// Pitch that they show [rad], positive with the nose higher.
+    pub pitch: f64,
+    /// After how much way the heading is to be set again [m].
+    pub correct_every: f64,
+    /// By how much the nose turns over the way [rad/m], positive uphill, over the samples that move.
+    pub turning: Option<Band>,
+    /// Drift, way downhill for a metre travelled [-], over all samples: 1 where the rover is stuck.
+    pub drift: Option<Band>,
+    /// Mean slip ratio of the wheels [-], over all samples: 1 where the rover is stuck.
+    pub slip_ratio: Option<Band>,
+    /// Mean sinkage of the wheels [m], over the samples that move.
+    pub sinkage: Option<Band>,
+    /// Largest torque of a wheel [N·m], likewise.
+    pub torque: Option<Band>,
+    /// Way of the rims for a metre of ground [-], likewise.
+    pub rim_way: Option<Band>,
+    /// By how much the slope could be steeper before the rover tips over, at rest [rad].
+    pub tipping_margin: f64,
+}
+
+/// One sample's motion.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    turning: f64,
+    slip_ratio: f64,
+    sinkage: f64,
+    torque: f64,
+    rim_way: f64,
+}
+
+/// Roll and pitch of a rover on a plane slope [rad].
+///
+/// * `slope`, `yaw`: *α*, *γ* [rad]
+///
+/// ```text
+/// sin θ = sin α sin γ        tan φ = tan α cos γ
+/// ```
+#[must_use]
+pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
+    let across = sin(slope) * cos(yaw);
+    [atan2(across, cos(slope)), asin(sin(slope) * sin(yaw))]
+}
+
+impl Driven {
+    /// Drives all samples on a slope by a heading.
+    ///
+    /// * `samples`: of soil and model, one at least
+    pub(super) fn of(
+        study: &HeadingStudy,
+        samples: &[Sample],
+        rim_speed: f64,
+        (slope, yaw): (f64, f64),
+    ) -> Self {
+        let at = |sample: &Sample, yaw: f64| {
+            study.of_sample(sample).steady_motion(slope, yaw, rim_speed)
+        };
+        let first = outputs_of_samples(samples, &|| true, |sample| {
+            at(sample, yaw).map(|motion| Motion::of(&motion, study, rim_speed))
+        });
+        let first: Vec<Result<Motion, NotSteady>> = first.unwrap_or_default();
+        let moving = || first.iter().flatten();
+        let fastest = Band::of(moving().map(|it| it.turning.abs())).map_or(0.0, |it| it.high);
+        let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG));
+        let drift = outputs_of_samples(samples, &|| true, |sample| {
+            let turning = at(sample, yaw).ok()?.turning();
+            let mean = yaw + 0.5 * turning * correct_every;
+            Some(-sin(at(sample, mean).ok()?.course()))
+        });
+        let drift = drift.unwrap_or_default();
+        let [roll, pitch] = roll_and_pitch(slope, yaw);
+        Self {
+            yaw,
+            roll,
+            pitch,
+            correct_every,
+            turning: Band::of(moving().map(|it| it.turning)),
+            drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
+            slip_ratio: Band::of(
+                first.iter().map(|it| it.as_ref().map_or(STUCK, |it| it.slip_ratio)),
+            ),
+            sinkage: Band::of(moving().map(|it| it.sinkage)),
+            torque: Band::of(moving().map(|it| it.torque)),
+            rim_way: Band::of(moving().map(|it| it.rim_way)),
+            tipping_margin: study.tipping_slope(yaw) - slope,
+        }
+    }
+}
+
+impl Motion {
+    fn of(motion: &SteadyMotion, study: &HeadingStudy, rim_speed: f64) -> Self {
+        let wheels = motion.wheels.iter().map(|wheel| &wheel.settled);
+        let sinkages: f64 = wheels.clone().map(|it| it.sinkage).sum();
+        Self {
+            turning: motion.turning(),
+            slip_ratio: motion.slip_ratio(),
+            sinkage: sinkages / study.rover.wheel_count() as f64,
+            torque: wheels.map(|it| it.forces.torque).fold(0.0, f64::max),
+            rim_way: rim_speed / motion.speed(),
+        }
+    }
+}
+
+/// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m.
+fn drivable(way: f64) -> f64 {
+    let step = if way < 1.0 { 10.0_f64.powf(way.log10().floor()) } else { 0.5 };
+    // 0.3 over 0.1 is less than 3.
+    (way / step + 1e-9).floor() * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::deg;
+
+    /// Along the contour all of the slope is roll, straight up all of it is pitch, and the upright's share is
+    /// always the slope's.
+    #[test]
+    fn roll_and_pitch_share_the_slope() {
+        for (slope, yaw) in [(10.0, 0.0), (10.0, 90.0), (25.0, 30.0), (13.0, 8.0)] {
+            let (slope, yaw) = (deg(slope), deg(yaw));
+            let [roll, pitch] = roll_and_pitch(slope, yaw);
+            assert!((cos(roll) * cos(pitch) - cos(slope)).abs() < 1e-12);
+        }
+        let [roll, pitch] = roll_and_pitch(deg(10.0), 0.0);
+        assert!((roll - deg(10.0)).abs() < 1e-12 && pitch == 0.0);
+        let [roll, pitch] = roll_and_pitch(deg(10.0), deg(90.0));
+        assert!(roll.abs() < 1e-12 && (pitch - deg(10.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_way_is_rounded_down_to_what_can_be_driven() {
+        for (way, expected) in [(0.349, 0.3), (0.3, 0.3), (0.061, 0.06), (1.49, 1.0), (7.9, 7.5)] {
+            assert!((drivable(way) - expected).abs() < 1e-12, "{way}");
+        }
+    }
+}
