@@ -40,7 +40,7 @@ pub use run::{LEAST_STEP, Run};
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;
 pub use steady_motion::SteadyMotion;
-pub use steady_state::NotSteady;
+pub use steady_state::{MOST_SLIP, NotSteady};
 pub use trajectory::Trajectory;
 pub use work::Work;
 pub use yaw::PrescribedYaw;

@@ -16,8 +16,9 @@ use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
 use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
-pub use driven::{Driven, roll_and_pitch};
-pub use rule::{BELOW_FRICTION_ANGLE, Rule, Verdict};
+use crate::soil::SlopeStability;
+pub use driven::{Driven, DrivenMotion, roll_and_pitch};
+pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 
 /// The inputs of a card.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +59,7 @@ pub struct CardRow {
     /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none holds the contour.
     pub other_models: Vec<(Theory, Option<f64>)>,
     /// Driven by the card's heading, the median over all samples, or on the soil as written where there are none;
-    /// `None` where no heading holds the contour in half of them.
+    /// `None` where no heading holds the contour in half of them. Its motion is computed where the slope is no no-go.
     pub driven: Option<Driven>,
     /// Why no heading holds the contour on the soil as written; nothing where one does.
     pub refusal: Option<String>,
@@ -160,18 +161,10 @@ impl CardStudy {
         };
         // In order, so that the error is always that of the first soil.
         let draws = Self::draws(samples, drawn)?;
-        let judged = if draws.is_empty() { std::slice::from_ref(&nominal) } else { &draws };
-        let others = self.other_curves()?;
-        let found = slopes.iter().enumerate().map(|(place, slope)| Found {
-            slips: slips_at(judged, place),
-            findings: curve.findings(*slope, &curve.at(*slope)),
-            other_models: others.iter().map(|(theory, it)| (*theory, yaw_on(it, *slope))).collect(),
-            driven: self.driven(samples, judged, (place, *slope)),
-        });
-        let found: Vec<Found> = found.collect();
+        let found = Found { curve, others: self.other_curves()?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, found),
+            rows: self.rows(slopes, samples, &found),
             limit: nominal.limit,
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
@@ -203,54 +196,41 @@ impl CardStudy {
         WEIGHTS.iter().filter(is_other).map(curve).collect()
     }
 
-    /// What becomes of the rover by the card's heading on a slope.
-    ///
-    /// * `draws`: of the samples, or that of the soil as written where there are none
-    fn driven(
-        &self,
-        samples: &[Sample],
-        draws: &[Draw],
-        (place, slope): (usize, f64),
-    ) -> Option<Driven> {
-        let yaw = yaws_at(draws, place)?.median;
+    fn rows(&self, slopes: &[f64], samples: &[Sample], found: &Found<'_>) -> Vec<CardRow> {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
-        let driven = || Driven::of(&self.heading, samples, self.rim_speed, (slope, yaw));
-        yaw.is_finite().then(driven)
-    }
-
-    fn rows(
-        &self,
-        slopes: &[f64],
-        nominal: &Draw,
-        draws: &[Draw],
-        found: Vec<Found>,
-    ) -> Vec<CardRow> {
         let mut worst = Verdict::Go;
-        let row = |(place, (slope, found)): (usize, (&f64, Found))| {
-            worst = worst.max(self.rule.verdict(&found.slips)).max(self.best_verdict(*slope));
-            CardRow {
-                slope: *slope,
-                verdict: worst,
-                level: nominal.levels[place],
-                other_models: found.other_models,
-                driven: found.driven,
-                refusal: nominal.refusals[place].clone(),
-                drift: nominal.drifts[place],
-                bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
-                findings: found.findings,
+        let row = |(place, slope): (usize, &f64)| {
+            let mut driven = self.driven(found.judged(), place, *slope);
+            let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
+            worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
+            if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
+                let course = (*slope, driven.yaw);
+                driven.motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
+                worst = worst.max(verdict_of(driven.motion.as_ref()));
             }
+            found.row(place, *slope, (worst, driven))
         };
-        slopes.iter().zip(found).enumerate().map(row).collect()
+        slopes.iter().enumerate().map(row).collect()
     }
 
-    /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none
-    /// without a stated uncertainty, and ground that slides by itself is no place to drive.
-    fn best_verdict(&self, slope: f64) -> Verdict {
-        let is_steep = slope > self.heading.soil.friction_angle - BELOW_FRICTION_ANGLE;
-        if slope > self.heading.ground_limit() {
+    /// The card's heading on a slope, if there is one, and what the rover does at it without moving.
+    fn driven(&self, draws: &[Draw], place: usize, slope: f64) -> Option<Driven> {
+        let yaw = yaws_at(draws, place)?.median;
+        yaw.is_finite().then(|| Driven::at_rest(&self.heading, slope, yaw))
+    }
+
+    /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none below
+    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself nor a
+    /// rover that tips over is to be driven.
+    fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
+        let (soil, gravity) = (&self.heading.soil, self.heading.gravity);
+        let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
+        let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
+        if slope > self.heading.ground_limit() || driven.is_some_and(|it| it.tipping_margin <= 0.0)
+        {
             Verdict::NoGo
-        } else if is_steep || !self.is_uncertainty_stated {
+        } else if slope > flattest || !self.is_uncertainty_stated {
             Verdict::Caution
         } else {
             Verdict::Go
@@ -281,13 +261,53 @@ impl CardStudy {
     }
 }
 
-/// What is found of a slope, beside the samples' numbers.
-struct Found {
-    /// Slip ratios by which it is judged.
-    slips: Vec<Option<f64>>,
-    findings: Vec<Finding>,
-    other_models: Vec<(Theory, Option<f64>)>,
-    driven: Option<Driven>,
+/// What rows are made of.
+struct Found<'a> {
+    /// On the soil as written, and those of the other models.
+    curve: HeadingCurve,
+    others: Vec<(Theory, HeadingCurve)>,
+    nominal: &'a Draw,
+    draws: &'a [Draw],
+}
+
+impl Found<'_> {
+    /// By what slopes are judged: the samples, or the soil as written where there are none.
+    fn judged(&self) -> &[Draw] {
+        if self.draws.is_empty() { std::slice::from_ref(self.nominal) } else { self.draws }
+    }
+
+    fn row(
+        &self,
+        place: usize,
+        slope: f64,
+        (verdict, driven): (Verdict, Option<Driven>),
+    ) -> CardRow {
+        let (nominal, draws) = (self.nominal, self.draws);
+        CardRow {
+            slope,
+            verdict,
+            level: nominal.levels[place],
+            other_models: self
+                .others
+                .iter()
+                .map(|(it, curve)| (*it, yaw_on(curve, slope)))
+                .collect(),
+            driven,
+            refusal: nominal.refusals[place].clone(),
+            drift: nominal.drifts[place],
+            bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+            findings: self.curve.findings(slope, &self.curve.at(slope)),
+        }
+    }
+}
+
+/// The best verdict that the motion by the card's heading allows.
+fn verdict_of(motion: Option<&DrivenMotion>) -> Verdict {
+    match motion {
+        Some(motion) if motion.stuck.estimate() <= STUCK_ON_GO => Verdict::Go,
+        Some(_) => Verdict::Caution,
+        None => Verdict::NoGo,
+    }
 }
 
 /// Yaws of all samples on one of the slopes: above every number where no heading holds the contour.

@@ -5,12 +5,12 @@
 //! heading γ it turns by κ over the way, so that over a leg of length L the heading is γ + κ L/2 on average, and
 //! the drift is that of the steady motion there.
 
-use super::super::ensemble::Band;
-use super::super::ensemble::samples::{Sample, outputs_of_samples};
+use super::super::ensemble::samples::{Sample, outputs_of_places, outputs_of_samples};
+use super::super::ensemble::{Band, Probability};
 use super::super::heading::HeadingStudy;
 use super::{STRAIGHT_DOWN, STUCK};
 use crate::elementary::wide::{asin, atan2, cos, sin};
-use crate::simulation::{NotSteady, SteadyMotion};
+use crate::simulation::{MOST_SLIP, SteadyMotion};
 
 /// The heading may be off by this much before it is set again [rad]: 2°. Source: ours; about what a driver reads off
 /// an instrument that shows whole degrees.
@@ -28,10 +28,19 @@ pub struct Driven {
     pub roll: f64,
     /// Pitch that they show [rad], positive with the nose higher.
     pub pitch: f64,
+    /// The motion by it, if the rover moves on any of the samples.
+    pub motion: Option<DrivenMotion>,
+    /// By how much the slope could be steeper before the rover tips over, at rest [rad].
+    pub tipping_margin: f64,
+}
+
+/// The motion by the card's heading, over the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrivenMotion {
     /// After how much way the heading is to be set again [m].
     pub correct_every: f64,
-    /// By how much the nose turns over the way [rad/m], positive uphill, over the samples that move.
-    pub turning: Option<Band>,
+    /// By how much the nose falls over the way [rad/m], positive downhill, over the samples that move.
+    pub heading_fall: Option<Band>,
     /// Drift, way downhill for a metre travelled [-], over all samples: 1 where the rover is stuck.
     pub drift: Option<Band>,
     /// Mean slip ratio of the wheels [-], over all samples: 1 where the rover is stuck.
@@ -42,8 +51,8 @@ pub struct Driven {
     pub torque: Option<Band>,
     /// Way of the rims for a metre of ground [-], likewise.
     pub rim_way: Option<Band>,
-    /// By how much the slope could be steeper before the rover tips over, at rest [rad].
-    pub tipping_margin: f64,
+    /// Samples in which the rover is stuck: it has no steady motion, or its wheels all but spin.
+    pub stuck: Probability,
 }
 
 /// One sample's motion.
@@ -70,7 +79,16 @@ pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
 }
 
 impl Driven {
-    /// Drives all samples on a slope by a heading.
+    /// What does not depend on the soil.
+    pub(super) fn at_rest(study: &HeadingStudy, slope: f64, yaw: f64) -> Self {
+        let [roll, pitch] = roll_and_pitch(slope, yaw);
+        let tipping_margin = study.tipping_slope(yaw) - slope;
+        Self { yaw, roll, pitch, motion: None, tipping_margin }
+    }
+}
+
+impl DrivenMotion {
+    /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them.
     ///
     /// * `samples`: of soil and model, one at least
     pub(super) fn of(
@@ -78,50 +96,46 @@ impl Driven {
         samples: &[Sample],
         rim_speed: f64,
         (slope, yaw): (f64, f64),
-    ) -> Self {
+    ) -> Option<Self> {
         let at = |sample: &Sample, yaw: f64| {
-            study.of_sample(sample).steady_motion(slope, yaw, rim_speed)
+            let motion = study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?;
+            (motion.slip_ratio() <= MOST_SLIP).then_some(motion)
         };
         let first = outputs_of_samples(samples, &|| true, |sample| {
-            at(sample, yaw).map(|motion| Motion::of(&motion, study, rim_speed))
+            at(sample, yaw).map(|motion| Motion::of(&motion, rim_speed))
         });
-        let first: Vec<Result<Motion, NotSteady>> = first.unwrap_or_default();
+        let first: Vec<Option<Motion>> = first.unwrap_or_default();
         let moving = || first.iter().flatten();
-        let fastest = Band::of(moving().map(|it| it.turning.abs())).map_or(0.0, |it| it.high);
+        let fastest = Band::of(moving().map(|it| it.turning.abs()))?.high;
         let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG));
-        let drift = outputs_of_samples(samples, &|| true, |sample| {
-            let turning = at(sample, yaw).ok()?.turning();
-            let mean = yaw + 0.5 * turning * correct_every;
-            Some(-sin(at(sample, mean).ok()?.course()))
+        let drift = outputs_of_places(samples, &|| true, |place| {
+            let mean = yaw + 0.5 * first[place]?.turning * correct_every;
+            Some(-sin(at(&samples[place], mean)?.course()))
         });
         let drift = drift.unwrap_or_default();
-        let [roll, pitch] = roll_and_pitch(slope, yaw);
-        Self {
-            yaw,
-            roll,
-            pitch,
+        let slips = first.iter().map(|it| it.map_or(STUCK, |it| it.slip_ratio));
+        let stuck = first.iter().filter(|it| it.is_none()).count();
+        Some(Self {
             correct_every,
-            turning: Band::of(moving().map(|it| it.turning)),
+            heading_fall: Band::of(moving().map(|it| -it.turning)),
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
-            slip_ratio: Band::of(
-                first.iter().map(|it| it.as_ref().map_or(STUCK, |it| it.slip_ratio)),
-            ),
+            slip_ratio: Band::of(slips),
             sinkage: Band::of(moving().map(|it| it.sinkage)),
             torque: Band::of(moving().map(|it| it.torque)),
             rim_way: Band::of(moving().map(|it| it.rim_way)),
-            tipping_margin: study.tipping_slope(yaw) - slope,
-        }
+            stuck: Probability { successes: stuck, trials: samples.len() },
+        })
     }
 }
 
 impl Motion {
-    fn of(motion: &SteadyMotion, study: &HeadingStudy, rim_speed: f64) -> Self {
+    fn of(motion: &SteadyMotion, rim_speed: f64) -> Self {
         let wheels = motion.wheels.iter().map(|wheel| &wheel.settled);
         let sinkages: f64 = wheels.clone().map(|it| it.sinkage).sum();
         Self {
             turning: motion.turning(),
             slip_ratio: motion.slip_ratio(),
-            sinkage: sinkages / study.rover.wheel_count() as f64,
+            sinkage: sinkages / motion.wheels.len() as f64,
             torque: wheels.map(|it| it.forces.torque).fold(0.0, f64::max),
             rim_way: rim_speed / motion.speed(),
         }

@@ -32,6 +32,10 @@ pub struct Rule {
 /// 5°. Source: ours.
 pub const BELOW_FRICTION_ANGLE: f64 = 5.0 * PI / 180.0;
 
+/// No slope is a go on which the rover is stuck by the card's heading in more than this share of the samples [-]: 5
+/// of 1000. Source: ours.
+pub const STUCK_ON_GO: f64 = 0.005;
+
 impl Rule {
     /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
     /// 95 % band.
