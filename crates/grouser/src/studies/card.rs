@@ -17,7 +17,7 @@ use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
-pub use driven::{Driven, DrivenMotion, roll_and_pitch};
+pub use driven::{Driven, DrivenMotion, HEADING_ERROR, roll_and_pitch};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 
 /// The inputs of a card.

@@ -14,7 +14,7 @@ use crate::simulation::{MOST_SLIP, SteadyMotion};
 
 /// The heading may be off by this much before it is set again [rad]: 2°. Source: ours; about what a driver reads off
 /// an instrument that shows whole degrees.
-const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
+pub const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The heading is set again after this way at the latest [m]. Source: ours.
 const LONGEST_LEG: f64 = 10.0;
