@@ -1,6 +1,8 @@
 //! The motion that a rover settles into at a yaw, within milliseconds, while its wheels turn at given speeds:
 //! what it does at that instant if nobody corrects it.
 
+use nalgebra::Vector3;
+
 use super::equations::Equations;
 use super::quasi_steady::rolling;
 use super::steady_state::{Memory, NotSteady, SteadySolver};
@@ -21,6 +23,7 @@ pub struct SteadyMotion {
     pub yaw_rate: f64,
     /// The wheels, in the mounts' order.
     pub wheels: Vec<WheelReaction>,
+    memory: Memory,
 }
 
 impl SteadyMotion {
@@ -30,10 +33,35 @@ impl SteadyMotion {
     /// [`NotSteady`] where no velocities are found at which nothing accelerates.
     pub fn of(ground: Ground<'_>, rim_speeds: &[f64], yaw: f64) -> Result<Self, NotSteady> {
         let equations = Equations::new(ground, rim_speeds);
-        let mut solver = SteadySolver::new(&equations, Memory::default());
-        let found = solver.find(yaw, &rolling(&equations))?;
+        Self::near(&equations, yaw, &rolling(&equations), Memory::default())
+    }
+
+    /// The steady motion of the same rover on the same ground at another yaw [rad], sought from this one: in fewer
+    /// evaluations if it is near.
+    ///
+    /// # Errors
+    /// As for [`of`](Self::of).
+    pub fn at_yaw(
+        &self,
+        ground: Ground<'_>,
+        rim_speeds: &[f64],
+        yaw: f64,
+    ) -> Result<Self, NotSteady> {
+        let here = Vector3::new(self.velocity.x, self.velocity.y, self.yaw_rate);
+        Self::near(&Equations::new(ground, rim_speeds), yaw, &here, self.memory)
+    }
+
+    fn near(
+        equations: &Equations<'_>,
+        yaw: f64,
+        guess: &Vector3<f64>,
+        memory: Memory,
+    ) -> Result<Self, NotSteady> {
+        let mut solver = SteadySolver::new(equations, memory);
+        let found = solver.find(yaw, guess)?;
         let velocity = found.velocities.xy();
-        Ok(Self { yaw, velocity, yaw_rate: found.velocities.z, wheels: found.wheels })
+        let (yaw_rate, memory) = (found.velocities.z, solver.memory());
+        Ok(Self { yaw, velocity, yaw_rate, wheels: found.wheels, memory })
     }
 
     /// Speed [m/s].

@@ -9,6 +9,7 @@ use grouser_page::{Anchor, Face, Shape, Sheet, Stroke, WHITE};
 use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::row::{CardRow, in_steps, upwards};
 use super::texts::Texts;
+use crate::output::rows::four_digits;
 
 /// Rows on the page.
 pub(super) struct Table<'a> {
@@ -59,7 +60,7 @@ const SMALL: [Small; 9] = [
     Small {
         head: ["correct", "every", "m"],
         right: STOP[0],
-        text: |row, _| row.number(CORRECT_EVERY).map(|way| upwards(way, 1)),
+        text: |row, _| row.number(CORRECT_EVERY).map(four_digits),
     },
     Small {
         head: ["", "slip", "%"],
@@ -72,7 +73,12 @@ const SMALL: [Small; 9] = [
     Small {
         head: ["", "drift", "cm/m"],
         right: 146.0,
-        text: |row, _| Some(upwards((high(row, DRIVEN_DRIFT)? * 100.0).max(1.0), 1)),
+        text: |row, _| {
+            /// Straight downhill is no reading to wait for [-].
+            const ANY: f64 = 1.0;
+            let drift = high(row, DRIVEN_DRIFT)?;
+            Some(if drift < ANY { upwards((drift * 100.0).max(1.0), 1) } else { "–".to_owned() })
+        },
     },
     Small {
         head: ["", "sinkage", "mm"],

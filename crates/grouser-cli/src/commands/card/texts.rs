@@ -80,8 +80,8 @@ fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
     [
         "1  Find the slope on the left; between two rows take the steeper one.",
         "2  Turn the nose uphill by the large number; check roll and pitch.",
-        "3  Drive on. The nose falls: set it again every so many metres.",
-        "4  Above a reading of the row: stop.",
+        "3  Drive on. The nose falls: set it again every so many m (correct every).",
+        "4  Stop if a reading is above the limit in the row.",
         side,
     ]
     .map(String::from)
@@ -96,17 +96,20 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         format_args!("{}°", four_digits(SLOPE.unit.from_si(HEADING_ERROR))),
         if draws.is_some() { " in 97.5 % of the samples" } else { "" }
     );
-    let readings = "slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
+    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
                     travelled; sinkage: mean of the wheels; torque: of the wheel that has most.";
-    let others = "wheel way: metres of rim for a metre of ground. Tip-over: how much steeper the slope could be \
-                  before the rover at rest tips.";
+    let others = format!(
+        "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope could be before the \
+         rover at rest tips.",
+        if draws.is_some() { ", median" } else { "" }
+    );
     let Some(draws) = draws else {
         return vec![
             ("Nose", "heading that holds the contour on the soil as written; no band.".to_owned()),
             ("Roll, pitch", roll.to_owned()),
             ("Correct", every),
             ("Expected", readings.to_owned()),
-            ("Beside", others.to_owned()),
+            ("Beside", others),
         ];
     };
     let nose = format!(
@@ -117,8 +120,14 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         ("Nose", nose),
         ("Roll, pitch", roll.to_owned()),
         ("Correct", every),
-        ("Stop if above", format!("97.5 % of the samples stay below. {readings}")),
-        ("Beside", others.to_owned()),
+        (
+            "Stop if above",
+            format!(
+                "97.5 % of the samples stay below; slip at most that of a no-go. {readings} '–': in more than 2.5 % of the \
+             samples the rover is stuck."
+            ),
+        ),
+        ("Beside", others),
     ]
 }
 

@@ -97,20 +97,22 @@ impl DrivenMotion {
         rim_speed: f64,
         (slope, yaw): (f64, f64),
     ) -> Option<Self> {
-        let at = |sample: &Sample, yaw: f64| {
-            let motion = study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?;
-            (motion.slip_ratio() <= MOST_SLIP).then_some(motion)
-        };
-        let first = outputs_of_samples(samples, &|| true, |sample| {
-            at(sample, yaw).map(|motion| Motion::of(&motion, rim_speed))
+        let moves = |motion: SteadyMotion| (motion.slip_ratio() <= MOST_SLIP).then_some(motion);
+        let motions = outputs_of_samples(samples, &|| true, |sample| {
+            moves(study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?)
         });
-        let first: Vec<Option<Motion>> = first.unwrap_or_default();
+        let motions: Vec<Option<SteadyMotion>> = motions.unwrap_or_default();
+        let first: Vec<Option<Motion>> =
+            motions.iter().map(|it| it.as_ref().map(|it| Motion::of(it, rim_speed))).collect();
         let moving = || first.iter().flatten();
         let fastest = Band::of(moving().map(|it| it.turning.abs()))?.high;
         let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG));
         let drift = outputs_of_places(samples, &|| true, |place| {
-            let mean = yaw + 0.5 * first[place]?.turning * correct_every;
-            Some(-sin(at(&samples[place], mean)?.course()))
+            let motion = motions[place].as_ref()?;
+            let mean = yaw + 0.5 * motion.turning() * correct_every;
+            let study = study.of_sample(&samples[place]);
+            let motion = study.steady_motion_near(motion, slope, mean, rim_speed).ok()?;
+            Some(-sin(moves(motion)?.course()))
         });
         let drift = drift.unwrap_or_default();
         let slips = first.iter().map(|it| it.map_or(STUCK, |it| it.slip_ratio));

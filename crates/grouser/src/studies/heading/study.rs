@@ -47,15 +47,37 @@ impl HeadingStudy {
         yaw: f64,
         rim_speed: f64,
     ) -> Result<SteadyMotion, NotSteady> {
-        let site = Site::plane(self.soil, slope, self.gravity);
-        let ground = Ground {
+        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
+        SteadyMotion::of(self.ground(&self.site(slope)), &rim_speeds, yaw)
+    }
+
+    /// The same at another yaw *γ* [rad], sought from a motion on that slope.
+    ///
+    /// # Errors
+    /// As for [`steady_motion`](Self::steady_motion).
+    pub fn steady_motion_near(
+        &self,
+        motion: &SteadyMotion,
+        slope: f64,
+        yaw: f64,
+        rim_speed: f64,
+    ) -> Result<SteadyMotion, NotSteady> {
+        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
+        motion.at_yaw(self.ground(&self.site(slope)), &rim_speeds, yaw)
+    }
+
+    fn site(&self, slope: f64) -> Site {
+        Site::plane(self.soil, slope, self.gravity)
+    }
+
+    fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
+        Ground {
             rover: &self.rover,
-            site: &site,
+            site,
             model: self.theory.model(),
             sharing: self.sharing,
             own_moments: self.own_moments,
-        };
-        SteadyMotion::of(ground, &vec![rim_speed; self.rover.wheel_count()], yaw)
+        }
     }
 
     /// The slope on which the rover at rest tips over at a yaw *γ* [rad]: there the weight through its centre of
