@@ -70,8 +70,9 @@ fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
 fn head(sheet: &mut Sheet, texts: &Texts) {
     /// Room beside the picture [mm].
     const ROOM: f64 = 126.0;
-    let size = fitting(&texts.title, 8.0, RIGHT - LEFT);
-    sheet.text(shown(&texts.title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
+    let size = fitting(&texts.title, 8.0, RIGHT - LEFT).max(LEAST_SIZE);
+    let title = shortened(&texts.title, size, RIGHT - LEFT);
+    sheet.text(shown(title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
     sheet.text(
         shown("OPERATOR'S CARD: how to cross a slope without drifting down", 4.4).face(Face::Bold),
         [LEFT, TOP + 12.5],
@@ -123,6 +124,16 @@ pub(super) fn shown(content: impl AsRef<str>, size: f64) -> Text {
 /// The largest size at which a text fits [mm], up to one.
 pub(super) fn fitting(text: &str, most: f64, room: f64) -> f64 {
     most.min(most * room / width(text, Face::Bold, most).max(f64::MIN_POSITIVE))
+}
+
+/// As much of a text as fits at a size [mm].
+fn shortened(text: &str, size: f64, room: f64) -> String {
+    let fits = |text: &str| width(text, Face::Bold, size) <= room;
+    if fits(&escape::line(text)) {
+        return text.to_owned();
+    }
+    let ends = text.char_indices().map(|(place, _)| format!("{}…", &text[..place]));
+    ends.take_while(|part| fits(&escape::line(part))).last().unwrap_or_default()
 }
 
 /// A black bar for the no-go slopes.

@@ -80,7 +80,7 @@ fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
     [
         "1  Find the slope on the left; between two rows take the steeper one.",
         "2  Turn the nose uphill by the large number; check roll and pitch.",
-        "3  Drive on. The nose falls: set it again every so many m (correct every).",
+        "3  Drive on. The nose falls: set it again every so many metres.",
         "4  Stop if a reading is above the limit in the row.",
         side,
     ]
