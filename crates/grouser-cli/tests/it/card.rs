@@ -78,20 +78,19 @@ fn rows_have_what_a_driver_needs() {
         // The nose falls downhill, and the rims go farther than the rover.
         assert!(number(&row["heading_fall_deg_per_m_p50"]) >= 0.0, "{row}");
         assert!(number(&row["rim_way_m_per_m_p97_5"]) > 1.0);
-        for key in ["ishigami", "small_wheel"] {
-            assert!(row[format!("yaw_deg_{key}")].is_number(), "{row}");
-        }
         assert_eq!(row["yaw_deg_ishigami"], row["yaw_deg_as_written"]);
     }
     let heading = Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13");
-    assert_eq!(row(&answer, 13.0)["yaw_deg_rft"], rows(&heading)[0]["yaw_deg"]);
+    let row = row(&answer, 13.0);
+    assert_eq!(row["yaw_deg_rft"], rows(&heading)[0]["yaw_deg"]);
+    assert!(row["yaw_deg_small_wheel"].is_number() && row["yaw_deg_ishigami"].is_number());
 }
 
 /// It said GO on 45° of a sand of 28°.
 #[test]
 fn the_moon_is_no_place_to_go_45_degrees_steep() {
     let place = Place::new();
-    let line = "card --soil dry-sand --rover hakuto --set gravity_m_s2=moon --samples 8";
+    let line = "card --soil dry-sand --rover hakuto --gravity-m-s2 moon --samples 8";
     let answer = place.json(line);
     // Nothing states how uncertain that soil is: priors do not count.
     assert!(rows(&answer).iter().all(|row| row["verdict"] != "go"));
@@ -311,7 +310,7 @@ fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
 #[test]
 fn measured_yaws_are_placed_beside_the_band() {
     let place = Place::new();
-    place.write("yaws.csv", "slope_deg,start_yaw_deg,end_yaw_deg\n5,0.1,2\n12.5,30,\n");
+    place.write("yaws.csv", "slope_deg,start_yaw_deg,end_yaw_deg\n5,0.1,2\n7.5,30,\n15,30,\n");
     let answer = place.json(&format!("{UNCERTAIN} --measured yaws.csv"));
     let measured = answer["measured"].as_array().expect("records");
     let seen: Vec<(f64, &str, &str)> = measured
@@ -321,8 +320,13 @@ fn measured_yaws_are_placed_beside_the_band() {
             (number(&record["slope_deg"]), word("measured"), word("place"))
         })
         .collect();
-    let expected =
-        [(5.0, "start_yaw", "below"), (5.0, "end_yaw", "inside"), (12.5, "start_yaw", "above")];
+    // On 15° the band has no upper end: on some soils no heading holds the contour.
+    let expected = [
+        (5.0, "start_yaw", "below"),
+        (5.0, "end_yaw", "inside"),
+        (7.5, "start_yaw", "above"),
+        (15.0, "start_yaw", "inside"),
+    ];
     assert_eq!(seen, expected);
     for (content, part) in [
         ("yaw_deg\n1\n", "slope_deg"),

@@ -256,9 +256,9 @@ pub fn beside(card: &Table, measured: &[MeasuredYaw]) -> Table {
     let [low, _, high] = YAW.quantiles();
     let ends = (card.numbers(&low), card.numbers(&high));
     let place = |(point, row): (&&MeasuredYaw, &usize)| {
-        let (low, high) = ends.0[*row].zip(ends.1[*row])?;
-        let is_below = point.yaw < low;
-        let is_above = point.yaw > high;
+        let is_below = point.yaw < ends.0[*row]?;
+        // An upper end that no number reaches is missing.
+        let is_above = ends.1[*row].is_some_and(|high| point.yaw > high);
         let word = if is_below {
             "below"
         } else if is_above {
