@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::quasi_steady::rolling;
+use super::scenario::ROLLING_SHARE;
 use super::steady_state::{Memory, NotSteady, SteadySolver};
 use crate::elementary::wide;
 use crate::units::Vec2;
@@ -26,6 +27,9 @@ pub struct SteadyMotion {
     memory: Memory,
 }
 
+/// Slip ratios from which a steady motion is sought that is not found from that of a light slip [-].
+const NEARER: [f64; 5] = [1e-3, -1e-3, 1e-4, -1e-4, 0.0];
+
 impl SteadyMotion {
     /// The steady motion of a rover whose wheels turn at given rim speeds [m/s], at a yaw [rad].
     ///
@@ -33,7 +37,12 @@ impl SteadyMotion {
     /// [`NotSteady`] where no velocities are found at which nothing accelerates.
     pub fn of(ground: Ground<'_>, rim_speeds: &[f64], yaw: f64) -> Result<Self, NotSteady> {
         let equations = Equations::new(ground, rim_speeds);
-        Self::near(&equations, yaw, &rolling(&equations), Memory::default())
+        let light = rolling(&equations);
+        let first = Self::near(&equations, yaw, &light, Memory::default());
+        // Where wheels hardly slip, forces turn within a thousandth of the rims' speed: only a near guess finds it.
+        let nearer = NEARER.into_iter().map(|slip| (1.0 - slip) / ROLLING_SHARE * light);
+        let retried = nearer.map(|guess| Self::near(&equations, yaw, &guess, Memory::default()));
+        first.or_else(|error| retried.flatten().next().ok_or(error))
     }
 
     /// The steady motion of the same rover on the same ground at another yaw [rad], sought from this one: in fewer
@@ -49,6 +58,7 @@ impl SteadyMotion {
     ) -> Result<Self, NotSteady> {
         let here = Vector3::new(self.velocity.x, self.velocity.y, self.yaw_rate);
         Self::near(&Equations::new(ground, rim_speeds), yaw, &here, self.memory)
+            .or_else(|_| Self::of(ground, rim_speeds, yaw))
     }
 
     fn near(

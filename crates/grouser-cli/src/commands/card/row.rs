@@ -79,12 +79,18 @@ pub(super) fn in_steps(value: f64, step: f64) -> String {
 }
 
 /// A positive number rounded up to so many digits, or to a whole one where it has more.
-pub(super) fn upwards(value: f64, digits: i32) -> String {
-    let decimals = (digits - 1 - value.log10().floor() as i32).clamp(0, 6);
-    let scale = 10.0_f64.powi(decimals);
+pub(super) fn upwards(value: f64, digits: usize) -> String {
+    /// Nobody reads more of them.
+    const MOST: usize = 6;
+    let has_digits = |decimals: &usize| value * power_of_ten(decimals + 1) >= power_of_ten(digits);
+    let decimals = (0..MOST).find(has_digits).unwrap_or(MOST);
+    let scale = power_of_ten(decimals);
     // What is over a step by rounding alone stays on it.
-    let rounded = (value * scale - 1e-9).ceil() / scale;
-    format!("{rounded:.*}", usize::try_from(decimals).unwrap_or_default())
+    format!("{:.decimals$}", (value * scale - 1e-9).ceil() / scale)
+}
+
+fn power_of_ten(exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * 10.0)
 }
 
 #[cfg(test)]
