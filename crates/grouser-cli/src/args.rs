@@ -73,7 +73,7 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.
     Bench(BenchArgs),
-    /// Check documents: soils, wheels, rovers, scenarios, data sets, campaigns.
+    /// Check documents: soils, wheels, rovers, scenarios, data sets, campaigns, priors.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),
@@ -121,9 +121,9 @@ pub(crate) struct SettingArgs {
     /// Override a key of a document, such as `soil.cohesion_kpa=0.5`; can be repeated.
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
-    /// The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`; without it the soil's own,
-    /// or else `ishigami`. `wheel-test`, `heading`, `heading-map` and `traverse` take `all`, too: the
-    /// results of each model.
+    /// The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`. Without it that of the
+    /// scenario or of its soil, or else `small-wheel` where the soil leaves its wheel sinkage ratio to
+    /// priors, and `ishigami` where it does not.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
@@ -133,6 +133,12 @@ pub(crate) struct SettingArgs {
 
 /// The word for every model.
 pub(crate) const EVERY_MODEL: &str = "all";
+
+/// The help of `--model` in commands that take [`EVERY_MODEL`].
+const MODEL_OR_ALL: &str = "\
+    The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`, or `all` for the results of each. Without it \
+    that of the scenario or of its soil, or else `small-wheel` where the soil leaves its wheel sinkage ratio to \
+    priors, and `ishigami` where it does not";
 
 impl SettingArgs {
     /// Whether every model is asked for.

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use grouser::contact::Theory;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
+    self, Document, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
 use grouser::studies::card::Rule;
 use grouser::studies::ensemble::samples::BandInputs;
@@ -91,14 +91,27 @@ pub(crate) fn traverse(
             overrides.flag_numbers(flag, key, value, &numbers)?;
         }
     }
+    if args.yaw_deg.is_some() {
+        // One yaw stands in place of the other.
+        let other = if is_course(args.yaw_deg.as_deref()) { START_YAW } else { COURSE_YAW };
+        overrides.leave_out(Kind::Scenario, other);
+    }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     Ok(document::read_scenario(&source, &overrides)?)
 }
 
+/// The key of the yaw at the start, in its table.
+const START_YAW: &[&str] = &["start", "yaw_deg"];
+/// The key of the yaw over time, in its table.
+const COURSE_YAW: &[&str] = &["drive", "yaw_deg"];
+
 /// What `--yaw-deg` sets: the yaw at the start, or as a list of pairs the yaw over time.
 fn yaw_key(value: Option<&str>) -> &'static str {
-    let is_list = value.is_some_and(|value| value.trim_start().starts_with('['));
-    if is_list { "scenario.drive.yaw_deg" } else { "scenario.start.yaw_deg" }
+    if is_course(value) { "scenario.drive.yaw_deg" } else { "scenario.start.yaw_deg" }
+}
+
+fn is_course(value: Option<&str>) -> bool {
+    value.is_some_and(|value| value.trim_start().starts_with('['))
 }
 
 /// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
@@ -331,6 +344,21 @@ pub(crate) fn stand(
     let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
     let band = BandInputs::of_soil(&soil, chosen);
     Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory, band })
+}
+
+/// The line below a table that says which model a single answer has, where nobody names one and it is not the usual
+/// one; nothing elsewhere.
+///
+/// * `document`: of a soil, or of a scenario with its soil
+/// * `soil`: the key of the soil, or nothing if the document is one
+pub(crate) fn model_line(document: &Document, soil: &str) -> String {
+    let of_soil = if soil.is_empty() { None } else { document.theory_of_soil() };
+    let is_named = document.theory().or(of_soil).is_some();
+    if is_named || !document.leaves_sinkage_ratio_to_priors(soil) {
+        return String::new();
+    }
+    let model = document.usual_theory(soil).name();
+    format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
 }
 
 fn scenario_settings(

@@ -43,4 +43,4 @@ pub use steady_motion::SteadyMotion;
 pub use steady_state::{MOST_SLIP, NotSteady};
 pub use trajectory::Trajectory;
 pub use work::Work;
-pub use yaw::PrescribedYaw;
+pub use yaw::{FASTEST_TURN, PrescribedYaw, TooFast};

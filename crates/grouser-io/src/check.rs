@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 
 use super::describe;
 use super::error::{DocumentError, Problem};
-use super::json_schema::FROM_PRIOR;
+use super::json_schema::{self, FROM_PRIOR};
 use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, words};
 use super::tree::{Entry, Node, Origin, Value, number};
@@ -208,6 +208,15 @@ impl Checker<'_> {
             let problem = Problem::GivenTwice { key: path, today };
             return DocumentError::at(&entry.key_origin, problem)
                 .with_hint("remove one of them".to_owned());
+        }
+        if let Some(other) = json_schema::of_thousands(schema, &entry.key) {
+            let hint = if entry.key_origin.text.is_argument {
+                format!("the document has `{other}`: that is the key to set")
+            } else {
+                "remove one of them".to_owned()
+            };
+            let problem = Problem::GivenInThousands { key: path, other: other.to_owned() };
+            return DocumentError::at(&entry.key_origin, problem).with_hint(hint);
         }
         let key = law_key(all);
         let law = match table.entry(key).map(|entry| &entry.node.value) {

@@ -128,6 +128,9 @@ const INTERVAL: [&str; 3] = ["", "_low", "_high"];
 /// The wheel–soil model of a row, where there is a row for each model.
 pub const MODEL: &str = "model";
 
+/// How many samples a band is of.
+pub const DRAWS: &str = "draws";
+
 /// Of rows with a result and without.
 pub const STATUS: &str = "status";
 

@@ -4,8 +4,7 @@ use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
 use super::describe;
-use super::kind::Kind;
-use super::priors::KEY as PRIORS;
+use super::kind::{Kind, PRIORS_KEY};
 use grouser_core::contact::Theory;
 
 /// The keys of a document in their own units: every named part in its place, every default filled in, keys
@@ -135,12 +134,23 @@ impl Document {
     pub fn usual_theory(&self, place: &str) -> Theory {
         let key =
             |key: &str| if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") };
-        let left_to_priors = || {
-            let rows = self.get(&key("priors.missing")).and_then(Json::as_array);
-            rows.is_some_and(|rows| rows.iter().any(|row| row["key"] == "exit.ratio"))
-        };
+        let left_to_priors = || self.leaves_sinkage_ratio_to_priors(place);
         let usual = || if left_to_priors() { Theory::SmallWheel } else { Theory::Ishigami };
         self.theory_at(&key("model")).unwrap_or_else(usual)
+    }
+
+    /// Whether a soil leaves its wheel sinkage ratio to priors.
+    ///
+    /// * `place`: the key of the soil, or nothing if the document is one
+    #[must_use]
+    pub fn leaves_sinkage_ratio_to_priors(&self, place: &str) -> bool {
+        let key = if place.is_empty() {
+            "priors.missing".to_owned()
+        } else {
+            format!("{place}.priors.missing")
+        };
+        let rows = self.get(&key).and_then(Json::as_array);
+        rows.is_some_and(|rows| rows.iter().any(|row| row["key"] == "exit.ratio"))
     }
 
     /// The wheel–soil model that stands under a dotted key, if there is one.
@@ -165,7 +175,7 @@ impl Document {
 fn number_keys(given: &Json) -> Vec<String> {
     let mut children: Vec<(String, &Json)> = match given {
         Json::Object(keys) => {
-            let own = keys.iter().filter(|(key, _)| *key != PRIORS);
+            let own = keys.iter().filter(|(key, _)| *key != PRIORS_KEY);
             own.map(|(key, given)| (key.clone(), given)).collect()
         }
         Json::Array(all) => {

@@ -123,6 +123,14 @@ pub enum Problem {
         /// The key of today.
         today: String,
     },
+    /// A number under its key and under that for thousands of its unit.
+    #[error("`{key}` is `{other}` in thousands of its unit, and that is given too")]
+    GivenInThousands {
+        /// The key for thousands, with the tables it stands in.
+        key: String,
+        /// The other key.
+        other: String,
+    },
     /// A key that must be there.
     #[error("`{key}` is missing")]
     MissingKey {

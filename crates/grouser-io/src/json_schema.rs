@@ -46,6 +46,11 @@ pub(crate) fn of_table<T>(
 /// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of the number.
 const IN_THOUSANDS: &str = "x-in-thousands";
 
+/// The key of the number that another key of the same table gives in thousands of its unit.
+pub(crate) fn of_thousands<'s>(table: &'s Json, key: &str) -> Option<&'s str> {
+    table.get(IN_THOUSANDS)?.get(key)?.as_str()
+}
+
 /// The schema for editors: where numbers may stand in thousands of a unit, with those keys too. (The reader has turned
 /// them into the others before it checks.)
 pub(crate) fn with_thousands(schema: &mut Json) {

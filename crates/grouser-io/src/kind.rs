@@ -77,7 +77,7 @@ impl Kind {
         match self {
             Self::Wheel | Self::DataSet | Self::Prior => &[],
             Self::Soil => {
-                &[Part { kind: Self::Prior, path: &["priors"], default: Some(DEFAULT_PRIORS) }]
+                &[Part { kind: Self::Prior, path: &[PRIORS_KEY], default: Some(DEFAULT_PRIORS) }]
             }
             Self::Rover => &[
                 Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
@@ -106,6 +106,9 @@ impl fmt::Display for Kind {
 pub const DEFAULT_ROVER: &str = "hakuto";
 /// The soil of a scenario that names none.
 pub const DEFAULT_SOIL: &str = "toyoura";
+
+/// The key of a soil under which its priors stand.
+pub(crate) const PRIORS_KEY: &str = "priors";
 
 /// The priors of a soil that names none.
 pub const DEFAULT_PRIORS: &str = "general";

@@ -77,12 +77,10 @@ pub use kind::{DEFAULT_PRIORS, DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 pub use loaded::{Loaded, fnv_1a};
 pub use overrides::Overrides;
 pub use presets::{Preset, preset, presets};
-pub use priors::{
-    Assumed, assumed, read_priors, stated_by_priors, with_priors_held, without_priors_of,
-};
+pub use priors::{Assumed, assumed, stated_by_priors, with_priors_held, without_priors_of};
 pub use read::{
     LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source, place_of,
-    read_rover, read_scenario, read_soil, read_wheel, written,
+    read_priors, read_rover, read_scenario, read_soil, read_wheel, written,
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};

@@ -28,6 +28,8 @@ use super::tree::{Entry, Node, Origin, Text, Value};
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     all: Vec<Override>,
+    /// Keys that documents are read without.
+    left_out: Vec<(Kind, &'static [&'static str])>,
 }
 
 #[derive(Clone, Debug)]
@@ -200,6 +202,14 @@ impl Overrides {
         }
     }
 
+    /// Reads documents of a kind without a key, which another one that is set stands in place of. Where no document
+    /// has it, nothing changes.
+    ///
+    /// * `path`: the key, with the tables it stands in before it
+    pub fn leave_out(&mut self, kind: Kind, path: &'static [&'static str]) {
+        self.left_out.push((kind, path));
+    }
+
     fn add(
         &mut self,
         text: &Arc<Text>,
@@ -238,6 +248,9 @@ impl Overrides {
 
     /// Puts the values for one kind of document into its tree.
     pub(crate) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
+        for (_, path) in self.left_out.iter().filter(|(of, _)| *of == kind) {
+            remove(tree, path);
+        }
         self.put(kind, tree, |one| !one.is_within_a_list())
     }
 
@@ -354,6 +367,21 @@ impl Override {
                 known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
             });
         }
+    }
+}
+
+/// Takes a key out of a tree that has it.
+fn remove(tree: &mut Node, path: &[&str]) {
+    let Some((key, tables)) = path.split_last() else { return };
+    let mut node = tree;
+    for step in tables {
+        match node.entry_mut(step) {
+            Some(entry) => node = &mut entry.node,
+            None => return,
+        }
+    }
+    if let Value::Table(entries) = &mut node.value {
+        entries.retain(|entry| entry.key != *key);
     }
 }
 

@@ -16,17 +16,11 @@ use super::describe::uncertainty::UNCERTAINTY;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
-use super::kind::Kind;
-use super::overrides::Overrides;
-use super::read::written;
+use super::kind::{Kind, PRIORS_KEY as KEY};
 use super::schema::range;
-use super::source::Source;
 use super::stated::{Pair, Parameter, Priors, Soils, Stated};
 use super::tree::{Entry, Node, Origin, Text, Value, number};
 use crate::statistics::Marginal;
-
-/// The key of a soil under which its priors stand.
-pub(crate) const KEY: &str = "priors";
 
 /// A number, or a keyword, of a soil that its document does not state.
 ///
@@ -69,15 +63,8 @@ pub fn assumed(soil: &Document) -> Vec<Assumed> {
     keys("missing").chain(keys("keyword")).map(one).collect()
 }
 
-/// Checks a document of priors.
-///
-/// # Errors
-/// [`DocumentError`] for whatever is wrong first.
-pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, DocumentError> {
-    Ok(written(Kind::Prior, source, overrides)?.document)
-}
-
 /// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.
+///
 /// * `soil`: its resolved document
 #[must_use]
 pub fn stated_by_priors(soil: &Document) -> Stated {
@@ -153,10 +140,11 @@ fn priors_of(given: &Json) -> Priors {
 pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let Some(entry) = tree.entry(KEY) else { return };
     let (rows, mut kept) = (priors_of(&entry.node.to_json()), entry.node.clone());
-    let (name, given_in) = match kept.entry("name").map(|entry| &entry.node) {
-        Some(Node { value: Value::String(name), origin }) => (name.clone(), origin.text.clone()),
-        _ => ("its priors".to_owned(), entry.node.origin.text.clone()),
+    let name = match kept.entry("name").map(|entry| &entry.node.value) {
+        Some(Value::String(name)) => name.clone(),
+        _ => "its priors".to_owned(),
     };
+    let given_in = tree.origin.text.clone();
     let missing = Vec::new();
     let mut soil = Filled { written: tree.clone(), tree, name, given_in, is_resolved, missing };
     let own = soil.take_own();
@@ -207,7 +195,7 @@ struct Filled<'t> {
     tree: &'t mut Node,
     /// The name of its priors.
     name: String,
-    /// The text that has them.
+    /// The text that has the soil.
     given_in: Arc<Text>,
     is_resolved: bool,
     /// The keys that are the priors'.

@@ -10,7 +10,7 @@ use super::describe;
 use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
 use super::field::Names;
-use super::kind::{EACH, Kind, Part};
+use super::kind::{EACH, Kind, PRIORS_KEY, Part};
 use super::loaded::Loaded;
 use super::notes;
 use super::overrides::Overrides;
@@ -63,6 +63,14 @@ pub fn read_scenario(
     overrides: &Overrides,
 ) -> Result<LoadedScenario, DocumentError> {
     read(Kind::Scenario, source, overrides)
+}
+
+/// Checks a document of priors.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_priors(source: &Source, overrides: &Overrides) -> Result<Document, DocumentError> {
+    Ok(written(Kind::Prior, source, overrides)?.document)
 }
 
 /// The kind that a document says it is.
@@ -179,7 +187,7 @@ fn complete(
     // What was set may be a keyword, or a table, of an earlier version.
     describe::rows(kind).rename(tree, Names::Today);
     let has = |key: &str| tree.entry(key).map(|entry| &entry.node.value);
-    let has_rows = matches!(has(priors::KEY), Some(Value::Table(_)));
+    let has_rows = matches!(has(PRIORS_KEY), Some(Value::Table(_)));
     for part in kind.parts() {
         let none = Overrides::none();
         let overrides = if part.is_listed() { &none } else { overrides };

@@ -15,9 +15,10 @@ use super::field::Inner;
 use super::kind::Kind;
 use super::priors;
 use super::tree::Node;
+use super::unit::DEG;
 use grouser_core::contact::{Theory, validity};
 use grouser_core::error::ParameterError;
-use grouser_core::simulation::Scenario;
+use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
@@ -349,12 +350,36 @@ impl Described for Scenario {
             });
         }
         if let Some(yaw) = &run.yaw {
-            yaw.check().map_err(Misfit::at("drive.yaw_deg"))?;
+            check_course(yaw, run.start.yaw)?;
         }
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
     }
 }
+
+/// Checks a yaw over time, beside the yaw at the start [rad].
+fn check_course(course: &PrescribedYaw, start: f64) -> Result<(), Misfit> {
+    const KEY: &str = "drive.yaw_deg";
+    const FASTEST: &str = "at most 57 to either side, 1 rad/s";
+    let rising = course.points.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    if let Some(TooFast { from, to, rate }) = course.too_fast().filter(|_| rising) {
+        let point = |(time, yaw): (f64, f64)| format!("[{time}, {}]", DEG.as_given(yaw));
+        let name = format!("the yaw rate of `{KEY}` from {} to {} [°/s]", point(from), point(to));
+        return Err(Misfit::new(KEY, ParameterError::new(name, DEG.as_given(rate), FASTEST)));
+    }
+    course.check().map_err(Misfit::at(KEY))?;
+    let first = course.at(0.0);
+    if start == 0.0 || start == first {
+        return Ok(());
+    }
+    let first = DEG.as_given(first);
+    let name = format!("`start.yaw_deg`, beside a `{KEY}` that starts with {first}°,");
+    let error = ParameterError::new(name, DEG.as_given(start), "the same, or left out");
+    Err(Misfit { hint: Some(TWO_YAWS.to_owned()), ..Misfit::new("start.yaw_deg", error) })
+}
+
+/// What to do about a yaw at the start that a yaw over time contradicts.
+const TWO_YAWS: &str = "leave out `start.yaw_deg`, or leave out `drive.yaw_deg`: without it the wheels' moments turn the rover";
 
 /// What does not go together, and what to write instead.
 const COMPLETE: &str =

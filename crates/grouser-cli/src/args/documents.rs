@@ -11,7 +11,8 @@ use crate::output::Format;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Documents to check.
+    /// Documents to check: soils, wheels, rovers, scenarios, data sets, campaigns or priors, each by its
+    /// `schema`.
     #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Print the list of flags of validity, with meanings and rules, instead.

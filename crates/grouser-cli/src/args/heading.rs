@@ -3,10 +3,13 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
+use super::{
+    BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
+};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
+#[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct HeadingArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.
@@ -33,6 +36,7 @@ pub(crate) struct HeadingArgs {
 #[command(after_help = "A course is a direction of travel, counted from the contour and positive \
                         uphill; course 0 is that of `heading`. A row without a result has the \
                         reason in its status.")]
+#[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct HeadingMapArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.

@@ -3,9 +3,12 @@
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs};
+use super::{
+    BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
+};
 
 #[derive(Debug, Args)]
+#[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
@@ -16,7 +19,7 @@ pub(crate) struct TraverseArgs {
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
     /// Yaw at the start [°], positive uphill; or over the whole run, as pairs of time [s] and yaw:
-    /// `[[0, 5.51], [20, 3.10]]`.
+    /// `[[0, 5.51], [20, 3.10]]`. A yaw of the scenario, of either kind, is then not used.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<String>,
     /// Length of the run [s].

@@ -4,10 +4,11 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::uncertainty::DRAWN;
-use super::{OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
+use super::{MODEL_OR_ALL, OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
+#[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct WheelTestArgs {
     /// The soil: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), default_value = "toyoura")]

@@ -1,8 +1,8 @@
 //! `grouser heading-map`: the heading offset over slope, course and soil.
 
-use grouser::document::LoadedScenario;
 use grouser::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW, heading};
 use grouser::document::table::{Table, Values};
+use grouser::document::{LoadedScenario, escape};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::studies::heading_map::HeadingMap;
@@ -55,7 +55,9 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(&brief(args))),
+        Format::Table => {
+            output::print(&(rows.to_table(&brief(args)) + &model_lines(&scenarios, &names)))
+        }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
@@ -91,6 +93,18 @@ fn table(
         table.columns.insert(0, (MODEL.to_owned(), Values::Text(words)));
     }
     Ok(table)
+}
+
+/// Which model the rows of a soil have, where nobody names one; with the soil's name if there are several.
+///
+/// * `names`: of the soils
+fn model_lines(scenarios: &[LoadedScenario], names: &[String]) -> String {
+    let line = |(scenario, name): (&LoadedScenario, &String)| {
+        let line = inputs::model_line(&scenario.document, "soil");
+        let is_named = scenarios.len() > 1 && !line.is_empty();
+        if is_named { format!("{}: {line}", escape::line(name)) } else { line }
+    };
+    scenarios.iter().zip(names).map(line).collect()
 }
 
 /// The columns for reading.

@@ -105,7 +105,7 @@ impl OfModel {
         }
         match args.output.format {
             Format::Table => {
-                output::print(&(table(&self.run, &self.scenario.value) + &self.band_table()))
+                output::print(&(table(&self.run, &self.scenario) + &self.band_table()))
             }
             Format::Csv => {
                 tell_end(&self.run);
@@ -200,7 +200,8 @@ fn output_all(
     match args.output.format {
         Format::Table => {
             let mut names = vec![MODEL.to_owned()];
-            names.extend(run::summary_brief());
+            let has_bands = args.uncertainty.sampling.uncertainty;
+            names.extend(if has_bands { run::summary_bands_brief() } else { run::summary_brief() });
             output::print(&rows.to_table(&names))
         }
         Format::Csv => output::print(&rows.to_csv()?),
@@ -222,8 +223,8 @@ fn reason(run: &Trajectory) -> String {
     run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
 }
 
-/// Some of the records with the means of their wheels, and the outcome.
-fn table(run: &Trajectory, scenario: &Scenario) -> String {
+/// Some of the records with the means of their wheels, the model where nobody names one, and the outcome.
+fn table(run: &Trajectory, scenario: &LoadedScenario) -> String {
     let samples = run::brief(run, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
@@ -238,9 +239,10 @@ fn table(run: &Trajectory, scenario: &Scenario) -> String {
         four_digits(last.unwrap_or(f64::NAN))
     });
     format!(
-        "{}{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
+        "{}{}{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
         Rows::of_table(&samples).to_table(&names),
-        flag_lines(run, scenario),
+        flag_lines(run, &scenario.value),
+        inputs::model_line(&scenario.document, "soil"),
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),

@@ -130,9 +130,17 @@ fn output_results(
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&rows.to_table(&brief(args))),
+        Format::Table => output::print(&(rows.to_table(&brief(args)) + &model_line(args, inputs))),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
+    }
+}
+
+/// Which model the rows have, where nobody names one.
+fn model_line(args: &WheelTestArgs, stand: &StandInputs) -> String {
+    match args.setting.model {
+        Some(_) => String::new(),
+        None => inputs::model_line(&stand.soil.document, ""),
     }
 }
 

@@ -481,6 +481,50 @@ fn a_rovers_own_slip_on_slopes_is_compared() {
     assert_eq!(again["rows"][1]["measured_slip_ratio"], 0.2);
 }
 
+/// A slope without a prediction is in no error of the model, but in those of the yardsticks.
+#[test]
+fn slopes_without_a_prediction_are_counted() {
+    let place = Place::new();
+    place.write("yaws.csv", "slope_deg,course_deg,yaw_deg\n5,0,2\n10,0,4.5\n25,0,20\n");
+    let judge = "validate --data yaws.csv --rover hakuto --soil toyoura";
+    let json = place.json(judge);
+    assert_eq!(json["overall"]["no_prediction"], 1);
+    assert_eq!(json["overall"]["yaw_deg"]["cells"], 2);
+    assert_eq!(json["yardsticks"][0]["overall"]["no_prediction"], 0);
+    assert_eq!(json["yardsticks"][0]["overall"]["yaw_deg"]["cells"], 3);
+    let text = place.results(judge);
+    let row = |name: &str| {
+        let line = text.lines().find(|line| line.starts_with(name)).expect("a row");
+        line.split_whitespace().take(4).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert!(text.contains("slopes  no prediction"), "{text}");
+    assert_eq!(row("model "), ["model", "yaw_deg", "2", "1"]);
+    assert_eq!(row("mean "), ["mean", "yaw_deg", "3", "0"]);
+    assert!(text.contains("1 of 3 slopes have no prediction"), "{text}");
+    // Nothing at all is predicted: the row is there, without errors.
+    place.write("yaws.csv", "slope_deg,course_deg,yaw_deg\n25,0,15\n30,0,20\n");
+    let text = place.results(judge);
+    let line = text.lines().find(|line| line.starts_with("model ")).expect("a row");
+    let cells: Vec<&str> = line.split_whitespace().collect();
+    assert_eq!(cells, ["model", "yaw_deg", "0", "2", "-", "-", "-", "-"]);
+}
+
+/// Bands are no measurements, and are known.
+#[test]
+fn bands_beside_results_are_passed_over_in_silence() {
+    let place = Place::new();
+    let line = "wheel-test --slip-ratio 0.1,0.3 --uncertainty --samples 3 --format csv";
+    let csv = place.results(line);
+    place.write("bands.csv", &csv);
+    let judged = place.results(&format!("{JUDGE} --data bands.csv"));
+    assert!(judged.starts_with("drawbar_pull_n\n"), "{judged}");
+    // Another's column is asked about.
+    place.write("bands.csv", csv.replacen("sinkage_mm_p2_5", "sinkage_mm_p5", 1));
+    let answer = place.line(&format!("{JUDGE} --data bands.csv"));
+    assert_eq!(answer.stderr.matches("note: ").count(), 1, "{}", answer.stderr);
+    assert!(answer.stderr.contains("`sinkage_mm_p5`"), "{}", answer.stderr);
+}
+
 /// Slip by the rim without grousers is that of the same motion, seen from their tips.
 #[test]
 fn slip_without_grousers_is_converted() {

@@ -70,6 +70,19 @@ fn a_table_explains_its_flags_and_has_no_column_without_any() {
 }
 
 #[test]
+fn bands_of_a_wheel_test_stand_beside_its_flags_and_the_probability_that_it_is_carried() {
+    let place = Place::new();
+    for model in ["", " --model all"] {
+        let line = format!("wheel-test --slip-ratio 0.2,0.99 --uncertainty --samples 3{model}");
+        let text = place.results(&line);
+        let header = text.lines().next().expect("a header");
+        let last: Vec<&str> = header.split_whitespace().rev().take(3).collect();
+        assert_eq!(last, ["flags", "status", "probability_carried"], "{header}");
+        assert_eq!(text.matches("\nslip-outside: ").count(), 1, "{text}");
+    }
+}
+
+#[test]
 fn a_run_has_its_flags_with_the_time_of_each() {
     let json = Place::new().json("traverse --duration-s 0.2 --gravity-m-s2 moon");
     assert!(names(&json["flags"]).contains(&"gravity-outside"));

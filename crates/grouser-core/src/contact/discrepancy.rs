@@ -6,7 +6,10 @@
 //! T   += e W r_s δ_T(S, |β|)  h   *= e^(δ_h(S, |β|))
 //! ```
 //!
-//! with the load W (F_z of a settled wheel), the slip by the total speed S, the slip angle β, and the
+//! It comes on top of everything that the model has, its bound by the soil's friction included: a sample's force
+//! may exceed that by δ W.
+//!
+//! Here with the load W (F_z of a settled wheel), the slip by the total speed S, the slip angle β, and the
 //! sense of rolling e. A mirrored motion has mirrored forces, an unloaded wheel and one at rest have
 //! none.
 
@@ -52,8 +55,21 @@ pub(super) fn corrected(contact: &Contact, forces: WheelForces) -> WheelForces {
 
 /// The sinkage [m] with the soil's discrepancy, never beyond the axle.
 pub(super) fn corrected_sinkage(contact: &Contact, sinkage: f64) -> f64 {
-    let Some(discrepancy) = &contact.soil.discrepancy else { return sinkage };
+    match sinkage_factor(contact) {
+        Some(factor) => (sinkage * factor).min(contact.wheel.shearing_radius()),
+        None => sinkage,
+    }
+}
+
+/// The model's own sinkage [m] where it is this one with the soil's discrepancy; at the axle it may be any
+/// that is deeper.
+pub(super) fn own_sinkage(contact: &Contact, corrected: f64) -> f64 {
+    sinkage_factor(contact).map_or(corrected, |factor| corrected / factor)
+}
+
+/// e^(δ_h) [-]; none on a soil without a discrepancy.
+fn sinkage_factor(contact: &Contact) -> Option<f64> {
+    let discrepancy = contact.soil.discrepancy.as_ref()?;
     let slip = &contact.slip;
-    let factor = exp(Blend::at(slip.total(), slip.angle).of(&discrepancy.sinkage));
-    (sinkage * factor).min(contact.wheel.shearing_radius())
+    Some(exp(Blend::at(slip.total(), slip.angle).of(&discrepancy.sinkage)))
 }

@@ -129,7 +129,9 @@ fn settle_near(
     let relation = relation.as_ref();
     let shallow = relation.map(LoadSinkage::shallow);
     let exponent = shallow.map_or_else(|| growth(contact), |(_, power)| power);
+    // A guess is a sinkage as answers have it.
     let guess = guess
+        .map(|sinkage| discrepancy::own_sinkage(contact, sinkage))
         .or_else(|| shallow.map(|(factor, power)| elementary::pow(load / factor, 1.0 / power)));
     let axle = elementary::ln(contact.wheel.shearing_radius());
     let mut search =

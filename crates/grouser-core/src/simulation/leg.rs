@@ -176,7 +176,10 @@ impl Leg<'_> {
             state.outcome = state.watch.look(self.scenario, now, rover, slip_ratios, rim_speeds);
         }
         let is_due = match self.record_only_at {
-            None => is_sample_due(self.scenario, now),
+            None => {
+                let interval = self.scenario.numerics.sample_interval;
+                is_sample_due(now, interval, self.scenario.duration)
+            }
             Some(time) => is_same_time(now, time),
         };
         if state.outcome.is_some() || is_due {

@@ -1,5 +1,6 @@
 //! Everything that determines a run.
 
+pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
@@ -136,9 +137,6 @@ pub fn neglected_moments() -> ParameterError {
     let name = "share of the wheels' own moments in a complete load transfer";
     ParameterError::new(name, 0.0, "1: they are part of it")
 }
-
-/// The longest run [s]: a day.
-pub const LONGEST_DURATION: f64 = 86_400.0;
 
 impl Scenario {
     /// That there can be such a run.

@@ -1,6 +1,7 @@
 //! Times of a run at which something is due.
 
-use super::scenario::Scenario;
+/// A day: no run lasts longer [s].
+pub const LONGEST_DURATION: f64 = 86_400.0;
 
 /// Multiples of an interval after one time and before another.
 pub(super) fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f64> {
@@ -30,8 +31,10 @@ pub(super) fn is_same_time(one: f64, other: f64) -> bool {
 }
 
 /// Whether a sample belongs at a time: at the start, the end and the intervals between.
-pub(super) fn is_sample_due(scenario: &Scenario, time: f64) -> bool {
-    is_multiple(time, scenario.numerics.sample_interval) || is_same_time(time, scenario.duration)
+///
+/// * `interval`, `duration`: of samples and of the run [s]
+pub(super) fn is_sample_due(time: f64, interval: f64, duration: f64) -> bool {
+    is_multiple(time, interval) || is_same_time(time, duration)
 }
 
 /// Whether a time is a multiple of an interval, but for rounding.

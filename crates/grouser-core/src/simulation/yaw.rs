@@ -1,7 +1,6 @@
 //! A yaw that is prescribed over time: as it was measured, or as something outside holds it.
 
-use super::scenario::LONGEST_DURATION;
-use super::times::is_same_time;
+use super::times::{LONGEST_DURATION, is_same_time};
 use crate::error::{ParameterError, finite};
 
 /// Yaw over time: straight between its points, and constant before the first and after the last.
@@ -30,8 +29,23 @@ pub struct PrescribedYaw {
     pub points: Vec<(f64, f64)>,
 }
 
+/// The fastest that a rover is taken to turn [rad/s]: 57 °/s. Source: ours; a quarter of a turn in less than two
+/// seconds is a slip of the pen, and no rover's.
+pub const FASTEST_TURN: f64 = 1.0;
+
+/// Two points that follow each other, between which the yaw changes faster than [`FASTEST_TURN`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TooFast {
+    /// Time [s] and yaw [rad] of the first.
+    pub from: (f64, f64),
+    /// Time [s] and yaw [rad] of the second.
+    pub to: (f64, f64),
+    /// Yaw rate [rad/s].
+    pub rate: f64,
+}
+
 impl PrescribedYaw {
-    /// That the points are a function of time.
+    /// That the points are a function of time, and that a rover can turn so.
     ///
     /// # Errors
     /// [`ParameterError`] for the first one that is wrong.
@@ -53,7 +67,23 @@ impl PrescribedYaw {
                 return Err(ParameterError::new("time of a yaw [s]", pair[1].0, expected));
             }
         }
-        Ok(())
+        match self.too_fast() {
+            None => Ok(()),
+            Some(TooFast { from, to, rate }) => {
+                let name = format!("yaw rate between {} s and {} s [rad/s]", from.0, to.0);
+                Err(ParameterError::new(name, rate, "at most 1 to either side"))
+            }
+        }
+    }
+
+    /// The first pair of points between which the yaw changes too fast.
+    #[must_use]
+    pub fn too_fast(&self) -> Option<TooFast> {
+        let pairs = self.points.windows(2).map(|pair| {
+            let (from, to) = (pair[0], pair[1]);
+            TooFast { from, to, rate: (to.1 - from.1) / (to.0 - from.0) }
+        });
+        pairs.into_iter().find(|pair| pair.rate.abs() > FASTEST_TURN)
     }
 
     /// The yaw at a time [rad].
@@ -128,6 +158,19 @@ mod tests {
         }
         assert_eq!(course.turns_between(1.0, 4.0).collect::<Vec<_>>(), [3.0]);
         assert!(course.turns_at(3.0) && !course.turns_at(2.0));
+    }
+
+    #[test]
+    fn a_yaw_that_changes_faster_than_a_rover_turns_is_refused() {
+        let of = |rate: f64| {
+            let points = vec![(0.0, 0.1), (2.0, 0.1), (2.5, 0.1 + 0.5 * rate)];
+            PrescribedYaw { points }
+        };
+        assert!(of(0.999).check().is_ok() && of(-0.999).check().is_ok());
+        for rate in [1.001, -1.001] {
+            let error = of(rate).check().expect_err("it is too fast").to_string();
+            assert!(error.contains("between 2 s and 2.5 s"), "{error}");
+        }
     }
 
     #[test]

@@ -69,7 +69,7 @@ impl Soil {
     /// ```
     ///
     /// Where there is no root the cohesion holds any slope. The answer is at most
-    /// [`STEEPEST_SLOPE`](crate::units::STEEPEST_SLOPE): steeper ground is a wall.
+    /// [`STEEPEST_SLOPE`]: steeper ground is a wall.
     ///
     /// How steep may dry sand of 38° be with the usual factor of safety of 1.3?
     ///

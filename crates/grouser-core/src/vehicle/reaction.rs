@@ -106,7 +106,8 @@ impl Ground<'_> {
 
     /// As [`reactions`](Self::reactions), from those in a stance and a motion nearby: loads and
     /// sinkages are sought from there. The answer is the same but for its last digits, as that of
-    /// [`settle_from`].
+    /// [`settle_from`], and where several sinkages carry a load, as in some cohesive soils, what is near may
+    /// decide which is found.
     ///
     /// * `near`: of all wheels, or of none
     ///
@@ -141,8 +142,12 @@ impl Ground<'_> {
             if change <= AGREED {
                 return Ok(wheels);
             }
-            moments = mixing.next(moments, next);
-            wheels = self.settle_under(stance, moments, slips, &wheels)?;
+            let mixed = mixing.next(moments, next);
+            // A point that the secants lead to may not exist where the one after this round does.
+            (moments, wheels) = match self.settle_under(stance, mixed, slips, &wheels) {
+                Ok(settled) => (mixed, settled),
+                Err(_) => (next, self.settle_under(stance, next, slips, &wheels)?),
+            };
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }

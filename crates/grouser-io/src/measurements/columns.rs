@@ -6,10 +6,10 @@ use std::sync::LazyLock;
 use super::super::columns::flags::FLAGS;
 use super::super::columns::wheel::{NORMAL_FORCE, WHEEL};
 use super::super::columns::{
-    DRAWBAR_PULL, LOAD, Quantity as Named, RIM_SPEED_SETTING, SIDE_FORCE, SINKAGE, SLIP_ANGLE,
-    SLIP_RATIO, TORQUE, TOTAL_SLIP,
+    DRAWBAR_PULL, DRAWS, LOAD, PROBABILITY_CARRIED, Quantity as Named, RIM_SPEED_SETTING,
+    SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE, TOTAL_SLIP,
 };
-use super::super::unit::{M, M_S, MM, MM_S, N, NM, ONE, Unit};
+use super::super::unit::{M, M_S, MM, MM_S, N, NM, ONE, QUANTILES, Unit};
 use crate::measurements::wheel_tests::Quantity;
 
 /// The meaning of a column.
@@ -141,6 +141,15 @@ pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
     let others = others.map(|result| column(result.name, Meaning::Unused, result.unit, ANY));
     READ.into_iter().chain(others).collect()
 });
+
+/// Whether a column is one of the bands that Grouser writes beside results: quantiles of a known column, the
+/// probability that the soil carries the wheel, the number of samples.
+pub(super) fn is_of_a_band(name: &str) -> bool {
+    let is_quantile = |end: &str| name.strip_suffix(end).is_some_and(|of| known(of).is_some());
+    QUANTILES.iter().any(|end| is_quantile(end))
+        || PROBABILITY_CARRIED.interval().iter().any(|known| known == name)
+        || name == DRAWS
+}
 
 /// The column whose presence tells a file of Carnegie Mellon's: there `side_force_n` is positive
 /// where it opposes the hub's sideways motion.

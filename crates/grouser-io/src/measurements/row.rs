@@ -136,7 +136,8 @@ impl<'a> Header<'a> {
     pub(super) fn notes(&self) -> Vec<String> {
         // Spreadsheets leave columns without names behind the last one that was used.
         let named = self.names.iter().zip(&self.columns).filter(|(name, _)| !name.is_empty());
-        let unknown = named.filter(|(_, column)| column.is_none());
+        let unknown =
+            named.filter(|(name, column)| column.is_none() && !columns::is_of_a_band(name));
         let mut notes: Vec<String> = unknown
             .map(|(name, _)| match nearest(name, COLUMNS.iter().map(|column| column.name)) {
                 Some(known) => format!("column `{name}` is not used; is `{known}` meant?"),

@@ -10,7 +10,7 @@ use grouser_core::elementary::wide::ln;
 /// ```
 ///
 /// with a Chebyshev series for g, computed with 50 digits.
-pub(crate) fn normal_share(score: f64) -> f64 {
+pub fn normal_share(score: f64) -> f64 {
     let beyond = share_beyond(score.abs());
     if score < 0.0 { beyond } else { 1.0 - beyond }
 }

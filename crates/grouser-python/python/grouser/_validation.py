@@ -136,8 +136,10 @@ class SlopeValidation(_tables.Tabular):
     """
 
     overall: Mapping[str, Any]
-    """``cells`` (slopes), ``not_held`` (those on which no heading holds the course), and the errors
-    of ``slip_ratio`` and ``yaw_deg`` as in a `Validation`, or None where it was not measured."""
+    """``cells`` (slopes), ``not_held`` (those on which no heading holds the course),
+    ``no_prediction`` (those on which something was measured that the model does not predict: they
+    are in no error), and the errors of ``slip_ratio`` and ``yaw_deg`` as in a `Validation`, or None
+    where it was not measured."""
     yardsticks: tuple[Mapping[str, Any], ...]
     """Errors of predictions without physics: ``yardstick`` and ``overall``."""
     slopes: Mapping[str, Any]

@@ -18,7 +18,7 @@ use crate::soil::SmallWheel;
 use crate::studies::heading::HeadingStudy;
 use crate::studies::measurement::WheelTests;
 use crate::studies::slope_tests::SlopeTests;
-use crate::studies::slope_validation::{SlopeComparison, SlopeValidation, SlopeValidationStudy};
+use crate::studies::slope_validation::{SlopeValidation, SlopeValidationStudy};
 use crate::studies::validation::{Validation, ValidationStudy, Yardstick, mean_score};
 
 /// Every model on every part of some data sets.
@@ -358,10 +358,9 @@ impl Part<'_> {
             let gravity = self.set.value.gravity;
             let heading = heading_study(&usual, rover, soil, theory, gravity);
             let validation = SlopeValidationStudy { tests, heading: &heading }.run()?;
-            let is_yaw_missing = |it: &&_| missing_yaw(it);
             Ok(RankedTheory {
                 score: validation.score(),
-                unsettled_trials: validation.points.iter().filter(is_yaw_missing).count(),
+                unsettled_trials: validation.no_prediction(),
                 overall: PartErrors::Slope(SlopeErrorsRecord::from(&validation)),
                 ..self.ranked(theory, name, Found::Slope(Box::new(validation)))
             })
@@ -408,11 +407,6 @@ impl Part<'_> {
                 .collect(),
         }
     }
-}
-
-/// Whether a yaw was measured that the model does not have.
-fn missing_yaw(it: &SlopeComparison) -> bool {
-    it.point.yaw.is_some() && it.yaw.is_none()
 }
 
 /// The study of a rover on a soil, with the load transfer that the program's commands have by default.

@@ -131,6 +131,7 @@ impl From<&SlopeReference> for ReferenceRecord<SlopeErrorsRecord> {
         let overall = SlopeErrorsRecord {
             cells: cells.max().unwrap_or(0),
             not_held: 0,
+            no_prediction: 0,
             slip_ratio: slip_record(slip_ratio.as_ref()),
             yaw: yaw_record(yaw.as_ref()),
         };
@@ -146,6 +147,8 @@ pub struct SlopeErrorsRecord {
     pub cells: usize,
     /// Number of slopes on which no heading holds the course, by the model.
     pub not_held: usize,
+    /// Number of slopes on which something was measured that is not predicted, and is in no error.
+    pub no_prediction: usize,
     /// Of the slip ratio.
     pub slip_ratio: Option<ErrorsRecord>,
     /// Of the yaw.
@@ -154,7 +157,8 @@ pub struct SlopeErrorsRecord {
 
 impl SlopeErrorsRecord {
     /// Of no slope.
-    pub const NONE: Self = Self { cells: 0, not_held: 0, slip_ratio: None, yaw: None };
+    pub const NONE: Self =
+        Self { cells: 0, not_held: 0, no_prediction: 0, slip_ratio: None, yaw: None };
 }
 
 impl From<&SlopeValidation> for SlopeErrorsRecord {
@@ -162,6 +166,7 @@ impl From<&SlopeValidation> for SlopeErrorsRecord {
         Self {
             cells: validation.points.len(),
             not_held: validation.not_held,
+            no_prediction: validation.no_prediction(),
             slip_ratio: slip_record(validation.slip_ratio.as_ref()),
             yaw: yaw_record(validation.yaw.as_ref()),
         }
@@ -173,6 +178,7 @@ impl Serialize for SlopeErrorsRecord {
         let mut map = serializer.serialize_map(None)?;
         map.serialize_entry("cells", &self.cells)?;
         map.serialize_entry("not_held", &self.not_held)?;
+        map.serialize_entry("no_prediction", &self.no_prediction)?;
         for quantity in Quantity::ALL {
             map.serialize_entry(column_of(quantity).name, &None::<ErrorsRecord>)?;
         }

@@ -125,6 +125,17 @@ impl SlopeComparison {
     }
 }
 
+impl SlopeComparison {
+    /// Whether something was measured that the model does not predict: it is in no error.
+    #[must_use]
+    pub fn has_no_prediction(&self) -> bool {
+        let is_missing = |measured: Option<Mean>, predicted: Option<f64>| {
+            measured.is_some() && predicted.is_none()
+        };
+        is_missing(self.point.yaw, self.yaw) || is_missing(self.point.slip_ratio, self.slip_ratio)
+    }
+}
+
 /// A measured mean and its prediction, where there are both.
 fn beside(measured: Option<Mean>, predicted: Option<f64>) -> Option<Comparison> {
     measured.zip(predicted).map(|(mean, predicted)| Comparison {
@@ -166,6 +177,13 @@ impl SlopeValidation {
     #[must_use]
     pub fn score(&self) -> Option<f64> {
         mean_score([self.slip_ratio, self.yaw].into_iter().flatten().filter_map(|it| it.score()))
+    }
+
+    /// Number of slopes on which something was measured that the model does not predict. They are in no error of the
+    /// model, but in those of predictions without physics.
+    #[must_use]
+    pub fn no_prediction(&self) -> usize {
+        self.points.iter().filter(|it| it.has_no_prediction()).count()
     }
 }
 

@@ -41,7 +41,7 @@ use crate::wheel::Wheel;
 /// }
 /// .run();
 /// let errors = validation.overall.errors.drawbar_pull.expect("it was measured");
-/// assert_eq!(format!("{:.1} N in {} cells", errors.rmse, errors.cells), "1.1 N in 36 cells");
+/// assert_eq!(format!("{:.1} N in {} cells", errors.rmse, errors.cells), "1.2 N in 36 cells");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -80,13 +80,14 @@ impl WheelTest {
         rows
     }
 
+    /// The wheel in the soil, in a motion of the stand.
+    pub(super) fn contact(&self, slip_angle: f64, slip_ratio: f64) -> Contact {
+        let slip = Slip::on_test_stand(slip_ratio, slip_angle);
+        Contact { wheel: self.wheel, soil: self.soil, slip, gravity: self.gravity }
+    }
+
     fn row(&self, load: f64, slip_angle: f64, slip_ratio: f64) -> WheelTestRow {
-        let contact = Contact {
-            wheel: self.wheel,
-            soil: self.soil,
-            slip: Slip::on_test_stand(slip_ratio, slip_angle),
-            gravity: self.gravity,
-        };
+        let contact = self.contact(slip_angle, slip_ratio);
         let result = settle(self.theory.model(), &contact, load);
         let situation = Situation {
             theory: self.theory,

@@ -8,8 +8,7 @@
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::wheel_test::{WheelTest, WheelTestRow};
-use crate::contact::SettleError;
-use crate::wheel::Wheel;
+use crate::contact::{Contact, SettleError, Theory};
 
 /// One setting of the test stand, with quantiles over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,21 +42,22 @@ struct Kept {
 pub struct Sunk {
     /// Down to the axle [m].
     pub sinkage: f64,
-    /// The load's own weight backwards [N].
+    /// What the model has at the axle's depth, or the load's own weight backwards if that is less [N].
     pub drawbar_pull: f64,
     /// None [N].
     pub side_force: f64,
-    /// That which turns the rim against the whole load [N·m].
+    /// That which turns the rim against the whole load, or the model's at that depth if that is larger [N·m].
     pub torque: f64,
 }
 
 impl Sunk {
     /// * `load`: [N]
     #[must_use]
-    pub fn of(wheel: &Wheel, load: f64, slip_ratio: f64) -> Self {
-        let sinkage = wheel.shearing_radius();
-        let torque = (load * sinkage).copysign(slip_ratio);
-        Self { sinkage, drawbar_pull: -load, side_force: 0.0, torque }
+    pub fn of(theory: Theory, contact: &Contact, load: f64) -> Self {
+        let sinkage = contact.wheel.shearing_radius();
+        let at_axle = theory.model().forces(contact, sinkage);
+        let torque = (load * sinkage).max(at_axle.torque.abs()).copysign(contact.slip.ratio);
+        Self { sinkage, drawbar_pull: at_axle.drawbar_pull.min(-load), side_force: 0.0, torque }
     }
 }
 
@@ -102,7 +102,7 @@ impl WheelTest {
     ) -> Option<Vec<SettledBand>> {
         let one = |sample: &Sample| {
             let test = Self { soil: sample.soil, theory: sample.theory, ..self.clone() };
-            test.run().iter().map(|row| Kept::of(row, &self.wheel)).collect::<Vec<_>>()
+            test.run().iter().map(|row| Kept::of(row, &test)).collect::<Vec<_>>()
         };
         let all = outputs_of_samples(samples, go_on, one)?;
         let settings = self.loads.len() * self.slip_angles.len() * self.slip_ratios.len();
@@ -128,7 +128,7 @@ impl SettledBand {
 
 impl Kept {
     /// What a row counts as; nothing for a load that is none.
-    fn of(row: &WheelTestRow, wheel: &Wheel) -> Option<Self> {
+    fn of(row: &WheelTestRow, test: &WheelTest) -> Option<Self> {
         match row.result {
             Ok(settled) => Some(Self {
                 is_carried: true,
@@ -138,7 +138,8 @@ impl Kept {
                 torque: settled.forces.torque,
             }),
             Err(SettleError::SunkToAxle { load, .. }) => {
-                let sunk = Sunk::of(wheel, load, row.slip_ratio);
+                let contact = test.contact(row.slip_angle, row.slip_ratio);
+                let sunk = Sunk::of(test.theory, &contact, load);
                 Some(Self {
                     is_carried: false,
                     sinkage: sunk.sinkage,

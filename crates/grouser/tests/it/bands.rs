@@ -1,6 +1,6 @@
 //! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
 
-use grouser::contact::Theory;
+use grouser::contact::{Contact, Slip, Theory};
 use grouser::document::{
     self, Campaign, DocumentError, Kind, LoadedScenario, LoadedSoil, Overrides, Source,
 };
@@ -14,6 +14,7 @@ use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::traverse_band::TraverseBand;
 use grouser::studies::wheel_test::WheelTest;
+use grouser::studies::wheel_test_band::Sunk;
 use grouser::units::deg;
 
 use super::given;
@@ -369,6 +370,22 @@ fn a_campaign_counts_wheels_that_sink() {
     );
     let thrust = campaign.counted("thrust_n", runs, table.numbers("thrust_n"), statuses);
     assert!(thrust.iter().all(Option::is_none));
+}
+
+/// Where the model has more drag and torque at the axle than the load, that counts: a locked wheel that has dug
+/// itself in.
+#[test]
+fn a_locked_wheel_that_sinks_counts_with_the_drag_at_the_axle() {
+    let test = stand(soil("fjs-1-loose").value, Theory::SmallWheel);
+    let slip = Slip::on_test_stand(-1.0, 0.0);
+    let contact = Contact { wheel: test.wheel, soil: test.soil, slip, gravity: test.gravity };
+    let at_axle = test.theory.model().forces(&contact, contact.wheel.shearing_radius());
+    let load = 10.0 * at_axle.normal_force;
+    let light = Sunk::of(test.theory, &contact, 0.1);
+    assert!(at_axle.drawbar_pull < -0.1 && light.drawbar_pull == at_axle.drawbar_pull);
+    assert!(light.torque == at_axle.torque && light.torque < 0.0);
+    let heavy = Sunk::of(test.theory, &contact, load.max(-10.0 * at_axle.drawbar_pull));
+    assert!(heavy.drawbar_pull <= 10.0 * at_axle.drawbar_pull);
 }
 
 // ---- What the guide says ----

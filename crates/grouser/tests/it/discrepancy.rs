@@ -196,6 +196,23 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
     assert!((stepped.torque - one.forces.torque).abs() < 1e-6 * LOAD);
 }
 
+/// A wheel that settles near its own answer needs no more than one that has no discrepancy: a guess is a
+/// sinkage as answers have it.
+#[test]
+fn a_guess_has_the_discrepancy_of_an_answer() {
+    let deep = Discrepancy { sinkage: [1.5; VALUES], ..Discrepancy::NONE };
+    let slip = Slip::on_test_stand(0.2, deg(10.0));
+    for theory in Theory::ALL {
+        let again = |discrepancy: Option<Discrepancy>| {
+            let contact = contact(sand(discrepancy), slip);
+            let first = settle(theory.model(), &contact, LOAD).expect("it settles");
+            settle_from(theory.model(), &contact, LOAD, first.sinkage).expect("it settles")
+        };
+        let (plain, with) = (again(None), again(Some(deep)));
+        assert!(with.evaluations <= plain.evaluations + 1, "{theory:?}: {}", with.evaluations);
+    }
+}
+
 // ---- documents ----
 
 fn read(addition: &str) -> LoadedSoil {

@@ -323,6 +323,8 @@ fn a_scenario_takes_a_yaw_over_time_and_writes_it_again() {
         ("[[-1, 2]]", "from 0 to a day"),
         ("3.0", "a list"),
         ("[[0, nan]]", "finite"),
+        ("[[0, 3.31], [0.001, 300]]", "from [0, 3.31] to [0.001, 300] [°/s] is 296690"),
+        ("[[0, 0], [1, 57.2], [2, -0.2]]", "at most 57 to either side"),
     ] {
         let setting = format!("scenario.drive.yaw_deg={wrong}");
         let refused = scenario_with(&[&setting]).expect_err(wrong).to_string();

@@ -1,7 +1,7 @@
 //! What a soil does not state: its value in a single answer, its samples, and what fixes it.
 
 use grouser::document::{
-    self, DocumentError, FitKey, Kind, LoadedSoil, Overrides, SoilFamily, Source,
+    self, DocumentError, FitKey, Kind, LoadedSoil, Overrides, SoilFamily, Source, UncertainSoil,
 };
 use grouser::soil::{Bulldozing, Exit, Shear, SmallWheel, Soil};
 use proptest::prelude::*;
@@ -524,5 +524,36 @@ proptest! {
             let factor = at.expect("filled in") / of.expect("filled in");
             prop_assert!((factor / (modulus / 0.02) - 1.0).abs() < 1e-9, "{}: {}", key, factor);
         }
+    }
+}
+
+/// A soil may stand in a scenario's argument as a whole: it has the spread that it has as a file.
+#[test]
+fn a_soil_given_as_one_argument_is_a_document_like_any_other() {
+    let text = sand("", "");
+    let file = soil(&text);
+    let table: toml::Table = toml::from_str(&text).expect("it is TOML");
+    let inline = format!("scenario.soil={}", inline(&toml::Value::Table(table)));
+    let settings = Overrides::parse([inline]).expect("a key with a value");
+    let scenario = document::read_scenario(&Source::default_scenario(), &settings).expect("read");
+    let keys = |soils: Option<&UncertainSoil>| {
+        soils.map_or(Vec::new(), |soils| soils.keys().map(str::to_owned).collect::<Vec<_>>())
+    };
+    assert_eq!(keys(scenario.uncertain.as_ref()), keys(file.uncertain.as_ref()));
+    assert_eq!(scenario.assumed.len(), file.assumed.len());
+    let changed = Overrides::parse(["soil.shear.longitudinal_m=0.02"]).expect("a key with a value");
+    let changed = document::read_scenario(&Source::default_scenario(), &changed).expect("read");
+    let is_shear = |key: &String| key.ends_with("shear.longitudinal_m");
+    assert!(!keys(changed.uncertain.as_ref()).iter().any(is_shear), "what is set is exact");
+}
+
+/// A value on one line.
+fn inline(value: &toml::Value) -> String {
+    match value {
+        toml::Value::Table(table) => {
+            let pairs = table.iter().map(|(key, value)| format!("{key} = {}", inline(value)));
+            format!("{{{}}}", pairs.collect::<Vec<_>>().join(", "))
+        }
+        other => other.to_string(),
     }
 }

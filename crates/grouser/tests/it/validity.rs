@@ -305,7 +305,9 @@ fn moduli_in_kilonewtons_are_those_in_newtons() {
         assert_eq!(kilo.document.number("pressure_sinkage.k_phi"), Some(820_000.0));
     }
     let both = read(&bekker("k_c = 1400\nk_phi = 8.2e5\nk_phi_kn = 820")).unwrap_err();
-    assert!(both.to_string().contains("k_phi_kn"), "{both}");
+    let message = both.to_string();
+    assert!(message.contains("`pressure_sinkage.k_phi_kn` is `k_phi` in thousands"), "{message}");
+    assert!(message.contains("given too") && message.contains("remove one of them"), "{message}");
 }
 
 #[test]
@@ -360,6 +362,19 @@ fn a_soil_that_does_not_carry_the_rover_is_told_by_check() {
     let heavy = doubts(&Source::text("rover", text("1000"))).unwrap();
     assert!(heavy.iter().any(|doubt| doubt.contains("the soil carries at most")), "{heavy:?}");
     assert_eq!(doubts(&Source::text("rover", text("5.24"))).unwrap(), [""; 0]);
+}
+
+/// The priors fill in two of the terms, and the others stay general.
+#[test]
+fn a_preset_without_terms_is_flagged_under_the_small_wheel_model() {
+    for (name, is_raised) in
+        [("lunar-nominal", true), ("grc-1", true), ("cmu-direct90-smooth", false)]
+    {
+        let soil = Source::find(Kind::Soil, name).unwrap();
+        let soil = document::read_soil(&soil, &Overrides::none()).unwrap().value;
+        let trial = Trial { theory: Theory::SmallWheel, soil, ..Trial::quiet() };
+        assert_eq!(trial.flags().contains(&Flag::TermsMissing), is_raised, "{name}");
+    }
 }
 
 /// A value that the model leaves aside is not assumed by its result.

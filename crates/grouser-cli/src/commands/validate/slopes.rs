@@ -3,11 +3,11 @@
 use std::path::Path;
 
 use grouser::document::LoadedScenario;
-use grouser::document::columns::slope;
-use grouser::document::measurements::slope_tests::SlopeTests;
+use grouser::document::columns::{SLIP_RATIO, YAW, slope};
+use grouser::document::measurements::slope_tests::{SlopePoint, SlopeTests};
 use grouser::document::measurements::{self, Choice};
 use grouser::document::table::Table;
-use grouser::document::validation::{ErrorsRecord, PartErrors, ReferenceRecord, SlopeErrorsRecord};
+use grouser::document::validation::{ErrorsRecord, ReferenceRecord, SlopeErrorsRecord};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::slope_validation::{SlopeValidation, SlopeValidationStudy};
 use serde::Serialize;
@@ -58,7 +58,8 @@ pub(super) fn run(
     let results =
         Results { overall: &overall, yardsticks: &yardsticks, rows: &table, notes: &tests.notes };
     let answer = Answer::new("validate", settings(args, data, &scenario, &tests), results);
-    let text = text_of(&rows.to_table(&slope::brief(&validation.points)), &overall, &yardsticks);
+    let slopes = rows.to_table(&slope::brief(&validation.points));
+    let text = text_of(&slopes, &validation, &overall, &yardsticks);
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", rows.to_csv()?);
@@ -101,35 +102,81 @@ fn settings(
     })
 }
 
-/// For people: every slope, then the errors beside those of the yardsticks.
+/// For people: every slope, then the errors beside those of the yardsticks, and what could not be predicted.
 fn text_of(
     slopes: &str,
+    validation: &SlopeValidation,
     overall: &SlopeErrorsRecord,
     yardsticks: &[ReferenceRecord<SlopeErrorsRecord>],
 ) -> String {
     let mut lines = Vec::new();
-    let mut add = |of: &str, errors: SlopeErrorsRecord| {
-        for (column, errors) in PartErrors::Slope(errors).measured() {
-            lines.push(error_row(of, column.name, errors));
+    let mut add = |of: &str, errors: &SlopeErrorsRecord| {
+        for (name, measured, errors) in quantities(validation, errors) {
+            lines.push(error_row(of, name, measured, errors.as_ref()));
         }
     };
-    add("model", overall.clone());
+    add("model", overall);
     for yardstick in yardsticks {
-        add(yardstick.yardstick, yardstick.overall.clone());
+        add(yardstick.yardstick, &yardstick.overall);
     }
-    let header = ["prediction", "quantity", "slopes", "rmse", "bias", "rmse_share", "within_aim"];
-    let errors = aligned(&header.map(str::to_owned), &lines);
-    format!("{slopes}\n{errors}")
+    let errors = aligned(&ERRORS.map(str::to_owned), &lines);
+    let missing = match overall.no_prediction {
+        0 => String::new(),
+        missing => format!(
+            "{missing} of {} slopes have no prediction: no heading holds the course there. They are in no error of \
+             the model, but in those of the predictions without physics.\n",
+            overall.cells
+        ),
+    };
+    format!("{slopes}\n{errors}{missing}")
 }
 
-fn error_row(of: &str, quantity: &str, errors: ErrorsRecord) -> Vec<String> {
+/// The columns of the errors.
+const ERRORS: [&str; 8] = [
+    "prediction",
+    "quantity",
+    "slopes",
+    "no prediction",
+    "rmse",
+    "bias",
+    "rmse_share",
+    "within_aim",
+];
+
+/// The quantities that were measured, each with the number of slopes on which it was, and its errors.
+fn quantities(
+    validation: &SlopeValidation,
+    errors: &SlopeErrorsRecord,
+) -> impl Iterator<Item = (&'static str, usize, Option<ErrorsRecord>)> {
+    let count = |is_measured: fn(&SlopePoint) -> bool| {
+        validation.points.iter().filter(|it| is_measured(&it.point)).count()
+    };
+    let all = [
+        (SLIP_RATIO.name, count(|point| point.slip_ratio.is_some()), errors.slip_ratio),
+        (YAW.name, count(|point| point.yaw.is_some()), errors.yaw),
+    ];
+    all.into_iter().filter(|(_, measured, _)| *measured > 0)
+}
+
+/// * `measured`: on how many slopes
+/// * `errors`: over the slopes with a prediction; `None` if there is none on any
+fn error_row(
+    of: &str,
+    quantity: &str,
+    measured: usize,
+    errors: Option<&ErrorsRecord>,
+) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
+    let slopes = errors.map_or(0, |it| it.cells);
+    let within_aim = errors.and_then(|it| it.within_aim);
     vec![
         of.to_owned(),
         quantity.to_owned(),
-        errors.cells.to_string(),
-        four_digits(errors.rmse),
-        four_digits(errors.bias),
-        errors.rmse_share.map_or("-".to_owned(), four_digits),
-        errors.within_aim.map_or("-", |is_met| if is_met { "yes" } else { "no" }).to_owned(),
+        slopes.to_string(),
+        (measured - slopes).to_string(),
+        number(errors.map(|it| it.rmse)),
+        number(errors.map(|it| it.bias)),
+        number(errors.and_then(|it| it.rmse_share)),
+        within_aim.map_or("-", |is_met| if is_met { "yes" } else { "no" }).to_owned(),
     ]
 }

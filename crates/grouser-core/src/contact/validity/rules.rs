@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::theory::Theory;
-use super::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
+use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
 use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
 use crate::units::EARTH_GRAVITY;
@@ -195,11 +195,10 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "terms-missing",
         meaning: "The soil states no terms for the model `small-wheel`: general values stand for them.",
         quantity: "sets of terms for the small-wheel model",
-        criterion: "`small-wheel` on a soil without `small_wheel`",
+        criterion: "`small-wheel` on a soil without `small_wheel`, or with nothing of it but what priors have",
         source: "two wheels on one sand, Pavlov and Johnson (2022); Lyasko (2010)",
         judge: |it| {
-            let level = SmallWheel { wedge_share: 1.0, ..it.soil.small_wheel };
-            let terms = if level == SmallWheel::GENERAL { 0.0 } else { 1.0 };
+            let terms = if has_general_terms(&it.soil.small_wheel) { 0.0 } else { 1.0 };
             (it.theory == Theory::SmallWheel).then_some((terms, Span::at_least(1.0)))
         },
     },
@@ -222,6 +221,15 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         },
     },
 ];
+
+/// Whether the terms are the general ones, but for what a slope does and what priors may have drawn.
+fn has_general_terms(terms: &SmallWheel) -> bool {
+    let general = SmallWheel::GENERAL;
+    let mut own = SmallWheel { wedge_share: general.wedge_share, ..*terms };
+    own.sinkage.with_slip = general.sinkage.with_slip;
+    own.interface.friction_share = general.interface.friction_share;
+    own == general
+}
 
 fn other_wheel(it: &Situation<'_>) -> Option<(f64, Span)> {
     let fit = &it.soil.domain;

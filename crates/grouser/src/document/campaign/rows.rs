@@ -146,8 +146,8 @@ pub(super) fn counted(
             }
             _ => None,
         },
-        Case::WheelTest { contact, load, .. } => {
-            let sunk = Sunk::of(&contact.wheel, load, contact.slip.ratio);
+        Case::WheelTest { contact, theory, load } => {
+            let sunk = Sunk::of(theory, &contact, load);
             let quantities = [
                 (SINKAGE, sunk.sinkage),
                 (DRAWBAR_PULL, sunk.drawbar_pull),

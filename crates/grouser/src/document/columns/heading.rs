@@ -231,8 +231,7 @@ pub const BAND: [Column<SlopeBand>; 7] = [
 
 /// How many samples have a heading that holds the contour.
 pub(super) const DRAWS_LEVEL: &str = "draws_level";
-/// How many samples there are.
-pub const DRAWS: &str = "draws";
+pub use super::DRAWS;
 /// How many samples let the rover move on level ground.
 pub const DRAWS_MOBILE: &str = "draws_mobile";
 

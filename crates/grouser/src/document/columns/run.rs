@@ -209,7 +209,19 @@ pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
 #[must_use]
 pub fn summary_brief() -> Vec<String> {
     let numbers = [TIME, X, Y, YAW, SLIP_RATIO, SINKAGE, ENERGY].map(|it| it.name);
-    ["outcome"].into_iter().chain(numbers).map(String::from).collect()
+    ["outcome"].into_iter().chain(numbers).chain([flags::FLAGS]).map(String::from).collect()
+}
+
+/// The columns of [`summary`] with those of [`RUN_BAND`] for reading.
+#[must_use]
+pub fn summary_bands_brief() -> Vec<String> {
+    let results = [X, Y, YAW, SLIP_RATIO, SINKAGE, ENERGY].map(|it| {
+        let [low, _, high] = it.quantiles();
+        [it.name.to_owned(), low, high]
+    });
+    let first = ["outcome", TIME.name].map(String::from);
+    let last = [PROBABILITY_COMPLETED.name, flags::FLAGS].map(String::from);
+    first.into_iter().chain(results.into_iter().flatten()).chain(last).collect()
 }
 
 /// The means over a record's wheels; missing where the rover has just tipped over or sunk.

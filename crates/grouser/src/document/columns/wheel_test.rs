@@ -67,8 +67,8 @@ pub fn bands_brief() -> Vec<String> {
         let [low, _, high] = it.quantiles();
         vec![it.name.to_owned(), low, high]
     });
-    let status = [vec![STATUS.to_owned()]];
-    setting.into_iter().chain(results).chain(status).flatten().collect()
+    let rest = [PROBABILITY_CARRIED.name, STATUS, FLAGS].map(|name| vec![name.to_owned()]);
+    setting.into_iter().chain(results).chain(rest).flatten().collect()
 }
 
 /// The columns of [`table`] for reading.

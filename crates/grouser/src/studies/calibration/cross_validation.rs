@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use grouser_io::statistics::normal::normal_share;
 use grouser_io::statistics::quantile;
 
 use super::diagnostics::Samples;
@@ -13,6 +14,7 @@ use super::{
     SamplerSettings, handed_on,
 };
 use crate::contact::{SettleError, Settled};
+use crate::root;
 use crate::studies::ensemble::outputs;
 use crate::studies::measurement::{PerQuantity, Quantity, WheelTests};
 
@@ -133,7 +135,6 @@ pub fn leave_one_angle_out(
     sampler: Option<&SamplerSettings>,
     observer: &(dyn Fn() -> ControlFlow<()> + Sync),
 ) -> Result<Vec<LeftOut>, CalibrationError> {
-    let all = WheelTestExperiment::new(tests, setup)?;
     let one_angle = |slip_angle: f64| {
         let experiment = WheelTestExperiment::new(&without(tests, slip_angle), setup)?;
         let fit = Calibration::new(&experiment, space.clone())?.fit(settings, observer)?;
@@ -149,6 +150,8 @@ pub fn leave_one_angle_out(
         let bands = match sampler {
             Some(sampler) => {
                 let experiment = experiment.with_scatter_about(&fit.values)?;
+                let all =
+                    WheelTestExperiment::new(tests, setup)?.with_scatter_about(&fit.values)?;
                 bands(&experiment, space, &fit, sampler, (&all, &is_left_out), observer)?
             }
             None => Vec::new(),
@@ -196,29 +199,54 @@ fn bands(
     Ok(asked.into_iter().filter_map(band).collect())
 }
 
-/// The quantiles of what would be read where samples predict some values: each of them scattered. None where all
-/// samples predict the same: straight ahead no soil has a side force, by symmetry, and what a stand
+/// The quantiles of what would be read where samples predict some values: each of them normally scattered. None
+/// where all samples predict the same: straight ahead no soil has a side force, by symmetry, and what a stand
 /// reads there is its own.
 fn quantiles_with_scatter(mut values: Vec<f64>, scatter: f64) -> Option<[f64; 4]> {
+    /// The normal distribution has ended so many deviations beyond the values [-].
+    const ENDS: f64 = 9.0;
     values.sort_by(f64::total_cmp);
-    if values.first() == values.last() {
+    let (low, high) = (*values.first()?, *values.last()?);
+    if low == high {
         return None;
     }
-    // Quantiles of the normal distribution at the middles of nine equal shares.
-    const NINTHS: [f64; 9] = [
-        -1.593_218_8,
-        -0.967_421_6,
-        -0.589_455_8,
-        -0.282_216_1,
-        0.0,
-        0.282_216_1,
-        0.589_455_8,
-        0.967_421_6,
-        1.593_218_8,
-    ];
-    let scattered = values.iter().flat_map(|value| NINTHS.map(|z| value + z * scatter));
-    let mut scattered: Vec<f64> = scattered.collect();
-    scattered.sort_by(f64::total_cmp);
-    let at = |share| quantile(&scattered, share).unwrap_or(f64::NAN);
-    Some(SHARES.map(at))
+    if scatter == 0.0 {
+        return Some(SHARES.map(|share| quantile(&values, share).unwrap_or(f64::NAN)));
+    }
+    let below = |x: f64| {
+        let shares = values.iter().map(|value| normal_share((x - value) / scatter));
+        shares.sum::<f64>() / values.len() as f64
+    };
+    let ends = (low - ENDS * scatter, high + ENDS * scatter);
+    let tolerance = 1e-6 * scatter;
+    Some(SHARES.map(|share| root::between(|x| below(x) - share, ends.0, ends.1, tolerance)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Closed form: values that agree have the normal band of their scatter.
+    #[test]
+    fn a_band_of_scatter_alone_is_the_normal_one() {
+        let values: Vec<f64> = (0..400).map(|place| 5.0 + 1e-6 * f64::from(place)).collect();
+        let found = quantiles_with_scatter(values, 2.0).expect("a band");
+        for (found, expected) in
+            found.into_iter().zip([-1.959_964, -0.674_490, 0.674_490, 1.959_964])
+        {
+            assert!((found - 5.0 - 2.0 * expected).abs() < 1e-3, "{found}");
+        }
+    }
+
+    /// Without scatter they are the quantiles of the values.
+    #[test]
+    fn a_band_without_scatter_is_that_of_the_values() {
+        let values: Vec<f64> = (0..=1000).map(f64::from).collect();
+        let found = quantiles_with_scatter(values.clone(), 0.0).expect("a band");
+        assert_eq!(found, [25.0, 250.0, 750.0, 975.0]);
+        let scattered = quantiles_with_scatter(values, 1e-3).expect("a band");
+        for (one, other) in found.into_iter().zip(scattered) {
+            assert!((one - other).abs() < 1.0);
+        }
+    }
 }

@@ -11,9 +11,12 @@
 //!
 //! with one correlation length ℓ_S in slip and one ℓ_β in slip angle for all families: a Gaussian
 //! process with a Matérn kernel (Rasmussen and Williams 2006, Eq. 4.17), as Kennedy and O'Hagan
-//! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a wheel under twice the load is mistaken
-//! about twice the force. An observation of weight 0 can have no discrepancy. With both lengths near zero the discrepancies are independent, as they are
-//! where observations have no place.
+//! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a wheel
+//! under twice the load is mistaken about twice the force. An observation of weight 0 can have no discrepancy.
+//! With both lengths near zero the discrepancies are independent, as they are where observations have no place.
+//!
+//! What is positive and may be several times what a model says, such as a sinkage, is counted by its logarithm:
+//! its residual is f_i ln(y_i/prediction) in units of the usual f.
 
 use std::f64::consts::PI;
 
@@ -39,6 +42,9 @@ const START_ANGLE_LENGTH: f64 = PI / 9.0;
 /// Observations at one place differ by this share of the discrepancy's variance at least [-], so that
 /// their covariance can be inverted.
 const JITTER: f64 = 1e-8;
+
+/// What is counted by its logarithm is at least this share of what was read [-].
+const LEAST_SHARE: f64 = 1e-3;
 
 /// Lengths tried for a fit, each over its range.
 const LENGTHS_TRIED: i32 = 10;
@@ -153,18 +159,27 @@ impl Errors {
         self.usual_weights.get(channel).copied().unwrap_or(1.0)
     }
 
+    /// The weight of each observation's discrepancy, over that of one of usual size [-].
+    #[must_use]
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
     /// What was measured beyond what was predicted, as discrepancies are counted.
     #[must_use]
     pub(super) fn residuals(&self, observations: &[Observation], predictions: &[f64]) -> Vec<f64> {
         let pairs = observations.iter().zip(predictions).zip(&self.logarithmic);
-        pairs
-            .map(|((one, &predicted), logarithmic)| match logarithmic {
-                Some(weight) if one.value > 0.0 && predicted > 0.0 => {
-                    weight * (ln(one.value) - ln(predicted))
+        let beyond = |((one, &predicted), logarithmic): ((&Observation, &f64), &Option<f64>)| {
+            match *logarithmic {
+                // A weight is its observation, or the least that counts as one.
+                Some(weight) => {
+                    let predicted = predicted.max(LEAST_SHARE * weight);
+                    weight * (ln(one.value.max(weight)) - ln(predicted))
                 }
-                _ => one.value - predicted,
-            })
-            .collect()
+                None => one.value - predicted,
+            }
+        };
+        pairs.map(beyond).collect()
     }
 
     /// The correlation lengths, as parameters with priors uniform by the logarithm.
@@ -189,8 +204,8 @@ impl Errors {
         each.map(|(&channel, weight)| found[channel] * weight).collect()
     }
 
-    /// Variances of observations on their own, s² + δ²: those of least squares, in which every cell of a channel
-    /// counts by its scatter alone.
+    /// Variances of observations on their own, s² + δ²: those of least squares, in which every cell of a
+    /// channel counts by its scatter alone.
     #[must_use]
     pub fn variances_alike(&self, found: &[f64]) -> Vec<f64> {
         let each = self.scatters.iter().zip(&self.channels);
@@ -462,19 +477,20 @@ mod tests {
 
     const SLIPS: [f64; 9] = [-1.0, -0.7, -0.5, -0.2, 0.0, 0.23, 0.5, 0.75, 0.9];
 
-    /// Three times what is predicted is ln 3 of what is read; what is no ratio is a difference.
+    /// Three times what is predicted is ln 3 of what is read; a reading below its weight counts as that, so that
+    /// one of 0 is no more than that of a trace.
     #[test]
     fn a_sinkage_is_counted_by_its_logarithm() {
         let mut read = Read::new(&[0.2, 0.4], &[0.0], 0.1);
-        for (observation, value) in read.observations.iter_mut().zip([3.0, -1.0]) {
+        for (observation, value) in read.observations.iter_mut().zip([30.0, -1.0]) {
             observation.value = value;
         }
         for place in &mut read.places {
             place.measure = Measure::Logarithmic;
         }
-        let residuals = Errors::of(&read).residuals(&read.observations, &[1.0, 1.0]);
+        let residuals = Errors::of(&read).residuals(&read.observations, &[10.0, 14.0]);
         assert!((residuals[0] - 7.0 * 3.0_f64.ln()).abs() < 1e-12);
-        assert_eq!(residuals[1], -2.0);
+        assert!((residuals[1] + 7.0 * 2.0_f64.ln()).abs() < 1e-12);
     }
 
     /// A correlation of ρ between two: the bivariate normal density.

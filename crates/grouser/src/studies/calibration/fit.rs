@@ -133,7 +133,7 @@ impl Calibration<'_> {
         let best =
             best.filter(|best| best.cost.is_finite()).ok_or_else(|| self.no_start(&starts))?;
         let searches = self.searches(&starts, &minima, best.cost);
-        self.polished(best, first_guess, searches)
+        self.polished(best, searches)
     }
 
     /// Where to start: the given point, and the best of many spread over the bounds.
@@ -172,22 +172,19 @@ impl Calibration<'_> {
     }
 
     /// The best search's end, with the weights that belong to it.
-    fn polished(
-        &self,
-        best: &Minimum,
-        mut discrepancies: Vec<f64>,
-        searches: Vec<Search>,
-    ) -> Result<Fit, CalibrationError> {
+    fn polished(&self, best: &Minimum, searches: Vec<Search>) -> Result<Fit, CalibrationError> {
         let mut minimum = best.clone();
         for _ in 0..ROUNDS {
-            discrepancies = self.discrepancies_at(&minimum.coordinates);
+            let discrepancies = self.discrepancies_at(&minimum.coordinates);
             let weighted = Weighted::new(self, &discrepancies);
             minimum = minimise(&weighted, &minimum.coordinates, POLISHING_PATIENCE);
         }
         let Minimum { coordinates, cost, converged } = minimum;
         let values = self.space.values(&coordinates);
         let predictions = self.predictions(&values).ok_or_else(|| self.no_start(&[]))?;
+        // The fit was weighed by plain differences; what is handed on counts as discrepancies do.
         let residuals = self.errors.residuals(self.experiment.observations(), &predictions);
+        let mut discrepancies = self.discrepancies_of(&residuals, self.errors.weights());
         discrepancies.extend(self.errors.likely_lengths(&residuals, &discrepancies));
         let covariance = Weighted::correlated(self, &discrepancies).covariance(&coordinates);
         Ok(Fit {
@@ -211,24 +208,36 @@ impl Calibration<'_> {
         (mode, covariance)
     }
 
-    /// The discrepancies estimated from the residuals at a point (Paule and Mandel 1982).
+    /// The discrepancies of plain differences at a point, all of a channel alike.
     fn discrepancies_at(&self, coordinates: &[f64]) -> Vec<f64> {
         let observations = self.experiment.observations();
         let predictions = self.predictions(&self.space.values(coordinates));
         let predictions = predictions.unwrap_or_else(|| vec![0.0; observations.len()]);
+        let pairs = observations.iter().zip(&predictions);
+        let residuals: Vec<f64> = pairs.map(|(one, prediction)| one.value - prediction).collect();
+        self.discrepancies_of(&residuals, &vec![1.0; observations.len()])
+    }
+
+    /// The discrepancies of the channels by the method of moments (Paule and Mandel 1982).
+    ///
+    /// * `weights`: of each observation, in units of its channel's discrepancy
+    fn discrepancies_of(&self, residuals: &[f64], weights: &[f64]) -> Vec<f64> {
+        let observations = self.experiment.observations();
         // Each parameter takes up one observation; the channels share that evenly.
         let left = 1.0 - self.space.len() as f64 / observations.len() as f64;
         let one_channel = |(channel, bounds): (usize, &super::Parameter)| {
-            let own: Vec<(f64, f64)> = observations
-                .iter()
-                .zip(&predictions)
-                .filter(|(observation, _)| observation.channel == channel)
-                .map(|(one, prediction)| ((one.value - prediction).powi(2), one.scatter.powi(2)))
+            let each = observations.iter().zip(residuals.iter().zip(weights));
+            let own: Vec<[f64; 3]> = each
+                .filter(|(one, (_, weight))| one.channel == channel && **weight != 0.0)
+                .map(|(one, (residual, weight))| {
+                    [*residual, one.scatter, *weight].map(|it| it * it)
+                })
                 .collect();
             let expected = own.len() as f64 * left;
             let excess = |log_discrepancy: f64| {
                 let variance = exp(2.0 * log_discrepancy);
-                own.iter().map(|(square, s2)| square / (s2 + variance)).sum::<f64>() - expected
+                let share = |[square, s2, weight]: &[f64; 3]| square / (s2 + weight * variance);
+                own.iter().map(share).sum::<f64>() - expected
             };
             let (low, high) = (ln(bounds.lower), ln(bounds.upper));
             if excess(low) <= 0.0 {

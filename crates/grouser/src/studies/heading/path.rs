@@ -297,7 +297,7 @@ impl<'a> Path<'a> {
     ///
     /// * `here`: the imbalances at the place itself
     fn gradients(&self, place: &Place, here: [f64; 2]) -> Option<Gradients> {
-        /// Forces are exact to 1e-12.
+        /// Forces are exact to 1e-12, those of loads that depend on them to 1e-11: a gradient to 1e-4.
         const STEP: f64 = 1e-7;
         let mut gradients = Gradients::default();
         for axis in 0..3 {
