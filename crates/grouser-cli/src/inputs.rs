@@ -228,14 +228,13 @@ pub(crate) struct CardInputs {
 }
 
 pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
-    use document::card::{MARGIN_DEG, RuleRecord, SHARE};
+    use document::card::{RuleRecord, SHARE};
     let flags = &args.rule;
     let record = RuleRecord {
         go_slip_ratio: single("--go-slip-ratio", &flags.go_slip_ratio, &SHARE)?,
         go_probability: single("--go-probability", &flags.go_probability, &SHARE)?,
         no_go_slip_ratio: single("--no-go-slip-ratio", &flags.no_go_slip_ratio, &SHARE)?,
         no_go_probability: single("--no-go-probability", &flags.no_go_probability, &SHARE)?,
-        margin_deg: single("--margin-deg", &flags.margin_deg, &MARGIN_DEG)?,
     };
     let rule = Rule::from(&record);
     rule.check()?;

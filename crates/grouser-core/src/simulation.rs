@@ -6,7 +6,7 @@
 //!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
 //! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
-//! A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
+//! [`SteadyMotion`] is one such state by itself. A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
 //! [`power`] computes the energy balance.
 
 pub mod controller;
@@ -22,6 +22,7 @@ mod record;
 pub mod run;
 pub mod scenario;
 mod state;
+mod steady_motion;
 pub mod steady_state;
 mod times;
 pub mod trajectory;
@@ -38,7 +39,8 @@ pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;
-pub use steady_state::NotSteady;
+pub use steady_motion::SteadyMotion;
+pub use steady_state::{MOST_SLIP, NotSteady};
 pub use trajectory::Trajectory;
 pub use work::Work;
 pub use yaw::{FASTEST_TURN, PrescribedYaw, TooFast};

@@ -69,6 +69,8 @@ pub const KPA: Unit = Unit::scaled("kPa", Scale::Kilo);
 pub const MM: Unit = Unit::scaled("mm", Scale::Milli);
 /// Degrees.
 pub const DEG: Unit = Unit::scaled("°", Scale::Degrees);
+/// Degrees per metre of way.
+pub const DEG_PER_M: Unit = Unit::scaled("°/m", Scale::Degrees);
 /// Degrees per second.
 pub const DEG_S: Unit = Unit::scaled("°/s", Scale::Degrees);
 /// Kilograms per cubic metre.
@@ -114,8 +116,9 @@ pub const OF_KEY: Unit = Unit::si("");
 
 /// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
 /// Python package asks this table; a test compares it with that of `docs/conventions.md`.
-pub const UNITS: [(&str, Unit); 24] = [
+pub const UNITS: [(&str, Unit); 25] = [
     ("_m_per_m", M_PER_M),
+    ("_deg_per_m", DEG_PER_M),
     ("_j_per_m", J_PER_M),
     ("_per_rad2_m", M_PER_RAD2),
     ("_per_rad_m", M_PER_RAD),

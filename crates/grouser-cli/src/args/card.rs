@@ -14,8 +14,8 @@ use crate::output::Format;
 #[command(
     after_help = "Soil and wheel-soil model are sampled N times, and every number has a 95 % \
                         band. Where the soil's uncertainty is not stated, or one --model is asked \
-                        for, it is sampled in the other alone; without the soil's, slopes are \
-                        judged with a margin. docs/guide/card.md shows a card and explains how to read it."
+                        for, it is sampled in the other alone; without the soil's, no slope is a \
+                        go. docs/guide/card.md shows a card and explains how to read it."
 )]
 pub(crate) struct CardArgs {
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without
@@ -79,9 +79,6 @@ pub(crate) struct RuleArgs {
     /// ... on less than this share of the samples.
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true)]
     pub(crate) no_go_probability: Numbers,
-    /// On a soil without stated uncertainty a slope is judged as if it were steeper by this [°].
-    #[arg(long, value_name = "DEG", value_parser = list::parse, default_value = "5", allow_hyphen_values = true)]
-    pub(crate) margin_deg: Numbers,
 }
 
 /// A side of the rover.

@@ -3,13 +3,14 @@
 mod columns;
 mod layout;
 mod measured;
+mod picture;
 mod row;
 mod texts;
 
 use std::path::Path;
 
 use grouser::document::card::RuleRecord;
-use grouser::document::columns::card::{self, MeasuredYaw};
+use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
@@ -27,6 +28,7 @@ use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
 use crate::output::{self, Format, file};
+use picture::Picture;
 use row::CardRow;
 
 /// Steepest slope that is looked at [°].
@@ -48,7 +50,9 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let rows = shown(&all, &measured);
     let beside = card::beside(&rows, &measured);
     if let Some(target) = target {
-        let sheet = layout::draw(&texts::of(args, &inputs, &card), &rows, &measured);
+        let uphill = args.uphill;
+        let picture = Picture::of(&inputs.scenario.value.rover, uphill);
+        let sheet = layout::draw(&texts::of(args, &inputs, &card), &picture, &rows);
         target.write(
             &Answers { args, inputs: &inputs, card: &card, rows: &rows, beside: &beside },
             &sheet,
@@ -87,9 +91,9 @@ fn compute(
     if args.uphill == SideChoice::Right {
         heading.rover = heading.rover.mirrored();
     }
-    let is_soil_uncertain = inputs.scenario.uncertain.is_some();
+    let is_uncertainty_stated = inputs.scenario.stated_uncertainty().is_some();
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    let study = CardStudy { heading, rim_speed, rule, is_soil_uncertain };
+    let study = CardStudy { heading, rim_speed, rule, is_uncertainty_stated };
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
@@ -104,7 +108,11 @@ fn compute(
 
 /// The rows up to the first slope that no soil can be crossed on, and those that were measured on.
 fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
-    let is_last = |row: &CardRow<'_>| row.is_no_go() && row.middle(YAW).is_none();
+    let [least, ..] = YAW.quantiles();
+    let is_crossed = |row: &CardRow<'_>| {
+        [&*least, YAW_AS_WRITTEN.name].iter().any(|name| row.named(name).is_some())
+    };
+    let is_last = |row: &CardRow<'_>| row.is_no_go() && !is_crossed(row);
     let last = CardRow::all(rows).position(|row| is_last(&row)).unwrap_or(rows.rows());
     let is_measured = |row: CardRow<'_>| measured.iter().any(|it| it.slope == row.slope());
     let kept = CardRow::all(rows).enumerate();
@@ -119,13 +127,16 @@ fn table(inputs: &CardInputs, card: &Card, rows: &Table, beside: &Table) -> Stri
     }
     let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
     let text = Rows::of_table(rows).to_table(&brief);
-    if inputs.scenario.uncertain.is_some() {
+    let scenario = &inputs.scenario;
+    if scenario.stated_uncertainty().is_some() {
         return text;
     }
-    let bands = if card.draws.is_some() { "bands are of the models alone" } else { "no bands" };
-    format!(
-        "{text}no uncertainty of this soil is stated: {bands}; slopes are judged with a margin\n"
-    )
+    let bands = match (card.draws, &scenario.uncertain) {
+        (Some(_), Some(_)) => "bands are of priors and of the models",
+        (Some(_), None) => "bands are of the models alone",
+        (None, _) => "no bands",
+    };
+    format!("{text}no uncertainty of this soil is stated: {bands}; no slope is a go\n")
 }
 
 #[derive(Serialize)]

@@ -360,7 +360,7 @@ fn nothing_of(reaction: &WheelReaction) -> WheelReaction {
 }
 
 /// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.
-fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
+pub(super) fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
     let (mounts, rims) = (equations.rover().mounts(), equations.rim_speeds());
     let count = rims.len() as f64;
     let mean = mounts.iter().map(|mount| mount.position.xy()).sum::<Vec2>() / count;

@@ -81,7 +81,7 @@ pub(super) struct SteadySolver<'a> {
 }
 
 /// What the last steady state teaches about the next one.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Memory {
     /// Inverse Jacobian, (∂a/∂V)⁻¹ [s].
     inverse: Option<Matrix3<f64>>,

@@ -1,18 +1,15 @@
-//! The rule of an operator's card in degrees.
+//! The rule of an operator's card.
 
 use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use super::unit::DEG;
 use crate::studies::card::Rule;
 
 /// Shares and slip ratios that a rule may have [-].
 pub const SHARE: RangeInclusive<f64> = 0.0..=1.0;
-/// Margins that a rule may have [°].
-pub const MARGIN_DEG: RangeInclusive<f64> = 0.0..=60.0;
 
-/// The limits of the verdicts, in degrees.
+/// The limits of the verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RuleRecord {
     /// Largest slip ratio of a go [-].
@@ -23,8 +20,6 @@ pub struct RuleRecord {
     pub no_go_slip_ratio: f64,
     /// Least share of the samples within it [-].
     pub no_go_probability: f64,
-    /// Margin of slope where no uncertainty is stated [°].
-    pub margin_deg: f64,
 }
 
 impl From<&Rule> for RuleRecord {
@@ -34,7 +29,6 @@ impl From<&Rule> for RuleRecord {
             go_probability: rule.go_probability,
             no_go_slip_ratio: rule.no_go_slip_ratio,
             no_go_probability: rule.no_go_probability,
-            margin_deg: DEG.as_given(rule.margin),
         }
     }
 }
@@ -46,7 +40,6 @@ impl From<&RuleRecord> for Rule {
             go_probability: record.go_probability,
             no_go_slip_ratio: record.no_go_slip_ratio,
             no_go_probability: record.no_go_probability,
-            margin: DEG.to_si(record.margin_deg),
         }
     }
 }

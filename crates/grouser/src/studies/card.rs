@@ -1,94 +1,24 @@
-//! The operator's card: for each slope, the heading that holds the contour, slip and power there, the drift without
-//! it, and a verdict to go or not.
+//! The operator's card: for each slope the heading to set, what instruments show at it, how often it is to be
+//! set again, the readings at which to stop, and a verdict to go or not.
 //!
 //! Every number has a band over samples of soil and model, and a slope is judged by the share of them in which a
-//! heading holds the contour at an acceptable slip. Where the soil's own uncertainty is not stated, the samples
-//! differ by their models alone, and a slope is judged as if it were steeper by a margin. Without samples there is
-//! one curve and no band, with the same margin.
+//! heading holds the contour at an acceptable slip. No slope is a go on a soil whose uncertainty its document
+//! does not state, nor near the soil's friction angle, nor beyond what the ground itself stands.
 //! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
+mod driven;
+mod rule;
+
+use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
-
-/// Whether to drive on a slope.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// Drive.
-    Go,
-    /// Drive only after a second check: measured slip, a stop on the way, a person's decision.
-    Caution,
-    /// Do not drive.
-    NoGo,
-}
-
-/// The limits of the verdicts. Source of all numbers: ours; a mission has its own.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rule {
-    /// Go: a contour traverse exists and slips at most this much [-] …
-    pub go_slip_ratio: f64,
-    /// … in at least this share of the samples [-].
-    pub go_probability: f64,
-    /// No-go: a contour traverse exists and slips at most this much [-] …
-    pub no_go_slip_ratio: f64,
-    /// … in less than this share of the samples [-].
-    pub no_go_probability: f64,
-    /// Without stated uncertainty a slope is judged as if it were steeper by this [rad].
-    pub margin: f64,
-}
-
-impl Rule {
-    /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
-    /// 95 % band.
-    /// Slip 0.6: rims go 2.5 times the way, and thrust hardly grows any more: nothing is left to
-    /// get out with. 0.8: on one soil in five no heading holds the contour.
-    /// 5°: about as far as the stated deviations of Toyoura sand move the steepest slope down.
-    pub const DEFAULT: Self = Self {
-        go_slip_ratio: 0.3,
-        go_probability: 0.95,
-        no_go_slip_ratio: 0.6,
-        no_go_probability: 0.8,
-        margin: 5.0 * std::f64::consts::PI / 180.0,
-    };
-
-    /// Checks that no slope can be both a go and a no-go.
-    ///
-    /// # Errors
-    /// [`ParameterError`] for shares and slip ratios outside 0 to 1, a go that asks for less than
-    /// a no-go, and a margin outside 0 to π/3.
-    pub fn check(&self) -> Result<(), ParameterError> {
-        let within = |name: &str, value: f64, most: f64, expected: &'static str| {
-            let inside = (0.0..=most).contains(&value);
-            inside.then_some(()).ok_or_else(|| ParameterError::new(name, value, expected))
-        };
-        let (slip, share) = (self.no_go_slip_ratio, self.go_probability);
-        within("the no-go slip ratio", slip, 1.0, "0 to 1")?;
-        within("the go slip ratio", self.go_slip_ratio, slip, "0 to the no-go slip ratio")?;
-        within("the go probability", share, 1.0, "0 to 1")?;
-        let most = "0 to the go probability";
-        within("the no-go probability", self.no_go_probability, share, most)?;
-        within("the margin [rad]", self.margin, std::f64::consts::FRAC_PI_3, "0 to π/3")
-    }
-
-    /// The verdict on a slope.
-    ///
-    /// * `slips`: slip ratio of the contour traverse in each sample, `None` where no heading holds the contour
-    fn verdict(&self, slips: &[Option<f64>]) -> Verdict {
-        let share_within = |most: f64| {
-            let count = slips.iter().flatten().filter(|slip| **slip <= most).count();
-            count as f64 / slips.len() as f64
-        };
-        if share_within(self.go_slip_ratio) >= self.go_probability {
-            Verdict::Go
-        } else if share_within(self.no_go_slip_ratio) < self.no_go_probability {
-            Verdict::NoGo
-        } else {
-            Verdict::Caution
-        }
-    }
-}
+use crate::soil::SlopeStability;
+pub use driven::{Driven, DrivenMotion, HEADING_ERROR, roll_and_pitch};
+pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 
 /// The inputs of a card.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,9 +29,8 @@ pub struct CardStudy {
     pub rim_speed: f64,
     /// The limits of the verdicts.
     pub rule: Rule,
-    /// Whether the samples are of an uncertain soil. If not, they differ by their models alone, and slopes are
-    /// judged with the rule's margin.
-    pub is_soil_uncertain: bool,
+    /// Whether the soil's document states its uncertainty; priors do not count. If not, no slope is a go.
+    pub is_uncertainty_stated: bool,
 }
 
 /// The card's numbers.
@@ -127,6 +56,11 @@ pub struct CardRow {
     pub verdict: Verdict,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
+    /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none holds the contour.
+    pub other_models: Vec<(Theory, Option<f64>)>,
+    /// Driven by the card's heading, the median over all samples, or on the soil as written where there are none;
+    /// `None` where no heading holds the contour in half of them. Its motion is computed where the slope is no no-go.
+    pub driven: Option<Driven>,
     /// Why no heading holds the contour on the soil as written; nothing where one does.
     pub refusal: Option<String>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
@@ -152,9 +86,9 @@ pub struct Level {
 /// One slope over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// Samples in which a heading holds the contour: yaw and power are over them.
+    /// Samples in which a heading holds the contour: power is over them.
     pub level: Probability,
-    /// Yaw, *γ* [rad].
+    /// Yaw, *γ* [rad], over all samples: above every number where no heading holds the contour.
     pub yaw: Option<Band>,
     /// Slip ratio, *s* [-], over all samples: 1 where no heading holds the contour.
     pub slip_ratio: Option<Band>,
@@ -180,7 +114,7 @@ impl CardStudy {
     /// Computes the card. Samples are shared among threads and keep their order: the result is the same for
     /// any number of threads.
     ///
-    /// Go or no-go on 5°, 10° and 20°, where nothing is known of the soil's uncertainty?
+    /// Go or no-go on 5°, 10° and 20°, if the soil is just as written?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
@@ -191,10 +125,10 @@ impl CardStudy {
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
     /// let heading = HeadingStudy::of(&scenario);
     /// let rule = Rule::DEFAULT;
-    /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_soil_uncertain: false };
+    /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
     /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
-    /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::NoGo]);
+    /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::Caution]);
     /// let level = card.rows[1].level.expect("10° can be crossed");
     /// assert_eq!(format!("{:.2} W", level.power), "0.40 W");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -220,8 +154,6 @@ impl CardStudy {
         }
         let nominal = self.draw(&self.nominal(), slopes)?;
         let curve = self.heading.curve()?;
-        let findings: Vec<_> =
-            slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect();
         let drawn = |sample: &Sample| {
             let draw = self.draw(sample, slopes);
             done();
@@ -229,20 +161,10 @@ impl CardStudy {
         };
         // In order, so that the error is always that of the first soil.
         let draws = Self::draws(samples, drawn)?;
-        let slips_of = |draws: &[Draw]| {
-            (0..slopes.len()).map(|place| slips_at(draws, place)).collect::<Vec<_>>()
-        };
-        let judged = if self.is_soil_uncertain && !draws.is_empty() {
-            slips_of(&draws)
-        } else {
-            let steeper: Vec<f64> = slopes.iter().map(|slope| slope + self.rule.margin).collect();
-            let nominal = [self.nominal()];
-            let samples = if samples.is_empty() { &nominal } else { samples };
-            slips_of(&Self::draws(samples, |sample| self.draw(sample, &steeper))?)
-        };
+        let found = Found { curve, others: self.other_curves()?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(Card {
-            rows: self.rows(slopes, &nominal, &draws, &judged, &findings),
+            rows: self.rows(slopes, samples, &found),
             limit: nominal.limit,
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
@@ -263,32 +185,56 @@ impl CardStudy {
         all.into_iter().flatten().collect()
     }
 
-    fn rows(
-        &self,
-        slopes: &[f64],
-        nominal: &Draw,
-        draws: &[Draw],
-        judged: &[Vec<Option<f64>>],
-        findings: &[Vec<Finding>],
-    ) -> Vec<CardRow> {
+    /// The contour traverses of the models that the soil as written is not computed with.
+    fn other_curves(&self) -> Result<Vec<(Theory, HeadingCurve)>, ParameterError> {
+        let is_other =
+            |(theory, weight): &&(Theory, f64)| *weight > 0.0 && *theory != self.heading.theory;
+        let curve = |(theory, _): &(Theory, f64)| {
+            let study = HeadingStudy { theory: *theory, ..self.heading.clone() };
+            Ok((*theory, study.curve()?))
+        };
+        WEIGHTS.iter().filter(is_other).map(curve).collect()
+    }
+
+    fn rows(&self, slopes: &[f64], samples: &[Sample], found: &Found<'_>) -> Vec<CardRow> {
+        let as_written = [self.nominal()];
+        let samples = if samples.is_empty() { &as_written } else { samples };
         let mut worst = Verdict::Go;
-        let ground = self.heading.ground_limit();
         let row = |(place, slope): (usize, &f64)| {
-            // Ground that slides by itself is no place to drive, whatever samples of it would hold.
-            let verdict =
-                if *slope > ground { Verdict::NoGo } else { self.rule.verdict(&judged[place]) };
-            worst = worst.max(verdict);
-            CardRow {
-                slope: *slope,
-                verdict: worst,
-                level: nominal.levels[place],
-                refusal: nominal.refusals[place].clone(),
-                drift: nominal.drifts[place],
-                bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
-                findings: findings[place].clone(),
+            let mut driven = self.driven(found.judged(), place, *slope);
+            let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
+            worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
+            if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
+                let course = (*slope, driven.yaw);
+                driven.motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
+                worst = worst.max(verdict_of(driven.motion.as_ref()));
             }
+            found.row(place, *slope, (worst, driven))
         };
         slopes.iter().enumerate().map(row).collect()
+    }
+
+    /// The card's heading on a slope, if there is one, and what the rover does at it without moving.
+    fn driven(&self, draws: &[Draw], place: usize, slope: f64) -> Option<Driven> {
+        let yaw = yaws_at(draws, place)?.median;
+        yaw.is_finite().then(|| Driven::at_rest(&self.heading, slope, yaw))
+    }
+
+    /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none below
+    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself nor a
+    /// rover that tips over is to be driven.
+    fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
+        let (soil, gravity) = (&self.heading.soil, self.heading.gravity);
+        let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
+        let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
+        if slope > self.heading.ground_limit() || driven.is_some_and(|it| it.tipping_margin <= 0.0)
+        {
+            Verdict::NoGo
+        } else if slope > flattest || !self.is_uncertainty_stated {
+            Verdict::Caution
+        } else {
+            Verdict::Go
+        }
     }
 
     fn draw(&self, sample: &Sample, slopes: &[f64]) -> Result<Draw, ParameterError> {
@@ -315,6 +261,66 @@ impl CardStudy {
     }
 }
 
+/// What rows are made of.
+struct Found<'a> {
+    /// On the soil as written, and those of the other models.
+    curve: HeadingCurve,
+    others: Vec<(Theory, HeadingCurve)>,
+    nominal: &'a Draw,
+    draws: &'a [Draw],
+}
+
+impl Found<'_> {
+    /// By what slopes are judged: the samples, or the soil as written where there are none.
+    fn judged(&self) -> &[Draw] {
+        if self.draws.is_empty() { std::slice::from_ref(self.nominal) } else { self.draws }
+    }
+
+    fn row(
+        &self,
+        place: usize,
+        slope: f64,
+        (verdict, driven): (Verdict, Option<Driven>),
+    ) -> CardRow {
+        let (nominal, draws) = (self.nominal, self.draws);
+        CardRow {
+            slope,
+            verdict,
+            level: nominal.levels[place],
+            other_models: self
+                .others
+                .iter()
+                .map(|(it, curve)| (*it, yaw_on(curve, slope)))
+                .collect(),
+            driven,
+            refusal: nominal.refusals[place].clone(),
+            drift: nominal.drifts[place],
+            bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
+            findings: self.curve.findings(slope, &self.curve.at(slope)),
+        }
+    }
+}
+
+/// The best verdict that the motion by the card's heading allows.
+fn verdict_of(motion: Option<&DrivenMotion>) -> Verdict {
+    match motion {
+        Some(motion) if motion.stuck.estimate() <= STUCK_ON_GO => Verdict::Go,
+        Some(_) => Verdict::Caution,
+        None => Verdict::NoGo,
+    }
+}
+
+/// Yaws of all samples on one of the slopes: above every number where no heading holds the contour.
+fn yaws_at(draws: &[Draw], place: usize) -> Option<Band> {
+    let yaw = |draw: &Draw| draw.levels[place].map_or(f64::INFINITY, |level| level.yaw);
+    Band::of(draws.iter().map(yaw))
+}
+
+/// The heading on a slope, if one holds the course.
+fn yaw_on(curve: &HeadingCurve, slope: f64) -> Option<f64> {
+    curve.at(slope).ok().map(|heading| heading.yaw)
+}
+
 /// Slip ratios of the contour traverses on one of the slopes.
 fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
     draws.iter().map(|draw| draw.levels[place].map(|level| level.slip_ratio)).collect()
@@ -328,7 +334,7 @@ impl CardBands {
         let trials = draws.len();
         Self {
             level: Probability { successes: levels.len(), trials },
-            yaw: Band::of(levels.iter().map(|level| level.yaw)),
+            yaw: yaws_at(draws, place),
             slip_ratio: Band::of(slips),
             power: Band::of(levels.iter().map(|level| level.power)),
             held: Probability { successes: drifts().flatten().count(), trials },

@@ -115,7 +115,7 @@ fn a_card_says_no_go_where_the_ground_slides() {
     // Of the samples, all hold the contour; the soil as written does not stand.
     let soil = Soil { friction_angle: deg(45.0), ..soil };
     let samples = [Sample { soil, theory: Theory::Ishigami }];
-    let study = CardStudy { heading, rim_speed: 0.06, rule, is_soil_uncertain: true };
+    let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
     let card = study.card(&samples, &slopes, &|| ()).expect("a card");
     assert_eq!(card.rows[1].verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));

@@ -1,12 +1,15 @@
-//! The table of the card: numbers, and charts whose axis of slopes is the table's rows.
+//! The table of the card: a row for each slope, a column for each thing that a driver sets, reads or may not exceed.
 
-use grouser::document::columns::card::{DRIFT, MeasuredYaw};
-use grouser::document::columns::{POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, YAW};
-use grouser_page::{Anchor, Face, Place, Shape, Sheet, Stroke, WHITE};
+use grouser::document::columns::card::{
+    CORRECT_EVERY, DRIVEN_DRIFT, DRIVEN_SLIP, PITCH, RIM_WAY, ROLL, TIPPING_MARGIN,
+};
+use grouser::document::columns::{Quantity, SINKAGE, TORQUE};
+use grouser_page::{Anchor, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
-use super::row::CardRow;
+use super::row::{CardRow, in_steps, upwards};
 use super::texts::Texts;
+use crate::output::rows::four_digits;
 
 /// Rows on the page.
 pub(super) struct Table<'a> {
@@ -18,96 +21,101 @@ pub(super) struct Table<'a> {
 }
 
 impl Table<'_> {
-    fn bottom(&self) -> f64 {
+    pub(super) fn bottom(&self) -> f64 {
         self.top + self.height * self.rows.len() as f64
     }
-
-    /// Middle of a row, or of where a slope between rows would be [mm].
-    fn middle(&self, slope_deg: f64) -> f64 {
-        let first = self.rows.first().map_or(1.0, |row| row.slope());
-        self.top + self.height * (slope_deg - first + 0.5)
-    }
 }
 
-/// A number with its chart.
-struct Chart {
-    /// Two lines of head.
-    head: [&'static str; 2],
-    /// Where the numbers end, and where the chart begins and ends [mm].
-    numbers: Option<f64>,
-    from: f64,
-    to: f64,
-    quantity: Quantity,
-    /// Of what is shown to the quantity.
-    factor: f64,
-    /// Digits of the numbers, counted from the first of the axis' end.
-    digits: i32,
+/// Height of the head above the rows [mm].
+pub(super) const HEAD: f64 = 16.0;
+
+/// Right edges of the first columns [mm].
+const STRIP: f64 = 19.0;
+const SLOPE: f64 = 35.0;
+const HEADING: f64 = 59.0;
+const RANGE: f64 = 80.0;
+/// Edges of the readings at which to stop [mm].
+const STOP: [f64; 2] = [121.0, 173.0];
+
+/// A column of small numbers.
+struct Small {
+    /// Two lines of head, and the unit.
+    head: [&'static str; 3],
+    /// Its right edge [mm].
+    right: f64,
+    text: fn(CardRow<'_>, &Texts) -> Option<String>,
 }
 
-/// Edges of the first columns [mm].
-const STRIP: f64 = 21.0;
-const SLOPE: f64 = 40.0;
-const HEADING: f64 = 68.0;
-const RANGE: f64 = 90.0;
-const CHANCE: f64 = 187.0;
-
-const CHARTS: [Chart; 4] = [
-    Chart {
-        head: ["heading", "degrees uphill"],
-        numbers: None,
-        from: 91.5,
-        to: 112.0,
-        quantity: YAW,
-        factor: 1.0,
-        digits: 2,
+const SMALL: [Small; 9] = [
+    Small {
+        head: ["roll", "reads", "°"],
+        right: 92.5,
+        text: |row, _| Some(in_steps(row.number(ROLL)?, 1.0)),
     },
-    Chart {
-        head: ["slip", "%"],
-        numbers: Some(121.5),
-        from: 122.5,
-        to: 137.0,
-        quantity: SLIP_RATIO,
-        factor: 100.0,
-        digits: 2,
+    Small {
+        head: ["pitch", "reads", "°"],
+        right: 105.0,
+        text: |row, _| Some(in_steps(row.number(PITCH)?, 0.5)),
     },
-    Chart {
-        head: ["drift, nose not", "turned: cm per m"],
-        numbers: Some(146.5),
-        from: 147.5,
-        to: 161.5,
-        quantity: DRIFT,
-        factor: 100.0,
-        digits: 2,
+    Small {
+        head: ["correct", "every", "m"],
+        right: STOP[0],
+        text: |row, _| row.number(CORRECT_EVERY).map(four_digits),
     },
-    Chart {
-        head: ["power", "W"],
-        numbers: Some(171.0),
-        from: 172.0,
-        to: 186.0,
-        quantity: POWER,
-        factor: 1.0,
-        digits: 3,
+    Small {
+        head: ["", "slip", "%"],
+        right: 133.0,
+        text: |row, texts| {
+            let slip = high(row, DRIVEN_SLIP)?.min(texts.most_slip);
+            Some(upwards(slip * 100.0, 1))
+        },
+    },
+    Small {
+        head: ["", "drift", "cm/m"],
+        right: 146.0,
+        text: |row, _| {
+            /// Straight downhill is no reading to wait for [-].
+            const ANY: f64 = 1.0;
+            let drift = high(row, DRIVEN_DRIFT)?;
+            Some(if drift < ANY { upwards((drift * 100.0).max(1.0), 1) } else { "–".to_owned() })
+        },
+    },
+    Small {
+        head: ["", "sinkage", "mm"],
+        right: 159.5,
+        text: |row, _| Some(upwards(high(row, SINKAGE)?, 1)),
+    },
+    Small {
+        head: ["", "torque", "N·m"],
+        right: STOP[1],
+        text: |row, _| Some(upwards(high(row, TORQUE)?, 2)),
+    },
+    Small {
+        head: ["wheel", "way", "m/m"],
+        right: 186.5,
+        text: |row, _| {
+            let [_, median, _] = row.band(RIM_WAY);
+            Some(format!("{:.1}", median?))
+        },
+    },
+    Small {
+        head: ["tips over", "at", "° more"],
+        right: RIGHT,
+        text: |row, _| Some(format!("{}", row.number(TIPPING_MARGIN)?.floor())),
     },
 ];
 
-impl Chart {
-    /// Its values of a row: low, median and high, or only the middle one.
-    fn values(&self, row: CardRow<'_>) -> [Option<f64>; 3] {
-        row.band(self.quantity, self.factor)
-    }
+fn high(row: CardRow<'_>, quantity: Quantity) -> Option<f64> {
+    let [_, _, high] = row.band(quantity);
+    high
 }
 
 /// Draws the table with its head.
-pub(super) fn draw(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, measured: &[MeasuredYaw]) {
+pub(super) fn draw(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     verdicts(sheet, table);
-    heads(sheet, texts, table, !measured.is_empty());
-    for chart in &CHARTS {
-        axis(sheet, table, chart);
-        band(sheet, table, chart);
-    }
-    measured_points(sheet, table, measured);
-    for row in table.rows {
-        line(sheet, texts, table, *row);
+    heads(sheet, texts, table);
+    for (place, row) in table.rows.iter().enumerate() {
+        line(sheet, texts, table, (place, *row));
     }
     frame(sheet, table);
 }
@@ -125,173 +133,110 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
             sheet.hatch(corner, size, 2.4, Stroke::black(0.45));
         }
         sheet.draw(Shape::rectangle(corner, size, WHITE).outlined(Stroke::black(0.6)).unfilled());
-        let text =
-            shown(word, fitting(word, 7.0, height - 3.0)).face(Face::Bold).anchor(Anchor::Middle);
+        let text = strip_word(word, height);
         let (middle, half) = ([f64::midpoint(LEFT, STRIP), top + height / 2.0], text.width() / 2.0);
-        sheet.draw(Shape::rectangle(
-            [middle[0] - 3.6, middle[1] - half - 1.2],
-            [7.2, 2.0 * half + 2.4],
-            WHITE,
-        ));
-        sheet.text(text.upright(), [middle[0] + 2.5, middle[1]]);
+        if height >= LOW_STRIP {
+            let (corner, size) =
+                ([middle[0] - 3.3, middle[1] - half - 1.2], [6.6, 2.0 * half + 2.4]);
+            sheet.draw(Shape::rectangle(corner, size, WHITE));
+            sheet.text(text.upright(), [middle[0] + 2.2, middle[1]]);
+        } else {
+            let (corner, size) =
+                ([middle[0] - half - 0.4, middle[1] - 1.7], [2.0 * half + 0.8, 3.4]);
+            sheet.draw(Shape::rectangle(corner, size, WHITE));
+            sheet.text(text, [middle[0], middle[1] + 0.9]);
+        }
     }
 }
 
-fn heads(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, are_measured: bool) {
+/// A strip that is lower has its word along the row [mm].
+const LOW_STRIP: f64 = 14.0;
+
+fn strip_word(word: &str, height: f64) -> grouser_page::Text {
+    let size = if height >= LOW_STRIP {
+        fitting(word, 6.4, height - 3.0)
+    } else {
+        fitting(word, 3.4, STRIP - LEFT - 1.0)
+    };
+    shown(word, size.max(super::layout::LEAST_SIZE)).face(Face::Bold).anchor(Anchor::Middle)
+}
+
+fn heads(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     let y = table.top - 2.0;
     let bold = |text: &str, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::Middle);
-    sheet.text(bold("SLOPE", 4.4), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
+    sheet.text(bold("SLOPE", 4.2), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
+    let black = |sheet: &mut Sheet, [left, right]: [f64; 2], height: f64| {
+        let corner = [left, table.top - HEAD + 1.0];
+        sheet.draw(Shape::rectangle(corner, [right - left, height], 0.0));
+    };
+    black(sheet, [SLOPE, HEADING], HEAD - 1.0);
     let middle = f64::midpoint(SLOPE, HEADING);
-    sheet.draw(Shape::rectangle([SLOPE, table.top - 15.0], [HEADING - SLOPE, 15.0], 0.0));
-    sheet.text(bold("TURN NOSE", 4.2).grey(WHITE), [middle, y - 6.6]);
-    sheet.text(bold("UPHILL BY", 4.2).grey(WHITE), [middle, y - 1.4]);
+    sheet.text(bold("TURN NOSE", 3.8).grey(WHITE), [middle, y - 6.6]);
+    sheet.text(bold("UPHILL BY", 3.8).grey(WHITE), [middle, y - 1.4]);
     let middle = f64::midpoint(HEADING, RANGE);
-    let small = |text: &str| shown(text, 3.0).anchor(Anchor::Middle);
-    sheet.text(small(&texts.band), [middle, y - 4.0]);
-    sheet.text(small(if texts.has_bands { "need" } else { "stated" }), [middle, y]);
-    for chart in &CHARTS {
-        let from = chart.numbers.map_or(chart.from, |end| end - 8.5);
-        let middle = from.midpoint(chart.to);
-        sheet.text(small(chart.head[0]).face(Face::Bold), [middle, y - 4.0]);
-        let is_marked = are_measured && chart.numbers.is_none();
-        let unit = if is_marked { "°; × measured" } else { chart.head[1] };
-        sheet.text(small(unit), [middle, y]);
+    let range =
+        if texts.has_bands { ["95 % of", "samples", "°"] } else { ["no band", "stated", ""] };
+    black(sheet, STOP, 5.0);
+    let stop = if texts.has_bands { "STOP IF ABOVE" } else { "EXPECTED" };
+    let at = [STOP[0].midpoint(STOP[1]), table.top - HEAD + 4.8];
+    sheet.text(bold(stop, 3.4).grey(WHITE), at);
+    three(sheet, range, middle, y);
+    let mut left = RANGE;
+    for column in &SMALL {
+        three(sheet, column.head, left.midpoint(column.right), y);
+        left = column.right;
     }
-    if texts.has_bands {
-        let middle = f64::midpoint(CHANCE, RIGHT);
-        for (index, text) in ["part of soils", "that can be", "crossed level"].iter().enumerate() {
-            let text = shown(text, 2.35).anchor(Anchor::Middle);
-            sheet.text(text, [middle, y - 6.6 + 3.3 * index as f64]);
-        }
+}
+
+/// Two lines of head and the unit.
+fn three(sheet: &mut Sheet, lines: [&str; 3], middle: f64, y: f64) {
+    let styles = [(7.4, Face::Bold), (3.7, Face::Bold), (0.0, Face::Regular)];
+    for (text, (rise, face)) in lines.iter().zip(styles).filter(|(text, _)| !text.is_empty()) {
+        sheet.text(shown(text, 2.8).face(face).anchor(Anchor::Middle), [middle, y - rise]);
     }
 }
 
 /// One row of numbers.
-fn line(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, row: CardRow<'_>) {
-    let large = (table.height * 0.98).min(7.6);
+fn line(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, (place, row): (usize, CardRow<'_>)) {
+    let large = (table.height * 0.98).min(7.4);
     // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
     // one line of text for those who copy it, too.
-    let line = table.middle(row.slope()) + 0.365 * large;
+    let line = table.top + table.height * (place as f64 + 0.5) + 0.365 * large;
     let at = |x: f64| [x, line];
     let bold = |text: String, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::End);
-    sheet.text(bold(format!("{}°", row.slope()), large), at(SLOPE - 3.0));
-    let [low, heading, high] = CHARTS[0].values(row);
-    if let Some(heading) = heading {
-        sheet.text(bold(format!("{heading:.1}°"), large), at(HEADING - 3.5));
+    sheet.text(bold(format!("{}°", row.slope()), large), at(SLOPE - 2.0));
+    if let Some(heading) = row.heading() {
+        let text = format!("{}°", in_steps(heading, row.heading_step()));
+        sheet.text(bold(text, large), at(HEADING - 4.0));
     }
-    let small = (table.height * 0.62).min(4.0);
-    if let (Some(low), Some(high)) = (low, high) {
-        let text = format!("{low:.1} to {high:.1}°");
-        let size = fitting(&text, small, RANGE - HEADING - 2.0);
-        sheet.text(shown(text, size).anchor(Anchor::Middle), at(f64::midpoint(HEADING, RANGE)));
+    let small = (table.height * 0.62).min(3.9);
+    let middle = |text: String, size: f64| shown(text, size).anchor(Anchor::Middle);
+    if let Some(text) = row.heading_range() {
+        let size = fitting(&text, small, RANGE - HEADING - 1.5);
+        sheet.text(middle(text, size), at(f64::midpoint(HEADING, RANGE)));
     }
-    for chart in &CHARTS {
-        if let (Some(end), [_, Some(value), _]) = (chart.numbers, chart.values(row)) {
-            let text = format!("{value:.*}", decimals(end_of(table, chart), chart.digits));
-            sheet.text(shown(text, small).anchor(Anchor::End), at(end));
+    let mut left = RANGE;
+    for column in &SMALL {
+        if let Some(text) = (column.text)(row, texts) {
+            sheet.text(middle(text, small), at(left.midpoint(column.right)));
         }
-    }
-    if let Some(level) = row.number(PROBABILITY_LEVEL).filter(|_| texts.has_bands) {
-        // Rounded down: 100 % is all of them.
-        let text = format!("{} %", (level * 100.0 + 1e-9).floor());
-        sheet.text(shown(text, small).anchor(Anchor::End), at(RIGHT - 1.5));
+        left = column.right;
     }
 }
 
-/// The largest value of a chart, and a round number at or above it to end the axis.
-fn end_of(table: &Table<'_>, chart: &Chart) -> f64 {
-    let values = table.rows.iter().flat_map(|row| chart.values(*row)).flatten();
-    let most = values.fold(0.0, f64::max).max(1e-6);
-    let decade = 10.0_f64.powf(most.log10().floor());
-    // Their halves are short numbers, too.
-    let steps = [1.0, 1.2, 1.6, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
-    steps.iter().map(|step| step * decade).find(|end| *end >= most * 0.999).unwrap_or(10.0 * decade)
-}
-
-/// Decimals that leave a number below the end of an axis so many digits.
-fn decimals(end: f64, digits: i32) -> usize {
-    /// More do not fit.
-    const MOST: f64 = 4.0;
-    let before = end.log10().floor() + 1.0;
-    let wanted = (f64::from(digits) - before).clamp(0.0, MOST);
-    (0..=4_u8).find(|count| f64::from(*count) >= wanted).map_or(0, usize::from)
-}
-
-/// Lines at nothing, the half and the whole, with numbers below.
-fn axis(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
-    let end = end_of(table, chart);
-    let bottom = table.bottom();
-    for share in [0.0, 0.5, 1.0] {
-        let x = chart.from + share * (chart.to - chart.from);
-        let stroke = if share == 0.0 { Stroke::black(0.25) } else { Stroke::grey(0.15, 0.55) };
-        sheet.draw(Shape::line([[x, table.top], [x, bottom + 0.8]], stroke));
-        let anchor = match share {
-            0.0 => Anchor::Start,
-            1.0 => Anchor::End,
-            _ => Anchor::Middle,
-        };
-        let text = shown(plain(end * share), 2.5).anchor(anchor);
-        // The half is left out where it would run into the whole.
-        if share != 0.5 || 3.4 * text.width() < chart.to - chart.from {
-            sheet.text(text, [x, bottom + 3.2]);
-        }
-    }
-}
-
-/// A round number without a tail.
-fn plain(number: f64) -> String {
-    let text = format!("{number:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// The band between its edges, and the line of the middle.
-fn band(sheet: &mut Sheet, table: &Table<'_>, chart: &Chart) {
-    let end = end_of(table, chart);
-    let across = |value: f64| chart.from + (value / end).clamp(0.0, 1.0) * (chart.to - chart.from);
-    let side = |which: usize| {
-        let rows = table.rows.iter();
-        let point = |row: &CardRow<'_>| {
-            Some([across(chart.values(*row)[which]?), table.middle(row.slope())])
-        };
-        rows.filter_map(point).collect::<Vec<Place>>()
-    };
-    let (low, high) = (side(0), side(2));
-    let around: Vec<Place> = low.iter().copied().chain(high.iter().rev().copied()).collect();
-    sheet.draw(Shape::area(around, 0.86));
-    for edge in [low, high] {
-        sheet.draw(Shape::line(edge, Stroke::black(0.2)));
-    }
-    sheet.draw(Shape::line(side(1), Stroke::black(0.6)));
-}
-
-/// Measured yaws as crosses on the chart of headings.
-fn measured_points(sheet: &mut Sheet, table: &Table<'_>, measured: &[MeasuredYaw]) {
-    let chart = &CHARTS[0];
-    let end = end_of(table, chart);
-    let (first, last) = match table.rows {
-        [first, .., last] => (first.slope(), last.slope()),
-        _ => return,
-    };
-    for point in measured.iter().filter(|point| (first..=last).contains(&point.slope)) {
-        let share = (point.yaw / end).clamp(0.0, 1.0);
-        let (x, y) = (chart.from + share * (chart.to - chart.from), table.middle(point.slope));
-        for rise in [-1.1, 1.1] {
-            let ends = [[x - 1.1, y - rise], [x + 1.1, y + rise]];
-            sheet.draw(Shape::line(ends, Stroke::black(0.45)));
-        }
-    }
-}
-
-/// Lines between the rows, heavier at every fifth degree, and around the headings.
+/// Lines between the rows, heavier at every fifth, and between the groups of columns.
 fn frame(sheet: &mut Sheet, table: &Table<'_>) {
-    for (index, row) in table.rows.iter().enumerate() {
-        let y = table.top + table.height * (index + 1) as f64;
-        let stroke =
-            if row.slope() % 5.0 == 0.0 { Stroke::black(0.45) } else { Stroke::grey(0.15, 0.5) };
+    for place in 1..=table.rows.len() {
+        let y = table.top + table.height * place as f64;
+        let stroke = if place % 5 == 0 { Stroke::black(0.45) } else { Stroke::grey(0.15, 0.5) };
         sheet.draw(Shape::line([[STRIP, y], [RIGHT, y]], stroke));
     }
     sheet.draw(Shape::line([[LEFT, table.top], [RIGHT, table.top]], Stroke::black(0.45)));
-    for x in [SLOPE, HEADING] {
-        sheet.draw(Shape::line([[x, table.top], [x, table.bottom()]], Stroke::black(0.8)));
+    let light = |x: &f64| (*x, Stroke::grey(0.15, 0.5));
+    let edges = SMALL.map(|column| column.right);
+    let inner = edges[..edges.len() - 1].iter().chain([&RANGE]).map(light);
+    let heavy = [SLOPE, HEADING, STOP[0], STOP[1]].map(|x| (x, Stroke::black(0.8)));
+    for (x, stroke) in inner.chain(heavy) {
+        sheet.draw(Shape::line([[x, table.top], [x, table.bottom()]], stroke));
     }
 }

@@ -1,7 +1,7 @@
 //! A row of the card, as the page reads it.
 
 use grouser::document::columns::card::VERDICT;
-use grouser::document::columns::{Quantity, SLOPE};
+use grouser::document::columns::{Quantity, SLOPE, YAW};
 use grouser::document::table::Table;
 
 /// A slope of the card.
@@ -22,7 +22,7 @@ impl<'a> CardRow<'a> {
         self.named(quantity.name)
     }
 
-    fn named(self, name: &str) -> Option<f64> {
+    pub(super) fn named(self, name: &str) -> Option<f64> {
         self.table.numbers(name).get(self.place).copied().flatten()
     }
 
@@ -41,16 +41,79 @@ impl<'a> CardRow<'a> {
         self.verdict() == "no-go"
     }
 
-    /// The median; without samples the soil as written.
-    pub(super) fn middle(self, quantity: Quantity) -> Option<f64> {
-        let [_, median, _] = quantity.quantiles();
-        self.named(&median).or_else(|| self.number(quantity))
+    /// The card's heading [°].
+    pub(super) fn heading(self) -> Option<f64> {
+        self.number(YAW)
     }
 
-    /// That between the ends of its band, times a factor.
-    pub(super) fn band(self, quantity: Quantity, factor: f64) -> [Option<f64>; 3] {
-        let [low, _, high] = quantity.quantiles();
-        [self.named(&low), self.middle(quantity), self.named(&high)]
-            .map(|value| value.map(|value| value * factor))
+    /// Low, median and high end of a band.
+    pub(super) fn band(self, quantity: Quantity) -> [Option<f64>; 3] {
+        quantity.quantiles().map(|name| self.named(&name))
+    }
+
+    /// Up to what a driver can rely on headings [°]: halves, or whole degrees where the band is wide.
+    pub(super) fn heading_step(self) -> f64 {
+        /// Width of a band in which halves say nothing [°]. Source: ours.
+        const WIDE: f64 = 4.0;
+        match self.band(YAW) {
+            [Some(low), _, Some(high)] if high - low <= WIDE => 0.5,
+            [None, None, None] => 0.5,
+            _ => 1.0,
+        }
+    }
+
+    /// The band of headings, its ends rounded outwards.
+    pub(super) fn heading_range(self) -> Option<String> {
+        let step = self.heading_step();
+        let [low, _, high] = self.band(YAW);
+        let low = (low? / step).floor() * step;
+        let high = high.map_or("none".to_owned(), |it| format!("{}°", (it / step).ceil() * step));
+        Some(format!("{low} to {high}"))
+    }
+}
+
+/// A number rounded to steps, without decimals that it does not need.
+pub(super) fn in_steps(value: f64, step: f64) -> String {
+    // No sign on nothing.
+    format!("{}", (value / step).round() * step + 0.0)
+}
+
+/// A positive number rounded up to so many digits, or to a whole one where it has more.
+pub(super) fn upwards(value: f64, digits: usize) -> String {
+    /// Nobody reads more of them.
+    const MOST: usize = 6;
+    let has_digits = |decimals: &usize| value * power_of_ten(decimals + 1) >= power_of_ten(digits);
+    let decimals = (0..MOST).find(has_digits).unwrap_or(MOST);
+    let scale = power_of_ten(decimals);
+    // What is over a step by rounding alone stays on it.
+    format!("{:.decimals$}", (value * scale - 1e-9).ceil() / scale)
+}
+
+fn power_of_ten(exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * 10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn readings_are_rounded_upwards() {
+        for (value, digits, expected) in [
+            (1.41, 2, "1.5"),
+            (0.0312, 2, "0.032"),
+            (31.0, 1, "31"),
+            (31.2, 1, "32"),
+            (0.3, 1, "0.3"),
+        ] {
+            assert_eq!(upwards(value, digits), expected, "{value}");
+        }
+    }
+
+    #[test]
+    fn headings_have_no_decimals_that_they_do_not_need() {
+        assert_eq!(in_steps(3.3, 0.5), "3.5");
+        assert_eq!(in_steps(3.9, 0.5), "4");
+        assert_eq!(in_steps(-0.1, 1.0), "0");
     }
 }

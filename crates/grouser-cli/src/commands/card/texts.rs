@@ -3,9 +3,13 @@
 use grouser::contact::Theory;
 use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
-use grouser::studies::card::{Card, CardRow, Rule};
+use grouser::soil::SlopeStability;
+use grouser::studies::card::{
+    BELOW_FRICTION_ANGLE, Card, CardRow, HEADING_ERROR, Rule, STUCK_ON_GO, Verdict,
+};
 use grouser::studies::ensemble::samples::BandInputs;
 
+use super::row::upwards;
 use crate::args::{CardArgs, SideChoice};
 use crate::inputs::CardInputs;
 use crate::output::rows::{four_digits, rounded_down};
@@ -13,13 +17,17 @@ use crate::output::rows::{four_digits, rounded_down};
 /// All texts of a card that depend on its inputs.
 pub(super) struct Texts {
     pub(super) title: String,
-    /// On which side uphill can be.
-    pub(super) side: &'static str,
-    /// The conditions of the numbers: day, gravity, speed.
+    /// What to do, step by step, and on which side uphill can be.
+    pub(super) steps: Vec<String>,
+    /// The day of the soil, or that nobody states it.
+    pub(super) date: Date,
+    /// The other conditions of the numbers: gravity, speed.
     pub(super) setting: String,
-    /// Heads the column of headings' bands, with the share of samples in them.
-    pub(super) band: String,
     pub(super) has_bands: bool,
+    /// Slip ratio above which nobody drives on [-], whatever the samples say.
+    pub(super) most_slip: f64,
+    /// What the columns are, each by its name.
+    pub(super) legend: Vec<(&'static str, String)>,
     /// Each verdict with its rule.
     pub(super) rule: Vec<(&'static str, String)>,
     /// Facts in the margin, each by its name.
@@ -29,33 +37,98 @@ pub(super) struct Texts {
     pub(super) assumed: Vec<String>,
 }
 
+/// When the soil was looked at.
+pub(super) enum Date {
+    Stated(String),
+    NotStated,
+}
+
 pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
     let document = &inputs.scenario.document;
     let rover = document.text("rover.name").unwrap_or("unnamed rover");
     let soil = document.text("soil.name").unwrap_or("unnamed soil");
-    let is_symmetric = inputs.scenario.value.rover.is_symmetric();
-    let side = match (is_symmetric, args.uphill) {
-        (true, _) => "Uphill on the left or on the right: the same heading.",
-        (false, SideChoice::Left) => "ONLY with uphill on the rover's LEFT.",
-        (false, SideChoice::Right) => "ONLY with uphill on the rover's RIGHT.",
-    };
-    let has_bands = card.draws.is_some();
     Texts {
         title: format!("{rover} on {soil}"),
-        side,
+        steps: steps(args, inputs),
+        date: document
+            .text("soil.date")
+            .map_or(Date::NotStated, |date| Date::Stated(date.to_owned())),
         setting: setting(inputs),
-        band: if has_bands { "95 % of samples" } else { "no band" }.to_owned(),
-        has_bands,
+        has_bands: card.draws.is_some(),
+        most_slip: inputs.rule.no_go_slip_ratio,
+        legend: legend(card.draws),
         rule: rule(inputs, card.draws),
         facts: facts(args, inputs, card),
-        holds_for: "steady straight driving along the contour of an even slope of one soil, with all \
-                    wheels turning alike. Nothing holds the heading by itself: correct it on the way."
-            .to_owned(),
+        holds_for:
+            "steady driving along the contour of an even slope of one soil, with all wheels \
+                    turning alike and the nose set again as the card says."
+                .to_owned(),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
             .to_owned(),
         assumed: extrapolations(card).into_iter().chain(assumed(inputs)).collect(),
     }
+}
+
+fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
+    let is_symmetric = inputs.scenario.value.rover.is_symmetric();
+    let side = match (is_symmetric, args.uphill) {
+        (true, _) => "Uphill on the left or on the right: the same numbers.",
+        (false, SideChoice::Left) => "ONLY with uphill on the rover's LEFT.",
+        (false, SideChoice::Right) => "ONLY with uphill on the rover's RIGHT.",
+    };
+    [
+        "1  Find the slope on the left; between two rows take the steeper one.",
+        "2  Turn the nose uphill by the large number; check roll and pitch.",
+        "3  Drive on. The nose falls: set it again every so many metres.",
+        "4  Stop if a reading is above the limit in the row.",
+        side,
+    ]
+    .map(String::from)
+    .into()
+}
+
+/// What the columns are.
+fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
+    let roll = "what instruments show with the nose set: the uphill side and the nose are higher.";
+    let every = format!(
+        "way in which the nose falls by {} or less{}.",
+        format_args!("{}°", four_digits(SLOPE.unit.from_si(HEADING_ERROR))),
+        if draws.is_some() { " in 97.5 % of the samples" } else { "" }
+    );
+    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
+                    travelled; sinkage: mean of the wheels; torque: of the wheel that has most.";
+    let others = format!(
+        "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope could be before the \
+         rover at rest tips.",
+        if draws.is_some() { ", median" } else { "" }
+    );
+    let Some(draws) = draws else {
+        return vec![
+            ("Nose", "heading that holds the contour on the soil as written; no band.".to_owned()),
+            ("Roll, pitch", roll.to_owned()),
+            ("Correct", every),
+            ("Expected", readings.to_owned()),
+            ("Beside", others),
+        ];
+    };
+    let nose = format!(
+        "median of all {draws} samples of soil and model; 95 % of them need a heading in the range beside it. \
+         'None': in more than 2.5 % of them no heading holds the contour."
+    );
+    vec![
+        ("Nose", nose),
+        ("Roll, pitch", roll.to_owned()),
+        ("Correct", every),
+        (
+            "Stop if above",
+            format!(
+                "97.5 % of the samples stay below; slip at most that of a no-go. {readings} '–': in more than 2.5 % of the \
+             samples the rover is stuck."
+            ),
+        ),
+        ("Beside", others),
+    ]
 }
 
 /// Which flags the contour traverses carry, and from which slope on.
@@ -90,45 +163,59 @@ fn assumed(inputs: &CardInputs) -> Vec<String> {
 
 fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)> {
     let rule: &Rule = &inputs.rule;
-    let percent = |share: f64| four_digits(share * 100.0);
+    let percent = |share: f64| format!("{} %", four_digits(share * 100.0));
     let (go_slip, stop_slip) = (percent(rule.go_slip_ratio), percent(rule.no_go_slip_ratio));
-    let (go, stop) = (percent(rule.go_probability), percent(rule.no_go_probability));
-    let between = "all between: not without a second look, and with slip measured on the way.";
-    let last = "A steeper slope never gets a better verdict.";
-    let margin = four_digits(SLOPE.unit.from_si(rule.margin));
-    let has_margin = inputs.scenario.uncertain.is_none();
-    let where_to =
-        if has_margin { format!(" of a slope {margin}° steeper") } else { String::new() };
-    let (go, no_go) = match draws {
+    let (share, least) = (percent(rule.go_probability), percent(rule.no_go_probability));
+    let (held, not_held) = match draws {
         None => (
-            format!("a heading still holds the contour{where_to}, with slip up to {go_slip} %."),
-            format!("no heading holds the contour{where_to} with slip up to {stop_slip} %. {last}"),
+            format!("a heading holds the contour with slip up to {go_slip}"),
+            format!("no heading holds the contour with slip up to {stop_slip}"),
         ),
         Some(draws) => (
             format!(
-                "in at least {go} % of {draws} samples a heading holds the contour{where_to}, with slip up to {go_slip} %."
+                "in at least {share} of {draws} samples a heading holds the contour with slip up to {go_slip}, and \
+                 at most {} get stuck by the card's heading",
+                percent(STUCK_ON_GO)
             ),
-            format!(
-                "in less than {stop} % of them it does so with slip up to {stop_slip} %. {last}"
-            ),
+            format!("in less than {least} of them a heading does so with slip up to {stop_slip}"),
         ),
     };
+    let value = &inputs.scenario.value;
+    let degrees = |angle: f64| format!("{}°", four_digits(SLOPE.unit.from_si(angle)));
+    let below = degrees(BELOW_FRICTION_ANGLE);
+    let friction = degrees(value.site.terrain.soil.friction_angle);
+    let usual = four_digits(SlopeStability::USUAL.factor_of_safety);
+    let go = if inputs.scenario.stated_uncertainty().is_none() {
+        "on no slope: the soil's document does not state how uncertain it is.".to_owned()
+    } else {
+        format!(
+            "{held}; and the slope is {below} or more below the soil's friction angle of {friction}, and stands \
+             with a factor of safety of {usual}."
+        )
+    };
+    let no_go = format!(
+        "{not_held}, the ground slides, or the rover tips over. A steeper slope never gets a better verdict."
+    );
+    let between = "all between: not without a second look, and with slip measured on the way.";
     vec![("GO", go), ("CAUTION", between.to_owned()), ("NO-GO", no_go)]
 }
 
 /// How well the soil is known, and what the bands are over.
 fn known(args: &CardArgs, inputs: &CardInputs, card: &Card) -> String {
-    let is_stated = inputs.scenario.uncertain.is_some();
+    let is_stated = inputs.scenario.stated_uncertainty().is_some();
     match (card.draws, is_stated) {
         (Some(draws), true) => {
             format!("as its document states; {draws} samples, seed {}", args.seed)
         }
-        (Some(draws), false) => format!(
-            "NOT STATED: bands are of the models alone; {draws} samples, seed {}. The margin above \
-             stands in for the soil's.",
-            args.seed
-        ),
-        (None, _) => "NOT STATED: no bands. The margin above stands in for it.".to_owned(),
+        (Some(draws), false) => {
+            let over = if inputs.scenario.uncertain.is_some() {
+                "priors of what it leaves out, and the models"
+            } else {
+                "the models alone"
+            };
+            format!("NOT STATED: bands are of {over}; {draws} samples, seed {}", args.seed)
+        }
+        (None, _) => "NOT STATED: no bands".to_owned(),
     }
 }
 
@@ -160,6 +247,8 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
             format!("{} wheels, {} kg", value.rover.wheel_count(), four_digits(value.rover.mass())),
         ),
         ("Steepest slope", limit(card)),
+        ("Power", power(card)),
+        ("Models say", other_models(inputs, card)),
         (
             "Model",
             format!(
@@ -180,15 +269,47 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
     ]
 }
 
+/// Rows that may be driven.
+fn driven(card: &Card) -> impl Iterator<Item = &CardRow> {
+    card.rows.iter().filter(|row| row.verdict != Verdict::NoGo)
+}
+
+/// The most power that rows of the page take.
+fn power(card: &Card) -> String {
+    let of = |row: &CardRow| match row.bands {
+        Some(bands) => bands.power.map(|band| band.high),
+        None => row.level.map(|level| level.power),
+    };
+    let most = driven(card).filter_map(of).fold(0.0, f64::max);
+    if most == 0.0 {
+        return "none: no slope is to be driven".to_owned();
+    }
+    let most = upwards(most, 2);
+    format!("mechanical, of all wheels: up to {most} W; what motors and electronics draw is more")
+}
+
+/// The headings of the models on the soil as written, on the steepest slope that is driven.
+fn other_models(inputs: &CardInputs, card: &Card) -> String {
+    let Some(row) = driven(card).filter(|row| row.level.is_some()).last() else {
+        return "no heading".to_owned();
+    };
+    let degrees = |yaw: f64| four_digits((SLOPE.unit.from_si(yaw) * 2.0).round() / 2.0);
+    let own = (inputs.scenario.value.theory, row.level.map(|level| level.yaw));
+    let say = |(theory, yaw): &(Theory, Option<f64>)| match yaw {
+        Some(yaw) => format!("{} {}°", theory.name(), degrees(*yaw)),
+        None => format!("{} none", theory.name()),
+    };
+    let all: Vec<String> = std::iter::once(&own).chain(&row.other_models).map(say).collect();
+    let slope = four_digits(SLOPE.unit.from_si(row.slope));
+    format!("on {slope}°, for the soil as written: nose uphill by {}", all.join(", "))
+}
+
 fn setting(inputs: &CardInputs) -> String {
-    let document = &inputs.scenario.document;
-    let date = document.text("soil.date");
     let gravity = inputs.scenario.value.site.gravity;
     let named = grouser::document::GRAVITIES.iter().find(|(_, value)| *value == gravity);
     let place = named.map_or(String::new(), |(name, _)| format!(" ({name})"));
     format!(
-        "Date of the soil: {}.  Gravity {} m/s²{place}.  Rims at {} cm/s.",
-        date.unwrap_or("not stated"),
+        "Gravity {} m/s²{place}.  Rims at {} cm/s.",
         four_digits(gravity),
         four_digits(inputs.rim_speed * 100.0)
     )

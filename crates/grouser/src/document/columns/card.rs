@@ -1,17 +1,44 @@
 //! The operator's card: of each slope its verdict, the soil as written, and the bands over samples of it.
 
 use super::super::table::{Table, Values};
-use super::super::unit::{DEG, M_PER_M};
+use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
-    Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW,
-    quantity, text, whole,
+    Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE, SLIP_RATIO, SLOPE,
+    STATUS, TORQUE, YAW, quantity, text, whole,
 };
-use crate::studies::card::{Card, CardRow, Verdict};
+use crate::contact::Theory;
+use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
+/// What instruments show when the nose is set.
+pub const ROLL: Quantity = quantity("roll_deg", DEG);
+/// The same.
+pub const PITCH: Quantity = quantity("pitch_deg", DEG);
+/// Way after which the nose is to be set again.
+pub const CORRECT_EVERY: Quantity = quantity("correct_every_m", M);
+/// By how much the nose falls over the way.
+pub const HEADING_FALL: Quantity = quantity("heading_fall_deg_per_m", DEG_PER_M);
+/// Drift by the card's heading.
+pub const DRIVEN_DRIFT: Quantity = quantity("drift_m_per_m", M_PER_M);
+/// Slip by the card's heading.
+pub const DRIVEN_SLIP: Quantity = quantity("driven_slip_ratio", ONE);
+/// Way of the rims for a metre of ground.
+pub const RIM_WAY: Quantity = quantity("rim_way_m_per_m", M_PER_M);
+/// How much steeper the slope could be before the rover tips over.
+pub const TIPPING_MARGIN: Quantity = quantity("tipping_margin_deg", DEG);
+/// The share of the samples that are stuck.
+pub const PROBABILITY_STUCK: Quantity = quantity("probability_stuck", ONE);
+/// The heading on the soil as written.
+pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
+/// The headings of the models on the soil as written.
+pub const YAWS_OF_MODELS: [(Theory, Quantity); 3] = [
+    (Theory::Ishigami, quantity("yaw_deg_ishigami", DEG)),
+    (Theory::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
+    (Theory::Rft, quantity("yaw_deg_rft", DEG)),
+];
 /// The verdict on a slope: go, caution or no-go.
 pub const VERDICT: &str = "verdict";
 
@@ -30,21 +57,91 @@ struct OnCard<'a> {
     card: &'a Card,
 }
 
-const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
+impl OnCard<'_> {
+    fn driven(&self) -> Option<&Driven> {
+        self.row.driven.as_ref()
+    }
+
+    fn motion(&self) -> Option<&DrivenMotion> {
+        self.driven()?.motion.as_ref()
+    }
+
+    /// The heading of a model on the soil as written, which is that of the row for the card's own model.
+    fn yaw_of(&self, place: usize) -> Option<f64> {
+        let (theory, _) = YAWS_OF_MODELS[place];
+        match self.row.other_models.iter().find(|(it, _)| *it == theory) {
+            Some((_, yaw)) => *yaw,
+            None => self.row.level.map(|level| level.yaw),
+        }
+    }
+}
+
+/// What the driver sets, reads and may not exceed.
+const fn driven<'a>() -> [Column<OnCard<'a>>; 16] {
+    const MODEL: &str = "Heading of this model on the soil as written";
     [
-        SLOPE.given("Slope", |it| Some(it.row.slope)),
-        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
-        YAW.maybe("Yaw that holds the contour, positive uphill", |it| {
+        YAW.maybe(
+            "Heading that is set, positive uphill: the median over all samples; missing where no heading holds the \
+             contour in half of them",
+            |it| it.driven().map(|it| it.yaw),
+        ),
+        ROLL.maybe("Roll that instruments show then, positive with the uphill side higher", |it| {
+            it.driven().map(|it| it.roll)
+        }),
+        PITCH.maybe("Pitch that they show, positive with the nose higher", |it| {
+            it.driven().map(|it| it.pitch)
+        }),
+        CORRECT_EVERY.maybe(
+            "Way after which the heading is to be set again; missing on no-go slopes, as all that is driven",
+            |it| it.motion().map(|it| it.correct_every),
+        ),
+        HEADING_FALL.band("By how much the nose falls over the way, over the samples that move", |it| {
+            it.motion()?.heading_fall
+        }),
+        DRIVEN_DRIFT.band(
+            "Drift per metre travelled when driven so, positive downhill; 1 where the rover is stuck",
+            |it| it.motion()?.drift,
+        ),
+        DRIVEN_SLIP.band("Mean slip ratio of the wheels when driven so; 1 where it is stuck", |it| {
+            it.motion()?.slip_ratio
+        }),
+        SINKAGE.band("Mean sinkage of the wheels, over the samples that move", |it| {
+            it.motion()?.sinkage
+        }),
+        TORQUE.band("Largest torque of a wheel, likewise", |it| it.motion()?.torque),
+        RIM_WAY.band("Way of the rims for a metre of ground, likewise", |it| it.motion()?.rim_way),
+        PROBABILITY_STUCK.probability("Share of the samples that are stuck when driven so", |it| {
+            it.motion().map(|it| it.stuck)
+        }),
+        TIPPING_MARGIN.maybe("How much steeper the slope could be before the rover at rest tips over", |it| {
+            it.driven().map(|it| it.tipping_margin)
+        }),
+        YAW_AS_WRITTEN.maybe("Heading that holds the contour on the soil as written", |it| {
             it.row.level.map(|level| level.yaw)
         }),
-        YAW.band("The same over the samples", |it| it.row.bands.as_ref()?.yaw),
-        SLIP_RATIO.maybe("Slip ratio of every wheel at that yaw", |it| {
+        YAWS_OF_MODELS[0].1.maybe(MODEL, |it| it.yaw_of(0)),
+        YAWS_OF_MODELS[1].1.maybe(MODEL, |it| it.yaw_of(1)),
+        YAWS_OF_MODELS[2].1.maybe(MODEL, |it| it.yaw_of(2)),
+    ]
+}
+
+/// How sure that is, and contour traverses by each sample's own heading.
+const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
+    [
+        YAW.band(
+            "Headings that hold the contour, over all samples; an end is missing where none does",
+            |it| it.row.bands.as_ref()?.yaw,
+        ),
+        SLIP_RATIO.maybe("Slip ratio of every wheel on the soil as written, by its heading", |it| {
             it.row.level.map(|level| level.slip_ratio)
         }),
-        SLIP_RATIO.band("The same over the samples; 1 where no heading holds the contour", |it| {
-            it.row.bands.as_ref()?.slip_ratio
+        SLIP_RATIO.band(
+            "The same over the samples, by the heading of each; 1 where no heading holds the contour",
+            |it| it.row.bands.as_ref()?.slip_ratio,
+        ),
+        POWER.maybe("Mechanical power of the motors on the soil as written, likewise", |it| {
+            it.row.level.map(|level| level.power)
         }),
-        POWER.maybe("Power of the motors at that yaw", |it| it.row.level.map(|level| level.power)),
         POWER.band("The same over the samples", |it| it.row.bands.as_ref()?.power),
         DRIFT.maybe("Drift per metre travelled at yaw 0, positive downhill", |it| it.row.drift),
         DRIFT.band("The same over the samples", |it| it.row.bands.as_ref()?.drift),
@@ -52,11 +149,9 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
             .probability("Share of the samples with a heading that holds the contour", |it| {
                 it.row.bands.as_ref().map(|bands| bands.level)
             }),
-        whole(
-            DRAWS_LEVEL,
-            "Samples with a heading that holds the contour: yaw and power are over them",
-            |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
-        ),
+        whole(DRAWS_LEVEL, "Samples with a heading that holds the contour: power is over them", |it| {
+            it.row.bands.as_ref().map(|bands| bands.level.successes)
+        }),
         whole(
             "draws_held",
             "Samples in which the rover does not slide at yaw 0; in others the drift counts as 1",
@@ -70,38 +165,52 @@ const fn columns<'a>() -> [Column<OnCard<'a>>; 16] {
     ]
 }
 
+const fn slope<'a>() -> [Column<OnCard<'a>>; 2] {
+    [
+        SLOPE.given("Slope", |it| Some(it.row.slope)),
+        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
+    ]
+}
+
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
     it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
-/// A row for each slope. Columns without a band are of the soil as its document has it; bands are over the samples, and
-/// missing where there are none.
+/// A row for each slope: what the driver sets and reads, then contour traverses, each with the heading of its own
+/// soil. Bands are over the samples, and missing where there are none; where the motion by the card's heading has a
+/// band all the same, its ends are the soil as written.
 #[must_use]
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
-    Table::of(&columns(), &rows)
+    let all: Vec<Option<&OnCard<'_>>> = rows.iter().map(Some).collect();
+    Table::default().and(&slope(), &all).and(&driven(), &all).and(&held(), &all)
 }
 
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    [SLOPE.name, VERDICT, YAW.name, SLIP_RATIO.name, DRIFT.name, POWER.name, FLAGS]
-        .map(String::from)
-        .into()
+    let before = [SLOPE.name, VERDICT, YAW.name].map(String::from);
+    before.into_iter().chain(brief_of_driven()).chain([FLAGS.to_owned()]).collect()
 }
 
 /// The same, with the bands over samples.
 #[must_use]
 pub fn bands_brief() -> Vec<String> {
-    let [yaw_low, yaw_median, yaw_high] = YAW.quantiles();
-    let [slip, drift, power] = [SLIP_RATIO, DRIFT, POWER].map(|it| {
+    let [low, _, high] = YAW.quantiles();
+    let before = [SLOPE.name, VERDICT, YAW.name, &low, &high].map(String::from);
+    let after = [PROBABILITY_LEVEL.name, FLAGS].map(String::from);
+    before.into_iter().chain(brief_of_driven()).chain(after).collect()
+}
+
+/// What instruments show, and the readings at which to stop.
+fn brief_of_driven() -> impl Iterator<Item = String> {
+    let [slip, drift] = [DRIVEN_SLIP, DRIVEN_DRIFT].map(|it| {
         let [.., high] = it.quantiles();
         high
     });
-    let [slope, verdict, level] = [SLOPE.name, VERDICT, PROBABILITY_LEVEL.name].map(String::from);
-    let flags = FLAGS.to_owned();
-    vec![slope, verdict, yaw_median, yaw_low, yaw_high, slip, drift, power, level, flags]
+    let names = [ROLL, PITCH, CORRECT_EVERY].map(|it| it.name.to_owned());
+    names.into_iter().chain([slip, drift])
 }
 
 /// How many samples the card has, and the steepest slope: one row.
@@ -147,9 +256,9 @@ pub fn beside(card: &Table, measured: &[MeasuredYaw]) -> Table {
     let [low, _, high] = YAW.quantiles();
     let ends = (card.numbers(&low), card.numbers(&high));
     let place = |(point, row): (&&MeasuredYaw, &usize)| {
-        let (low, high) = ends.0[*row].zip(ends.1[*row])?;
-        let is_below = point.yaw < low;
-        let is_above = point.yaw > high;
+        let is_below = point.yaw < ends.0[*row]?;
+        // An upper end that no number reaches is missing.
+        let is_above = ends.1[*row].is_some_and(|high| point.yaw > high);
         let word = if is_below {
             "below"
         } else if is_above {

@@ -111,6 +111,17 @@ pub fn outputs_of_samples<T: Clone + Send>(
     go_on: &(dyn Fn() -> bool + Sync),
     one: impl Fn(&Sample) -> T + Sync + Send,
 ) -> Option<Vec<T>> {
+    outputs_of_places(samples, go_on, |place| one(&samples[place]))
+}
+
+/// The same for what is computed from a sample's place among the others.
+///
+/// * `one`: computes the sample at a place; the same for samples that are alike
+pub(in crate::studies) fn outputs_of_places<T: Clone + Send>(
+    samples: &[Sample],
+    go_on: &(dyn Fn() -> bool + Sync),
+    one: impl Fn(usize) -> T + Sync + Send,
+) -> Option<Vec<T>> {
     // Where the soil is the same in all samples there is one result for each model: looking at the first sample
     // of a model is enough to find it.
     let source = |(place, sample): (usize, &Sample)| {
@@ -120,7 +131,7 @@ pub fn outputs_of_samples<T: Clone + Send>(
     let sources: Vec<usize> = samples.iter().enumerate().map(source).collect();
     let computed: Vec<usize> =
         (0..samples.len()).filter(|place| sources[*place] == *place).collect();
-    let found = outputs_while(&computed, go_on, |place| one(&samples[*place]))?;
+    let found = outputs_while(&computed, go_on, |place| one(*place))?;
     let result = |source: &usize| computed.binary_search(source).ok().map(|at| found[at].clone());
     sources.iter().map(result).collect()
 }

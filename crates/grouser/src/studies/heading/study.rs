@@ -1,7 +1,15 @@
 //! What a study of heading offsets is about.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::contact::Theory;
+use crate::elementary::wide::{cos, sin, tan};
+use crate::root;
+use crate::simulation::{NotSteady, SteadyMotion};
+use crate::site::Site;
 use crate::soil::{SlopeStability, Soil};
+use crate::units::Vec2;
+use crate::vehicle::reaction::Ground;
 use crate::vehicle::{LoadSharing, OwnMoments, Rover};
 
 /// Finds heading offsets of a rover on a soil, for any slope.
@@ -25,4 +33,63 @@ pub struct HeadingStudy {
 
 /// The farthest course from the contour [rad]: straight up or down the slope. Beyond it a rover
 /// travels the other way, and is its own mirror image.
-pub const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
+pub const STRAIGHT_UP: f64 = FRAC_PI_2;
+
+impl HeadingStudy {
+    /// The motion into which the rover settles on a slope *α* at a yaw *γ* [rad], with all rims at one speed
+    /// [m/s]: unlike on a contour traverse, its yaw moment is balanced, and it turns.
+    ///
+    /// # Errors
+    /// [`NotSteady`] where no velocities are found at which nothing accelerates.
+    pub fn steady_motion(
+        &self,
+        slope: f64,
+        yaw: f64,
+        rim_speed: f64,
+    ) -> Result<SteadyMotion, NotSteady> {
+        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
+        SteadyMotion::of(self.ground(&self.site(slope)), &rim_speeds, yaw)
+    }
+
+    /// The same at another yaw *γ* [rad], sought from a motion on that slope.
+    ///
+    /// # Errors
+    /// As for [`steady_motion`](Self::steady_motion).
+    pub fn steady_motion_near(
+        &self,
+        motion: &SteadyMotion,
+        slope: f64,
+        yaw: f64,
+        rim_speed: f64,
+    ) -> Result<SteadyMotion, NotSteady> {
+        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
+        motion.at_yaw(self.ground(&self.site(slope)), &rim_speeds, yaw)
+    }
+
+    fn site(&self, slope: f64) -> Site {
+        Site::plane(self.soil, slope, self.gravity)
+    }
+
+    fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
+        Ground {
+            rover: &self.rover,
+            site,
+            model: self.theory.model(),
+            sharing: self.sharing,
+            own_moments: self.own_moments,
+        }
+    }
+
+    /// The slope on which the rover at rest tips over at a yaw *γ* [rad]: there the weight through its centre of
+    /// mass meets the edge of the polygon of its wheels.
+    #[must_use]
+    pub fn tipping_slope(&self, yaw: f64) -> f64 {
+        /// A slope on which everything tips [rad].
+        const WALL: f64 = FRAC_PI_2 - 1e-6;
+        let polygon = self.rover.support_polygon();
+        let downhill = Vec2::new(-sin(yaw), -cos(yaw));
+        let margin =
+            |slope: f64| polygon.margin(downhill * (self.rover.centre_height() * tan(slope)));
+        root::between(margin, 0.0, WALL, 1e-9)
+    }
+}
