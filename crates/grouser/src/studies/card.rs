@@ -18,6 +18,7 @@ use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
 pub use driven::{Driven, DrivenMotion, HEADING_ERROR, roll_and_pitch};
+use driven::{STRAIGHT_DOWN, STUCK};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 
 /// The inputs of a card.
@@ -342,8 +343,3 @@ impl CardBands {
         }
     }
 }
-
-/// Slip ratio of a rover that holds no course [-].
-const STUCK: f64 = 1.0;
-/// Drift of a rover that slides: straight downhill [m/m].
-const STRAIGHT_DOWN: f64 = 1.0;

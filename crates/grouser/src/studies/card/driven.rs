@@ -8,7 +8,6 @@
 use super::super::ensemble::samples::{Sample, outputs_of_places, outputs_of_samples};
 use super::super::ensemble::{Band, Probability};
 use super::super::heading::HeadingStudy;
-use super::{STRAIGHT_DOWN, STUCK};
 use crate::elementary::wide::{asin, atan2, cos, sin};
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 
@@ -18,6 +17,12 @@ pub const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The heading is set again after this way at the latest [m]. Source: ours.
 const LONGEST_LEG: f64 = 10.0;
+
+/// Slip ratio of a rover that holds no course [-].
+pub(super) const STUCK: f64 = 1.0;
+
+/// Drift of a rover that slides: straight downhill [m/m].
+pub(super) const STRAIGHT_DOWN: f64 = 1.0;
 
 /// A slope, driven as the card says.
 #[derive(Clone, Copy, Debug, PartialEq)]
