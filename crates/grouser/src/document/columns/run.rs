@@ -10,7 +10,7 @@ use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
     Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity, SINKAGE,
-    SLIP_ANGLE, SLIP_RATIO, TIME, X, Y, YAW, maybe, number, quantity, text, whole,
+    SLIP_ANGLE, SLIP_RATIO, TIME, X, Y, YAW, number, quantity, text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -69,10 +69,13 @@ const RUN: [Column<Trajectory>; 6] = [
     ENERGY_ERROR.number("Error of the energy balance", Trajectory::energy_error),
 ];
 
+/// Drift over the way.
+pub const DRIFT: Quantity = quantity("drift_m_per_m", M_PER_M);
+
 /// A run in a few numbers, means over wheels and records: what a campaign keeps beside the end.
 pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     DISTANCE.number("Length of the way", |it| it.distance),
-    maybe("drift_m_per_m", M_PER_M, "Drift per metre travelled, positive downhill", |it| it.drift),
+    DRIFT.maybe("Drift per metre travelled, positive downhill", |it| it.drift),
     SLIP_RATIO.maybe("Mean slip ratio", |it| it.slip_ratio),
     SINKAGE.maybe("Mean sinkage", |it| it.sinkage),
     POWER.maybe("Mean power of all motors", |it| it.power),

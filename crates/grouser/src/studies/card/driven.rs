@@ -151,7 +151,10 @@ impl Motion {
 
 /// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m.
 fn drivable(way: f64) -> f64 {
-    let step = if way < 1.0 { 10.0_f64.powf(way.log10().floor()) } else { 0.5 };
+    /// Nobody drives by less than this [m].
+    const SHORTEST: f64 = 1e-3;
+    let steps = [(1.0, 0.5), (0.1, 0.1), (0.01, 0.01)];
+    let step = steps.iter().find(|(from, _)| way >= *from).map_or(SHORTEST, |(_, step)| *step);
     // 0.3 over 0.1 is less than 3.
     (way / step + 1e-9).floor() * step
 }
