@@ -355,33 +355,28 @@ impl Override {
     fn drop_keys_of_the_former_law(&self, tree: &mut Node) {
         let Some((_, table)) = self.path.split_last() else { return };
         let Some(known) = keys_at(self.kind, tree, table) else { return };
-        let mut node = tree;
-        for step in table {
-            match node.entry_mut(step) {
-                Some(entry) => node = &mut entry.node,
-                None => return,
-            }
-        }
-        if let Value::Table(entries) = &mut node.value {
-            entries.retain(|entry| {
-                known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
-            });
-        }
+        keep_entries(tree, table, |entry| {
+            known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
+        });
     }
 }
 
 /// Takes a key out of a tree that has it.
 fn remove(tree: &mut Node, path: &[&str]) {
     let Some((key, tables)) = path.split_last() else { return };
-    let mut node = tree;
+    keep_entries(tree, tables, |entry| entry.key != *key);
+}
+
+/// Keeps some entries of the table under some keys, if there is one.
+fn keep_entries(mut node: &mut Node, tables: &[impl AsRef<str>], is_kept: impl Fn(&Entry) -> bool) {
     for step in tables {
-        match node.entry_mut(step) {
+        match node.entry_mut(step.as_ref()) {
             Some(entry) => node = &mut entry.node,
             None => return,
         }
     }
     if let Value::Table(entries) = &mut node.value {
-        entries.retain(|entry| entry.key != *key);
+        entries.retain(is_kept);
     }
 }
 

@@ -246,18 +246,15 @@ impl CardStudy {
             slip_ratio: heading.slip_ratio,
             power: heading.power(&study.rover, self.rim_speed),
         };
-        let on = |curve: &HeadingCurve, slope: f64| curve.at(slope).ok();
+        let held: Vec<_> = slopes.iter().map(|slope| level.at(*slope)).collect();
         Ok(Draw {
             limit: level
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
-            refusals: slopes
-                .iter()
-                .map(|slope| Some(level.at(*slope).err()?.to_string()))
-                .collect(),
-            levels: slopes.iter().map(|slope| on(&level, *slope).as_ref().map(keep)).collect(),
-            drifts: slopes.iter().map(|slope| Some(on(&drift, *slope)?.drift())).collect(),
+            refusals: held.iter().map(|it| Some(it.as_ref().err()?.to_string())).collect(),
+            levels: held.iter().map(|it| it.as_ref().ok().map(keep)).collect(),
+            drifts: slopes.iter().map(|slope| Some(drift.at(*slope).ok()?.drift())).collect(),
         })
     }
 }

@@ -60,16 +60,6 @@ pub struct DrivenMotion {
     pub stuck: Probability,
 }
 
-/// One sample's motion.
-#[derive(Clone, Copy, Debug)]
-struct Motion {
-    turning: f64,
-    slip_ratio: f64,
-    sinkage: f64,
-    torque: f64,
-    rim_way: f64,
-}
-
 /// Roll and pitch of a rover on a plane slope [rad].
 ///
 /// * `slope`, `yaw`: *α*, *γ* [rad]
@@ -107,10 +97,8 @@ impl DrivenMotion {
             moves(study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?)
         });
         let motions: Vec<Option<SteadyMotion>> = motions.unwrap_or_default();
-        let first: Vec<Option<Motion>> =
-            motions.iter().map(|it| it.as_ref().map(|it| Motion::of(it, rim_speed))).collect();
-        let moving = || first.iter().flatten();
-        let fastest = Band::of(moving().map(|it| it.turning.abs()))?.high;
+        let moving = || motions.iter().flatten();
+        let fastest = Band::of(moving().map(|it| it.turning().abs()))?.high;
         let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG));
         let drift = outputs_of_places(samples, &|| true, |place| {
             let motion = motions[place].as_ref()?;
@@ -120,33 +108,30 @@ impl DrivenMotion {
             Some(-sin(moves(motion)?.course()))
         });
         let drift = drift.unwrap_or_default();
-        let slips = first.iter().map(|it| it.map_or(STUCK, |it| it.slip_ratio));
-        let stuck = first.iter().filter(|it| it.is_none()).count();
+        let slips = motions.iter().map(|it| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio));
+        let stuck = motions.iter().filter(|it| it.is_none()).count();
         Some(Self {
             correct_every,
-            heading_fall: Band::of(moving().map(|it| -it.turning)),
+            heading_fall: Band::of(moving().map(|it| -it.turning())),
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
             slip_ratio: Band::of(slips),
-            sinkage: Band::of(moving().map(|it| it.sinkage)),
-            torque: Band::of(moving().map(|it| it.torque)),
-            rim_way: Band::of(moving().map(|it| it.rim_way)),
+            sinkage: Band::of(moving().map(mean_sinkage)),
+            torque: Band::of(moving().map(largest_torque)),
+            rim_way: Band::of(moving().map(|it| rim_speed / it.speed())),
             stuck: Probability { successes: stuck, trials: samples.len() },
         })
     }
 }
 
-impl Motion {
-    fn of(motion: &SteadyMotion, rim_speed: f64) -> Self {
-        let wheels = motion.wheels.iter().map(|wheel| &wheel.settled);
-        let sinkages: f64 = wheels.clone().map(|it| it.sinkage).sum();
-        Self {
-            turning: motion.turning(),
-            slip_ratio: motion.slip_ratio(),
-            sinkage: sinkages / motion.wheels.len() as f64,
-            torque: wheels.map(|it| it.forces.torque).fold(0.0, f64::max),
-            rim_way: rim_speed / motion.speed(),
-        }
-    }
+/// Mean sinkage of the wheels [m].
+fn mean_sinkage(motion: &SteadyMotion) -> f64 {
+    let sum: f64 = motion.wheels.iter().map(|wheel| wheel.settled.sinkage).sum();
+    sum / motion.wheels.len() as f64
+}
+
+/// Torque of the wheel that has most [N·m].
+fn largest_torque(motion: &SteadyMotion) -> f64 {
+    motion.wheels.iter().map(|wheel| wheel.settled.forces.torque).fold(0.0, f64::max)
 }
 
 /// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m.

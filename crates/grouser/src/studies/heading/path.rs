@@ -9,9 +9,8 @@ use crate::contact::Slip;
 use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
-use crate::site::Site;
 use crate::units::{STEEPEST_SLOPE, Vec2};
-use crate::vehicle::reaction::{Ground, forces_of};
+use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics};
 
 /// (s, c, α): slip ratio, crab angle c = γ − χ, slope.
@@ -100,10 +99,6 @@ impl<'a> Path<'a> {
         self.settled_wheels.get()
     }
 
-    fn site(&self, slope: f64) -> Site {
-        Site::plane(self.study.soil, slope, self.study.gravity)
-    }
-
     /// The rover at a crab angle [rad]; how fast it goes does not count.
     fn state(&self, crab: f64) -> RoverState {
         RoverState { yaw: self.held.yaw(crab), ..RoverState::default() }
@@ -111,17 +106,11 @@ impl<'a> Path<'a> {
 
     /// The wheels at a place, and the weight's pull there, in the body frame [N].
     fn reactions(&self, place: &Place) -> Result<(Vec<WheelReaction>, Vec2), ReactionError> {
-        let HeadingStudy { rover, theory, sharing, own_moments, .. } = self.study;
         let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
-        let slips = vec![Slip::on_test_stand(slip_ratio, -crab); rover.wheel_count()];
+        let slips = vec![Slip::on_test_stand(slip_ratio, -crab); self.study.rover.wheel_count()];
         self.settled_wheels.set(self.settled_wheels.get() + slips.len() as u64);
-        let ground = Ground {
-            rover,
-            site: &self.site(slope),
-            model: theory.model(),
-            sharing: *sharing,
-            own_moments: *own_moments,
-        };
+        let site = self.study.site(slope);
+        let ground = self.study.ground(&site);
         let stance = ground.stance(&self.state(crab));
         let wheels = match &*self.last.borrow() {
             Some((last, wheels)) if (place - last).norm() < NEARBY => {

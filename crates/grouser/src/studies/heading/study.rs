@@ -66,11 +66,13 @@ impl HeadingStudy {
         motion.at_yaw(self.ground(&self.site(slope)), &rim_speeds, yaw)
     }
 
-    fn site(&self, slope: f64) -> Site {
+    /// The slope *α* [rad].
+    pub(super) fn site(&self, slope: f64) -> Site {
         Site::plane(self.soil, slope, self.gravity)
     }
 
-    fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
+    /// What decides the soil's reaction on the rover there.
+    pub(super) fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
         Ground {
             rover: &self.rover,
             site,
