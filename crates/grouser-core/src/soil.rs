@@ -5,6 +5,7 @@
 
 pub mod discrepancy;
 pub mod domain;
+pub mod gravity_scaling;
 pub mod pressure_sinkage;
 pub mod rft;
 pub mod slope;
@@ -14,6 +15,7 @@ use std::f64::consts::FRAC_PI_4;
 
 pub use discrepancy::Discrepancy;
 pub use domain::{AssumedValues, Domain, Span};
+pub use gravity_scaling::GravityScaling;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 pub use slope::SlopeStability;

@@ -12,6 +12,7 @@ mod examples;
 mod files;
 mod former_names;
 mod given;
+mod gravity;
 mod ground;
 mod heading_map;
 mod integration;
