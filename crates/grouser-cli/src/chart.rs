@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use grouser::document::escape;
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::BarPlot;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{ColorMap, Heatmap};
@@ -154,6 +155,38 @@ impl Series {
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
         }
+    }
+}
+
+/// Horizontal bars, each of parts that are laid end to end.
+#[derive(Clone, Debug)]
+pub(crate) struct Bars {
+    /// What they show.
+    pub(crate) title: String,
+    /// Quantity and unit along them.
+    pub(crate) x_label: String,
+    /// The names of the parts, in their order.
+    pub(crate) parts: Vec<String>,
+    /// The bars from the top down: each a name, and the length of each part.
+    pub(crate) bars: Vec<(String, Vec<f64>)>,
+}
+
+impl Bars {
+    /// The bars as a stand-alone SVG document.
+    pub(crate) fn to_svg(&self) -> String {
+        let colour = |place: usize| COLOURS[place % COLOURS.len()];
+        let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
+        for (name, lengths) in &self.bars {
+            let pieces = lengths.iter().enumerate().map(|(place, length)| (*length, colour(place)));
+            plot = plot.with_group(label(name), pieces);
+        }
+        let names: Vec<String> = self.parts.iter().map(|name| label(name)).collect();
+        if names.len() > 1 {
+            plot = plot.with_legend(names.iter().map(String::as_str).collect());
+        }
+        let plots = vec![Plot::Bar(plot)];
+        let layout = layout_of(&plots, [&self.title, &self.x_label, ""]);
+        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod fit;
+pub mod forecast;
 pub mod heading;
 pub mod run;
 pub mod slope;

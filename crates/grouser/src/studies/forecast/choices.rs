@@ -1,0 +1,127 @@
+//! What no sample of a soil decides: how moduli scale, what the ground of the site is, what the rover weighs.
+
+use grouser_io::{LoadedSoil, UncertainSoil};
+
+use crate::error::{ParameterError, positive};
+use crate::soil::{GravityScaling, Soil};
+use crate::studies::ensemble::NothingAccepted;
+
+/// The named choices of a forecast; of each at least one.
+#[derive(Clone, Debug)]
+pub struct Choices {
+    /// How moduli scale with gravity.
+    pub scalings: Vec<GravityScaling>,
+    /// Whose strength and density the ground of the site has.
+    pub grounds: Vec<Ground>,
+    /// What the rover weighs there.
+    pub masses: Vec<RoverMass>,
+}
+
+/// The ground of the site.
+#[derive(Clone, Debug)]
+pub enum Ground {
+    /// The soil as it was measured.
+    AsMeasured,
+    /// That soil with cohesion, friction angle and density of another one, which is known for the site; moduli and all
+    /// else stay.
+    Site {
+        /// The name of that soil.
+        name: String,
+        /// That soil as its document has it.
+        soil: Soil,
+        /// The soils that it may be, if its document leaves any of that open.
+        soils: Option<UncertainSoil>,
+    },
+}
+
+/// A rover's mass, by a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoverMass {
+    /// Its name: `equal-mass`.
+    pub name: String,
+    /// The mass over that of the rover's document [-].
+    pub factor: f64,
+}
+
+impl Choices {
+    /// Scalings for the soil and the rover as they are.
+    #[must_use]
+    pub fn of_scalings(scalings: impl IntoIterator<Item = GravityScaling>) -> Self {
+        Self {
+            scalings: scalings.into_iter().collect(),
+            grounds: vec![Ground::AsMeasured],
+            masses: vec![RoverMass { name: "equal-mass".to_owned(), factor: 1.0 }],
+        }
+    }
+
+    /// That there is one of each, and every mass is one.
+    pub(super) fn check(&self) -> Result<(), ParameterError> {
+        let counts = [
+            ("the number of gravity scalings", self.scalings.len()),
+            ("the number of grounds", self.grounds.len()),
+            ("the number of rover masses", self.masses.len()),
+        ];
+        for (name, count) in counts {
+            positive(name, count as f64)?;
+        }
+        self.masses.iter().try_for_each(|mass| positive("mass factor", mass.factor))
+    }
+}
+
+/// Soils of the site are drawn by another seed than those that were measured: the two have nothing in common.
+fn seed_of_site(seed: u64) -> u64 {
+    !seed
+}
+
+impl Ground {
+    /// The ground of a soil's document.
+    #[must_use]
+    pub fn of_soil(name: &str, soil: &LoadedSoil) -> Self {
+        Self::Site { name: name.to_owned(), soil: soil.value, soils: soil.uncertain.clone() }
+    }
+
+    /// Its name: `as-measured`, or that of the soil.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::AsMeasured => "as-measured",
+            Self::Site { name, .. } => name,
+        }
+    }
+
+    /// Whether it differs from sample to sample by itself.
+    #[must_use]
+    pub fn is_uncertain(&self) -> bool {
+        matches!(self, Self::Site { soils: Some(_), .. })
+    }
+
+    /// A soil that was measured, with the ground's strength and density of sample `number`.
+    pub(super) fn soil(
+        &self,
+        measured: Soil,
+        seed: u64,
+        number: u64,
+    ) -> Result<Soil, NothingAccepted> {
+        match self {
+            Self::AsMeasured => Ok(measured),
+            Self::Site { soil, soils: None, .. } => Ok(with_strength_of(measured, soil)),
+            Self::Site { soils: Some(soils), .. } => {
+                let drawn = soils.draw(seed_of_site(seed), number)?;
+                Ok(with_strength_of(measured, &drawn))
+            }
+        }
+    }
+
+    /// The same with the ground's document as it is written.
+    pub(super) fn as_written(&self, measured: Soil) -> Soil {
+        match self {
+            Self::AsMeasured => measured,
+            Self::Site { soil, .. } => with_strength_of(measured, soil),
+        }
+    }
+}
+
+fn with_strength_of(measured: Soil, site: &Soil) -> Soil {
+    let Soil { cohesion, friction_angle, density, .. } = *site;
+    Soil { cohesion, friction_angle, density, ..measured }
+}
