@@ -70,6 +70,9 @@ pub(crate) enum Style {
 const COLOURS: [&str; 7] =
     ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
 
+/// The colour of what is left over.
+const REST: &str = "#bbbbbb";
+
 const FONTS: &str = "Helvetica, Arial, sans-serif";
 
 impl Series {
@@ -167,6 +170,8 @@ pub(crate) struct Bars {
     pub(crate) x_label: String,
     /// The names of the parts, in their order.
     pub(crate) parts: Vec<String>,
+    /// Whether the last part is what is left over: it is grey.
+    pub(crate) has_rest: bool,
     /// The bars from the top down: each a name, and the length of each part.
     pub(crate) bars: Vec<(String, Vec<f64>)>,
 }
@@ -174,9 +179,14 @@ pub(crate) struct Bars {
 impl Bars {
     /// The bars as a stand-alone SVG document.
     pub(crate) fn to_svg(&self) -> String {
-        let colour = |place: usize| COLOURS[place % COLOURS.len()];
+        let is_rest = |place: usize| self.has_rest && place + 1 == self.parts.len();
+        let colour = |place: usize| {
+            // Black is for text.
+            if is_rest(place) { REST } else { COLOURS[1 + place % (COLOURS.len() - 1)] }
+        };
         let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
-        for (name, lengths) in &self.bars {
+        // The library draws from the bottom up.
+        for (name, lengths) in self.bars.iter().rev() {
             let pieces = lengths.iter().enumerate().map(|(place, length)| (*length, colour(place)));
             plot = plot.with_group(label(name), pieces);
         }

@@ -4,7 +4,7 @@
 mod figures;
 mod page;
 
-use grouser::document::columns::forecast::{self as columns, QUANTITY};
+use grouser::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
 use grouser::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast::BEKKER_IS_CARRIED;
 use grouser::document::table::{Row, Table};
@@ -88,6 +88,16 @@ impl Tables {
             |name: &Option<String>| name.as_deref().is_some_and(|it| names.contains(&it));
         let places = quantities.filter(|(_, name)| is_asked(name)).map(|(place, _)| place);
         self.budget.rows_at(&places.collect::<Vec<_>>())
+    }
+
+    /// The slope on which the slip is least known [°].
+    fn widest_slip(&self) -> Option<Option<f64>> {
+        let slip = self.budget_of(&[SLIP_RATIO.name]);
+        let factors = slip.texts(FACTOR);
+        let deviation = |row: &usize| slip.numbers(DEVIATION.name)[*row].unwrap_or_default();
+        let whole = (0..slip.rows()).filter(|row| factors[*row].as_deref() == Some(WHOLE));
+        let widest = whole.max_by(|one, other| deviation(one).total_cmp(&deviation(other)));
+        widest.map(|row| slip.numbers(SLOPE.name)[row])
     }
 
     /// For reading.

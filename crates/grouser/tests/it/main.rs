@@ -10,6 +10,7 @@ mod discrepancy;
 mod documents;
 mod examples;
 mod files;
+mod forecast;
 mod former_names;
 mod given;
 mod gravity;

@@ -2,7 +2,7 @@
 
 use grouser::document::columns::card::DRIFT;
 use grouser::document::columns::forecast::{
-    FACTOR, QUANTITY, VARIANCE_SHARE, WHOLE, slips_of_choices,
+    FACTOR, INTERACTIONS, QUANTITY, VARIANCE_SHARE, WHOLE, slips_of_choices,
 };
 use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
@@ -22,12 +22,25 @@ pub(super) struct Figure {
 
 /// All of them, in the order of the page.
 pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
+    let budgets = budgets(&tables.budget);
+    let widest =
+        tables.widest_slip().map_or(String::new(), |slope| name_of(SLIP_RATIO.name, slope));
     let mut figures = vec![
         Figure {
             file: "budget",
             caption: "The error budget: which share of the variance of the slip ratio, of the drift and of the steepest \
                       slope each factor has alone, and what several have only together. Parts of a bar add up to 100 %.",
-            svg: budget(&tables.budget).to_svg(),
+            svg: budget(&budgets).to_svg(),
+        },
+        Figure {
+            file: "budget-slip",
+            caption: "The parts of the slip on the slope on which it is least known, largest first.",
+            svg: largest_first(&budgets, &widest).to_svg(),
+        },
+        Figure {
+            file: "budget-limit",
+            caption: "The parts of the steepest slope, largest first.",
+            svg: largest_first(&budgets, &name_of(LIMIT_SLOPE.name, None)).to_svg(),
         },
         Figure {
             file: "slip",
@@ -73,38 +86,64 @@ pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
     figures
 }
 
-/// A bar for each quantity and slope. Factors have one order in all of them: the largest on average first.
-fn budget(table: &Table) -> Bars {
+/// Names and lengths [%] of the parts of each budget.
+type Budgets = Vec<(String, Vec<(String, f64)>)>;
+
+/// The budgets of a table, those of one quantity after each other.
+fn budgets(table: &Table) -> Budgets {
     let (quantities, factors) = (table.texts(QUANTITY), table.texts(FACTOR));
     let (slopes, shares) = (table.numbers(SLOPE.name), table.numbers(VARIANCE_SHARE.name));
-    let mut bars: Vec<(String, Vec<(String, f64)>)> = Vec::new();
+    let mut budgets: Vec<(&str, String, Vec<(String, f64)>)> = Vec::new();
     for row in 0..table.rows() {
         let (Some(quantity), Some(factor)) = (&quantities[row], &factors[row]) else { continue };
-        if factor == WHOLE {
-            continue;
-        }
         let name = name_of(quantity, slopes[row]);
-        if bars.last().is_none_or(|(last, _)| *last != name) {
-            bars.push((name, Vec::new()));
+        if budgets.last().is_none_or(|(_, last, _)| *last != name) {
+            budgets.push((quantity, name, Vec::new()));
         }
-        if let Some((_, parts)) = bars.last_mut() {
+        if let Some((.., parts)) = budgets.last_mut().filter(|_| factor != WHOLE) {
             parts.push((factor.clone(), 100.0 * shares[row].unwrap_or_default()));
         }
     }
+    let order = [SLIP_RATIO, DRIFT, LIMIT_SLOPE].map(|it| it.name);
+    budgets.sort_by_key(|(quantity, ..)| order.iter().position(|it| it == quantity));
+    budgets.into_iter().map(|(_, name, parts)| (name, parts)).collect()
+}
+
+/// The parts of one budget, largest first.
+fn largest_first(budgets: &Budgets, name: &str) -> Bars {
+    let parts = budgets.iter().find(|(it, _)| it == name).map(|(_, parts)| parts);
+    let bar = |(factor, share): &(String, f64)| (factor.clone(), vec![*share]);
+    Bars {
+        title: format!("What is not known of the {name}"),
+        x_label: "share of the variance [%]".into(),
+        parts: vec![String::new()],
+        has_rest: false,
+        bars: parts.into_iter().flatten().map(bar).collect(),
+    }
+}
+
+/// A bar for each budget. Factors have one order in all of them: the largest on average first, and last what several
+/// have together.
+fn budget(budgets: &Budgets) -> Bars {
     let of = |parts: &[(String, f64)], name: &str| {
         parts.iter().find(|(factor, _)| factor == name).map_or(0.0, |(_, share)| *share)
     };
-    let mut names: Vec<String> = bars
+    let mut names: Vec<String> = budgets
         .first()
         .map_or(Vec::new(), |(_, parts)| parts.iter().map(|(factor, _)| factor.clone()).collect());
-    let sum = |name: &str| bars.iter().map(|(_, parts)| of(parts, name)).sum::<f64>();
-    names.sort_by(|one, other| sum(other).total_cmp(&sum(one)));
+    let sum = |name: &str| budgets.iter().map(|(_, parts)| of(parts, name)).sum::<f64>();
+    let order = |name: &String| (name == INTERACTIONS, -sum(name));
+    names.sort_by(|one, other| {
+        let (one, other) = (order(one), order(other));
+        one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
+    });
     let lengths = |parts: &[(String, f64)]| names.iter().map(|name| of(parts, name)).collect();
     Bars {
         title: "Error budget".into(),
         x_label: "share of the variance [%]".into(),
-        bars: bars.iter().map(|(name, parts)| (name.clone(), lengths(parts))).collect(),
+        bars: budgets.iter().map(|(name, parts)| (name.clone(), lengths(parts))).collect(),
         parts: names,
+        has_rest: true,
     }
 }
 
@@ -136,7 +175,6 @@ fn band(table: &Table, quantity: Quantity, title: &str, y_label: &str) -> Chart 
         series: vec![
             Series::band("95 % of the cases", 6, edges),
             Series::new("median", Style::Line, 0, points(&median)),
-            Series::new("lower end", Style::Dotted, 1, points(&low)),
         ],
     }
 }

@@ -1,8 +1,6 @@
 //! The page of a forecast: the answer, the budget, what would shrink it, and every choice.
 
-use grouser::document::columns::forecast::{
-    self as columns, FACTOR, INTERACTIONS, VARIANCE_SHARE, WHOLE,
-};
+use grouser::document::columns::forecast::{self as columns, FACTOR, INTERACTIONS, VARIANCE_SHARE};
 use grouser::document::columns::{SLIP_RATIO, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{Factor, FactorKind, Forecast, REMEDY_OF_INTERACTIONS};
@@ -40,7 +38,7 @@ pub(super) fn html(
          quantity. A part that comes of n samples is itself known to about a share of √(2/(n − 1)) only.",
     );
     let mut figures = figures.iter();
-    if let Some(figure) = figures.next() {
+    for figure in figures.by_ref().take(3) {
         page.drawing(&figure.svg, figure.caption);
     }
     add(&mut page, "Parts, largest first", &tables.budget, &columns::budget_brief());
@@ -77,13 +75,9 @@ fn add(page: &mut Page, caption: &str, table: &Table, names: &[impl AsRef<str>])
 
 /// The slip where it is least known, and the largest part of that, in a sentence.
 fn answer(tables: &Tables) -> String {
+    let Some(slope) = tables.widest_slip() else { return "No slope was asked for.".into() };
     let slip = tables.budget_of(&[SLIP_RATIO.name]);
     let (factors, shares) = (slip.texts(FACTOR), slip.numbers(VARIANCE_SHARE.name));
-    let deviations = slip.numbers(columns::DEVIATION.name);
-    let whole = (0..slip.rows()).filter(|row| factors[*row].as_deref() == Some(WHOLE));
-    let widest = whole.max_by(|one, other| deviations[*one].total_cmp_or_none(deviations[*other]));
-    let Some(row) = widest else { return "No slope was asked for.".into() };
-    let slope = slip.numbers(SLOPE.name)[row];
     let slopes = tables.rows.numbers(SLOPE.name);
     let place = slopes.iter().position(|it| *it == slope).unwrap_or_default();
     let [low, median, high] =
@@ -98,16 +92,6 @@ fn answer(tables: &Tables) -> String {
         "The slip is least known on {}°: {low} to {high} (95 % of the cases), median {median}.{due}",
         short(slope)
     )
-}
-
-trait TotalOrder {
-    fn total_cmp_or_none(self, other: Self) -> std::cmp::Ordering;
-}
-
-impl TotalOrder for Option<f64> {
-    fn total_cmp_or_none(self, other: Self) -> std::cmp::Ordering {
-        self.unwrap_or_default().total_cmp(&other.unwrap_or_default())
-    }
 }
 
 fn short(number: Option<f64>) -> String {
