@@ -274,6 +274,8 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
         model: args.model.clone(),
         gravity: Some(gravity.to_string()),
     };
+    let settings = Overrides::parse_flags("--set", &args.settings)?;
+    settings.refuse(Kind::Scenario, &["gravity_m_s2"], "the gravity is that of --site")?;
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let name = args.scenario.as_deref();
     let scenario = balanced("forecast", name, rover, soil, &setting, &args.balance)?;

@@ -129,6 +129,12 @@ fn near(one: f64, other: f64, size: f64) -> bool {
     (one - other).abs() <= WITHIN * size
 }
 
+/// The same of a motion at a speed. Resistive force theory takes every wheel to sink by a creep of 1 µm/s, which is a
+/// share of 3e-6 of the slowest rims here, and no scaling law's; torque multiplies it by ten.
+fn within(theory: Theory) -> f64 {
+    if theory == Theory::Rft { 1e-4 } else { WITHIN }
+}
+
 /// One wheel under a load, here and scaled: every force over its load, torque over load times radius.
 fn check_wheel(
     theory: Theory,
@@ -261,10 +267,12 @@ const RIM_SPEED: f64 = 3.0;
 /// Power ΣT ω and speed of a rover that settles into a motion, while nobody holds its heading.
 fn moved(study: &HeadingStudy, yaw: f64, rim_speed: f64) -> (SteadyMotion, f64) {
     let slope = deg(8.0);
-    // A search ends within 1e-7 of the rims' speed; each further one from there leads much nearer.
+    // A search ends within 1e-7 of the rims' speed. One that comes from less and less far away ends much nearer, as
+    // every step of it leaves a small share of the way.
+    const FROM: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-5, 2e-6, 1e-6, 0.0];
     let first = study.steady_motion(slope, yaw, rim_speed).expect("it settles");
-    let motion = (0..3).fold(first, |motion, _| {
-        study.steady_motion_near(&motion, slope, yaw, rim_speed).expect("it is near")
+    let motion = FROM.into_iter().fold(first, |motion, away| {
+        study.steady_motion_near(&motion, slope, yaw + away, rim_speed).expect("it is near")
     });
     let torques = motion.wheels.iter().zip(study.rover.mounts());
     let power = torques
@@ -288,11 +296,16 @@ fn power_and_speed_of_a_rover_on_a_slope_scale_as_granular_scaling_says() {
                 let there = scaling.study(&here);
                 let (other, scaled) = moved(&there, deg(yaw), scaling.speed() * RIM_SPEED);
                 let case = format!("{theory:?}, {yaw}°, {scaling:?}");
-                assert!(near(one.slip_ratio(), other.slip_ratio(), 1.0), "slip, {case}");
-                assert!(near(one.course(), other.course(), 1.0), "course, {case}");
-                let speed = other.speed() / scaling.speed();
-                assert!(near(one.speed(), speed, one.speed()), "speed, {case}");
-                assert!(near(power, scaled / scaling.power(), power), "power, {case}");
+                let pairs = [
+                    ("slip", one.slip_ratio(), other.slip_ratio(), 1.0),
+                    ("course", one.course(), other.course(), 1.0),
+                    ("speed", one.speed(), other.speed() / scaling.speed(), one.speed()),
+                    ("power", power, scaled / scaling.power(), power),
+                ];
+                for (name, here, there, size) in pairs {
+                    let error = (here - there) / size;
+                    assert!(error.abs() <= within(theory), "{name} by {error:.1e}, {case}");
+                }
             }
         }
     }
