@@ -172,8 +172,8 @@ pub(crate) struct Bars {
     pub(crate) parts: Vec<String>,
     /// Whether the last part is what is left over: it is grey.
     pub(crate) has_rest: bool,
-    /// The bars from the top down: each a name, and the length of each part.
-    pub(crate) bars: Vec<(String, Vec<f64>)>,
+    /// From the top down: of each a name, and the length of each part.
+    pub(crate) rows: Vec<(String, Vec<f64>)>,
 }
 
 impl Bars {
@@ -186,7 +186,7 @@ impl Bars {
         };
         let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
         // The library draws from the bottom up.
-        for (name, lengths) in self.bars.iter().rev() {
+        for (name, lengths) in self.rows.iter().rev() {
             let pieces = lengths.iter().enumerate().map(|(place, length)| (*length, colour(place)));
             plot = plot.with_group(label(name), pieces);
         }

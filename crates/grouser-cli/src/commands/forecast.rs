@@ -9,7 +9,7 @@ use grouser::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast::BEKKER_IS_CARRIED;
 use grouser::document::table::{Row, Table};
 use grouser::soil::GravityScaling;
-use grouser::studies::forecast::{Forecast, ForecastError};
+use grouser::studies::forecast::{Forecast, ForecastError, Ground};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -91,13 +91,13 @@ impl Tables {
     }
 
     /// The slope on which the slip is least known [°].
-    fn widest_slip(&self) -> Option<Option<f64>> {
+    fn widest_slip(&self) -> Option<f64> {
         let slip = self.budget_of(&[SLIP_RATIO.name]);
         let factors = slip.texts(FACTOR);
         let deviation = |row: &usize| slip.numbers(DEVIATION.name)[*row].unwrap_or_default();
         let whole = (0..slip.rows()).filter(|row| factors[*row].as_deref() == Some(WHOLE));
         let widest = whole.max_by(|one, other| deviation(one).total_cmp(&deviation(other)));
-        widest.map(|row| slip.numbers(SLOPE.name)[row])
+        widest.and_then(|row| slip.numbers(SLOPE.name)[row])
     }
 
     /// For reading.
@@ -175,7 +175,7 @@ fn settings(args: &ForecastArgs, inputs: &ForecastInputs) -> Value {
     let ForecastInputs { scenario, study, band, .. } = inputs;
     let (document, choices) = (&scenario.document, &study.choices);
     let scalings: Vec<&str> = choices.scalings.iter().map(|scaling| scaling.name()).collect();
-    let grounds: Vec<&str> = choices.grounds.iter().map(|ground| ground.name()).collect();
+    let grounds: Vec<&str> = choices.grounds.iter().map(Ground::name).collect();
     let masses = choices.masses.iter().map(|mass| (mass.name.clone(), json!(mass.factor)));
     let documents: Vec<Value> =
         inputs.grounds.iter().map(|ground| json!(ground.document)).collect();

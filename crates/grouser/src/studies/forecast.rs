@@ -17,7 +17,7 @@ mod choices;
 mod factor;
 
 use self::case::OfCase;
-pub use self::choices::{Choices, Ground, RoverMass};
+pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
@@ -304,7 +304,7 @@ impl ForecastStudy {
         let soil = soil.under(*gravity, measured, scaling)?;
         let factor = masses.first().map_or(1.0, |mass| mass.factor);
         let rover = self.heading.rover.with_mass_factor(factor)?;
-        let curve = HeadingStudy { soil, rover, ..self.heading.clone() }.curve()?;
+        let curve = HeadingStudy { rover, soil, ..self.heading.clone() }.curve()?;
         Ok(slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect())
     }
 }

@@ -82,6 +82,8 @@ fn the_parts_of_a_budget_add_up_to_the_whole() {
             assert!(0.0 <= part.first && part.first <= part.total + WITHIN && part.total <= whole);
             assert!(part.total > 0.0, "every factor matters here: {budget:?}");
         }
+        let shared: f64 = budget.parts.iter().map(|part| part.shared).sum();
+        assert!((shared - whole).abs() < WITHIN * whole.max(1.0));
     }
     // The table has the same numbers: shares of the parts, and their sum.
     let table = columns::budget(&forecast);

@@ -2,7 +2,7 @@
 
 use grouser::document::columns::card::DRIFT;
 use grouser::document::columns::forecast::{
-    FACTOR, INTERACTIONS, QUANTITY, VARIANCE_SHARE, WHOLE, slips_of_choices,
+    FACTOR, INTERACTIONS, QUANTITY, SHARED_SHARE, VARIANCE_SHARE, WHOLE, slips_of_choices,
 };
 use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
@@ -23,8 +23,7 @@ pub(super) struct Figure {
 /// All of them, in the order of the page.
 pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
     let budgets = budgets(&tables.budget);
-    let widest =
-        tables.widest_slip().map_or(String::new(), |slope| name_of(SLIP_RATIO.name, slope));
+    let widest = name_of(SLIP_RATIO.name, tables.widest_slip());
     let mut figures = vec![
         Figure {
             file: "budget",
@@ -34,12 +33,13 @@ pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
         },
         Figure {
             file: "budget-slip",
-            caption: "The parts of the slip on the slope on which it is least known, largest first.",
+            caption: "The factors of the slip on the slope on which it is least known, each with an equal share of its \
+                      interactions: all of them add up to 100 %.",
             svg: largest_first(&budgets, &widest).to_svg(),
         },
         Figure {
             file: "budget-limit",
-            caption: "The parts of the steepest slope, largest first.",
+            caption: "The same of the steepest slope.",
             svg: largest_first(&budgets, &name_of(LIMIT_SLOPE.name, None)).to_svg(),
         },
         Figure {
@@ -86,14 +86,25 @@ pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
     figures
 }
 
-/// Names and lengths [%] of the parts of each budget.
-type Budgets = Vec<(String, Vec<(String, f64)>)>;
+/// A part of a budget.
+struct Part {
+    factor: String,
+    /// Alone, and with an equal share of its interactions [%].
+    own: f64,
+    shared: f64,
+}
+
+/// Names and parts of each budget.
+type Budgets = Vec<(String, Vec<Part>)>;
 
 /// The budgets of a table, those of one quantity after each other.
 fn budgets(table: &Table) -> Budgets {
     let (quantities, factors) = (table.texts(QUANTITY), table.texts(FACTOR));
-    let (slopes, shares) = (table.numbers(SLOPE.name), table.numbers(VARIANCE_SHARE.name));
-    let mut budgets: Vec<(&str, String, Vec<(String, f64)>)> = Vec::new();
+    let slopes = table.numbers(SLOPE.name);
+    let percent = |quantity: Quantity, row: usize| {
+        100.0 * table.numbers(quantity.name)[row].unwrap_or_default()
+    };
+    let mut budgets: Vec<(&str, String, Vec<Part>)> = Vec::new();
     for row in 0..table.rows() {
         let (Some(quantity), Some(factor)) = (&quantities[row], &factors[row]) else { continue };
         let name = name_of(quantity, slopes[row]);
@@ -101,7 +112,8 @@ fn budgets(table: &Table) -> Budgets {
             budgets.push((quantity, name, Vec::new()));
         }
         if let Some((.., parts)) = budgets.last_mut().filter(|_| factor != WHOLE) {
-            parts.push((factor.clone(), 100.0 * shares[row].unwrap_or_default()));
+            let (own, shared) = (percent(VARIANCE_SHARE, row), percent(SHARED_SHARE, row));
+            parts.push(Part { factor: factor.clone(), own, shared });
         }
     }
     let order = [SLIP_RATIO, DRIFT, LIMIT_SLOPE].map(|it| it.name);
@@ -109,39 +121,45 @@ fn budgets(table: &Table) -> Budgets {
     budgets.into_iter().map(|(_, name, parts)| (name, parts)).collect()
 }
 
-/// The parts of one budget, largest first.
+/// The factors of one budget with their shares of interactions, largest first.
 fn largest_first(budgets: &Budgets, name: &str) -> Bars {
     let parts = budgets.iter().find(|(it, _)| it == name).map(|(_, parts)| parts);
-    let bar = |(factor, share): &(String, f64)| (factor.clone(), vec![*share]);
+    let factors = parts.into_iter().flatten().filter(|part| part.factor != INTERACTIONS);
+    let mut factors: Vec<&Part> = factors.collect();
+    factors.sort_by(|one, other| other.shared.total_cmp(&one.shared));
+    let bar = |part: &&Part| {
+        // Below zero by round-off only.
+        let interactions = (part.shared - part.own).max(0.0);
+        (part.factor.clone(), vec![part.own, interactions])
+    };
     Bars {
         title: format!("What is not known of the {name}"),
         x_label: "share of the variance [%]".into(),
-        parts: vec![String::new()],
-        has_rest: false,
-        bars: parts.into_iter().flatten().map(bar).collect(),
+        parts: ["alone", "of interactions"].map(String::from).into(),
+        has_rest: true,
+        rows: factors.iter().map(bar).collect(),
     }
 }
 
 /// A bar for each budget. Factors have one order in all of them: the largest on average first, and last what several
 /// have together.
 fn budget(budgets: &Budgets) -> Bars {
-    let of = |parts: &[(String, f64)], name: &str| {
-        parts.iter().find(|(factor, _)| factor == name).map_or(0.0, |(_, share)| *share)
+    let of = |parts: &[Part], name: &str| {
+        parts.iter().find(|part| part.factor == name).map_or(0.0, |part| part.own)
     };
-    let mut names: Vec<String> = budgets
-        .first()
-        .map_or(Vec::new(), |(_, parts)| parts.iter().map(|(factor, _)| factor.clone()).collect());
+    let names_of = |parts: &Vec<Part>| parts.iter().map(|part| part.factor.clone()).collect();
+    let mut names: Vec<String> = budgets.first().map_or(Vec::new(), |(_, parts)| names_of(parts));
     let sum = |name: &str| budgets.iter().map(|(_, parts)| of(parts, name)).sum::<f64>();
     let order = |name: &String| (name == INTERACTIONS, -sum(name));
     names.sort_by(|one, other| {
         let (one, other) = (order(one), order(other));
         one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
     });
-    let lengths = |parts: &[(String, f64)]| names.iter().map(|name| of(parts, name)).collect();
+    let lengths = |parts: &[Part]| names.iter().map(|name| of(parts, name)).collect();
     Bars {
         title: "Error budget".into(),
         x_label: "share of the variance [%]".into(),
-        bars: budgets.iter().map(|(name, parts)| (name.clone(), lengths(parts))).collect(),
+        rows: budgets.iter().map(|(name, parts)| (name.clone(), lengths(parts))).collect(),
         parts: names,
         has_rest: true,
     }

@@ -34,7 +34,8 @@ pub(super) fn html(
         "The variance of the slip ratio, of the drift and of the steepest slope, in parts. variance_share: what a \
          factor has alone; by so much the variance shrinks, on average over its levels, if the factor becomes known. \
          total_share: the same with its interactions; so much would be left if all others were known. Parts and \
-         interactions add up to the whole. standard_deviation: the square root of the part, in the unit of the \
+         interactions add up to the whole. shared_share: with an equal share of each of its \
+         interactions; these add up to the whole by themselves. standard_deviation: the square root of the part, in the unit of the \
          quantity. A part that comes of n samples is itself known to about a share of √(2/(n − 1)) only.",
     );
     let mut figures = figures.iter();
@@ -79,10 +80,10 @@ fn answer(tables: &Tables) -> String {
     let slip = tables.budget_of(&[SLIP_RATIO.name]);
     let (factors, shares) = (slip.texts(FACTOR), slip.numbers(VARIANCE_SHARE.name));
     let slopes = tables.rows.numbers(SLOPE.name);
-    let place = slopes.iter().position(|it| *it == slope).unwrap_or_default();
+    let place = slopes.iter().position(|it| *it == Some(slope)).unwrap_or_default();
     let [low, median, high] =
         SLIP_RATIO.quantiles().map(|name| short(tables.rows.numbers(&name)[place]));
-    let first = (0..slip.rows()).find(|it| slip.numbers(SLOPE.name)[*it] == slope);
+    let first = (0..slip.rows()).find(|it| slip.numbers(SLOPE.name)[*it] == Some(slope));
     let largest = first.and_then(|it| Some((factors[it].clone()?, shares[it]?)));
     let due = largest.map_or(String::new(), |(factor, share)| {
         let due = if factor == INTERACTIONS { "interactions of several factors" } else { &factor };
@@ -90,7 +91,7 @@ fn answer(tables: &Tables) -> String {
     });
     format!(
         "The slip is least known on {}°: {low} to {high} (95 % of the cases), median {median}.{due}",
-        short(slope)
+        four_digits(slope)
     )
 }
 

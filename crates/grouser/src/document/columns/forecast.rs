@@ -53,9 +53,10 @@ pub fn table(forecast: &Forecast) -> Table {
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    let bands = [SLIP_RATIO, DRIFT, YAW, POWER].into_iter().flat_map(Quantity::quantiles);
+    let whole = [SLIP_RATIO, DRIFT].into_iter().flat_map(Quantity::quantiles);
+    let upper = [YAW, POWER].into_iter().flat_map(|it| it.quantiles().into_iter().skip(1));
     let ends = [SHARE_LEVEL.name, FLAGS].map(String::from);
-    std::iter::once(SLOPE.name.to_owned()).chain(bands).chain(ends).collect()
+    std::iter::once(SLOPE.name.to_owned()).chain(whole).chain(upper).chain(ends).collect()
 }
 
 /// How many cases there are.
@@ -85,6 +86,8 @@ pub const WHOLE: &str = "whole";
 /// The share of a factor alone.
 pub const VARIANCE_SHARE: Quantity = quantity("variance_share", ONE);
 const TOTAL_SHARE: Quantity = quantity("total_share", ONE);
+/// The share of a factor with an equal share of its interactions.
+pub const SHARED_SHARE: Quantity = quantity("shared_share", ONE);
 /// The square root of a part.
 pub const DEVIATION: Quantity = quantity("standard_deviation", ONE);
 
@@ -95,15 +98,16 @@ struct Part {
     factor: &'static str,
     /// How many levels the factor has; none of what is no factor.
     levels: Option<usize>,
-    /// The part and the total, as shares of the variance; none where there is no variance.
+    /// The part, the total and the shared part, as shares of the variance; none where there is no variance.
     first: Option<f64>,
     total: Option<f64>,
+    shared: Option<f64>,
     /// In SI.
     deviation: f64,
     remedy: &'static str,
 }
 
-const PARTS: [Column<Part>; 8] = [
+const PARTS: [Column<Part>; 9] = [
     text(QUANTITY, "What the budget is of", |it| Some(it.quantity.name.to_owned())),
     SLOPE.given("Slopes; none for the steepest slope", |it| it.slope),
     text(FACTOR, "A factor, `interactions` of several, or the `whole`", |it| Some(it.factor.to_owned())),
@@ -115,6 +119,10 @@ const PARTS: [Column<Part>; 8] = [
     TOTAL_SHARE.maybe(
         "The same with all of its interactions: so much of the variance would be left if all others were known",
         |it| it.total,
+    ),
+    SHARED_SHARE.maybe(
+        "The same with an equal share of each of its interactions: these add up to 1 over the factors",
+        |it| it.shared,
     ),
     DEVIATION.number("Square root of the part, in the unit of the quantity", |it| {
         it.quantity.unit.from_si(it.deviation)
@@ -142,13 +150,14 @@ fn parts(
     budget: &VarianceBudget,
 ) -> Vec<Part> {
     let share = |part: f64| (budget.variance > 0.0).then(|| part / budget.variance);
-    let part = |factor, levels, first: f64, total: Option<f64>, remedy| Part {
+    let part = |factor, levels, first: f64, remedy| Part {
         quantity,
         slope,
         factor,
         levels,
         first: share(first),
-        total: total.and_then(share),
+        total: None,
+        shared: None,
         deviation: first.sqrt(),
         remedy,
     };
@@ -156,22 +165,21 @@ fn parts(
     let open = factors.filter(|(factor, _)| factor.levels.len() > 1);
     let own = open.map(|(factor, it)| {
         let (kind, levels) = (factor.kind, factor.levels.len());
-        part(kind.name(), Some(levels), it.first, Some(it.total), kind.remedy())
+        let part = part(kind.name(), Some(levels), it.first, kind.remedy());
+        Part { total: share(it.total), shared: share(it.shared), ..part }
     });
-    let interactions =
-        part(INTERACTIONS, None, budget.interactions(), None, REMEDY_OF_INTERACTIONS);
+    let interactions = part(INTERACTIONS, None, budget.interactions(), REMEDY_OF_INTERACTIONS);
     let mut parts: Vec<Part> = own.chain([interactions]).collect();
     parts.sort_by(|one, other| other.deviation.total_cmp(&one.deviation));
-    parts.push(part(WHOLE, None, budget.variance, None, ""));
+    parts.push(part(WHOLE, None, budget.variance, ""));
     parts
 }
 
 /// The columns of [`budget`] for reading.
 #[must_use]
 pub fn budget_brief() -> Vec<String> {
-    let names =
-        [QUANTITY, SLOPE.name, FACTOR, VARIANCE_SHARE.name, TOTAL_SHARE.name, DEVIATION.name];
-    names.map(String::from).into()
+    let shares = [VARIANCE_SHARE, SHARED_SHARE, TOTAL_SHARE, DEVIATION].map(|it| it.name);
+    [QUANTITY, SLOPE.name, FACTOR].into_iter().chain(shares).map(String::from).collect()
 }
 
 /// A choice or a model.

@@ -11,7 +11,8 @@
 //! the variance that is left would be V − V_i on average over its levels. As every level meets every other, the
 //! parts and what only several factors cause together, their *interactions*, add up to V, and no part is negative
 //! (Sobol 1993). The *total* of a factor is its part with all of its interactions, E[Var(Y | all others)]: what
-//! would be left if it alone were unknown.
+//! would be left if it alone were unknown. Its *shared* part has an equal share of each of its interactions (Shapley
+//! effects, Owen 2014): these add up to V by themselves.
 
 use std::iter::repeat_n;
 
@@ -39,6 +40,8 @@ pub struct VariancePart {
     pub first: f64,
     /// With all of its interactions: the variance that is left, on average, if all others are known.
     pub total: f64,
+    /// With an equal share of each of its interactions.
+    pub shared: f64,
 }
 
 impl Factorial {
@@ -137,9 +140,11 @@ impl Factorial {
         assert_eq!(outputs.len(), self.cases(), "an output for each case");
         let mean = self.mean(outputs);
         let squares: Vec<f64> = outputs.iter().map(|output| (output - mean).powi(2)).collect();
+        let shared = self.shared(mean, outputs);
         let part = |factor: usize| VariancePart {
             first: self.first(factor, mean, outputs),
             total: self.total(factor, outputs),
+            shared: shared[factor],
         };
         VarianceBudget {
             mean,
@@ -152,6 +157,51 @@ impl Factorial {
     fn first(&self, factor: usize, mean: f64, outputs: &[f64]) -> f64 {
         let means = self.means(factor, outputs).into_iter().enumerate();
         means.map(|(level, it)| self.share(factor, level) * (it - mean).powi(2)).sum()
+    }
+
+    /// Σ V_S/|S| over the sets S of factors that have a factor in them, where V_S is what they have together and no
+    /// set within S has: for each factor.
+    fn shared(&self, mean: f64, outputs: &[f64]) -> Vec<f64> {
+        let factors = self.counts.len();
+        let mut together: Vec<f64> =
+            (0..1_usize << factors).map(|set| self.closed(set, mean, outputs)).collect();
+        // From what a set has with all sets within it to what it has alone (Möbius).
+        for factor in 0..factors {
+            for set in (0..together.len()).filter(|set| set >> factor & 1 == 1) {
+                together[set] -= together[set ^ (1 << factor)];
+            }
+        }
+        let of_factor = |factor: usize| {
+            let sets = (0..together.len()).filter(|set| set >> factor & 1 == 1);
+            sets.map(|set| together[set] / f64::from(set.count_ones())).sum()
+        };
+        (0..factors).map(of_factor).collect()
+    }
+
+    /// Var(E[Y | X_A]) of a set A of factors.
+    ///
+    /// * `set`: its bits
+    fn closed(&self, set: usize, mean: f64, outputs: &[f64]) -> f64 {
+        let is_in = |factor: usize| set >> factor & 1 == 1;
+        let place = |case: usize| {
+            let levels = self.levels(case).into_iter().enumerate().zip(&self.counts);
+            levels.fold(
+                0,
+                |place, ((factor, level), counts)| {
+                    if is_in(factor) { place * counts.len() + level } else { place }
+                },
+            )
+        };
+        let inside = self.counts.iter().enumerate().filter(|(factor, _)| is_in(*factor));
+        let mut sums = vec![Sum::default(); inside.map(|(_, counts)| counts.len()).product()];
+        for (case, output) in outputs.iter().enumerate() {
+            sums[place(case)].add(self.count(case), *output);
+        }
+        let mut variance = Sum::default();
+        for sum in &sums {
+            variance.add(sum.count, (sum.mean() - mean).powi(2));
+        }
+        variance.mean()
     }
 
     /// E[Var(Y | all others)].
@@ -228,10 +278,14 @@ mod tests {
         let parts: f64 = budget.parts.iter().map(|part| part.first).sum();
         assert!((parts + budget.interactions() - budget.variance).abs() < 1e-14);
         assert!(budget.interactions() > 0.1 * budget.variance);
-        assert_eq!(budget.parts[2], VariancePart { first: 0.0, total: 0.0 });
+        let nothing = budget.parts[2];
+        assert!(nothing.first < 1e-30 && nothing.total < 1e-30 && nothing.shared.abs() < 1e-15);
         for part in &budget.parts {
-            assert!(part.first <= part.total + 1e-15 && part.total <= budget.variance);
+            assert!(part.first <= part.shared + 1e-15 && part.shared <= part.total + 1e-15);
+            assert!(part.total <= budget.variance);
         }
+        let shared: f64 = budget.parts.iter().map(|part| part.shared).sum();
+        assert!((shared - budget.variance).abs() < 1e-14);
     }
 
     #[test]
@@ -272,10 +326,12 @@ mod tests {
         let sum = of(|x, y| x + y);
         assert!((sum.parts[0].first - 1.0).abs() < 1e-15 && sum.interactions() < 1e-15);
         assert!((sum.parts[1].first - 0.5).abs() < 1e-15);
-        assert_eq!(sum.parts[1].first, sum.parts[1].total);
+        let VariancePart { first, total, shared } = sum.parts[1];
+        assert!((first - total).abs() < 1e-15 && (first - shared).abs() < 1e-15);
         let product = of(|x, y| x * y);
         assert!(product.parts.iter().all(|part| part.first < 1e-15));
         assert!((product.interactions() - 0.5).abs() < 1e-15);
         assert!((product.parts[0].total - 0.5).abs() < 1e-15);
+        assert!(product.parts.iter().all(|part| (part.shared - 0.25).abs() < 1e-15));
     }
 }

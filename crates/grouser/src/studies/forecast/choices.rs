@@ -24,14 +24,18 @@ pub enum Ground {
     AsMeasured,
     /// That soil with cohesion, friction angle and density of another one, which is known for the site; moduli and all
     /// else stay.
-    Site {
-        /// The name of that soil.
-        name: String,
-        /// That soil as its document has it.
-        soil: Soil,
-        /// The soils that it may be, if its document leaves any of that open.
-        soils: Option<UncertainSoil>,
-    },
+    Site(Box<SiteSoil>),
+}
+
+/// A soil that is known for a site.
+#[derive(Clone, Debug)]
+pub struct SiteSoil {
+    /// The name by which it was asked for.
+    pub name: String,
+    /// The soil as its document has it.
+    pub soil: Soil,
+    /// The soils that it may be, if its document leaves any of that open.
+    pub soils: Option<UncertainSoil>,
 }
 
 /// A rover's mass, by a name.
@@ -77,7 +81,8 @@ impl Ground {
     /// The ground of a soil's document.
     #[must_use]
     pub fn of_soil(name: &str, soil: &LoadedSoil) -> Self {
-        Self::Site { name: name.to_owned(), soil: soil.value, soils: soil.uncertain.clone() }
+        let (name, soils) = (name.to_owned(), soil.uncertain.clone());
+        Self::Site(Box::new(SiteSoil { name, soil: soil.value, soils }))
     }
 
     /// Its name: `as-measured`, or that of the soil.
@@ -85,14 +90,14 @@ impl Ground {
     pub fn name(&self) -> &str {
         match self {
             Self::AsMeasured => "as-measured",
-            Self::Site { name, .. } => name,
+            Self::Site(site) => &site.name,
         }
     }
 
     /// Whether it differs from sample to sample by itself.
     #[must_use]
     pub fn is_uncertain(&self) -> bool {
-        matches!(self, Self::Site { soils: Some(_), .. })
+        matches!(self, Self::Site(site) if site.soils.is_some())
     }
 
     /// A soil that was measured, with the ground's strength and density of sample `number`.
@@ -102,21 +107,19 @@ impl Ground {
         seed: u64,
         number: u64,
     ) -> Result<Soil, NothingAccepted> {
-        match self {
-            Self::AsMeasured => Ok(measured),
-            Self::Site { soil, soils: None, .. } => Ok(with_strength_of(measured, soil)),
-            Self::Site { soils: Some(soils), .. } => {
-                let drawn = soils.draw(seed_of_site(seed), number)?;
-                Ok(with_strength_of(measured, &drawn))
-            }
-        }
+        let Self::Site(site) = self else { return Ok(measured) };
+        let drawn = match &site.soils {
+            Some(soils) => soils.draw(seed_of_site(seed), number)?,
+            None => site.soil,
+        };
+        Ok(with_strength_of(measured, &drawn))
     }
 
     /// The same with the ground's document as it is written.
     pub(super) fn as_written(&self, measured: Soil) -> Soil {
         match self {
             Self::AsMeasured => measured,
-            Self::Site { soil, .. } => with_strength_of(measured, soil),
+            Self::Site(site) => with_strength_of(measured, &site.soil),
         }
     }
 }
