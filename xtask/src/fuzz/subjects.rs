@@ -114,6 +114,11 @@ const LINES: [(&str, &str, &[&str]); 27] = [
         &["uncertain.toml"],
     ),
     (
+        "forecast",
+        "forecast --soil soil.toml --site moon --slope-deg 5 --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
+        &["soil.toml", "uncertain.toml"],
+    ),
+    (
         "validate",
         "validate --data test.csv --wheel wheel.toml --soil soil.toml --out judged --format json",
         &["test.csv", "wheel.toml", "soil.toml"],
