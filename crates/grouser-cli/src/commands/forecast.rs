@@ -3,9 +3,9 @@
 
 mod figures;
 mod page;
+mod tables;
 
-use grouser::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
-use grouser::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
+use grouser::document::columns::SLOPE;
 use grouser::document::forecast::BEKKER_IS_CARRIED;
 use grouser::document::table::{Row, Table};
 use grouser::soil::GravityScaling;
@@ -18,17 +18,9 @@ use crate::args::ForecastArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, ForecastInputs};
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, rounded_down};
+use crate::output::rows::Rows;
 use crate::output::{self, Format};
-
-/// The tables of a forecast.
-struct Tables {
-    rows: Table,
-    limit: Table,
-    budget: Table,
-    choices: Table,
-    tests: Table,
-}
+use tables::Tables;
 
 impl From<ForecastError> for Failure {
     fn from(error: ForecastError) -> Self {
@@ -52,7 +44,7 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let flags = forecast.slopes.iter().map(|slope| &*slope.findings);
     strict::check(&args.strict, flags, &tables.rows, &[SLOPE.name])?;
     let notes = notes(&inputs);
-    let answer = Answer::new("forecast", settings(args, &inputs), tables.results(&notes));
+    let answer = Answer::new("forecast", settings(args, &inputs), results(&tables, &notes));
     if let Some(mut folder) = folder {
         write(&mut folder, &inputs, &forecast, &tables, &notes)?;
         folder.add("forecast.json", answer.to_text());
@@ -65,71 +57,9 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     }
 }
 
-impl Tables {
-    fn of(forecast: &Forecast) -> Self {
-        Self {
-            rows: columns::table(forecast),
-            limit: columns::steepest(forecast),
-            budget: columns::budget(forecast),
-            choices: columns::choices(forecast),
-            tests: columns::tests(forecast),
-        }
-    }
-
-    fn results<'a>(&'a self, notes: &'a [String]) -> Results<'a> {
-        let Self { rows, limit, budget, choices, tests } = self;
-        Results { steepest: limit.row(0), rows, budget, choices, tests, notes }
-    }
-
-    /// The budget of a quantity.
-    fn budget_of(&self, names: &[&str]) -> Table {
-        let quantities = self.budget.texts(QUANTITY).iter().enumerate();
-        let is_asked =
-            |name: &Option<String>| name.as_deref().is_some_and(|it| names.contains(&it));
-        let places = quantities.filter(|(_, name)| is_asked(name)).map(|(place, _)| place);
-        self.budget.rows_at(&places.collect::<Vec<_>>())
-    }
-
-    /// The slope on which the slip is least known [°].
-    fn widest_slip(&self) -> Option<f64> {
-        let slip = self.budget_of(&[SLIP_RATIO.name]);
-        let factors = slip.texts(FACTOR);
-        let deviation = |row: &usize| slip.numbers(DEVIATION.name)[*row].unwrap_or_default();
-        let whole = (0..slip.rows()).filter(|row| factors[*row].as_deref() == Some(WHOLE));
-        let widest = whole.max_by(|one, other| deviation(one).total_cmp(&deviation(other)));
-        widest.and_then(|row| slip.numbers(SLOPE.name)[row])
-    }
-
-    /// For reading.
-    fn text(&self, notes: &[String]) -> String {
-        let budget = self.budget_of(&[SLIP_RATIO.name, LIMIT_SLOPE.name]);
-        let budget = Rows::of_table(&budget).to_table(&columns::budget_brief());
-        let tests = if self.tests.rows() == 0 {
-            String::new()
-        } else {
-            let names: Vec<&String> = self.tests.columns.iter().map(|(name, _)| name).collect();
-            format!(
-                "\ntests where the soil was measured\n{}",
-                Rows::of_table(&self.tests).to_table(&names)
-            )
-        };
-        let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
-        format!(
-            "{}{}\nerror budget of the slip ratio and of the steepest slope\n{budget}{tests}\n{notes}",
-            Rows::of_table(&self.rows).to_table(&columns::brief()),
-            self.limit_line(),
-        )
-    }
-
-    /// The steepest slope, in a line.
-    fn limit_line(&self) -> String {
-        let ends = LIMIT_SLOPE.quantiles().map(|name| self.limit.numbers(&name)[0]);
-        let [low, median, high] = ends.map(|end| rounded_down(end.unwrap_or_default()));
-        format!(
-            "steepest slope on which a heading holds the contour: {low}° to {high}° (95 %), median \
-             {median}°\n"
-        )
-    }
+fn results<'a>(tables: &'a Tables, notes: &'a [String]) -> Results<'a> {
+    let Tables { rows, limit, budget, choices, tests } = tables;
+    Results { steepest: limit.row(0), rows, budget, choices, tests, notes }
 }
 
 /// What has to be said beside the numbers.

@@ -23,7 +23,7 @@ use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
 use super::ensemble::{Band, NothingAccepted, outputs_while};
 use super::heading::HeadingStudy;
-use crate::contact::validity::Finding;
+use crate::contact::validity::{Finding, Flag};
 use crate::error::{ParameterError, positive};
 use crate::soil::GravityScaling;
 
@@ -305,7 +305,14 @@ impl ForecastStudy {
         let factor = masses.first().map_or(1.0, |mass| mass.factor);
         let rover = self.heading.rover.with_mass_factor(factor)?;
         let curve = HeadingStudy { rover, soil, ..self.heading.clone() }.curve()?;
-        Ok(slopes.iter().map(|slope| curve.findings(*slope, &curve.at(*slope))).collect())
+        // Bekker's moduli that were scaled are no more under another gravity than they were made for.
+        let is_kept = scalings.contains(&GravityScaling::Bekker);
+        let holds = |finding: &Finding| is_kept || finding.flag != Flag::BekkerGravity;
+        let on_slope = |slope: &f64| {
+            let findings = curve.findings(*slope, &curve.at(*slope));
+            findings.into_iter().filter(holds).collect()
+        };
+        Ok(slopes.iter().map(on_slope).collect())
     }
 }
 

@@ -284,6 +284,22 @@ fn a_stronger_ground_is_steeper_and_slips_less() {
     assert_eq!(levels[2].name, "lunar-0-15-cm");
 }
 
+/// Moduli of Bekker's law that are scaled are flagged no more; kept ones are.
+#[test]
+fn only_kept_moduli_are_flagged() {
+    let scenario = scenario(&["scenario.soil=grc-1", "scenario.model=ishigami"]);
+    for scaling in GravityScaling::ALL {
+        let forecast = forecast(&scenario, Choices::of_scalings([scaling]), &[5.0]);
+        let names: Vec<&str> = slip(&forecast).findings.iter().map(|it| it.flag.name()).collect();
+        assert!(names.contains(&"gravity-outside"), "{names:?}");
+        assert_eq!(
+            names.contains(&"bekker-gravity"),
+            scaling == GravityScaling::Bekker,
+            "{names:?}"
+        );
+    }
+}
+
 #[test]
 fn what_is_no_choice_is_an_error() {
     let scenario = scenario(&[]);

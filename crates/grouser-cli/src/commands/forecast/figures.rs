@@ -8,7 +8,7 @@ use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{FactorKind, Forecast};
 
-use super::Tables;
+use super::tables::Tables;
 use crate::chart::{Bars, Chart, Series, Style};
 use crate::output::rows::four_digits;
 

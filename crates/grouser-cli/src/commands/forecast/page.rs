@@ -5,8 +5,8 @@ use grouser::document::columns::{SLIP_RATIO, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{Factor, FactorKind, Forecast, REMEDY_OF_INTERACTIONS};
 
-use super::Tables;
 use super::figures::Figure;
+use super::tables::Tables;
 use crate::inputs::ForecastInputs;
 use crate::output::rows::{Rows, four_digits};
 use crate::report::page::Page;
