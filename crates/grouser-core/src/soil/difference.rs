@@ -1,7 +1,8 @@
 //! How the soil of one place, or under one wheel, differs from what is said of the whole ground.
 
+use std::f64::consts::PI;
+
 use super::{PressureSinkage, Rft, Soil};
-use crate::units::deg;
 
 /// How a soil differs from another: in how it shears and in how it carries.
 ///
@@ -44,15 +45,15 @@ impl SoilDifference {
     }
 }
 
-/// Friction angles that a difference can lead to [°]; one beyond leads to the end. Source: ours, about those that a
-/// soil's document may have.
-const FRICTION_ANGLES: [f64; 2] = [1.0, 80.0];
+/// Friction angles that a difference can lead to [rad], 1° and 80°; one beyond leads to the end. Source: ours, somewhat
+/// more than a soil's document may have.
+const FRICTION_ANGLES: [f64; 2] = [PI / 180.0, 80.0 * PI / 180.0];
 
 impl Soil {
     /// The same soil with a difference. Its friction angle stays within 1° and 80°.
     #[must_use]
     pub fn differing(&self, by: SoilDifference) -> Self {
-        let [least, most] = FRICTION_ANGLES.map(deg);
+        let [least, most] = FRICTION_ANGLES;
         let factor = by.stiffness;
         let pressure_sinkage = match self.pressure_sinkage {
             PressureSinkage::Bekker { k_c, k_phi, exponent } => {

@@ -66,7 +66,7 @@ pub(super) static SCATTER: Table<Scatter> = Table {
     doc: "What scatters unknown: standard deviations, and which of the beds and motors that they describe a run has.",
     fields: &[
         number(
-            "friction_angle_deg",
+            "friction_angle_std_deg",
             DEG,
             0.0..=10.0,
             "Standard deviation of the angle of internal friction from place to place",
@@ -74,7 +74,7 @@ pub(super) static SCATTER: Table<Scatter> = Table {
         )
         .or(0.0),
         number(
-            "stiffness_share",
+            "stiffness_std",
             ONE,
             0.0..=1.0,
             "Standard deviation of the soil's stiffness from place to place, as a share of it (of its logarithm)",
@@ -90,7 +90,7 @@ pub(super) static SCATTER: Table<Scatter> = Table {
         )
         .or(Scatter::USUAL_LENGTH),
         number(
-            "speed_share",
+            "speed_std",
             ONE,
             0.0..=0.2,
             "Standard deviation of each wheel's speed over a run, as a share of what its motor is told",

@@ -166,7 +166,7 @@ fn speeds_scatter_from_wheel_to_wheel_and_from_seed_to_seed() {
 
 #[test]
 fn a_quasi_steady_run_over_scattered_soil_goes_dynamically_and_says_so() {
-    let base = scenario(&["scenario.scatter.stiffness_share=0.1", "scenario.duration_s=2"]);
+    let base = scenario(&["scenario.scatter.stiffness_std=0.1", "scenario.duration_s=2"]);
     let numerics = Numerics { approach: Approach::QuasiSteady, ..base.numerics };
     let run = Run::new(&Scenario { numerics, ..base.clone() }).and_then(Run::to_end).unwrap();
     let because = NotSteady::UnevenSoil;
