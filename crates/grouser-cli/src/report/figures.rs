@@ -4,11 +4,13 @@ use grouser::contact::Settled;
 use grouser::document::columns::{SINKAGE, SLIP_ANGLE, SLOPE, YAW};
 use grouser::simulation::{Trajectory, WheelRecord};
 use grouser::studies::comparison::MeasuredTraverse;
+use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
 use grouser::studies::wheel_test::WheelTestRow;
 use grouser::vehicle::Rover;
 use serde_json::{Map, Value, json};
 
+use super::experiment::heading_band;
 use crate::chart::{Chart, Series, Style};
 use crate::output::rows::Rows;
 
@@ -44,9 +46,9 @@ impl Figure {
 }
 
 /// All figures, in the order of the report.
-pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
+pub(crate) fn all(study: &Reproduction, rover: &Rover, band: &[SlopeBand]) -> Vec<Figure> {
     vec![
-        heading(study),
+        heading(study, band),
         traverses(study),
         wheel_curves(study),
         by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
@@ -65,7 +67,7 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
 }
 
 /// Fig. 10: heading offset over slope.
-pub(crate) fn heading(study: &Reproduction) -> Figure {
+fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
     let curve = study.headings.headings();
     let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
@@ -78,15 +80,19 @@ pub(crate) fn heading(study: &Reproduction) -> Figure {
         file: "fig10-attitude",
         caption: "Fig. 10 of the paper: the heading offset that holds the contour, there called \
                   attitude, over the slope. The curve ends where turning further uphill costs more thrust than it gains. The \
-                  measured runs lose yaw from start to end; on 20° they were started high on purpose."
+                  measured runs lose yaw from start to end; on 20° they were started high on purpose. The band: \
+                  sand known as well as preset toyoura-uncertain says, any of three models, complete loads; it ends \
+                  where fewer than 97.5 % of the samples hold the contour."
             .into(),
         chart: Chart {
             title: "Heading offset that holds the contour".into(),
             x_label: "slope [°]".into(),
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
+                heading_band(band),
                 Series::new("Grouser", Style::Line, 1, line),
                 Series::new("paper's model", Style::Squares, 0, points(|m| m.model_yaw)),
+                Series::new("measured, mean", Style::Dots, 4, points(MeasuredTraverse::mean_yaw)),
                 Series::new("measured, start", Style::Dots, 2, points(|m| m.initial_yaw)),
                 Series::new("measured, end", Style::Triangles, 3, points(|m| m.final_yaw)),
             ],

@@ -2,9 +2,12 @@
 
 use std::f64::consts::TAU;
 
+use grouser::document::campaign::Campaign;
+use grouser::document::table::Cell;
 use grouser::document::{self, Overrides, Source, experiment};
 use grouser::simulation::{Approach, Method, NotSteady, Numerics, Run, Scatter, Scenario, Start};
 use grouser::soil::{Soil, SoilDifference};
+use grouser::studies::lost_yaw::LostYawPlan;
 use grouser::terrain::{SoilField, SoilScatter};
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::{ByWheel, DriveLaw, PerWheel};
@@ -81,7 +84,7 @@ fn factors_are_applied_once() {
     run.advance(&mut keep, 2.0).expect("it goes on");
     assert_eq!(run.state().rim_speeds(), [0.9 * 0.06; 4]);
     let alone = Run::new(&scenario).and_then(Run::to_end).expect("it runs");
-    let end = |y: f64| format!("{:.9} m", y);
+    let end = |y: f64| format!("{y:.9} m");
     assert_eq!(end(run.now().state.position.y), end(alone.last().state.position.y));
 }
 
@@ -173,4 +176,69 @@ fn a_quasi_steady_run_over_scattered_soil_goes_dynamically_and_says_so() {
     assert_eq!(run.method, Method::FallbackToDynamic { time: 0.0, because });
     let dynamic = Run::new(&base).and_then(Run::to_end).unwrap();
     assert_eq!(run.last().state, dynamic.last().state);
+}
+
+fn campaign(text: &str) -> Campaign {
+    let head = "schema = \"campaign/1\"\nname = \"x\"\nstudy = \"traverse\"\nruns = 4\n";
+    let source = Source::text("campaign", format!("{head}{text}"));
+    document::read_campaign(&source, &Overrides::none()).expect("it is one")
+}
+
+/// The yaws at the end of all runs [°].
+fn yaws(campaign: &Campaign) -> Vec<f64> {
+    let place = campaign.columns().iter().position(|column| column.name == "yaw_deg");
+    let yaw = |run| match campaign.run(run)[place.expect("a result")] {
+        Cell::Float(Some(yaw)) => yaw,
+        _ => panic!("a run without a yaw"),
+    };
+    (0..campaign.runs()).map(yaw).collect()
+}
+
+/// Each run has a bed of its own, the same whenever it is run, and another one by another seed.
+#[test]
+fn every_run_of_a_campaign_has_a_bed_of_its_own() {
+    let scattered = "[scenario]\nduration_s = 3\n[scenario.scatter]\nstiffness_std = 0.2\n";
+    let one = campaign(scattered);
+    let found = yaws(&one);
+    assert_eq!(found, yaws(&one));
+    for (place, yaw) in found.iter().enumerate() {
+        assert!(!found[..place].contains(yaw), "{found:?}");
+    }
+    assert_ne!(found, yaws(&campaign(&format!("seed = 9\n{scattered}"))));
+}
+
+#[test]
+fn a_campaign_varies_a_single_wheel() {
+    let spread = "[scenario]\nduration_s = 3\n[scenario.by_wheel]\nspeed_factor = [1, 1, 1, 1]\n\
+                  [[parameter]]\nkey = \"by_wheel.speed_factor.0\"\n\
+                  distribution = \"normal\"\nstandard_deviation = 0.01\n";
+    let found = yaws(&campaign(spread));
+    assert!(found[0] != found[1], "{found:?}");
+}
+
+/// Source of the deviations: an independent estimate to first order, one digit printed.
+#[test]
+fn lost_yaw_scatters_about_as_an_independent_estimate_has_it() {
+    let soil = SoilScatter { friction_angle: deg(1.0), stiffness: 0.1, correlation_length: 0.3 };
+    let plan = LostYawPlan {
+        scenario: scenario(&[]),
+        measured: experiment::table_4(),
+        scatter: Scatter { soil, speed: 0.005, ..Scatter::NONE },
+        other_lengths: Vec::new(),
+        samples: 40,
+        seed: 3,
+    };
+    let found = plan.run(&mut |_| ()).expect("it runs");
+    for (slope, expected) in found.iter().zip([0.3, 0.4, 0.6, 2.0]) {
+        let all = slope.together.deviation.to_degrees();
+        assert!((all / expected - 1.0).abs() < 0.4, "{all} and {expected}");
+        // Causes that do not know of each other add up in squares.
+        let squares: f64 = slope.alone.iter().map(|it| it.deviation.powi(2)).sum();
+        let ratio = squares.sqrt() / slope.together.deviation;
+        assert!((ratio - 1.0).abs() < 0.35, "{ratio}");
+        // And what they scatter about is what the loads take.
+        let off = (slope.together.losses.median - slope.by_loads) / slope.together.deviation;
+        assert!(off.abs() < 0.6, "{off}");
+    }
+    assert_eq!(found, plan.run(&mut |_| ()).expect("it runs"));
 }
