@@ -45,11 +45,9 @@ impl Figure {
     }
 }
 
-/// All figures, in the order of the report.
-pub(crate) fn all(study: &Reproduction, rover: &Rover, band: &[SlopeBand]) -> Vec<Figure> {
-    vec![
-        heading(study, band),
-        traverses(study),
+/// The single-wheel test.
+pub(crate) fn of_a_wheel(study: &Reproduction) -> [Figure; 5] {
+    [
         wheel_curves(study),
         by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
             settled.forces.drawbar_pull
@@ -61,13 +59,16 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover, band: &[SlopeBand]) -> Ve
             settled.forces.torque
         }),
         sinkage_by_load(study),
-        slip_along_run(study, rover),
-        sinkage_along_run(study, rover),
     ]
 }
 
+/// The first moments of a run from rest.
+pub(crate) fn along_a_run(study: &Reproduction, rover: &Rover) -> [Figure; 2] {
+    [slip_along_run(study, rover), sinkage_along_run(study, rover)]
+}
+
 /// Fig. 10: heading offset over slope.
-fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
+pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
     let curve = study.headings.headings();
     let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
@@ -101,7 +102,7 @@ fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
 }
 
 /// Fig. 9: paths without and with compensation.
-fn traverses(study: &Reproduction) -> Figure {
+pub(crate) fn traverses(study: &Reproduction) -> Figure {
     let path = |run: &Trajectory| -> Vec<(f64, f64)> {
         run.records.iter().map(|s| (s.state.position.x, 1e3 * s.state.position.y)).collect()
     };
