@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use grouser::document::{escape, file};
 
+use self::report::{PAPER, REPORT};
 use crate::args::ReproduceArgs;
 use crate::failure::Failure;
 use crate::output;
@@ -15,15 +16,8 @@ use crate::report::experiment as against;
 use crate::report::page;
 use crate::report::tables::{self, Table};
 
-/// The paper. The copy that this was made from names no authors.
-const PAPER: &str = "The paper: \"Dynamical modeling and simulation of the four-wheel micro rover in sandy terrain\", Space \
-                     Robotics Laboratory, Tohoku University, with the HAKUTO team, about 2017 (the copy at hand \
-                     prints no authors' names).";
-
 /// The folder without `--out`.
 const DEFAULT_FOLDER: &str = "reproduction";
-/// The file by which a folder is known as an earlier reproduction's.
-const REPORT: &str = "report.html";
 
 pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let (target, mut folder) = open_folder(args)?;

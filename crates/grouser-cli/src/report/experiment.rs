@@ -325,16 +325,3 @@ pub(crate) fn lengths_sentence(study: &Study) -> String {
         each.collect::<Vec<_>>().join("; ")
     )
 }
-
-/// The band of headings for Fig. 10.
-pub(crate) fn heading_band(band: &[SlopeBand]) -> Series {
-    let edges = band.iter().filter_map(|on| {
-        let yaw = on.yaw.filter(|_| on.level.estimate() >= MOSTLY)?;
-        let slope = SLOPE.unit.from_si(on.slope);
-        Some((slope, YAW.unit.from_si(yaw.low), YAW.unit.from_si(yaw.high)))
-    });
-    Series::band("95 %, soil and model uncertain", 6, edges)
-}
-
-/// The band ends where fewer of the samples hold the contour [-]: beyond it would be that of the strong ones.
-const MOSTLY: f64 = 0.975;

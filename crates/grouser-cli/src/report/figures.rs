@@ -10,7 +10,6 @@ use grouser::studies::wheel_test::WheelTestRow;
 use grouser::vehicle::Rover;
 use serde_json::{Map, Value, json};
 
-use super::experiment::heading_band;
 use crate::chart::{Chart, Series, Style};
 use crate::output::rows::Rows;
 
@@ -100,6 +99,19 @@ pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
         },
     }
 }
+
+/// The band of headings for Fig. 10.
+fn heading_band(band: &[SlopeBand]) -> Series {
+    let edges = band.iter().filter_map(|on| {
+        let yaw = on.yaw.filter(|_| on.level.estimate() >= MOSTLY)?;
+        let slope = SLOPE.unit.from_si(on.slope);
+        Some((slope, YAW.unit.from_si(yaw.low), YAW.unit.from_si(yaw.high)))
+    });
+    Series::band("95 %, soil and model uncertain", 6, edges)
+}
+
+/// The band ends where fewer of the samples hold the contour [-]: beyond it would be that of the strong ones.
+const MOSTLY: f64 = 0.975;
 
 /// Fig. 9: paths without and with compensation.
 pub(crate) fn traverses(study: &Reproduction) -> Figure {

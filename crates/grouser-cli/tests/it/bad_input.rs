@@ -653,7 +653,7 @@ mod signals {
         assert!(html.trim_end().ends_with("</html>"));
         let count =
             |folder: &str| std::fs::read_dir(study.join(folder)).expect("it is there").count();
-        assert_eq!((count("data"), count("figures"), count(".")), (39, 9, 4));
+        assert_eq!((count("data"), count("figures"), count(".")), (43, 12, 4));
         assert!(place.read("study/scenario.toml").contains("scenario/1"));
     }
 }

@@ -7,7 +7,6 @@ use grouser::simulation::{Scatter, Scenario, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::studies::validity::RoverOnSlope;
 
-use super::{PAPER, REPORT};
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
@@ -16,6 +15,14 @@ use crate::report::figures::{self, Figure};
 use crate::report::outlines;
 use crate::report::page::Page;
 use crate::report::tables::{self, Table};
+
+/// The paper. The copy that this was made from names no authors.
+pub(super) const PAPER: &str = "The paper: \"Dynamical modeling and simulation of the four-wheel micro rover in sandy terrain\", Space \
+                     Robotics Laboratory, Tohoku University, with the HAKUTO team, about 2017 (the copy at hand \
+                     prints no authors' names).";
+
+/// The file by which a folder is known as an earlier reproduction's.
+pub(super) const REPORT: &str = "report.html";
 
 /// A page in the making, and the folder of its numbers.
 struct Report<'a> {
