@@ -17,6 +17,7 @@ mod choices;
 mod factor;
 
 use self::case::OfCase;
+use self::choices::with_strength_of;
 pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
 use super::ensemble::factorial::{Factorial, VarianceBudget};
@@ -219,13 +220,15 @@ impl ForecastStudy {
         slopes: &[f64],
     ) -> Result<Vec<OfCase>, ForecastError> {
         let Choices { grounds, masses, scalings } = &self.choices;
-        let sample = self.sample(band, &grounds[levels[0]], &levels[2..5])?;
+        let sample = self.sample(band, &levels[2..5])?;
+        let ground = grounds[levels[0]].drawn(self.seed, levels[3] as u64)?;
         let rover = self.heading.rover.with_mass_factor(masses[levels[1]].factor)?;
         let study = HeadingStudy { rover, ..self.heading.of_sample(&sample) };
         let mut found: Vec<(HeadingStudy, OfCase)> = Vec::new();
         for scaling in scalings {
-            let soil = study.soil.under(study.gravity, self.measured_under, *scaling)?;
-            let study = HeadingStudy { soil, ..study.clone() };
+            // The strength of the site's ground is known there: nothing of it is scaled.
+            let scaled = study.soil.under(study.gravity, self.measured_under, *scaling)?;
+            let study = HeadingStudy { soil: with_strength_of(scaled, ground), ..study.clone() };
             let same = found.iter().find(|(other, _)| *other == study);
             let case = match same {
                 Some((_, case)) => case.clone(),
@@ -237,16 +240,9 @@ impl ForecastStudy {
     }
 
     /// Model and soil at levels of model, soil and discrepancy, as under the gravity of the measurement.
-    fn sample(
-        &self,
-        band: &BandInputs,
-        ground: &Ground,
-        levels: &[usize],
-    ) -> Result<Sample, NothingAccepted> {
+    fn sample(&self, band: &BandInputs, levels: &[usize]) -> Result<Sample, NothingAccepted> {
         let (theory, _) = band.models().shares()[levels[0]];
-        let numbers = [levels[1] as u64, levels[2] as u64];
-        let sample = band.crossed(theory, self.seed, numbers)?;
-        Ok(Sample { soil: ground.soil(sample.soil, self.seed, numbers[0])?, ..sample })
+        band.crossed(theory, self.seed, [levels[1] as u64, levels[2] as u64])
     }
 
     /// Rovers that could be tested where the soil was measured: as heavy as the first of the choices, and lightened
@@ -276,7 +272,7 @@ impl ForecastStudy {
             let rover = self.heading.rover.with_mass_factor(mass.factor)?;
             let here = HeadingStudy { rover, gravity: self.measured_under, ..self.heading.clone() };
             let one = |case: usize| -> Result<Vec<Option<f64>>, ForecastError> {
-                let sample = self.sample(band, &Ground::AsMeasured, &design.levels(case))?;
+                let sample = self.sample(band, &design.levels(case))?;
                 let curve = here.of_sample(&sample).curve()?;
                 Ok(slopes.iter().map(|slope| Some(curve.at(*slope).ok()?.slip_ratio)).collect())
             };
@@ -300,8 +296,8 @@ impl ForecastStudy {
         let Choices { grounds, masses, scalings } = &self.choices;
         let (HeadingStudy { soil, gravity, .. }, measured) = (&self.heading, self.measured_under);
         let scaling = scalings.first().copied().unwrap_or(GravityScaling::Reece);
-        let soil = grounds.first().map_or(*soil, |ground| ground.as_written(*soil));
-        let soil = soil.under(*gravity, measured, scaling)?;
+        let scaled = soil.under(*gravity, measured, scaling)?;
+        let soil = with_strength_of(scaled, grounds.first().and_then(Ground::as_written));
         let factor = masses.first().map_or(1.0, |mass| mass.factor);
         let rover = self.heading.rover.with_mass_factor(factor)?;
         let curve = HeadingStudy { rover, soil, ..self.heading.clone() }.curve()?;

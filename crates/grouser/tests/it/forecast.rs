@@ -218,6 +218,20 @@ fn a_test_of_the_same_rover_on_sand_without_cohesion_is_the_forecast() {
     assert!((lightened.median - tested.median).abs() > 1e-3);
 }
 
+/// What is known of the site's ground was found there: no cohesion of it is scaled.
+#[test]
+fn the_strength_of_the_site_is_not_scaled() {
+    let scenario = scenario(&[UNCERTAIN]);
+    let choices = Choices {
+        grounds: vec![site("lunar-0-15-cm")],
+        ..Choices::of_scalings([GravityScaling::Reece, GravityScaling::Granular])
+    };
+    let forecast = forecast(&scenario, choices, &[12.0]);
+    let place = forecast.place(FactorKind::GravityScaling).expect("a factor");
+    let means = &slip(&forecast).slip_means[place];
+    assert_eq!(means[0], means[1], "the sand itself has no cohesion");
+}
+
 /// A soil that was measured at the site needs no scaling, and there is nothing to test elsewhere.
 #[test]
 fn at_home_scalings_agree() {

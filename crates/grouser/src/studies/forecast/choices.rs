@@ -100,31 +100,28 @@ impl Ground {
         matches!(self, Self::Site(site) if site.soils.is_some())
     }
 
-    /// A soil that was measured, with the ground's strength and density of sample `number`.
-    pub(super) fn soil(
-        &self,
-        measured: Soil,
-        seed: u64,
-        number: u64,
-    ) -> Result<Soil, NothingAccepted> {
-        let Self::Site(site) = self else { return Ok(measured) };
-        let drawn = match &site.soils {
-            Some(soils) => soils.draw(seed_of_site(seed), number)?,
-            None => site.soil,
-        };
-        Ok(with_strength_of(measured, &drawn))
+    /// The soil of the site in sample `number`, if the ground is not as measured.
+    pub(super) fn drawn(&self, seed: u64, number: u64) -> Result<Option<Soil>, NothingAccepted> {
+        match self {
+            Self::AsMeasured => Ok(None),
+            Self::Site(site) => match &site.soils {
+                Some(soils) => soils.draw(seed_of_site(seed), number).map(Some),
+                None => Ok(Some(site.soil)),
+            },
+        }
     }
 
-    /// The same with the ground's document as it is written.
-    pub(super) fn as_written(&self, measured: Soil) -> Soil {
+    /// The same as its document is written.
+    pub(super) fn as_written(&self) -> Option<Soil> {
         match self {
-            Self::AsMeasured => measured,
-            Self::Site(site) => with_strength_of(measured, &site.soil),
+            Self::AsMeasured => None,
+            Self::Site(site) => Some(site.soil),
         }
     }
 }
 
-fn with_strength_of(measured: Soil, site: &Soil) -> Soil {
-    let Soil { cohesion, friction_angle, density, .. } = *site;
-    Soil { cohesion, friction_angle, density, ..measured }
+/// A soil with cohesion, friction angle and density of the site's, if there is one.
+pub(super) fn with_strength_of(soil: Soil, site: Option<Soil>) -> Soil {
+    let Some(Soil { cohesion, friction_angle, density, .. }) = site else { return soil };
+    Soil { cohesion, friction_angle, density, ..soil }
 }
