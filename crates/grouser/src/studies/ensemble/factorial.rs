@@ -127,7 +127,7 @@ impl Factorial {
     /// let budget = design.budget(&[10.0, 13.0, 15.0, 12.0, 15.0, 18.0]);
     /// let shares = budget.parts.iter().map(|part| part.first / budget.variance);
     /// let shares: Vec<String> = shares.map(|share| format!("{share:.2}")).collect();
-    /// assert_eq!(shares, ["0.24", "0.75"]);
+    /// assert_eq!(shares, ["0.21", "0.78"]);
     /// assert_eq!(format!("{:.2}", budget.interactions() / budget.variance), "0.01");
     /// ```
     ///
