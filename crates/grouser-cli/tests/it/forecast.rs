@@ -96,6 +96,8 @@ fn the_folder_has_the_page_and_all_that_repeats_it() {
     let page = place.read("moon/forecast.html");
     for part in [
         "What would shrink it",
+        "The slip is least known on 10°",
+        "with its share of interactions",
         "granular-scaling",
         "flight",
         "Error budget",

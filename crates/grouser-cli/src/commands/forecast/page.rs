@@ -1,6 +1,8 @@
 //! The page of a forecast: the answer, the budget, what would shrink it, and every choice.
 
-use grouser::document::columns::forecast::{self as columns, FACTOR, INTERACTIONS, VARIANCE_SHARE};
+use grouser::document::columns::forecast::{
+    self as columns, FACTOR, INTERACTIONS, SHARED_SHARE, VARIANCE_SHARE,
+};
 use grouser::document::columns::{SLIP_RATIO, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{Factor, FactorKind, Forecast, REMEDY_OF_INTERACTIONS};
@@ -74,7 +76,7 @@ fn add(page: &mut Page, caption: &str, table: &Table, names: &[impl AsRef<str>])
     page.grid(caption, &header, &Rows::of_table(table).cells(names));
 }
 
-/// The slip where it is least known, and the largest part of that, in a sentence.
+/// The slip where it is least known, and the factor that has most of that, in two sentences.
 fn answer(tables: &Tables) -> String {
     let Some(slope) = tables.widest_slip() else { return "No slope was asked for.".into() };
     let slip = tables.budget_of(&[SLIP_RATIO.name]);
@@ -83,11 +85,16 @@ fn answer(tables: &Tables) -> String {
     let place = slopes.iter().position(|it| *it == Some(slope)).unwrap_or_default();
     let [low, median, high] =
         SLIP_RATIO.quantiles().map(|name| short(tables.rows.numbers(&name)[place]));
-    let first = (0..slip.rows()).find(|it| slip.numbers(SLOPE.name)[*it] == Some(slope));
-    let largest = first.and_then(|it| Some((factors[it].clone()?, shares[it]?)));
-    let due = largest.map_or(String::new(), |(factor, share)| {
-        let due = if factor == INTERACTIONS { "interactions of several factors" } else { &factor };
-        format!(" {:.0} % of the variance is due to: {due}.", 100.0 * share)
+    let shared = slip.numbers(SHARED_SHARE.name);
+    let here = (0..slip.rows()).filter(|row| slip.numbers(SLOPE.name)[*row] == Some(slope));
+    let parts = here.filter_map(|row| Some((row, shared[row]?)));
+    let largest = parts.max_by(|one, other| one.1.total_cmp(&other.1));
+    let due = largest.map_or(String::new(), |(row, share)| {
+        let factor = factors[row].as_deref().unwrap_or_default();
+        let [alone, all] = [shares[row].unwrap_or_default(), share].map(|share| 100.0 * share);
+        format!(
+            " Of its variance {factor} has most: {alone:.0} % alone, {all:.0} % with its share of interactions."
+        )
     });
     format!(
         "The slip is least known on {}°: {low} to {high} (95 % of the cases), median {median}.{due}",
