@@ -7,6 +7,7 @@
 //! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
 mod driven;
+pub mod drives;
 mod rule;
 
 use super::ensemble::models::WEIGHTS;
@@ -17,7 +18,7 @@ use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
-pub use driven::{Driven, DrivenMotion, HEADING_ERROR, roll_and_pitch};
+pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG, roll_and_pitch};
 use driven::{STRAIGHT_DOWN, STUCK};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 
@@ -222,14 +223,15 @@ impl CardStudy {
     }
 
     /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none below
-    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself nor a
-    /// rover that tips over is to be driven.
+    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself, nor
+    /// above the friction angle, where it stands by a cohesion that wheels break, nor a rover that tips over is to be
+    /// driven.
     fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
         let (soil, gravity) = (&self.heading.soil, self.heading.gravity);
         let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
         let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
-        if slope > self.heading.ground_limit() || driven.is_some_and(|it| it.tipping_margin <= 0.0)
-        {
+        let is_too_steep = slope > self.heading.ground_limit().min(soil.friction_angle);
+        if is_too_steep || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
             Verdict::NoGo
         } else if slope > flattest || !self.is_uncertainty_stated {
             Verdict::Caution

@@ -67,7 +67,7 @@ impl HeadingStudy {
     }
 
     /// The slope *α* [rad].
-    pub(super) fn site(&self, slope: f64) -> Site {
+    pub(in crate::studies) fn site(&self, slope: f64) -> Site {
         Site::plane(self.soil, slope, self.gravity)
     }
 
