@@ -6,6 +6,7 @@
 //! does not state, nor near the soil's friction angle, nor beyond what the ground itself stands.
 //! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
+pub mod courses;
 mod driven;
 pub mod drives;
 mod rule;

@@ -397,3 +397,17 @@ fn a_rule_without_order_is_refused() {
     let falling = [deg(3.0), deg(2.0)];
     assert_eq!(study().card(&[], &falling, &|| ()).expect_err("falling").value, deg(2.0));
 }
+
+#[test]
+fn courses_tmp() {
+    let inputs = BandInputs::of_scenario(&scenario());
+    let samples = inputs.samples(1, 60).expect("the soils can be drawn");
+    let study = study();
+    let card = study.card(&samples, &[2.0, 6.0, 10.0, 14.0, 18.0].map(deg), &|| ()).expect("all in order");
+    for row in study.courses(&card.rows, &samples) {
+        let m = row.motion;
+        let s = |b: Option<Band>| b.map_or("-".into(), |b| format!("{:.3}/{:.3}/{:.3}", b.low, b.median, b.high));
+        println!("{:.0} {:?} {:?} tip {:.0} slip {} torque {} drift {} turn {} stuck {:?}", row.slope.to_degrees(), row.course, row.verdict, row.tipping_margin.to_degrees(),
+          s(m.and_then(|m| m.slip_ratio)), s(m.and_then(|m| m.torque)), s(m.and_then(|m| m.drift)), s(m.and_then(|m| m.turn_downhill)), m.map(|m| m.stuck.successes));
+    }
+}

@@ -143,8 +143,8 @@ fn mean_sinkage(motion: &SteadyMotion) -> f64 {
 }
 
 /// Torque of the wheel that has most [N·m].
-fn largest_torque(motion: &SteadyMotion) -> f64 {
-    motion.wheels.iter().map(|wheel| wheel.settled.forces.torque).fold(0.0, f64::max)
+pub(super) fn largest_torque(motion: &SteadyMotion) -> f64 {
+    motion.wheels.iter().map(|wheel| wheel.settled.forces.torque.abs()).fold(0.0, f64::max)
 }
 
 /// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m; `None` where

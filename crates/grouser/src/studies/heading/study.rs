@@ -47,8 +47,20 @@ impl HeadingStudy {
         yaw: f64,
         rim_speed: f64,
     ) -> Result<SteadyMotion, NotSteady> {
-        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
-        SteadyMotion::of(self.ground(&self.site(slope)), &rim_speeds, yaw)
+        self.steady_motion_of(slope, yaw, &vec![rim_speed; self.rover.wheel_count()])
+    }
+
+    /// The same with each rim at its own speed [m/s], in the mounts' order; negative backwards.
+    ///
+    /// # Errors
+    /// As for [`steady_motion`](Self::steady_motion).
+    pub fn steady_motion_of(
+        &self,
+        slope: f64,
+        yaw: f64,
+        rim_speeds: &[f64],
+    ) -> Result<SteadyMotion, NotSteady> {
+        SteadyMotion::of(self.ground(&self.site(slope)), rim_speeds, yaw)
     }
 
     /// The same at another yaw *γ* [rad], sought from a motion on that slope.
