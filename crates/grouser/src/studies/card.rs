@@ -10,6 +10,7 @@ pub mod courses;
 mod driven;
 pub mod drives;
 mod rule;
+mod slip_check;
 
 use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
@@ -22,6 +23,7 @@ use crate::soil::SlopeStability;
 pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG, roll_and_pitch};
 use driven::{STRAIGHT_DOWN, STUCK};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
+pub use slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 
 /// The inputs of a card.
 #[derive(Clone, Debug, PartialEq)]

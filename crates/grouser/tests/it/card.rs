@@ -5,12 +5,14 @@ use grouser::simulation::{Approach, Motion, Scenario, Start};
 
 use grouser::site::Site;
 use grouser::soil::{SlopeStability, Soil};
+use grouser::studies::card::courses::{Course, CourseRow};
 use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::card::{Card, CardStudy, Rule, STUCK_ON_GO, Verdict};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, deg};
+use grouser::vehicle::DriveLaw;
 
 use super::given;
 
@@ -398,16 +400,89 @@ fn a_rule_without_order_is_refused() {
     assert_eq!(study().card(&[], &falling, &|| ()).expect_err("falling").value, deg(2.0));
 }
 
-#[test]
-fn courses_tmp() {
+// ---- The second page ----
+
+/// The other courses of a card of forty samples.
+fn courses(slopes_deg: &[f64]) -> Vec<CourseRow> {
     let inputs = BandInputs::of_scenario(&scenario());
-    let samples = inputs.samples(1, 60).expect("the soils can be drawn");
+    let samples = inputs.samples(1, 40).expect("the soils can be drawn");
+    let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
     let study = study();
-    let card = study.card(&samples, &[2.0, 6.0, 10.0, 14.0, 18.0].map(deg), &|| ()).expect("all in order");
-    for row in study.courses(&card.rows, &samples) {
-        let m = row.motion;
-        let s = |b: Option<Band>| b.map_or("-".into(), |b| format!("{:.3}/{:.3}/{:.3}", b.low, b.median, b.high));
-        println!("{:.0} {:?} {:?} tip {:.0} slip {} torque {} drift {} turn {} stuck {:?}", row.slope.to_degrees(), row.course, row.verdict, row.tipping_margin.to_degrees(),
-          s(m.and_then(|m| m.slip_ratio)), s(m.and_then(|m| m.torque)), s(m.and_then(|m| m.drift)), s(m.and_then(|m| m.turn_downhill)), m.map(|m| m.stuck.successes));
+    let card = study.card(&samples, &slopes, &|| ()).expect("all in order");
+    let courses = study.courses(&card.rows, &samples);
+    for row in &courses {
+        println!("{:.0}° {row:?}", row.slope.to_degrees());
+    }
+    courses
+}
+
+fn on(courses: &[CourseRow], course: Course) -> Vec<CourseRow> {
+    courses.iter().filter(|row| row.course == course).copied().collect()
+}
+
+#[test]
+fn a_course_is_never_better_on_a_steeper_slope_and_slips_more_uphill() {
+    let courses = courses(&[2.0, 6.0, 10.0, 14.0]);
+    for course in Course::ALL {
+        let rows = on(&courses, course);
+        assert_eq!(rows.len(), 4);
+        assert!(rows.windows(2).all(|pair| pair[0].verdict <= pair[1].verdict));
+    }
+    let slip = |row: &CourseRow| {
+        row.motion.and_then(|motion| motion.slip_ratio).expect("it is driven").median
+    };
+    let slips = |course| on(&courses, course).iter().map(slip).collect::<Vec<f64>>();
+    let (up, down) = (slips(Course::Up), slips(Course::Down));
+    assert!(up.windows(2).all(|pair| pair[0] < pair[1]), "{up:?}");
+    assert!(down.windows(2).all(|pair| pair[0] > pair[1]), "{down:?}");
+    // The rover is all but the same from behind; backwards along the contour its rear is uphill, and it holds it.
+    for (ahead, back) in [(&up, slips(Course::BackUp)), (&down, slips(Course::BackDown))] {
+        assert!(ahead.iter().zip(&back).all(|(one, other)| (one - other).abs() < 0.02));
+    }
+    for row in on(&courses, Course::BackAcross) {
+        let drift = row.motion.and_then(|motion| motion.drift).expect("it is driven");
+        assert!(drift.median.abs() < 0.01 && drift.high > 0.0, "{row:?}");
+    }
+}
+
+/// Up and down are the runs in time with the nose there.
+#[test]
+fn straight_up_and_down_slip_as_runs_do() {
+    let study = CardStudy { heading: HeadingStudy::of(&given::traverse(0.0, 0.0)), ..study() };
+    let slope = deg(8.0);
+    let card = card(&study, &[], &[slope]);
+    let rows = study.courses(&card.rows, &[]);
+    for (course, yaw, rim_speed) in [
+        (Course::Up, 90.0, 0.06),
+        (Course::Down, -90.0, 0.06),
+        (Course::BackDown, 90.0, -0.06),
+        (Course::BackUp, -90.0, -0.06),
+    ] {
+        let [row] = on(&rows, course)[..] else { panic!("one slope") };
+        let scenario = Scenario {
+            drive: DriveLaw::Constant(rim_speed),
+            duration: 2.0,
+            ..given::traverse(slope, deg(yaw))
+        };
+        let run = given::run(&scenario);
+        let wheels = run.last().wheels.iter();
+        let slip = wheels.map(|it| it.reaction.slip.ratio).sum::<f64>() / 4.0 * rim_speed.signum();
+        let found = row.motion.and_then(|motion| motion.slip_ratio).expect("it moves").median;
+        assert!((found - slip).abs() < 1e-4, "{course:?}: {found} and {slip}");
+    }
+}
+
+/// To set the nose a rover had better go on, with its uphill wheels slower: against each other they dig.
+#[test]
+fn turning_on_the_way_slips_less_than_on_the_spot() {
+    let courses = courses(&[4.0, 10.0]);
+    for (way, spot) in on(&courses, Course::Turn).iter().zip(on(&courses, Course::TurnOnTheSpot)) {
+        let slip = |row: &CourseRow| row.motion.and_then(|it| it.slip_ratio).map(|it| it.median);
+        assert!(slip(way) < Some(0.2) && slip(&spot).is_none_or(|it| it > 0.4), "{way:?} {spot:?}");
+        let motion = way.motion.expect("it turns");
+        assert_eq!(motion.stuck.successes, 0);
+        let (way, downhill) = (motion.turn_way.expect("turns"), motion.turn_downhill.expect("it"));
+        assert!(way.low > 0.0 && downhill.high < 0.1 && downhill.high.abs() < way.high);
+        assert!(spot.verdict == Verdict::NoGo);
     }
 }

@@ -28,15 +28,23 @@ pub enum Course {
     BackUp,
     /// Along the contour, backwards: out of a traverse. The rear is uphill by as much as the card turns the nose.
     BackAcross,
-    /// Turning the nose uphill on the spot, from the heading of the card: uphill wheels backwards, downhill wheels
-    /// forwards.
+    /// Turning the nose uphill on the way, from the heading of the card: uphill wheels at half the speed.
     Turn,
+    /// Turning it uphill on the spot: uphill wheels backwards, downhill wheels forwards.
+    TurnOnTheSpot,
 }
 
 impl Course {
     /// All of them.
-    pub const ALL: [Self; 6] =
-        [Self::Up, Self::BackDown, Self::Down, Self::BackUp, Self::BackAcross, Self::Turn];
+    pub const ALL: [Self; 7] = [
+        Self::Up,
+        Self::BackDown,
+        Self::Down,
+        Self::BackUp,
+        Self::BackAcross,
+        Self::Turn,
+        Self::TurnOnTheSpot,
+    ];
 
     /// The yaw that it is driven at [rad].
     ///
@@ -46,18 +54,28 @@ impl Course {
             Self::Up | Self::BackDown => FRAC_PI_2,
             Self::Down | Self::BackUp => -FRAC_PI_2,
             Self::BackAcross => -contour,
-            Self::Turn => contour,
+            Self::Turn | Self::TurnOnTheSpot => contour,
         }
+    }
+
+    /// Whether the rover is to turn.
+    fn turns(self) -> bool {
+        matches!(self, Self::Turn | Self::TurnOnTheSpot)
     }
 
     /// The rims' speeds [m/s], for uphill on the left.
     fn rim_speeds(self, rover: &Rover, rim_speed: f64) -> Vec<f64> {
-        let of_mount = |left: f64| match self {
-            Self::Up | Self::Down => rim_speed,
-            Self::BackDown | Self::BackUp | Self::BackAcross => -rim_speed,
-            // A wheel on the middle line stands still.
-            Self::Turn if left == 0.0 => 0.0,
-            Self::Turn => -rim_speed * left.signum(),
+        // Of the wheels uphill, the others, and one on the middle line.
+        let [uphill, downhill] = match self {
+            Self::Up | Self::Down => [rim_speed; 2],
+            Self::BackDown | Self::BackUp | Self::BackAcross => [-rim_speed; 2],
+            Self::Turn => [0.5 * rim_speed, rim_speed],
+            Self::TurnOnTheSpot => [-rim_speed, rim_speed],
+        };
+        let of_mount = |left: f64| match left {
+            left if left > 0.0 => uphill,
+            left if left < 0.0 => downhill,
+            _ => f64::midpoint(uphill, downhill),
         };
         rover.mounts().iter().map(|mount| of_mount(mount.position.y)).collect()
     }
@@ -89,13 +107,15 @@ pub struct CourseMotion {
     pub torque: Option<Band>,
     /// Drift of a way along the contour [-], over all samples: 1 where the rover is stuck.
     pub drift: Option<Band>,
-    /// Way downhill while the nose turns by [`TURN`] on the spot [m], over the samples that turn.
+    /// Way in which the nose turns uphill by [`TURN`] [m], over the samples that turn.
+    pub turn_way: Option<Band>,
+    /// Way downhill meanwhile [m], likewise.
     pub turn_downhill: Option<Band>,
     /// Samples in which the rover is stuck, or its nose does not turn uphill.
     pub stuck: Probability,
 }
 
-/// The turn on the spot that a way downhill is given for [rad]: 10°.
+/// The turn that ways are given for [rad]: 10°.
 pub const TURN: f64 = PI / 18.0;
 
 impl CardStudy {
@@ -161,7 +181,7 @@ struct OnCourse {
     slip_ratio: f64,
     torque: f64,
     drift: f64,
-    turn_downhill: f64,
+    turn_way: f64,
 }
 
 impl OnCourse {
@@ -171,11 +191,11 @@ impl OnCourse {
             (sum + rim.signum() * wheel.slip.ratio, count + 1)
         });
         let slip_ratio = sum / f64::from(count.max(1));
-        let turns = course != Course::Turn || motion.yaw_rate > 0.0;
+        let turns = !course.turns() || motion.yaw_rate > 0.0;
         (slip_ratio.abs() <= MOST_SLIP && turns).then(|| {
             let drift = -sin(motion.course());
-            let turn_downhill = TURN * drift * motion.speed() / motion.yaw_rate;
-            Self { slip_ratio, torque: largest_torque(motion), drift, turn_downhill }
+            let turn_way = TURN / motion.turning();
+            Self { slip_ratio, torque: largest_torque(motion), drift, turn_way }
         })
     }
 }
@@ -186,13 +206,17 @@ impl CourseMotion {
         let all = |of: fn(&OnCourse) -> f64, stuck: f64| {
             Band::of(motions.iter().map(|it| it.as_ref().map_or(stuck, of)))
         };
-        let is = |asked: Course, band: Option<Band>| band.filter(|_| course == asked);
+        let of_turn = |of: fn(&OnCourse) -> f64| {
+            if course.turns() { Band::of(moving().map(of)) } else { None }
+        };
+        let drift = || all(|it| it.drift, STRAIGHT_DOWN);
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         Self {
             slip_ratio: all(|it| it.slip_ratio, STUCK),
             torque: Band::of(moving().map(|it| it.torque)),
-            drift: is(Course::BackAcross, all(|it| it.drift, STRAIGHT_DOWN)),
-            turn_downhill: is(Course::Turn, Band::of(moving().map(|it| it.turn_downhill))),
+            drift: if course == Course::BackAcross { drift() } else { None },
+            turn_way: of_turn(|it| it.turn_way),
+            turn_downhill: of_turn(|it| it.turn_way * it.drift),
             stuck: Probability { successes: stuck, trials: motions.len() },
         }
     }

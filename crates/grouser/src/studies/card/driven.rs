@@ -10,6 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use super::super::ensemble::samples::{Sample, outputs_of_samples};
 use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::HeadingStudy;
+use super::slip_check::SlipCheck;
 use crate::elementary::wide::{asin, atan2, cos, sin};
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::studies::random;
@@ -68,6 +69,8 @@ pub struct DrivenMotion {
     pub rim_way: Option<Band>,
     /// Samples in which the rover is stuck: it has no steady motion, or its wheels all but spin.
     pub stuck: Probability,
+    /// Where to stop and look at the slip.
+    pub slip_check: SlipCheck,
 }
 
 /// Roll and pitch of a rover on a plane slope [rad].
@@ -121,12 +124,14 @@ impl DrivenMotion {
             let motion = study.steady_motion_near(motion, slope, mean, rim_speed).ok()?;
             Some(-sin(moves(motion)?.course()))
         });
-        let slips = motions.iter().map(|it| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio));
+        let slip = |it: &Option<SteadyMotion>| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio);
+        let slips: Vec<f64> = motions.iter().map(slip).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         Some(Self {
             correct_every,
             heading_fall: Band::of(moving().map(|it| -it.turning())),
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
+            slip_check: SlipCheck::of(&slips),
             slip_ratio: Band::of(slips),
             sinkage: Band::of(moving().map(mean_sinkage)),
             torque: Band::of(moving().map(largest_torque)),
