@@ -17,6 +17,9 @@ pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
 pub const ROLL: Quantity = quantity("roll_deg", DEG);
 /// The same.
 pub const PITCH: Quantity = quantity("pitch_deg", DEG);
+/// Pitch with the nose too low by what a driver sets it to, and too high.
+pub const PITCH_ENDS: [Quantity; 2] =
+    [quantity("pitch_least_deg", DEG), quantity("pitch_most_deg", DEG)];
 /// Way after which the nose is to be set again.
 pub const CORRECT_EVERY: Quantity = quantity("correct_every_m", M);
 /// By how much the nose falls over the way.
@@ -83,7 +86,7 @@ impl OnCard<'_> {
 }
 
 /// What the driver sets, reads and may not exceed.
-const fn driven<'a>() -> [Column<OnCard<'a>>; 19] {
+const fn driven<'a>() -> [Column<OnCard<'a>>; 21] {
     const MODEL: &str = "Heading of this model on the soil as written";
     [
         YAW.maybe(
@@ -96,6 +99,12 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 19] {
         }),
         PITCH.maybe("Pitch that they show, positive with the nose higher", |it| {
             it.driven().map(|it| it.pitch)
+        }),
+        PITCH_ENDS[0].maybe("The same with the nose 2° too low", |it| {
+            it.driven().map(|it| it.pitch_range[0])
+        }),
+        PITCH_ENDS[1].maybe("The same with the nose 2° too high", |it| {
+            it.driven().map(|it| it.pitch_range[1])
         }),
         CORRECT_EVERY.maybe(
             "Way after which the heading is to be set again; missing on no-go slopes, as all that is driven",

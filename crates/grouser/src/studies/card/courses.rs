@@ -6,9 +6,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::super::ensemble::samples::{Sample, outputs_of_samples};
+use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
-use super::super::heading::HeadingStudy;
 use super::driven::{STRAIGHT_DOWN, STUCK, largest_torque};
 use super::{CardRow, CardStudy, Driven, STUCK_ON_GO, Verdict};
 use crate::elementary::wide::sin;
@@ -133,6 +132,8 @@ impl CardStudy {
     /// One course: never better on a steeper slope.
     fn on_course(&self, course: Course, rows: &[CardRow], samples: &[Sample]) -> Vec<CourseRow> {
         let mut worst = Verdict::Go;
+        let mut before: Vec<Option<SteadyMotion>> = vec![None; samples.len()];
+        let rim_speeds = course.rim_speeds(&self.heading.rover, self.rim_speed);
         let driven = rows.iter().filter(|row| row.verdict != Verdict::NoGo);
         let on_slope = |(slope, contour): (f64, f64)| {
             let yaw = course.yaw(contour);
@@ -140,9 +141,13 @@ impl CardStudy {
             worst = worst.max(self.best_verdict(slope, Some(&at_rest)));
             let mut motion = None;
             if worst != Verdict::NoGo {
-                let slips = self.motions(course, (slope, yaw), samples);
-                worst = worst.max(self.verdict_of_course(&slips));
-                motion = Some(CourseMotion::over(course, &slips));
+                let steady = self.motions((slope, yaw, &rim_speeds), samples, &before);
+                let on_course =
+                    |it: &Option<SteadyMotion>| OnCourse::of(course, it.as_ref()?, &rim_speeds);
+                let all: Vec<Option<OnCourse>> = steady.iter().map(on_course).collect();
+                worst = worst.max(self.verdict_of_course(&all));
+                motion = Some(CourseMotion::over(course, &all));
+                before = steady;
             }
             let tipping_margin = at_rest.tipping_margin;
             CourseRow { slope, course, yaw, verdict: worst, tipping_margin, motion }
@@ -158,20 +163,23 @@ impl CardStudy {
         self.rule.verdict(&slips).max(if is_free { Verdict::Go } else { Verdict::Caution })
     }
 
-    /// The motion in each sample; `None` where the rover is stuck.
+    /// The motion in each sample, if there is a steady one.
+    ///
+    /// * `before`: those on the slope before, from which they are sought
     fn motions(
         &self,
-        course: Course,
-        (slope, yaw): (f64, f64),
+        (slope, yaw, rim_speeds): (f64, f64, &[f64]),
         samples: &[Sample],
-    ) -> Vec<Option<OnCourse>> {
-        let rim_speeds = course.rim_speeds(&self.heading.rover, self.rim_speed);
-        let motion = |sample: &Sample| {
-            let study: HeadingStudy = self.heading.of_sample(sample);
-            let motion = study.steady_motion_of(slope, yaw, &rim_speeds).ok()?;
-            OnCourse::of(course, &motion, &rim_speeds)
+        before: &[Option<SteadyMotion>],
+    ) -> Vec<Option<SteadyMotion>> {
+        let motion = |place: usize| {
+            let study = self.heading.of_sample(&samples[place]);
+            match &before[place] {
+                Some(near) => study.steady_motion_of_near(near, slope, yaw, rim_speeds),
+                None => study.steady_motion_of(slope, yaw, rim_speeds),
+            }
         };
-        outputs_of_samples(samples, &|| true, motion).unwrap_or_default()
+        outputs_of_places(samples, &|| true, |place| motion(place).ok()).unwrap_or_default()
     }
 }
 

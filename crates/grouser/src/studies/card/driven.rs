@@ -44,6 +44,8 @@ pub struct Driven {
     pub roll: f64,
     /// Pitch that they show [rad], positive with the nose higher.
     pub pitch: f64,
+    /// Pitch with the nose too low and too high by [`HEADING_ERROR`] [rad].
+    pub pitch_range: [f64; 2],
     /// The motion by it, if the rover moves on any of the samples.
     pub motion: Option<DrivenMotion>,
     /// By how much the slope could be steeper before the rover tips over, at rest [rad].
@@ -90,8 +92,12 @@ impl Driven {
     /// What does not depend on the soil.
     pub(super) fn at_rest(study: &HeadingStudy, slope: f64, yaw: f64) -> Self {
         let [roll, pitch] = roll_and_pitch(slope, yaw);
+        let pitch_range = [-HEADING_ERROR, HEADING_ERROR].map(|error| {
+            let [_, pitch] = roll_and_pitch(slope, yaw + error);
+            pitch
+        });
         let tipping_margin = study.tipping_slope(yaw) - slope;
-        Self { yaw, roll, pitch, motion: None, tipping_margin }
+        Self { yaw, roll, pitch, pitch_range, motion: None, tipping_margin }
     }
 }
 

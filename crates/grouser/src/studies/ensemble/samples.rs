@@ -117,7 +117,7 @@ pub fn outputs_of_samples<T: Clone + Send>(
 /// The same for what is computed from a sample's place among the others.
 ///
 /// * `one`: computes the sample at a place; the same for samples that are alike
-fn outputs_of_places<T: Clone + Send>(
+pub(in crate::studies) fn outputs_of_places<T: Clone + Send>(
     samples: &[Sample],
     go_on: &(dyn Fn() -> bool + Sync),
     one: impl Fn(usize) -> T + Sync + Send,
