@@ -62,8 +62,8 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         drives,
     };
     let is_whole = target.is_some() || args.format == Format::Json;
-    let courses = if is_whole { study.courses(&card.rows, &samples) } else { Vec::new() };
-    let courses = card_courses::table(&courses);
+    let courses = is_whole.then(|| sampling::whole(study.courses(&card.rows, &samples, &|| true)));
+    let courses = card_courses::table(&courses.unwrap_or_default());
     if let Some(target) = target {
         let (uphill, texts) = (args.uphill, texts::of(args, &inputs, &card));
         let picture = Picture::of(&inputs.scenario.value.rover, uphill);
@@ -83,7 +83,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
 /// The samples; none where one soil and one model are all there is.
 fn samples(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Sample>, Failure> {
     let band = BandInputs::of_scenario(&inputs.scenario);
-    if inputs.scenario.uncertain.is_none() && band.models().shares().len() == 1 {
+    if band.is_certain() {
         return Ok(Vec::new());
     }
     sampling::draw(&band, args.samples, args.seed)
@@ -109,11 +109,8 @@ fn compute(
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
-    let bar = output::progress_bar(samples.len() as u64);
-    bar.set_message("samples");
-    let card = study.card(samples, &slopes, &|| bar.inc(1));
-    bar.finish_and_clear();
-    Ok(card?)
+    let card = sampling::with_bar(samples.len(), |go_on| study.card(samples, &slopes, go_on));
+    Ok(sampling::whole(card?))
 }
 
 /// Ways between two corrections of those who drive by the card, over the card's [-].

@@ -116,8 +116,8 @@ struct Draw {
 }
 
 impl CardStudy {
-    /// Computes the card. Samples are shared among threads and keep their order: the result is the same for
-    /// any number of threads.
+    /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among threads and keep
+    /// their order: the result is the same for any number of threads.
     ///
     /// Go or no-go on 5°, 10° and 20°, if the soil is just as written?
     ///
@@ -131,7 +131,7 @@ impl CardStudy {
     /// let heading = HeadingStudy::of(&scenario);
     /// let rule = Rule::DEFAULT;
     /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
-    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
+    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| true)?.expect("not stopped");
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::Caution]);
     /// let level = card.rows[1].level.expect("10° can be crossed");
@@ -141,7 +141,7 @@ impl CardStudy {
     ///
     /// * `samples`: of soil and model; with none there are no bands
     /// * `slopes`: [rad], rising
-    /// * `done`: called after each sample that is computed, from any thread; samples that are alike are one
+    /// * `go_on`: asked before each sample, from any thread, and before each slope that is driven; samples that are alike are one
     ///
     /// # Errors
     /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
@@ -150,8 +150,8 @@ impl CardStudy {
         &self,
         samples: &[Sample],
         slopes: &[f64],
-        done: &(dyn Fn() + Sync),
-    ) -> Result<Card, ParameterError> {
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Card>, ParameterError> {
         self.rule.check()?;
         crate::error::positive("rim speed [m/s]", self.rim_speed)?;
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
@@ -159,35 +159,23 @@ impl CardStudy {
         }
         let nominal = self.draw(&self.nominal(), slopes)?;
         let curve = self.heading.curve()?;
-        let drawn = |sample: &Sample| {
-            let draw = self.draw(sample, slopes);
-            done();
-            draw
-        };
+        let draws = outputs_of_samples(samples, go_on, |sample| self.draw(sample, slopes));
+        let Some(draws) = draws else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let draws = Self::draws(samples, drawn)?;
+        let draws: Vec<Draw> = draws.into_iter().collect::<Result<_, ParameterError>>()?;
         let found = Found { curve, others: self.other_curves()?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
-        Ok(Card {
-            rows: self.rows(slopes, samples, &found),
-            limit: nominal.limit,
+        Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
+            rows,
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
-        })
+            limit: nominal.limit.clone(),
+        }))
     }
 
     /// Soil and model without uncertainty.
     fn nominal(&self) -> Sample {
         Sample { soil: self.heading.soil, theory: self.heading.theory }
-    }
-
-    /// The numbers of each sample, or the error of the first that has one.
-    fn draws(
-        samples: &[Sample],
-        one: impl Fn(&Sample) -> Result<Draw, ParameterError> + Sync + Send,
-    ) -> Result<Vec<Draw>, ParameterError> {
-        let all = outputs_of_samples(samples, &|| true, one);
-        all.into_iter().flatten().collect()
     }
 
     /// The contour traverses of the models that the soil as written is not computed with.
@@ -201,7 +189,14 @@ impl CardStudy {
         WEIGHTS.iter().filter(is_other).map(curve).collect()
     }
 
-    fn rows(&self, slopes: &[f64], samples: &[Sample], found: &Found<'_>) -> Vec<CardRow> {
+    /// * `go_on`: asked before each slope that is driven
+    fn rows(
+        &self,
+        slopes: &[f64],
+        samples: &[Sample],
+        found: &Found<'_>,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<CardRow>> {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
         let mut worst = Verdict::Go;
@@ -210,11 +205,14 @@ impl CardStudy {
             let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
             worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
             if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
+                if !go_on() {
+                    return None;
+                }
                 let course = (*slope, driven.yaw);
                 driven.motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
                 worst = worst.max(verdict_of(driven.motion.as_ref()));
             }
-            found.row(place, *slope, (worst, driven))
+            Some(found.row(place, *slope, (worst, driven)))
         };
         slopes.iter().enumerate().map(row).collect()
     }

@@ -42,7 +42,8 @@ fn slopes(to: u32) -> Vec<f64> {
 fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
     let sample = |soil: &Soil| Sample { soil: *soil, theory: study.heading.theory };
     let samples: Vec<Sample> = soils.iter().map(sample).collect();
-    study.card(&samples, slopes, &|| ()).expect("rule, slopes and soils are in order")
+    let card = study.card(&samples, slopes, &|| true);
+    card.expect("rule, slopes and soils are in order").expect("not stopped")
 }
 
 // ---- What a rover does that is not turned uphill ----
@@ -319,7 +320,8 @@ fn drives(soils: u32, slopes_deg: &[f64], lateness: f64, approach: Approach) -> 
     let samples = |seed, count| inputs.samples(seed, count).expect("the soils can be drawn");
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
     let study = study();
-    let card = study.card(&samples(1, 200), &slopes, &|| ()).expect("all in order");
+    let card = study.card(&samples(1, 200), &slopes, &|| true);
+    let card = card.expect("all in order").expect("not stopped");
     let others = samples(2, soils);
     let drives = CardDrives { study: &study, lateness, approach, seed: 3 };
     let on = |row| {
@@ -393,11 +395,11 @@ fn a_rule_without_order_is_refused() {
     let nothing = Rule { go_probability: f64::NAN, ..Rule::DEFAULT };
     for (rule, value) in [(slips, 0.7), (shares, 0.99)] {
         let study = CardStudy { rule, ..study() };
-        assert_eq!(study.card(&[], &slopes(3), &|| ()).expect_err("no order").value, value);
+        assert_eq!(study.card(&[], &slopes(3), &|| true).expect_err("no order").value, value);
     }
     assert!(nothing.check().is_err());
     let falling = [deg(3.0), deg(2.0)];
-    assert_eq!(study().card(&[], &falling, &|| ()).expect_err("falling").value, deg(2.0));
+    assert_eq!(study().card(&[], &falling, &|| true).expect_err("falling").value, deg(2.0));
 }
 
 // ---- The second page ----
@@ -408,8 +410,9 @@ fn courses(slopes_deg: &[f64]) -> Vec<CourseRow> {
     let samples = inputs.samples(1, 40).expect("the soils can be drawn");
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
     let study = study();
-    let card = study.card(&samples, &slopes, &|| ()).expect("all in order");
-    let courses = study.courses(&card.rows, &samples);
+    let card = study.card(&samples, &slopes, &|| true);
+    let card = card.expect("all in order").expect("not stopped");
+    let courses = study.courses(&card.rows, &samples, &|| true).expect("not stopped");
     for row in &courses {
         println!("{:.0}° {row:?}", row.slope.to_degrees());
     }
@@ -451,7 +454,7 @@ fn straight_up_and_down_slip_as_runs_do() {
     let study = CardStudy { heading: HeadingStudy::of(&given::traverse(0.0, 0.0)), ..study() };
     let slope = deg(8.0);
     let card = card(&study, &[], &[slope]);
-    let rows = study.courses(&card.rows, &[]);
+    let rows = study.courses(&card.rows, &[], &|| true).expect("not stopped");
     for (course, yaw, rim_speed) in [
         (Course::Up, 90.0, 0.06),
         (Course::Down, -90.0, 0.06),
@@ -485,4 +488,12 @@ fn turning_on_the_way_slips_less_than_on_the_spot() {
         assert!(way.low > 0.0 && downhill.high < 0.1 && downhill.high.abs() < way.high);
         assert!(spot.verdict == Verdict::NoGo);
     }
+}
+
+#[test]
+fn a_card_that_is_stopped_has_no_rows() {
+    let (study, slopes) = (study(), slopes(6));
+    assert_eq!(study.card(&[], &slopes, &|| false).expect("in order"), None);
+    let card = card(&study, &[], &slopes);
+    assert_eq!(study.courses(&card.rows, &[], &|| false), None);
 }

@@ -118,19 +118,33 @@ pub struct CourseMotion {
 pub const TURN: f64 = PI / 18.0;
 
 impl CardStudy {
-    /// The other courses on each slope that the card does not call a no-go, course by course.
+    /// The other courses on each slope that the card does not call a no-go, course by course; `None` if `go_on` was
+    /// false before the end.
     ///
     /// * `samples`: those of the card; with none there is the soil as written alone
+    /// * `go_on`: asked after each slope
     #[must_use]
-    pub fn courses(&self, rows: &[CardRow], samples: &[Sample]) -> Vec<CourseRow> {
+    pub fn courses(
+        &self,
+        rows: &[CardRow],
+        samples: &[Sample],
+        go_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<CourseRow>> {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
-        let of_course = |course| self.on_course(course, rows, samples);
-        Course::ALL.into_iter().flat_map(of_course).collect()
+        let of_course = |course| self.on_course(course, rows, samples, go_on);
+        let all: Option<Vec<Vec<CourseRow>>> = Course::ALL.into_iter().map(of_course).collect();
+        all.map(|courses| courses.concat())
     }
 
     /// One course: never better on a steeper slope.
-    fn on_course(&self, course: Course, rows: &[CardRow], samples: &[Sample]) -> Vec<CourseRow> {
+    fn on_course(
+        &self,
+        course: Course,
+        rows: &[CardRow],
+        samples: &[Sample],
+        go_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<CourseRow>> {
         let mut worst = Verdict::Go;
         let mut before: Vec<Option<SteadyMotion>> = vec![None; samples.len()];
         let rim_speeds = course.rim_speeds(&self.heading.rover, self.rim_speed);
@@ -150,7 +164,8 @@ impl CardStudy {
                 before = steady;
             }
             let tipping_margin = at_rest.tipping_margin;
-            CourseRow { slope, course, yaw, verdict: worst, tipping_margin, motion }
+            let row = CourseRow { slope, course, yaw, verdict: worst, tipping_margin, motion };
+            go_on().then_some(row)
         };
         driven.filter_map(|row| Some((row.slope, row.driven?.yaw))).map(on_slope).collect()
     }
