@@ -12,8 +12,8 @@ use grouser::studies::card::{
 use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{
-    BAR, BLANKS, LEFT, PAGE, RIGHT, TOP, bar, blanks, date, fitting, lines, lines_of, paragraphs,
-    shown, shown_rows, titles,
+    BAR, BLANKS, LEAST_SIZE, LEFT, PAGE, RIGHT, TOP, bar, blanks, date, fitting, lines, lines_of,
+    paragraphs, shown, shown_rows, titles,
 };
 use super::row::{CardRow, upwards};
 use super::texts::{Texts, degrees, percent};
@@ -116,7 +116,7 @@ fn heads(sheet: &mut Sheet, texts: &Texts) {
     let bold = |text: &str, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::Middle);
     let mut group = |[left, right]: [f64; 2], text: &str| {
         sheet.draw(Shape::rectangle([left, top], [right - left, 5.0], BLACK));
-        let size = fitting(text, 3.2, right - left - 1.0);
+        let size = fitting(text, 3.2, right - left - 1.0).max(LEAST_SIZE);
         sheet.text(bold(text, size).grey(WHITE), [left.midpoint(right), top + 3.7]);
     };
     group([CHECK[0], CHECK[2]], "SLIP CHECK");
@@ -131,18 +131,18 @@ fn heads(sheet: &mut Sheet, texts: &Texts) {
     let mut column = |[left, right]: [f64; 2], lines: [&str; 3]| {
         let styles = [(9.0, Face::Bold), (5.4, Face::Regular), (2.0, Face::Regular)];
         for (text, (rise, face)) in lines.iter().zip(styles) {
-            let size = fitting(text, 2.7, right - left - 0.6);
+            let size = fitting(text, 2.7, right - left - 0.6).max(LEAST_SIZE);
             let text = shown(text, size).face(face).anchor(Anchor::Middle);
             sheet.text(text, [left.midpoint(right), ROWS - rise]);
         }
     };
     column([CHECK[0], CHECK[1]], ["look", "every", "m"]);
-    column([CHECK[1], CHECK[2]], ["turn back", "above", "%"]);
+    column([CHECK[1], CHECK[2]], ["back if", "above", "%"]);
     for place in &PLACES {
         column([place.left, place.right], place.head);
     }
     column([TURN_EDGES[0], TURN_EDGES[1]], ["takes", "", "m"]);
-    column([TURN_EDGES[1], TURN_EDGES[2]], ["lower by", "", "cm"]);
+    column([TURN_EDGES[1], TURN_EDGES[2]], ["lower", "by", "cm"]);
 }
 
 /// One slope.
@@ -157,7 +157,7 @@ fn line(sheet: &mut Sheet, row: CardRow<'_>, courses: &table::Table, [top, heigh
     let every = row.number(SLIP_CHECK_EVERY).map_or("all the way".to_owned(), four_digits);
     let limit = row.number(SLIP_LIMIT).map(|limit| upwards(limit * 100.0, 1)).unwrap_or_default();
     for (text, [left, right]) in [(every, [CHECK[0], CHECK[1]]), (limit, [CHECK[1], CHECK[2]])] {
-        let size = fitting(&text, small, right - left - 1.0);
+        let size = fitting(&text, small, right - left - 1.0).max(LEAST_SIZE);
         sheet.text(middle(text, size), at(left, right));
     }
     for place in &PLACES {
@@ -240,7 +240,7 @@ impl<'a> Cell<'a> {
             return sheet.text(text, [left.midpoint(right), y]);
         }
         let text = self.slip().unwrap_or_default();
-        let size = fitting(&text, size, right - left - 3.0);
+        let size = fitting(&text, size, right - left - 3.0).max(LEAST_SIZE);
         let text = shown(text, size).anchor(Anchor::Middle);
         if self.verdict() == "caution" {
             sheet.hatch(corner, area, 1.8, Stroke::black(0.35));
