@@ -132,7 +132,8 @@ impl Fixtures {
         let &DriveLaw::Constant(speed) = drive else { unreachable!("the wheels turn steadily") };
         let rim_speeds = vec![speed; rover.wheel_count()];
         let (sharing, own_moments) = (*sharing, *own_moments);
-        let ground = Ground { rover, site, model: theory.model(), sharing, own_moments };
+        let (model, differences) = (theory.model(), self.scenario.differences());
+        let ground = Ground { rover, site, model, sharing, own_moments, differences };
         let equations = Equations::new(ground, &rim_speeds);
         let mut state = self.scenario.start_state(&rim_speeds);
         let mut sum = 0.0;

@@ -91,6 +91,10 @@ pub(crate) struct ReproduceArgs {
     /// Replace files of the same names in DIR.
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
+    /// Samples of bands, and runs for each cause of lost yaw on each slope, 2 to 10000.
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=10_000), allow_negative_numbers = true)]
+    pub(crate) samples: u32,
 }
 
 /// Destination and format of the results.

@@ -25,6 +25,7 @@ pub mod contact;
 pub mod elementary;
 pub mod error;
 pub mod newton;
+mod random;
 pub mod root;
 pub mod simulation;
 pub mod site;

@@ -3,6 +3,7 @@
 //! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod difference;
 pub mod discrepancy;
 pub mod domain;
 pub mod pressure_sinkage;
@@ -12,6 +13,7 @@ pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use difference::SoilDifference;
 pub use discrepancy::Discrepancy;
 pub use domain::{AssumedValues, Domain, Span};
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};

@@ -10,9 +10,11 @@ use crate::units::{Vec2, Vec3};
 
 pub mod footprint;
 pub mod height_field;
+pub mod soil_field;
 
 pub use footprint::Footprint;
 pub use height_field::HeightField;
+pub use soil_field::{SoilField, SoilScatter};
 
 /// Ground that a rover drives on.
 ///

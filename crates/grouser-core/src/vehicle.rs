@@ -10,6 +10,7 @@
 //! forward, y left and z up, its origin at the centre of mass of the body without its wheels; a
 //! `wheel` frame is the body's, turned to the left by the wheel's steering angle, at its hub.
 
+pub mod by_wheel;
 pub mod drive;
 pub mod dynamics;
 pub mod kinematics;
@@ -19,6 +20,7 @@ pub mod rover;
 pub mod state;
 pub mod support_polygon;
 
+pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};

@@ -337,12 +337,18 @@ impl Described for Scenario {
         let run = Self { rover, site: self.site.with_soil(soil), ..self };
         check_sample_count(run.duration, run.numerics.sample_interval)
             .map_err(Misfit::at("sample_interval_s"))?;
-        run.drive.check(&run.rover).map_err(|error| {
+        let with_names = |misfit: Misfit| {
             let names: Vec<_> =
                 run.rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
             let hint = format!("the wheels are {}, in this order", names.join(", "));
-            Misfit { hint: Some(hint), ..Misfit::new("drive.rim_speed_m_s", error) }
-        })?;
+            Misfit { hint: Some(hint), ..misfit }
+        };
+        run.drive
+            .check(&run.rover)
+            .map_err(|error| with_names(Misfit::new("drive.rim_speed_m_s", error)))?;
+        run.by_wheel
+            .check(run.rover.wheel_count())
+            .map_err(|error| with_names(Misfit::new("by_wheel", error)))?;
         if run.sharing == LoadSharing::Complete && run.own_moments == OwnMoments::Neglected {
             return Err(Misfit {
                 hint: Some(NEGLECTED_MOMENTS.to_owned()),

@@ -10,11 +10,13 @@ use std::error::Error;
 use grouser::contact::Theory;
 use grouser::document::{Kind, Overrides, Source, read_soil};
 use grouser::error::ParameterError;
-use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
+use grouser::simulation::{Motion, Numerics, Run, Scatter, Scenario, Start, Trajectory};
 use grouser::site::Site;
 use grouser::soil::SlopeStability;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
-use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
+use grouser::vehicle::{
+    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit,
+};
 use grouser::wheel::{Grousers, Wheel};
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {
@@ -71,6 +73,8 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),
         yaw: None,
+        by_wheel: ByWheel::ALIKE,
+        scatter: Scatter::NONE,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 30.0,

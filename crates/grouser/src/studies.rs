@@ -14,6 +14,7 @@
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
 //! | [`traverse_band`] | a traverse where soil and model are uncertain |
 //! | [`validity`] | the flags of a rover on a slope and over a run |
+//! | [`lost_yaw`] | the yaw lost on the way: by loads, and by soil and motors that scatter |
 //! | [`reproduction`] | the whole of the paper's study |
 
 pub mod calibration;
@@ -24,6 +25,7 @@ pub mod ensemble;
 pub mod heading;
 pub mod heading_band;
 pub mod heading_map;
+pub mod lost_yaw;
 pub mod reproduction;
 pub mod simulated_test;
 pub mod slope_validation;

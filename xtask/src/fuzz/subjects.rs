@@ -171,7 +171,7 @@ const LINES: [(&str, &str, &[&str]); 27] = [
     ("presets", "presets toyoura --kind soil", &[]),
     ("schema", "schema soil", &[]),
     ("completions", "completions bash", &[]),
-    ("reproduce", "reproduce --out study", &[]),
+    ("reproduce", "reproduce --samples 2 --out study", &[]),
 ];
 
 /// All subjects, from files that the program itself makes.

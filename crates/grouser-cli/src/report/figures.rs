@@ -4,6 +4,7 @@ use grouser::contact::Settled;
 use grouser::document::columns::{SINKAGE, SLIP_ANGLE, SLOPE, YAW};
 use grouser::simulation::{Trajectory, WheelRecord};
 use grouser::studies::comparison::MeasuredTraverse;
+use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
 use grouser::studies::wheel_test::WheelTestRow;
 use grouser::vehicle::Rover;
@@ -43,11 +44,9 @@ impl Figure {
     }
 }
 
-/// All figures, in the order of the report.
-pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
-    vec![
-        heading(study),
-        traverses(study),
+/// The single-wheel test.
+pub(crate) fn of_a_wheel(study: &Reproduction) -> [Figure; 5] {
+    [
         wheel_curves(study),
         by_slip_angle(study, "pull-over-slip", "Drawbar pull", "drawbar pull [N]", |settled| {
             settled.forces.drawbar_pull
@@ -59,13 +58,16 @@ pub(crate) fn all(study: &Reproduction, rover: &Rover) -> Vec<Figure> {
             settled.forces.torque
         }),
         sinkage_by_load(study),
-        slip_along_run(study, rover),
-        sinkage_along_run(study, rover),
     ]
 }
 
+/// The first moments of a run from rest.
+pub(crate) fn along_a_run(study: &Reproduction, rover: &Rover) -> [Figure; 2] {
+    [slip_along_run(study, rover), sinkage_along_run(study, rover)]
+}
+
 /// Fig. 10: heading offset over slope.
-pub(crate) fn heading(study: &Reproduction) -> Figure {
+pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
     let curve = study.headings.headings();
     let line = curve.iter().map(|a| (SLOPE.unit.from_si(a.slope), YAW.unit.from_si(a.yaw)));
     let points = |yaw: fn(&MeasuredTraverse) -> f64| {
@@ -78,15 +80,19 @@ pub(crate) fn heading(study: &Reproduction) -> Figure {
         file: "fig10-attitude",
         caption: "Fig. 10 of the paper: the heading offset that holds the contour, there called \
                   attitude, over the slope. The curve ends where turning further uphill costs more thrust than it gains. The \
-                  measured runs lose yaw from start to end; on 20° they were started high on purpose."
+                  measured runs lose yaw from start to end; on 20° they were started high on purpose. The band: \
+                  sand known as well as preset toyoura-uncertain says, any of three models, complete loads; it ends \
+                  where fewer than 97.5 % of the samples hold the contour."
             .into(),
         chart: Chart {
             title: "Heading offset that holds the contour".into(),
             x_label: "slope [°]".into(),
             y_label: "yaw, positive uphill [°]".into(),
             series: vec![
+                heading_band(band),
                 Series::new("Grouser", Style::Line, 1, line),
                 Series::new("paper's model", Style::Squares, 0, points(|m| m.model_yaw)),
+                Series::new("measured, mean", Style::Dots, 4, points(MeasuredTraverse::mean_yaw)),
                 Series::new("measured, start", Style::Dots, 2, points(|m| m.initial_yaw)),
                 Series::new("measured, end", Style::Triangles, 3, points(|m| m.final_yaw)),
             ],
@@ -94,8 +100,21 @@ pub(crate) fn heading(study: &Reproduction) -> Figure {
     }
 }
 
+/// The band of headings for Fig. 10.
+fn heading_band(band: &[SlopeBand]) -> Series {
+    let edges = band.iter().filter_map(|on| {
+        let yaw = on.yaw.filter(|_| on.level.estimate() >= MOSTLY)?;
+        let slope = SLOPE.unit.from_si(on.slope);
+        Some((slope, YAW.unit.from_si(yaw.low), YAW.unit.from_si(yaw.high)))
+    });
+    Series::band("95 %, soil and model uncertain", 6, edges)
+}
+
+/// The band ends where fewer of the samples hold the contour [-]: beyond it would be that of the strong ones.
+const MOSTLY: f64 = 0.975;
+
 /// Fig. 9: paths without and with compensation.
-fn traverses(study: &Reproduction) -> Figure {
+pub(crate) fn traverses(study: &Reproduction) -> Figure {
     let path = |run: &Trajectory| -> Vec<(f64, f64)> {
         run.records.iter().map(|s| (s.state.position.x, 1e3 * s.state.position.y)).collect()
     };

@@ -14,18 +14,18 @@ pub(crate) struct Table {
     pub(crate) caption: &'static str,
     /// Name of its CSV file, without ending.
     pub(crate) file: &'static str,
-    columns: Vec<Column>,
-    rows: Vec<Map<String, Value>>,
+    pub(super) columns: Vec<Column>,
+    pub(super) rows: Vec<Map<String, Value>>,
 }
 
 /// A column: key in files, header for people, decimals.
-struct Column {
+pub(super) struct Column {
     key: &'static str,
     header: &'static str,
     decimals: usize,
 }
 
-const fn column(key: &'static str, header: &'static str, decimals: usize) -> Column {
+pub(super) const fn column(key: &'static str, header: &'static str, decimals: usize) -> Column {
     Column { key, header, decimals }
 }
 
@@ -59,7 +59,7 @@ impl Table {
     }
 }
 
-fn row_of(value: Value) -> Map<String, Value> {
+pub(super) fn row_of(value: Value) -> Map<String, Value> {
     match value {
         Value::Object(map) => map,
         other => unreachable!("a row is an object, not {other}"),
@@ -255,6 +255,6 @@ pub(crate) fn limit_sentence(study: &Reproduction) -> String {
 }
 
 /// Degrees as the paper prints them: 3.31, not 3.3100000000000001.
-fn printed(angle: f64) -> f64 {
+pub(super) fn printed(angle: f64) -> f64 {
     (YAW.unit.from_si(angle) * 1e6).round() / 1e6
 }

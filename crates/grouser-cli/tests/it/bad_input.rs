@@ -425,8 +425,8 @@ fn folders_that_cannot_be_used() {
             &["wheel-test", "--out", "."],
             &["wheel-test", "--out", ""],
             &["wheel-test", "--out", "none/../other"],
-            &["reproduce", "--out", "full"],
-            &["reproduce", "--out", "file"],
+            &["reproduce", "--samples", "2", "--out", "full"],
+            &["reproduce", "--samples", "2", "--out", "file"],
         ],
     );
     assert_eq!((place.read("file"), place.read("full/notes.txt")), ("mine".into(), "mine".into()));
@@ -483,7 +483,7 @@ fn a_full_disk_behind_the_standard_output() {
         "presets toyoura",
         "schema soil",
         "completions bash",
-        "reproduce --out study",
+        "reproduce --samples 2 --out study",
         "--help",
         "--version",
         "traverse --help",
@@ -515,7 +515,7 @@ fn a_full_disk_behind_the_standard_error() {
 fn a_full_disk_under_the_folder_leaves_nothing() {
     for command in [
         "ulimit -f 1; grouser traverse --out a/b",
-        "ulimit -f 1; grouser reproduce",
+        "ulimit -f 1; grouser reproduce --samples 2",
         // Without the signal that comes with it, the limit is a failed write like any other.
         "trap '' XFSZ; ulimit -f 1; grouser attitude --out a",
     ] {
@@ -604,7 +604,7 @@ mod signals {
     fn an_interrupted_reproduction_is_whole_or_not_there() {
         for moment in [0, 300, 1700] {
             let place = Place::new();
-            let mut child = start(&place, "reproduce --out study");
+            let mut child = start(&place, "reproduce --samples 2 --out study");
             std::thread::sleep(Duration::from_millis(moment));
             if child.try_wait().expect("it can be asked").is_none() {
                 send("-INT", &child);
@@ -627,12 +627,12 @@ mod signals {
     fn a_killed_reproduction_is_whole_or_not_there() {
         let place = Place::new();
         let begun = std::time::Instant::now();
-        place.results("reproduce --out whole");
+        place.results("reproduce --samples 2 --out whole");
         let takes = begun.elapsed();
         // Most of the moments are around the end, where the files are written.
         for share in [0.3, 0.9, 0.96, 0.99, 1.02] {
             let place = Place::new();
-            let mut child = start(&place, "reproduce --out study");
+            let mut child = start(&place, "reproduce --samples 2 --out study");
             std::thread::sleep(takes.mul_f64(share));
             child.kill().expect("it can be killed");
             child.wait().expect("it ends");
@@ -653,7 +653,7 @@ mod signals {
         assert!(html.trim_end().ends_with("</html>"));
         let count =
             |folder: &str| std::fs::read_dir(study.join(folder)).expect("it is there").count();
-        assert_eq!((count("data"), count("figures"), count(".")), (39, 9, 4));
+        assert_eq!((count("data"), count("figures"), count(".")), (43, 12, 4));
         assert!(place.read("study/scenario.toml").contains("scenario/1"));
     }
 }

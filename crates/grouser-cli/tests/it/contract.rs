@@ -853,7 +853,7 @@ fn attitudes_of_the_reference_through_the_program() {
 #[test]
 fn the_report_is_one_page_that_needs_no_network_and_can_be_repeated() {
     let place = Place::new();
-    place.results("reproduce --out study");
+    place.results("reproduce --samples 2 --out study");
     let html = place.read("study/report.html");
     assert!(html.starts_with("<!DOCTYPE html>") && html.trim_end().ends_with("</html>"));
     for address in html.match_indices("://").map(|(at, _)| address_around(&html, at)) {
@@ -894,10 +894,10 @@ fn address_around(text: &str, at: usize) -> &str {
 #[test]
 fn reproduce_replaces_its_own_report_and_nothing_else() {
     let place = Place::new();
-    place.results("reproduce");
+    place.results("reproduce --samples 2");
     let first = place.read("reproduction/report.html");
     place.write("reproduction/data/attitudes.csv", "spoilt");
-    place.results("reproduce");
+    place.results("reproduce --samples 2");
     assert_eq!(first, place.read("reproduction/report.html"));
     assert_ne!(place.read("reproduction/data/attitudes.csv"), "spoilt");
     assert_eq!(place.names(), ["reproduction"]);
@@ -909,7 +909,7 @@ fn reproduce_refuses_a_foreign_folder() {
         let place = Place::new();
         fs::create_dir(place.file("reproduction")).expect("it can be made");
         place.write(&format!("reproduction/{foreign}"), "<html>mine</html>");
-        let answer = place.line("reproduce");
+        let answer = place.line("reproduce --samples 2");
         assert_eq!(answer.code(), 2);
         assert!(answer.stderr.contains("--out DIR"), "{}", answer.stderr);
         assert_eq!(place.read(&format!("reproduction/{foreign}")), "<html>mine</html>");

@@ -223,7 +223,7 @@ fn completions_know_every_command() {
 #[test]
 fn reproduce_says_what_it_found_and_where_it_is() {
     let place = Place::new();
-    assert_snapshot!("reproduce", place.line("reproduce --out study").conversation());
+    assert_snapshot!("reproduce", place.line("reproduce --samples 2 --out study").conversation());
     let mut files = Vec::new();
     collect_files(&place.file("study"), "", &mut files);
     assert_snapshot!("reproduce-files", files.join("\n"));

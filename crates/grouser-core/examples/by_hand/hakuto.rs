@@ -3,7 +3,7 @@
 
 use grouser_core::contact::Theory;
 use grouser_core::error::ParameterError;
-use grouser_core::simulation::{Motion, Numerics, Scenario, Start};
+use grouser_core::simulation::{Motion, Numerics, Scatter, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
@@ -11,7 +11,7 @@ use grouser_core::soil::{
 };
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser_core::vehicle::{
-    Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit,
+    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit,
 };
 use grouser_core::wheel::{Grousers, Wheel};
 
@@ -78,6 +78,8 @@ pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),
         yaw: None,
+        by_wheel: ByWheel::ALIKE,
+        scatter: Scatter::NONE,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 20.0,

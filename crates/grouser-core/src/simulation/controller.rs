@@ -36,7 +36,8 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Controller {
-    /// Sets the rim speed ω r_s of each wheel [m/s], in the mounts' order; they hold those of now.
+    /// Sets the rim speed ω r_s that each wheel is told to have [m/s], in the mounts' order; they hold those that
+    /// it was told before.
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]);
 
     /// Time between two looks [s]; none if one look at the start says all.

@@ -65,6 +65,7 @@ impl<'a> Equations<'a> {
             model: scenario.theory.model(),
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
+            differences: scenario.differences(),
         };
         Self::new(ground, rim_speeds)
     }
@@ -154,6 +155,11 @@ impl<'a> Equations<'a> {
     #[must_use]
     pub fn rover(&self) -> &Rover {
         self.ground.rover
+    }
+
+    /// Whether the soil differs from place to place.
+    pub(super) fn is_uneven(&self) -> bool {
+        self.ground.differences.by_place.is_some()
     }
 
     /// Where it moves.

@@ -81,6 +81,9 @@ impl<'a> QuasiSteady<'a> {
         horizon: f64,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
+        if equations.is_uneven() {
+            return Err(NotSteady::UnevenSoil);
+        }
         let mut solver = SteadySolver::new(equations, carried.memory);
         let yaw = point.state.yaw;
         let guess = match carried.stretch {

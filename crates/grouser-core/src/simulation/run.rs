@@ -78,9 +78,9 @@ impl Run {
         scenario.check()?;
         let standing = vec![0.0; scenario.rover.wheel_count()];
         let mut state = State::new(scenario, standing.clone());
-        let rim_speeds = ask(controller, scenario, &mut state)?;
+        let told = ask(controller, scenario, &mut state)?;
         let work = state.work;
-        state = State { work, ..State::new(scenario, rim_speeds) };
+        state = State { work, ..State::new(scenario, told) };
         let kept_until = if controller.period().is_some() { 0.0 } else { scenario.duration };
         let mut records = Vec::new();
         let leg = Leg {
@@ -136,7 +136,8 @@ impl Run {
     ///
     /// Of steps nothing is recorded but where the last one led: [`now`](Self::now).
     ///
-    /// * `rim_speeds`: ω r_s of each wheel [m/s], in the mounts' order
+    /// * `rim_speeds`: ω r_s of each wheel [m/s], in the mounts' order, before what differs
+    ///   [by wheel](Scenario::by_wheel)
     /// * `span`: how long [s], from [`LEAST_STEP`] to a day
     ///
     /// # Errors
@@ -151,7 +152,7 @@ impl Run {
         if self.state.outcome.is_some() {
             return Ok(());
         }
-        let is_new_command = self.state.rim_speeds != rim_speeds;
+        let is_new_command = self.state.told != rim_speeds;
         if is_new_command {
             self.state.turn(&self.scenario, rim_speeds);
         }
@@ -220,9 +221,9 @@ impl Run {
         while led.is_ok() && self.state.outcome.is_none() && self.state.time < until {
             let mut is_new_command = controller.period().is_some();
             if is_asked {
-                let rim_speeds = ask(controller, &self.scenario, &mut self.state)?;
-                is_new_command |= rim_speeds != self.state.rim_speeds;
-                self.state.turn(&self.scenario, &rim_speeds);
+                let told = ask(controller, &self.scenario, &mut self.state)?;
+                is_new_command |= told != self.state.told;
+                self.state.turn(&self.scenario, &told);
             }
             is_asked = true;
             let next = controller.period().map_or(until, |period| {
@@ -281,7 +282,7 @@ impl Run {
     }
 }
 
-/// What a controller makes of a rover: the speed of each rim [m/s].
+/// What a controller makes of a rover: the speed that each rim is told to have [m/s].
 fn ask(
     controller: &mut dyn Controller,
     scenario: &Scenario,
@@ -295,12 +296,12 @@ fn ask(
         slip_ratios: &state.slip_ratios,
         work: Cell::new(Work::default()),
     };
-    let mut rim_speeds = state.rim_speeds.clone();
-    controller.command(&seen, &mut rim_speeds);
+    let mut told = state.told.clone();
+    controller.command(&seen, &mut told);
     let work = seen.work.get();
     state.work += work;
-    check(&rim_speeds, scenario)?;
-    Ok(rim_speeds)
+    check(&told, scenario)?;
+    Ok(told)
 }
 
 /// That there is a finite speed for each wheel.

@@ -1,5 +1,6 @@
 //! Everything that determines a run.
 
+use super::scatter::Scatter;
 pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
@@ -7,7 +8,9 @@ use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::soil::SlopeStability;
 use crate::units::Vec2;
-use crate::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState};
+use crate::vehicle::{
+    ByWheel, Differences, DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState,
+};
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
 ///
@@ -44,6 +47,10 @@ pub struct Scenario {
     pub drive: DriveLaw,
     /// The yaw over time, if something holds it; without it the wheels' moments turn the rover.
     pub yaw: Option<PrescribedYaw>,
+    /// How the soil below each wheel, and its speed, differ from those above.
+    pub by_wheel: ByWheel,
+    /// How they scatter.
+    pub scatter: Scatter,
     /// What is asked of the ground's own strength by those who plan on it; a run is not changed by it.
     pub stability: SlopeStability,
     /// How the run starts.
@@ -146,6 +153,8 @@ impl Scenario {
     pub fn check(&self) -> Result<(), ParameterError> {
         self.site.check()?;
         self.drive.check(&self.rover)?;
+        self.by_wheel.check(self.rover.wheel_count())?;
+        self.scatter.check()?;
         self.stability.check()?;
         finite("start yaw [rad]", self.start.yaw)?;
         if let Some(yaw) = &self.yaw {
@@ -168,6 +177,22 @@ impl Scenario {
             Integrator::Adaptive { tolerance } => positive("tolerance", tolerance),
             Integrator::Rk4 { step } => positive("step [s]", step),
         }
+    }
+
+    /// How the soil below each wheel differs from that of the site.
+    #[must_use]
+    pub fn differences(&self) -> Differences<'_> {
+        let by_wheel = (self.by_wheel != ByWheel::ALIKE).then_some(&self.by_wheel);
+        Differences { by_wheel, by_place: self.scatter.soil_field() }
+    }
+
+    /// The rim speeds, *ω r_s* [m/s], of wheels that are told to turn at others [m/s].
+    #[must_use]
+    pub fn rim_speeds(&self, told: &[f64]) -> Vec<f64> {
+        let differ = |(wheel, (told, scatter)): (usize, (&f64, f64))| {
+            told * self.by_wheel.speed.of(wheel) * scatter
+        };
+        told.iter().zip(self.scatter.speed_factors()).enumerate().map(differ).collect()
     }
 
     /// The state at time 0.

@@ -19,7 +19,9 @@ use crate::vehicle::RoverState;
 pub struct State {
     pub(super) time: f64,
     pub(super) point: Point,
-    /// Of each wheel, *ω r_s* [m/s].
+    /// The rim speed that each wheel is told to have [m/s].
+    pub(super) told: Vec<f64>,
+    /// The one that it has, *ω r_s* [m/s].
     pub(super) rim_speeds: Vec<f64>,
     /// Of each wheel, when the rover was last looked at.
     pub(super) slip_ratios: Vec<f64>,
@@ -36,13 +38,15 @@ pub struct State {
 impl State {
     /// At the start of a scenario, before the rover was looked at.
     ///
-    /// * `rim_speeds`: of each wheel [m/s]
-    pub(super) fn new(scenario: &Scenario, rim_speeds: Vec<f64>) -> Self {
+    /// * `told`: the rim speed that each wheel is told to have [m/s]
+    pub(super) fn new(scenario: &Scenario, told: Vec<f64>) -> Self {
+        let rim_speeds = scenario.rim_speeds(&told);
         let state = scenario.start_state(&rim_speeds);
         Self {
             time: 0.0,
             point: Point { state, motors: 0.0, soil: 0.0 },
             slip_ratios: vec![0.0; rim_speeds.len()],
+            told,
             rim_speeds,
             outcome: None,
             method: match scenario.numerics.approach {
@@ -107,20 +111,21 @@ impl State {
         true
     }
 
-    /// That the motors turn the wheels at other speeds from now on.
+    /// That the motors are told to turn the wheels at other speeds from now on.
     ///
-    /// * `rim_speeds`: of each wheel [m/s]
-    pub(super) fn turn(&mut self, scenario: &Scenario, rim_speeds: &[f64]) {
-        let rover = &scenario.rover;
+    /// * `told`: of each rim [m/s]
+    pub(super) fn turn(&mut self, scenario: &Scenario, told: &[f64]) {
+        let (rover, rim_speeds) = (&scenario.rover, scenario.rim_speeds(told));
         let spin_energy = |rims: &[f64]| {
             let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
             power::spin_energy(rover, &wheel_speeds)
         };
         // The motors change the spin at once; the energy balance must not lose that work.
-        self.point.motors += spin_energy(rim_speeds) - spin_energy(&self.rim_speeds);
+        self.point.motors += spin_energy(&rim_speeds) - spin_energy(&self.rim_speeds);
+        self.told.copy_from_slice(told);
         if rim_speeds != self.rim_speeds {
             self.history.clear();
-            self.rim_speeds.copy_from_slice(rim_speeds);
+            self.rim_speeds = rim_speeds;
         }
     }
 }

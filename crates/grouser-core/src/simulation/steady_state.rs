@@ -22,6 +22,9 @@ use crate::vehicle::{RoverState, WheelReaction};
 /// Why a rover's velocities are not those of a steady state, or not known to be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NotSteady {
+    /// The soil differs from place to place, and so does the steady state.
+    #[error("the soil differs from place to place")]
+    UnevenSoil,
     /// None was found.
     #[error("no velocities were found at which nothing accelerates")]
     NoSteadyState,

@@ -4,6 +4,7 @@ use std::iter::repeat;
 
 use nalgebra::Rotation2;
 
+use super::by_wheel::Differences;
 use super::load::{self, LoadSharing, OwnMoments, Tipping};
 use super::rover::Rover;
 use super::state::RoverState;
@@ -27,6 +28,8 @@ pub struct Ground<'a> {
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
     pub own_moments: OwnMoments,
+    /// How the soil below each wheel differs from that of the site.
+    pub differences: Differences<'a>,
 }
 
 /// One wheel, settled under its load.
@@ -160,17 +163,18 @@ impl Ground<'_> {
         slips: &[Slip],
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let Self { rover, site, model, sharing, .. } = *self;
+        let Self { rover, site, model, sharing, differences, .. } = *self;
         let Stance { place, slope_from_body, weight, pull } = *stance;
         let steepness = if weight > 0.0 { pull.norm() / weight } else { 0.0 };
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
-        let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses);
-        let settled = wheels.map(|(((&slip, load), mount), guess)| {
+        let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses).enumerate();
+        let settled = wheels.map(|(wheel, (((&slip, load), mount), guess))| {
             let at = place + slope_from_body * mount.position.xy();
+            let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
             let contact = Contact {
                 wheel: mount.unit.wheel,
-                soil: site.terrain.soil(at, mount.footprint(&slope_from_body)).on_slope(steepness),
+                soil: differences.soil(&soil, wheel, at).on_slope(steepness),
                 slip,
                 gravity: site.gravity,
             };

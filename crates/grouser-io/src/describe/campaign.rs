@@ -8,6 +8,7 @@ use super::super::field::{
 use super::super::kind::Kind;
 use super::super::stated::Stated;
 use super::about::{assumed, gravity, model, notes, purpose, schema};
+use super::differences::LARGEST_SEED;
 use super::scenario::{self, SCENARIO};
 use super::soil::{self, SOIL};
 use super::uncertainty::{
@@ -22,8 +23,6 @@ use grouser_core::wheel::Wheel;
 
 /// The most runs, or points. Source: ours; a thousand times what a machine computes in a day.
 const MOST_RUNS: u64 = 1_000_000_000_000;
-/// The largest seed that JSON keeps exactly.
-const LARGEST_SEED: u64 = (1 << 53) - 1;
 /// Seconds of work for a traverse, a fraction of one for a heading offset; some hundred kilobytes.
 const SHARD_RUNS: u64 = 1024;
 

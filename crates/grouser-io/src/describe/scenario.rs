@@ -9,15 +9,18 @@ use super::super::field::{
 };
 use super::super::kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 use super::about::{assumed, gravity, model, notes, purpose, schema, source};
+use super::differences::{BY_WHEEL, SCATTER};
 use super::rover::{self, ROVER};
 use super::soil::{self, SOIL};
 use grouser_core::contact::Theory;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
-use grouser_core::simulation::{Approach, Motion, Numerics, PrescribedYaw, Scenario, Start};
+use grouser_core::simulation::{
+    Approach, Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start,
+};
 use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
 use grouser_core::vehicle::drive::SlipTarget;
-use grouser_core::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
+use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
 
 /// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(crate) const FASTEST: f64 = 10.0;
@@ -50,6 +53,8 @@ pub(crate) fn blank() -> Scenario {
         own_moments: OwnMoments::Included,
         drive: DriveLaw::Constant(0.0),
         yaw: None,
+        by_wheel: ByWheel::ALIKE,
+        scatter: Scatter::NONE,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 0.0,
@@ -161,6 +166,18 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
             "drive",
             "What turns the wheels.",
             &DRIVE,
+        )
+        .otherwise(Fill::Keys(&[])),
+        table(
+            "by_wheel",
+            "How the soil below each wheel, and its speed, differ from what is said of all.",
+            &At { inner: &BY_WHEEL, at: |run: &mut Scenario| &mut run.by_wheel },
+        )
+        .otherwise(Fill::Keys(&[])),
+        table(
+            "scatter",
+            "How the soil scatters from place to place, and the speed from wheel to wheel.",
+            &At { inner: &SCATTER, at: |run: &mut Scenario| &mut run.scatter },
         )
         .otherwise(Fill::Keys(&[])),
         table(

@@ -191,7 +191,9 @@ impl Campaign {
         let (values, theory) = self.prepared.split(&inputs.values);
         row.extend(values.iter().map(|value| Cell::Float(Some(*value))));
         row.extend(theory.map(|theory| Cell::text(theory.name())));
-        rows::run(self.study, &self.base, self.prepared.keys(), values, theory, &mut row);
+        let case =
+            rows::Case { keys: self.prepared.keys(), values, theory, seed: self.seed(), index };
+        rows::run(self.study, &self.base, &case, &mut row);
         // A row without an answer has its status, and nothing in the columns after it.
         let missing = self.columns[row.len()..].iter().map(|column| Cell::none(column.kind));
         row.extend(missing);

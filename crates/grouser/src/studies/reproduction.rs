@@ -4,6 +4,7 @@
 use super::comparison::MeasuredTraverse;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::wheel_test::{WheelTest, WheelTestRow};
+use crate::contact::Theory;
 use crate::error::ParameterError;
 use crate::simulation::{
     Motion, Numerics, PrescribedYaw, Run, RunError, Scenario, Start, Trajectory,
@@ -28,6 +29,7 @@ use crate::vehicle::{LoadSharing, OwnMoments};
 ///     longitudinal_moduli: vec![0.036],
 ///     slip_angles: vec![0.0],
 ///     loads: vec![17.0],
+///     other_models: vec![],
 /// };
 /// let reproduction = plan.run(&mut |_| ())?;
 /// let slope = &reproduction.slopes[0];
@@ -53,6 +55,8 @@ pub struct Plan {
     pub slip_angles: Vec<f64>,
     /// Loads under which it is tested at slip angle 0 [N].
     pub loads: Vec<f64>,
+    /// Wheel–soil models whose headings stand beside the scenario's.
+    pub other_models: Vec<Theory>,
 }
 
 /// The results of the study: wheel tests, heading offsets, traverses.
@@ -66,6 +70,8 @@ pub struct Reproduction {
     pub by_load: Vec<WheelTestRow>,
     /// The heading offset over the slope.
     pub headings: HeadingCurve,
+    /// The same by the other models.
+    pub other_headings: Vec<(Theory, HeadingCurve)>,
     /// The traverses on each measured slope.
     pub slopes: Vec<SlopeRuns>,
     /// The first moments of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
@@ -139,7 +145,13 @@ impl Plan {
         let by_slip_angle = self.wheel_test(&[self.wheel_load], &self.slip_angles).run();
         let by_load = self.wheel_test(&self.loads, &[0.0]).run();
         progress("heading offsets");
-        let headings = HeadingStudy::of(&self.scenario).curve()?;
+        let study = HeadingStudy::of(&self.scenario);
+        let headings = study.curve()?;
+        let by_model = |theory: &Theory| {
+            Ok((*theory, HeadingStudy { theory: *theory, ..study.clone() }.curve()?))
+        };
+        let other_headings =
+            self.other_models.iter().map(by_model).collect::<Result<_, ParameterError>>()?;
         let slopes = self
             .measured
             .iter()
@@ -147,7 +159,15 @@ impl Plan {
             .collect::<Result<Vec<_>, _>>()?;
         progress("start from rest");
         let start_up = self.start_up(&slopes)?;
-        Ok(Reproduction { wheel_curves, by_slip_angle, by_load, headings, slopes, start_up })
+        Ok(Reproduction {
+            wheel_curves,
+            by_slip_angle,
+            by_load,
+            headings,
+            other_headings,
+            slopes,
+            start_up,
+        })
     }
 
     fn wheel_curve(&self, modulus: f64, progress: &mut dyn FnMut(&str)) -> WheelCurve {

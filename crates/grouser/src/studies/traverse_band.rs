@@ -7,8 +7,10 @@
 
 use super::drive::Drive;
 use super::ensemble::samples::{Sample, outputs_of_samples};
-use super::ensemble::{Band, Probability};
-use crate::simulation::{Outcome, Record, Run, RunError, Scenario, Trajectory, WheelRecord};
+use super::ensemble::{Band, Probability, outputs_while};
+use crate::simulation::{
+    Outcome, Record, Run, RunError, Scatter, Scenario, Trajectory, WheelRecord,
+};
 use crate::vehicle::Rover;
 
 /// A traverse with quantiles over the samples.
@@ -90,7 +92,8 @@ struct OfSample {
 }
 
 impl TraverseBand {
-    /// Runs each sample; the soil and the model of `scenario` are not used. `None` if `go_on` was false before the
+    /// Runs each sample; the soil and the model of `scenario` are not used. Where it [scatters](Scenario::scatter),
+    /// each sample has a realisation of its own, by the scenario's seed and its number. `None` if `go_on` was false before the
     /// end. The samples are shared among threads and keep their order: the result is the same for any number of
     /// threads.
     ///
@@ -126,13 +129,21 @@ impl TraverseBand {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, RunError> {
         assert!(!samples.is_empty(), "a band needs samples");
-        let one = |sample: &Sample| {
-            let mut scenario = Scenario { theory: sample.theory, ..scenario.clone() };
+        let run = |sample: &Sample, scatter: Scatter| {
+            let mut scenario = Scenario { theory: sample.theory, scatter, ..scenario.clone() };
             scenario.site.terrain.soil = sample.soil;
             let run = Run::new(&scenario)?.to_end()?;
             Ok(OfSample::of(&run, &scenario, times))
         };
-        let Some(all) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
+        let scatter = scenario.scatter;
+        let all = if scatter.is_any() {
+            let scattered =
+                |place: usize| run(&samples[place], scatter.of_case(scatter.seed, place as u64));
+            outputs_while(0..samples.len(), go_on, scattered)
+        } else {
+            outputs_of_samples(samples, go_on, |sample| run(sample, scatter))
+        };
+        let Some(all) = all else { return Ok(None) };
         // Collected in order, so that the error is always that of the first sample.
         let all = all.into_iter().collect::<Result<Vec<OfSample>, RunError>>()?;
         let at = |(place, time): (usize, &f64)| TimeBand::over(&all, place, *time);

@@ -120,6 +120,8 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(RIM_SPEED),
         yaw: None,
+        by_wheel: grouser::vehicle::ByWheel::ALIKE,
+        scatter: grouser::simulation::Scatter::NONE,
         stability: grouser::soil::SlopeStability::USUAL,
         start: Start { yaw, motion: Motion::Rolling },
         duration: 20.0,

@@ -8,7 +8,18 @@ use std::path::{Path, PathBuf};
 
 /// The modules of each layer, from the foundations up.
 const LAYERS: [&[&str]; 6] = [
-    &["units", "error", "elementary", "newton", "root", "soil", "wheel", "terrain", "site"],
+    &[
+        "units",
+        "error",
+        "elementary",
+        "newton",
+        "random",
+        "root",
+        "soil",
+        "wheel",
+        "terrain",
+        "site",
+    ],
     &["contact"],
     &["vehicle"],
     &["simulation"],

@@ -6,6 +6,7 @@ mod campaign;
 mod campaign_documents;
 mod card;
 mod declarations;
+mod differences;
 mod discrepancy;
 mod documents;
 mod examples;

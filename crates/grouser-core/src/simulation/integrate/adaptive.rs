@@ -7,9 +7,11 @@
 //! are of order 5, take one step at a time and know nothing of the one before, so that a motion
 //! begins anew at once where wheels change their speeds.
 
+use std::ops::Range;
+
 use super::dormand_prince::{ExplicitStep, explicit_step};
 use super::rosenbrock::{Linear, implicit_step};
-use super::step::{COUPLED, Numbers, Step};
+use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
 use super::{OnSample, Point, Stalled, rates_at};
 use crate::elementary::pow;
 use crate::simulation::equations::Equations;
@@ -46,7 +48,8 @@ pub(in crate::simulation) fn adaptive(
     history: &mut History,
     on_sample: &mut OnSample<'_>,
 ) -> Result<(), Stalled> {
-    let motion = Motion { rates_at: |y: &Numbers| rates_at(equations, y), tolerance };
+    let coupled = if equations.is_uneven() { COUPLED_BY_PLACE } else { COUPLED };
+    let motion = Motion { rates_at: |y: &Numbers| rates_at(equations, y), coupled, tolerance };
     let from = (start_time, start.to_array());
     let mut way = history.0.take().filter(|way| way.seen == from);
     for &time in times {
@@ -165,6 +168,8 @@ const SETTLING: f64 = 0.5;
 /// A motion by its rates, to a tolerance.
 struct Motion<F> {
     rates_at: F,
+    /// The components that the rates depend on.
+    coupled: Range<usize>,
     tolerance: f64,
 }
 
@@ -220,7 +225,10 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
         let outlook = way.map_or_else(|| self.first_outlook(&from, &rates), |way| way.next);
         let Outlook { mut span, implicit, .. } = outlook;
         let linear = if implicit {
-            Some(Linear::at(&from, rates, &self.rates_at).ok_or_else(nowhere)?)
+            Some(
+                Linear::at(&from, rates, self.coupled.clone(), &self.rates_at)
+                    .ok_or_else(nowhere)?,
+            )
         } else {
             None
         };
@@ -289,7 +297,7 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
         const TRIAL: f64 = 1e-3;
         let size = |rates: &Numbers| {
             let part = |i: usize| rates[i].abs() / (from[i].abs() + SMALL[i]);
-            COUPLED.map(part).fold(0.0, f64::max)
+            self.coupled.clone().map(part).fold(0.0, f64::max)
         };
         let first = size(rates);
         if first == 0.0 {
@@ -394,7 +402,7 @@ mod tests {
 
         /// Where it is led, in how many explicit and implicit steps.
         fn led(&self, tolerance: f64) -> (Numbers, [u32; 2]) {
-            let motion = Motion { rates_at: self.rates(), tolerance };
+            let motion = Motion { rates_at: self.rates(), coupled: COUPLED, tolerance };
             let counts = std::cell::Cell::new([0, 0]);
             let count = |way: &Way| {
                 let mut now = counts.get();
@@ -412,7 +420,8 @@ mod tests {
             for _ in 0..steps {
                 let rates = self.rates()(&now).expect("it has rates");
                 let step = if implicit {
-                    let linear = Linear::at(&now, rates, &self.rates()).expect("it has rates");
+                    let linear =
+                        Linear::at(&now, rates, COUPLED, &self.rates()).expect("it has rates");
                     implicit_step(&now, &linear, span, &self.rates())
                 } else {
                     explicit_step(&now, rates, span, &self.rates()).map(|it| it.step)
@@ -484,7 +493,8 @@ mod tests {
             let rates = problem.rates()(&from).expect("it has rates");
             for span in [0.02, 0.05, 0.1] {
                 let step = if implicit {
-                    let linear = Linear::at(&from, rates, &problem.rates()).expect("it has rates");
+                    let linear =
+                        Linear::at(&from, rates, COUPLED, &problem.rates()).expect("it has rates");
                     implicit_step(&from, &linear, span, &problem.rates())
                 } else {
                     explicit_step(&from, rates, span, &problem.rates()).map(|it| it.step)
@@ -506,7 +516,7 @@ mod tests {
     #[test]
     fn points_on_the_way_are_as_near() {
         let problem = kaps(1e-4);
-        let motion = Motion { rates_at: problem.rates(), tolerance: 1e-6 };
+        let motion = Motion { rates_at: problem.rates(), coupled: COUPLED, tolerance: 1e-6 };
         let mut way = None;
         for time in (1..=100).map(|count| 0.01 * f64::from(count)) {
             let mut here = motion.reach(&problem.start(), way, time, &|_| {}).expect("it is led");
@@ -522,19 +532,19 @@ mod tests {
     fn motions_that_end_say_when_and_why() {
         let ends = |x: f64| (x < 1.0).then(|| pair(1.0, 0.0));
         let rates_at = |numbers: &Numbers| ends(of(numbers).0);
-        let motion = Motion { rates_at, tolerance: 1e-6 };
+        let motion = Motion { rates_at, coupled: COUPLED, tolerance: 1e-6 };
         let stalled = motion.reach(&(0.0, [0.0; SIZE]), None, 2.0, &|_| {}).err().expect("it ends");
         assert!((stalled.time - 1.0).abs() < 1e-6, "{stalled:?}");
         let from_nowhere = motion.reach(&(0.5, pair(3.0, 0.0)), None, 2.0, &|_| {});
         assert_eq!(from_nowhere.err().map(|stalled| stalled.time), Some(0.5));
         for wild in [f64::NAN, f64::INFINITY, f64::MAX] {
             let rates_at = |numbers: &Numbers| Some(pair(wild * (1.0 + of(numbers).0), wild));
-            let motion = Motion { rates_at, tolerance: 1e-6 };
+            let motion = Motion { rates_at, coupled: COUPLED, tolerance: 1e-6 };
             assert!(motion.reach(&(0.0, [0.0; SIZE]), None, 1.0, &|_| {}).is_err(), "{wild}");
         }
         for tolerance in [f64::MIN_POSITIVE, 1e300] {
             let problem = kaps(1e-3);
-            let motion = Motion { rates_at: problem.rates(), tolerance };
+            let motion = Motion { rates_at: problem.rates(), coupled: COUPLED, tolerance };
             let led = motion.reach(&problem.start(), None, 1.0, &|_| {});
             assert_eq!(led.is_ok(), tolerance > 1.0, "a tolerance of {tolerance:e}");
         }

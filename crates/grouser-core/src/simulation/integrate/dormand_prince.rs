@@ -7,7 +7,7 @@
 //! section II.6. The tests below hold the coefficients to the order conditions.
 
 use super::SIZE;
-use super::step::{Numbers, Step, length, sum};
+use super::step::{COUPLED, Numbers, Step, length, sum};
 
 const STAGES: usize = 7;
 
@@ -75,9 +75,13 @@ pub(super) fn explicit_step(
     let one: Numbers = std::array::from_fn(|i| first[i] - (to[i] - from[i]));
     let two = std::array::from_fn(|i| to[i] - from[i] - end[i] - one[i] + last[i]);
     let bends = [one, two, last.map(|part| -part)];
-    let difference = |one: &Numbers, other: &Numbers| std::array::from_fn(|i| one[i] - other[i]);
-    let apart = length(&difference(&to, &before));
-    let turned = length(&difference(&end, &next_to_last)) / span;
+    // Places count for little within the time in which slip settles.
+    let apart = |one: &Numbers, other: &Numbers| {
+        let difference: Numbers = std::array::from_fn(|i| one[i] - other[i]);
+        length(&difference[COUPLED])
+    };
+    let turned = apart(&end, &next_to_last) / span;
+    let apart = apart(&to, &before);
     let fastest = if apart > 0.0 { turned / apart } else { 0.0 };
     let rates = end.map(|change| change / span);
     to.iter().all(|part| part.is_finite()).then_some(ExplicitStep {

@@ -4,13 +4,15 @@
 //! Source: Hairer and Wanner (1996), Solving Ordinary Differential Equations II, section IV.7. No
 //! step depends on the one before it, so that a motion may begin anew at any time.
 
-use nalgebra::{LU, Matrix4, U4, Vector4};
+use std::ops::Range;
+
+use nalgebra::{LU, Matrix4, Matrix6, U4, U6, Vector4, Vector6};
 
 use super::SIZE;
 use super::rodas5p::{A, C, GAMMA, H, STAGES};
-use super::step::{COUPLED, Numbers, Step, length, sum};
+use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step, length, sum};
 
-/// Step of the differences in a Jacobian [rad, m/s, rad/s]: forces are exact to 1e-12, and change
+/// Step of the differences in a Jacobian [m, rad, m/s, rad/s]: forces are exact to 1e-12, and change
 /// within the creep speed of 1e-6 m/s where a hub comes to rest.
 const DIFFERENCE: f64 = 1e-9;
 
@@ -21,8 +23,13 @@ const NEAR_REST: f64 = 1e4;
 /// The motion near a point: its rates, and how they change with each coupled component.
 pub(super) struct Linear {
     pub(super) rates: Numbers,
-    columns: [Numbers; 4],
+    coupled: Range<usize>,
+    /// One for each coupled component, then nothing.
+    columns: [Numbers; MOST_COUPLED],
 }
+
+/// How many components can be coupled.
+const MOST_COUPLED: usize = COUPLED_BY_PLACE.end;
 
 impl Linear {
     /// At a point with these rates, by differences towards where the motion goes: a wheel's forces
@@ -30,9 +37,12 @@ impl Linear {
     /// where there are no rates ahead.
     ///
     /// None where there are no rates on both sides.
+    ///
+    /// * `coupled`: the components that the rates depend on
     pub(super) fn at(
         point: &Numbers,
         rates: Numbers,
+        coupled: Range<usize>,
         rates_at: &impl Fn(&Numbers) -> Option<Numbers>,
     ) -> Option<Self> {
         let beside = |index: usize, step: f64| {
@@ -42,16 +52,17 @@ impl Linear {
             let step = beside[index] - point[index];
             rates_at(&beside).map(|there| (there, step))
         };
-        let mut linear = Self { rates, columns: [[0.0; SIZE]; 4] };
-        let mut ahead = [(rates, 0.0); 4];
-        for (number, index) in COUPLED.enumerate() {
+        let columns = [[0.0; SIZE]; MOST_COUPLED];
+        let mut linear = Self { rates, coupled: coupled.clone(), columns };
+        let mut ahead = [(rates, 0.0); MOST_COUPLED];
+        for (number, index) in coupled.clone().enumerate() {
             let forward = (DIFFERENCE * point[index].abs().max(1.0)).copysign(rates[index]);
             let (there, step) = beside(index, forward).or_else(|| beside(index, -forward))?;
             ahead[number] = (there, step);
             linear.columns[number] = std::array::from_fn(|i| (there[i] - rates[i]) / step);
         }
         if linear.fastest() > NEAR_REST {
-            for (number, index) in COUPLED.enumerate() {
+            for (number, index) in coupled.enumerate() {
                 let (one, step) = ahead[number];
                 if let Some((other, back)) = beside(index, -step) {
                     linear.columns[number] =
@@ -65,7 +76,7 @@ impl Linear {
     /// The change of the rates along a direction, J v.
     fn along(&self, direction: &Numbers) -> Numbers {
         let mut product = [0.0; SIZE];
-        for (column, index) in self.columns.iter().zip(COUPLED) {
+        for (column, index) in self.columns.iter().zip(self.coupled.clone()) {
             for (product, part) in product.iter_mut().zip(column) {
                 *product += part * direction[index];
             }
@@ -81,12 +92,12 @@ impl Linear {
         let mut direction = self.rates;
         let mut fastest = 0.0;
         for _ in 0..TIMES {
-            let length = length(&direction);
+            let length = length(&direction[self.coupled.clone()]);
             if length == 0.0 {
                 break;
             }
             direction = self.along(&direction.map(|part| part / length));
-            fastest = super::step::length(&direction);
+            fastest = super::step::length(&direction[self.coupled.clone()]);
         }
         fastest
     }
@@ -132,26 +143,46 @@ pub(super) fn implicit_step(
 struct System<'a> {
     linear: &'a Linear,
     span: f64,
-    coupled: LU<f64, U4, U4>,
+    coupled: Coupled,
+}
+
+/// Those of the coupled components.
+enum Coupled {
+    Everywhere(LU<f64, U4, U4>),
+    ByPlace(LU<f64, U6, U6>),
 }
 
 impl<'a> System<'a> {
     fn new(linear: &'a Linear, span: f64) -> Self {
-        let block = Matrix4::from_fn(|row, column| {
+        let block = |row: usize, column: usize| {
             let diagonal = if row == column { 1.0 / (span * GAMMA) } else { 0.0 };
-            diagonal - linear.columns[column][COUPLED.start + row]
-        });
-        Self { linear, span, coupled: block.lu() }
+            diagonal - linear.columns[column][linear.coupled.start + row]
+        };
+        let coupled = if linear.coupled == COUPLED {
+            Coupled::Everywhere(Matrix4::from_fn(block).lu())
+        } else {
+            Coupled::ByPlace(Matrix6::from_fn(block).lu())
+        };
+        Self { linear, span, coupled }
     }
 
     fn solve(&self, side: &Numbers) -> Option<Numbers> {
-        let coupled = Vector4::from_fn(|row, _| side[COUPLED.start + row]);
-        let coupled = self.coupled.solve(&coupled)?;
+        let coupled = self.linear.coupled.clone();
         let mut solved = [0.0; SIZE];
-        solved[COUPLED].copy_from_slice(coupled.as_slice());
+        let (part, side_part) = (&mut solved[coupled.clone()], &side[coupled.clone()]);
+        match &self.coupled {
+            Coupled::Everywhere(factors) => {
+                let found = factors.solve(&Vector4::from_column_slice(side_part))?;
+                part.copy_from_slice(found.as_slice());
+            }
+            Coupled::ByPlace(factors) => {
+                let found = factors.solve(&Vector6::from_column_slice(side_part))?;
+                part.copy_from_slice(found.as_slice());
+            }
+        }
         // All others only gather what the coupled ones do.
         let gathered = self.linear.along(&solved);
-        for index in (0..SIZE).filter(|index| !COUPLED.contains(index)) {
+        for index in (0..SIZE).filter(|index| !coupled.contains(index)) {
             solved[index] = self.span * GAMMA * (side[index] + gathered[index]);
         }
         Some(solved)

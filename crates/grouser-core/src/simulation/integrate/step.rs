@@ -7,9 +7,11 @@ use super::SIZE;
 /// A point, or its rates.
 pub(super) type Numbers = [f64; SIZE];
 
-/// Which components the rates depend on: yaw and the velocities. The slope is the same everywhere,
-/// and energies act on nothing.
+/// Which components the rates depend on where the ground is the same everywhere: yaw and the velocities.
+/// Energies act on nothing.
 pub(super) const COUPLED: Range<usize> = 2..6;
+/// The same where it differs from place to place.
+pub(super) const COUPLED_BY_PLACE: Range<usize> = 0..6;
 
 /// A step that was taken, with all points between its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +53,7 @@ pub(super) fn sum(from: &Numbers, weights: &[f64], stages: &[Numbers]) -> Number
     sum
 }
 
-/// The length of the coupled components of a direction.
-pub(super) fn length(direction: &Numbers) -> f64 {
-    direction[COUPLED].iter().map(|part| part * part).sum::<f64>().sqrt()
+/// The length of a direction's components that count.
+pub(super) fn length(direction: &[f64]) -> f64 {
+    direction.iter().map(|part| part * part).sum::<f64>().sqrt()
 }

@@ -96,6 +96,11 @@ pub(super) fn prepare(
         let place = Distribution::of_marginals(vec![place], &[]).unwrap_or_default();
         inputs.distribution = inputs.distribution.and(place);
     }
+    let scatters = settings.study == Study::Traverse && base.scatters();
+    let is_alike = !scatters && inputs.distribution.dimensions() == 0;
+    if is_alike {
+        return Err(nothing_uncertain(tree));
+    }
     check_design(settings, &inputs, tree)?;
     let mut factors: Vec<String> =
         inputs.keys[..inputs.parameters].iter().map(|key| key.path.clone()).collect();
@@ -207,23 +212,30 @@ impl Numbers for StudyNumbers<'_> {
 /// What keys that a study does not look at start with.
 fn unused_keys(study: Study) -> &'static [&'static str] {
     match study {
-        Study::Heading => {
-            &["start.", "duration_s", "sample_interval_s", "drive.reference_slip_ratio"]
-        }
+        Study::Heading => &[
+            "start.",
+            "duration_s",
+            "sample_interval_s",
+            "drive.reference_slip_ratio",
+            "by_wheel.",
+            "scatter.",
+        ],
         Study::Traverse => &["sample_interval_s"],
         Study::WheelTest => &[],
     }
 }
 
+/// All runs would be alike.
+fn nothing_uncertain(tree: &Node) -> DocumentError {
+    let problem = Problem::MissingKey { key: "parameter".to_owned() };
+    DocumentError::at(&tree.origin, problem).with_hint(
+        "name keys with their distributions as [[parameter]], or a file of samples, or set \
+         soil_uncertainty = true or model_uncertainty = true, or give the scenario a [scatter]"
+            .to_owned(),
+    )
+}
+
 fn check_design(settings: &Settings, inputs: &Inputs, tree: &Node) -> Result<(), DocumentError> {
-    if inputs.distribution.dimensions() == 0 {
-        let problem = Problem::MissingKey { key: "parameter".to_owned() };
-        return Err(DocumentError::at(&tree.origin, problem).with_hint(
-            "name keys with their distributions as [[parameter]], or a file of samples, or set \
-             soil_uncertainty = true or model_uncertainty = true"
-                .to_owned(),
-        ));
-    }
     if settings.sensitivity && inputs.is_correlated {
         let problem = Problem::Conflict(
             "inputs that are correlated have no Sobol indices of their own: leave out \

@@ -29,8 +29,20 @@ pub(super) enum Base {
     Stand(Box<Varied<Stand>>),
 }
 
+/// What a run of the campaign has instead of the base's.
+pub(super) struct Case<'a> {
+    /// Keys with values of their own, and those values.
+    pub keys: &'a [Key],
+    pub values: &'a [f64],
+    /// The model, where it is not the base's.
+    pub theory: Option<Theory>,
+    /// The campaign's seed and the run's number: which realisation of what scatters it has.
+    pub seed: u64,
+    pub index: u64,
+}
+
 /// The domain value of a sample.
-enum Case {
+enum Sampled {
     Scenario(Box<Scenario>),
     WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
 }
@@ -97,22 +109,13 @@ fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str
     results.iter().map(|column| column.name)
 }
 
-/// Runs the base with sampled values, and adds the results to the row: at least the status.
-///
-/// * `theory`: the model, where it is not the base's
-pub(super) fn run(
-    study: Study,
-    base: &Base,
-    keys: &[Key],
-    values: &[f64],
-    theory: Option<Theory>,
-    row: &mut Vec<Cell>,
-) {
-    let case = base.with(keys, values).map(|case| case.in_model(theory));
-    let answer = case.and_then(|case| match (study, case) {
-        (Study::Heading, Case::Scenario(scenario)) => heading(&scenario),
-        (_, Case::Scenario(scenario)) => traverse(&scenario),
-        (_, Case::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
+/// Runs the base with what a run has of its own, and adds the results to the row: at least the status.
+pub(super) fn run(study: Study, base: &Base, case: &Case<'_>, row: &mut Vec<Cell>) {
+    let sampled = base.with(case.keys, case.values).map(|sampled| sampled.of(case));
+    let answer = sampled.and_then(|sampled| match (study, sampled) {
+        (Study::Heading, Sampled::Scenario(scenario)) => heading(&scenario),
+        (_, Sampled::Scenario(scenario)) => traverse(&scenario),
+        (_, Sampled::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
     });
     match answer {
         Ok(cells) => {
@@ -139,14 +142,14 @@ pub(super) fn counted(
         _ => return None,
     };
     match case {
-        Case::Scenario(scenario) => match quantity {
+        Sampled::Scenario(scenario) => match quantity {
             name if name == SLIP_RATIO.name => Some(1.0),
             name if name == SINKAGE.name => {
                 Some(SINKAGE.unit.from_si(scenario.rover.mean_axle_height()))
             }
             _ => None,
         },
-        Case::WheelTest { contact, theory, load } => {
+        Sampled::WheelTest { contact, theory, load } => {
             let sunk = Sunk::of(theory, &contact, load);
             let quantities = [
                 (SINKAGE, sunk.sinkage),
@@ -160,14 +163,15 @@ pub(super) fn counted(
     }
 }
 
-impl Case {
-    /// The same in another model, if there is one.
-    fn in_model(mut self, theory: Option<Theory>) -> Self {
-        if let Some(theory) = theory {
-            match &mut self {
-                Self::Scenario(scenario) => scenario.theory = theory,
-                Self::WheelTest { theory: own, .. } => *own = theory,
+impl Sampled {
+    /// The same in the model and the realisation of a run.
+    fn of(mut self, case: &Case<'_>) -> Self {
+        match &mut self {
+            Self::Scenario(scenario) => {
+                scenario.theory = case.theory.unwrap_or(scenario.theory);
+                scenario.scatter = scenario.scatter.of_case(case.seed, case.index);
             }
+            Self::WheelTest { theory, .. } => *theory = case.theory.unwrap_or(*theory),
         }
         self
     }
@@ -186,6 +190,11 @@ impl Base {
         Ok(Self::Stand(Box::new(Varied::new(document, tree)?)))
     }
 
+    /// Whether runs differ by more than their numbers.
+    pub(super) fn scatters(&self) -> bool {
+        matches!(self, Self::Scenario(varied) if varied.value.scatter.is_any())
+    }
+
     /// What can be varied.
     pub(super) fn numbers(&self) -> &dyn Numbers {
         match self {
@@ -194,14 +203,14 @@ impl Base {
         }
     }
 
-    fn with(&self, keys: &[Key], values: &[f64]) -> Result<Case, Failure> {
+    fn with(&self, keys: &[Key], values: &[f64]) -> Result<Sampled, Failure> {
         self.case_of(keys, values)
             .map_err(|misfit| Failure { status: UNFIT, reason: misfit.problem.to_string() })
     }
 
-    fn case_of(&self, keys: &[Key], values: &[f64]) -> Result<Case, Misfit> {
+    fn case_of(&self, keys: &[Key], values: &[f64]) -> Result<Sampled, Misfit> {
         Ok(match self {
-            Self::Scenario(varied) => Case::Scenario(Box::new(varied.with(keys, values)?)),
+            Self::Scenario(varied) => Sampled::Scenario(Box::new(varied.with(keys, values)?)),
             Self::Stand(varied) => {
                 let stand = varied.with(keys, values)?;
                 let contact = Contact {
@@ -211,7 +220,7 @@ impl Base {
                     gravity: stand.gravity,
                 };
                 let (theory, load) = (stand.theory, stand.load);
-                Case::WheelTest { contact: Box::new(contact), theory, load }
+                Sampled::WheelTest { contact: Box::new(contact), theory, load }
             }
         })
     }

@@ -10,7 +10,7 @@ use crate::site::Site;
 use crate::soil::{SlopeStability, Soil};
 use crate::units::Vec2;
 use crate::vehicle::reaction::Ground;
-use crate::vehicle::{LoadSharing, OwnMoments, Rover};
+use crate::vehicle::{Differences, LoadSharing, OwnMoments, Rover};
 
 /// Finds heading offsets of a rover on a soil, for any slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +105,7 @@ impl HeadingStudy {
             model: self.theory.model(),
             sharing: self.sharing,
             own_moments: self.own_moments,
+            differences: Differences::NONE,
         }
     }
 
