@@ -15,13 +15,13 @@ use super::driven::{HEADING_ERROR, STRAIGHT_DOWN, heading_error, settings};
 use super::{CardRow, CardStudy, Verdict};
 use crate::error::{ParameterError, positive};
 use crate::simulation::{
-    Approach, LEAST_STEP, MOST_SLIP, Motion, Numerics, Run, RunError, Scenario, Start,
+    Approach, LEAST_STEP, MOST_SLIP, Motion, Numerics, Run, RunError, Scatter, Scenario, Start,
 };
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::ensemble::{Band, Probability};
 use crate::studies::random;
 use crate::units::Vec2;
-use crate::vehicle::DriveLaw;
+use crate::vehicle::{ByWheel, DriveLaw};
 
 /// Drives by the rows of a card.
 #[derive(Clone, Copy, Debug)]
@@ -131,6 +131,8 @@ impl CardDrives<'_> {
             theory: study.theory,
             sharing: study.sharing,
             own_moments: study.own_moments,
+            by_wheel: ByWheel::ALIKE,
+            scatter: Scatter::NONE,
             drive: DriveLaw::Constant(self.study.rim_speed),
             yaw: None,
             stability: study.stability,
@@ -202,7 +204,7 @@ fn leg(scenario: &Scenario, way: f64) -> Result<Option<Vec2>, RunError> {
     loop {
         let now = run.now();
         let (gone, length) = (now.state.position, now.state.position.norm());
-        if (way - length).abs() <= NEAR * way {
+        if length >= (1.0 - NEAR) * way {
             return Ok(Some(gone * (way / length)));
         }
         let time_left = scenario.duration - now.time;
@@ -210,8 +212,8 @@ fn leg(scenario: &Scenario, way: f64) -> Result<Option<Vec2>, RunError> {
             return Ok(None);
         }
         let speed = now.state.velocity.norm().max((1.0 - MOST_SLIP) * rim_speed);
-        let span = (way - length).max(NEAR * way) / speed;
-        run.step(&rim_speeds, span.min(time_left).max(LEAST_STEP))?;
+        let span = ((way - length) / speed).min(time_left);
+        run.step(&rim_speeds, span.max(LEAST_STEP))?;
     }
 }
 
