@@ -220,15 +220,15 @@ fn leg(scenario: &Scenario, way: f64) -> Result<Option<Vec2>, RunError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{self, Overrides, Source};
     use crate::studies::card::Rule;
     use crate::studies::heading::HeadingStudy;
     use crate::units::deg;
+    use grouser_io::{Overrides, Source, read_scenario};
 
-    /// A leg that was run is the one between two others, to a ten-thousandth of its way.
+    /// A leg that was run is the one between two others, to a thousandth of its way.
     #[test]
     fn legs_between_headings_are_interpolated() {
-        let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none());
+        let scenario = read_scenario(&Source::default_scenario(), &Overrides::none());
         let heading = HeadingStudy::of(&scenario.expect("a preset").value);
         let sample = Sample { soil: heading.soil, theory: heading.theory };
         let study = CardStudy {
