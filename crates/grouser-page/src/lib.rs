@@ -1,4 +1,4 @@
-//! One printed page: drawn once, in millimetres and greys, and written as SVG, PDF or PNG.
+//! Printed pages: each drawn once, in millimetres and greys, and written as SVG, PDF or PNG; several make one PDF.
 //!
 //! A [`Sheet`] holds shapes and lines of text. Its letters are outlines of a font that comes along
 //! (DejaVu Sans Condensed), so that the page looks the same on a machine without fonts, and the same page has the
@@ -23,5 +23,6 @@ mod svg;
 
 pub use font::{Face, width, wrap};
 pub use markup::markup;
+pub use pdf::pdf_of;
 pub use png::PIXELS_PER_MM;
 pub use sheet::{Anchor, BLACK, Grey, Place, Shape, Sheet, Stroke, Text, WHITE};

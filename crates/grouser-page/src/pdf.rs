@@ -24,23 +24,36 @@ impl Sheet {
     /// The page as a PDF document.
     #[must_use]
     pub fn to_pdf(&self) -> Vec<u8> {
-        write(self)
+        pdf_of(std::slice::from_ref(self))
     }
 }
 
-fn write(sheet: &Sheet) -> Vec<u8> {
+/// Pages as one PDF document, with the title of the first; one page at least.
+#[must_use]
+pub fn pdf_of(sheets: &[Sheet]) -> Vec<u8> {
     let mut next = 0;
     let mut id = || {
         next += 1;
         Ref::new(next)
     };
-    let [catalog, pages, page, content, info] = [id(), id(), id(), id(), id()];
-    let codes: BTreeMap<Face, Codes> =
-        FACES.iter().map(|face| (*face, codes(sheet, *face))).collect();
+    let [catalog, pages, info] = [id(), id(), id()];
+    let kids: Vec<Ref> = sheets.iter().map(|_| id()).collect();
     let mut pdf = Pdf::new();
     pdf.catalog(catalog).pages(pages);
-    pdf.pages(pages).kids([page]).count(1);
-    pdf.document_info(info).title(TextStr(&sheet.title)).producer(TextStr("Grouser"));
+    let count = i32::try_from(kids.len()).unwrap_or(i32::MAX);
+    pdf.pages(pages).kids(kids.iter().copied()).count(count);
+    let title = sheets.first().map_or("", |sheet| &sheet.title);
+    pdf.document_info(info).title(TextStr(title)).producer(TextStr("Grouser"));
+    for (sheet, page) in sheets.iter().zip(kids) {
+        write_page(&mut pdf, sheet, [pages, page], &mut id);
+    }
+    pdf.finish()
+}
+
+fn write_page(pdf: &mut Pdf, sheet: &Sheet, [pages, page]: [Ref; 2], id: &mut impl FnMut() -> Ref) {
+    let content = id();
+    let codes: BTreeMap<Face, Codes> =
+        FACES.iter().map(|face| (*face, codes(sheet, *face))).collect();
     let fonts: Vec<(Face, Ref)> = FACES.iter().map(|face| (*face, id())).collect();
     let [width, height] = [sheet.width, sheet.height].map(|length| single(length * POINTS));
     let mut writer = pdf.page(page);
@@ -56,9 +69,8 @@ fn write(sheet: &Sheet) -> Vec<u8> {
     let drawn = compress_to_vec_zlib(&drawing(sheet, &codes), EFFORT);
     pdf.stream(content, &drawn).filter(Filter::FlateDecode);
     for (face, font) in fonts {
-        write_font(&mut pdf, face, font, &codes[&face], &mut id);
+        write_font(pdf, face, font, &codes[&face], id);
     }
-    pdf.finish()
 }
 
 fn codes(sheet: &Sheet, face: Face) -> Codes {

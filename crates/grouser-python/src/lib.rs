@@ -54,7 +54,7 @@ mod _core {
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
     use super::studies::{
-        heading, heading_band, heading_map, heading_map_band, simulate, simulate_band,
+        card, heading, heading_band, heading_map, heading_map_band, simulate, simulate_band,
         simulated_wheel_test, wheel_test_band,
     };
     #[pymodule_export]

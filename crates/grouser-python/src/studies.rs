@@ -14,6 +14,7 @@ use grouser::document::table::{BETWEEN_NAMES, Table};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
+use grouser::studies::card::{CardStudy, Rule};
 use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::HeadingStudy;
@@ -296,6 +297,56 @@ pub(crate) fn simulate_band<'py>(
     let times = Table::of(&TIME_BAND, band.as_ref().map_or(&[], |band| &band.times));
     let run = band.map(|band| Table::of(&RUN_BAND, &[band.run]));
     Ok((table_to_python(py, times)?, record_to_python(py, &run.as_ref().map(|it| it.row(0)))?))
+}
+
+/// The operator's card over samples of soil and model: its rows, the other courses, and the steepest slope.
+///
+/// * `rule`: go slip ratio, go probability, no-go slip ratio, no-go probability [-]
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn card<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    slope_deg: PyReadonlyArray1<'py, f64>,
+    seed_and_samples: (u64, u32),
+    rim_speed_m_s: Option<f64>,
+    is_uphill_right: bool,
+    rule: [f64; 4],
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyAny>)> {
+    let slopes = slopes(&slope_deg)?;
+    let (seed, samples) = seed_and_samples;
+    check("samples", &[f64::from(samples)], &SAMPLES)?;
+    let scenario = scenario.scenario()?;
+    let rim_speed = rim_speed_m_s.unwrap_or_else(|| scenario.value.drive.nominal_rim_speed());
+    check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
+    let mut heading = HeadingStudy::of(&scenario.value);
+    if is_uphill_right {
+        heading.rover = heading.rover.mirrored();
+    }
+    let [go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability] = rule;
+    let rule = Rule { go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability };
+    let is_uncertainty_stated = scenario.stated_uncertainty().is_some();
+    let study = CardStudy { heading, rim_speed, rule, is_uncertainty_stated };
+    let inputs = BandInputs::of_scenario(scenario);
+    let found = listening(py, move |cancelled| {
+        let go_on = || !cancelled.is_set();
+        let samples = if inputs.is_certain() {
+            Vec::new()
+        } else {
+            inputs.samples(seed, samples).map_err(Problem::Sampling)?
+        };
+        let card = study.card(&samples, &slopes, &go_on).map_err(Problem::Parameter)?;
+        let courses = card.as_ref().and_then(|card| study.courses(&card.rows, &samples, &go_on));
+        Ok(card.zip(courses))
+    })?;
+    let Some((card, courses)) = found.map_err(|problem: Problem| problem.raised())? else {
+        return Ok((PyDict::new(py), PyDict::new(py), py.None().into_bound(py)));
+    };
+    Ok((
+        table_to_python(py, columns::card::table(&card))?,
+        table_to_python(py, columns::card_courses::table(&courses))?,
+        record_to_python(py, &Some(columns::card::steepest(&card).row(0)))?,
+    ))
 }
 
 /// How many samples may be asked for.

@@ -144,6 +144,18 @@ def test_heading_on_an_uncertain_soil(program: Program) -> None:
         assert getattr(level.band, name) == answer[name]
 
 
+def test_card(program: Program) -> None:
+    answer = program("card", "--soil", "toyoura-uncertain", "--samples", "12", "--seed", "4")
+    card = gr.card(soil="toyoura-uncertain", samples=12, seed=4)
+    rows = answer["rows"]
+    for name in rows[0]:
+        assert same(card.columns[name][: len(rows)], rows, name), name
+    for name in answer["courses"][0]:
+        assert same(card.courses.columns[name], answer["courses"], name), name
+    for name in ("draws", "limit_slope_deg", "limit_slope_deg_p97_5"):
+        assert card.steepest[name] == answer[name]
+
+
 def test_simulated_stand(program: Program) -> None:
     rows = program(
         "wheel-test", "--soil", "toyoura", "--wheel", "hakuto", "--load-n", "10,60000",

@@ -286,3 +286,29 @@ def test_ctrl_c_is_heard_in_the_middle_of_a_long_call() -> None:
                 call()
         finally:
             timer.cancel()
+
+
+def test_a_card_has_what_a_driver_needs() -> None:
+    card = gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 13.0, 40.0], samples=16)
+    assert card.verdict.tolist()[0] == "go" and card.verdict.tolist()[2] == "no-go"
+    assert np.isnan(card.correct_every_m).tolist() == [False, False, True]
+    assert len(card.to_pandas()) == 3 and card.steepest["draws"] == 16
+    # The second page has the slopes that are driven.
+    assert set(card.courses.slope_deg) == {5.0, 13.0}
+    assert {"up", "back-across", "turn-on-the-spot"} < set(card.courses.course)
+
+
+def test_a_card_has_a_side_and_a_rule() -> None:
+    def verdicts(**settings: Any) -> list[str]:
+        slopes = [6.0, 10.0, 14.0]
+        card = gr.card(soil="toyoura-uncertain", slope_deg=slopes, samples=16, **settings)
+        return card.verdict.tolist()
+
+    # The rover is its own mirror image.
+    assert verdicts(uphill="right") == verdicts()
+    assert verdicts(rule={"go_slip_ratio": 0.01}) != verdicts()
+    for settings in ({"uphill": "up"}, {"rule": {"slip": 1.0}}, {"rule": {"go_slip_ratio": 0.9}}):
+        with pytest.raises(gr.ParameterError):
+            verdicts(**settings)
+    with pytest.raises(gr.ParameterError):
+        gr.card(slope_deg=[3.0, 2.0], samples=2)

@@ -1,23 +1,26 @@
-//! `grouser card`: the operator's card, on one page.
+//! `grouser card`: the operator's card, on two pages.
 
 mod columns;
 mod layout;
 mod measured;
 mod picture;
 mod row;
+mod second;
 mod texts;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
-use grouser::document::columns::{SLOPE, YAW};
+use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
 use grouser::document::escape;
 use grouser::document::table::{Row, Table};
+use grouser::simulation::Approach;
+use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::card::{Card, CardStudy};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading::HeadingStudy;
-use grouser_page::{Sheet, markup};
+use grouser_page::{Sheet, markup, pdf_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -42,68 +45,106 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         None => Vec::new(),
     };
     let samples = samples(args, &inputs)?;
-    let card = compute(args, &inputs, &samples, &measured)?;
+    let study = study(args, &inputs);
+    let card = compute(&study, &samples, &measured)?;
     let all = card::table(&card);
     let flags = card.rows.iter().map(|row| &*row.findings);
     let held = card.rows.iter().take_while(|row| row.level.is_some()).count();
     strict::check(&args.strict, flags.take(held), &all, &[SLOPE.name])?;
     let rows = shown(&all, &measured);
-    let beside = card::beside(&rows, &measured);
+    let drives = drives(args, &inputs, &study, &card)?;
+    let answers = Answers {
+        args,
+        inputs: &inputs,
+        card: &card,
+        beside: card::beside(&rows, &measured),
+        rows,
+        drives,
+    };
+    let is_whole = target.is_some() || args.format == Format::Json;
+    let courses = is_whole.then(|| sampling::whole(study.courses(&card.rows, &samples, &|| true)));
+    let courses = card_courses::table(&courses.unwrap_or_default());
     if let Some(target) = target {
-        let uphill = args.uphill;
+        let (uphill, texts) = (args.uphill, texts::of(args, &inputs, &card));
         let picture = Picture::of(&inputs.scenario.value.rover, uphill);
-        let sheet = layout::draw(&texts::of(args, &inputs, &card), &picture, &rows);
-        target.write(
-            &Answers { args, inputs: &inputs, card: &card, rows: &rows, beside: &beside },
-            &sheet,
-        )?;
+        let sheets = [
+            layout::draw(&texts, &picture, &answers.rows),
+            second::draw(&texts, &answers.rows, &courses),
+        ];
+        target.write(&answers, &courses, &sheets)?;
     }
     match args.format {
-        Format::Table => output::print(&table(&inputs, &card, &rows, &beside)),
-        Format::Csv => output::print(&Rows::of_table(&rows).to_csv()?),
-        Format::Json => output::print_json(&answer(
-            args,
-            &inputs,
-            &card,
-            &card::steepest(&card),
-            &rows,
-            &beside,
-        )),
+        Format::Table => output::print(&answers.table()),
+        Format::Csv => output::print(&Rows::of_table(&answers.rows).to_csv()?),
+        Format::Json => output::print_json(&answers.json(&card::steepest(&card), &courses)),
     }
 }
 
 /// The samples; none where one soil and one model are all there is.
 fn samples(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Sample>, Failure> {
     let band = BandInputs::of_scenario(&inputs.scenario);
-    if inputs.scenario.uncertain.is_none() && band.models().shares().len() == 1 {
+    if band.is_certain() {
         return Ok(Vec::new());
     }
     sampling::draw(&band, args.samples, args.seed)
 }
 
-fn compute(
-    args: &CardArgs,
-    inputs: &CardInputs,
-    samples: &[Sample],
-    measured: &[MeasuredYaw],
-) -> Result<Card, Failure> {
+fn study(args: &CardArgs, inputs: &CardInputs) -> CardStudy {
     let mut heading = HeadingStudy::of(&inputs.scenario.value);
     if args.uphill == SideChoice::Right {
         heading.rover = heading.rover.mirrored();
     }
     let is_uncertainty_stated = inputs.scenario.stated_uncertainty().is_some();
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    let study = CardStudy { heading, rim_speed, rule, is_uncertainty_stated };
+    CardStudy { heading, rim_speed, rule, is_uncertainty_stated }
+}
+
+fn compute(
+    study: &CardStudy,
+    samples: &[Sample],
+    measured: &[MeasuredYaw],
+) -> Result<Card, Failure> {
     let degrees = (0..=STEEPEST_DEG).map(f64::from);
     let asked = measured.iter().map(|point| point.slope);
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
-    let bar = output::progress_bar(samples.len() as u64);
-    bar.set_message("samples");
-    let card = study.card(samples, &slopes, &|| bar.inc(1));
+    let card = sampling::with_bar(samples.len(), |go_on| study.card(samples, &slopes, go_on));
+    Ok(sampling::whole(card?))
+}
+
+/// Ways between two corrections of those who drive by the card, over the card's [-].
+const LATENESSES: [f64; 2] = [1.0, 2.0];
+
+/// Drives on the page's slopes by other soils than the card's; nothing if none are asked for.
+fn drives(
+    args: &CardArgs,
+    inputs: &CardInputs,
+    study: &CardStudy,
+    card: &Card,
+) -> Result<Option<Table>, Failure> {
+    let Some(count) = args.drives else { return Ok(None) };
+    let seed = other_seed(args.seed);
+    let others = sampling::draw(&BandInputs::of_scenario(&inputs.scenario), count, seed)?;
+    let slopes = layout::slopes(&card::table(card));
+    let is_shown = |slope: f64| slopes.iter().any(|it| SLOPE.unit.to_si(*it) == slope);
+    let rows: Vec<_> = card.rows.iter().filter(|row| is_shown(row.slope)).collect();
+    let bar = output::progress_bar((LATENESSES.len() * rows.len() * others.len()) as u64);
+    bar.set_message("drives");
+    let mut all: Vec<RowDrives> = Vec::new();
+    for lateness in LATENESSES {
+        let drives = CardDrives { study, lateness, approach: Approach::QuasiSteady, seed };
+        for row in &rows {
+            all.extend(drives.on(row, &others, &|| bar.inc(1))?);
+        }
+    }
     bar.finish_and_clear();
-    Ok(card?)
+    Ok(Some(card_drives::table(&all)))
+}
+
+/// The seed of the soils that are driven: the one after the card's.
+fn other_seed(seed: u64) -> u64 {
+    seed.wrapping_add(1)
 }
 
 /// The rows up to the first slope that no soil can be crossed on, and those that were measured on.
@@ -120,45 +161,16 @@ fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
     rows.rows_at(&kept.map(|(place, _)| place).collect::<Vec<_>>())
 }
 
-/// The card's rows, or the comparison where one is asked for.
-fn table(inputs: &CardInputs, card: &Card, rows: &Table, beside: &Table) -> String {
-    if beside.rows() > 0 {
-        return Rows::of_table(beside).to_table(&card::beside_brief());
-    }
-    let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
-    let text = Rows::of_table(rows).to_table(&brief);
-    let scenario = &inputs.scenario;
-    if scenario.stated_uncertainty().is_some() {
-        return text;
-    }
-    let bands = match (card.draws, &scenario.uncertain) {
-        (Some(_), Some(_)) => "bands are of priors and of the models",
-        (Some(_), None) => "bands are of the models alone",
-        (None, _) => "no bands",
-    };
-    format!("{text}no uncertainty of this soil is stated: {bands}; no slope is a go\n")
-}
-
 #[derive(Serialize)]
 struct Results<'a> {
     #[serde(flatten)]
     steepest: Row<'a>,
     rows: &'a Table,
+    courses: &'a Table,
     #[serde(skip_serializing_if = "Option::is_none")]
     measured: Option<&'a Table>,
-}
-
-fn answer<'a>(
-    args: &CardArgs,
-    inputs: &CardInputs,
-    card: &Card,
-    steepest: &'a Table,
-    rows: &'a Table,
-    measured: &'a Table,
-) -> Answer<Results<'a>> {
-    let measured = (measured.rows() > 0).then_some(measured);
-    let results = Results { steepest: steepest.row(0), rows, measured };
-    Answer::new("card", settings(args, inputs, card), results)
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drives: Option<&'a Table>,
 }
 
 /// The inputs of the card.
@@ -180,6 +192,9 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         settings["seed"] = args.seed.into();
         settings[sampling::SHARES] = sampling::shares(&BandInputs::of_scenario(&inputs.scenario));
     }
+    if args.drives.is_some() {
+        settings["seed_of_drives"] = other_seed(args.seed).into();
+    }
     settings
 }
 
@@ -196,38 +211,87 @@ const FORMS: [(&str, Form); 4] =
     [("html", Form::Html), ("pdf", Form::Pdf), ("png", Form::Png), ("svg", Form::Svg)];
 
 impl Form {
-    fn bytes(self, sheet: &Sheet) -> Vec<u8> {
+    /// The files of the card, each with what its name has before the ending.
+    fn files(self, sheets: &[Sheet; 2]) -> Vec<(&'static str, Vec<u8>)> {
+        let each = |of: fn(&Sheet) -> Vec<u8>| {
+            self.ends().iter().zip(sheets).map(|(end, sheet)| (*end, of(sheet))).collect()
+        };
         match self {
-            Self::Html => html(sheet).into_bytes(),
-            Self::Pdf => sheet.to_pdf(),
-            Self::Png => sheet.to_png(),
-            Self::Svg => sheet.to_svg().into_bytes(),
+            Self::Html => vec![("", html(sheets).into_bytes())],
+            Self::Pdf => vec![("", pdf_of(sheets))],
+            Self::Png => each(Sheet::to_png),
+            Self::Svg => each(|sheet| sheet.to_svg().into_bytes()),
+        }
+    }
+
+    /// What the names of its files have before the ending: a picture has one page.
+    fn ends(self) -> &'static [&'static str] {
+        match self {
+            Self::Html | Self::Pdf => &[""],
+            Self::Png | Self::Svg => &["", "-2"],
         }
     }
 }
 
-/// A page that prints on one sheet.
-fn html(sheet: &Sheet) -> String {
-    let (title, svg) = (markup(sheet.title()), sheet.to_svg());
+/// A page that prints on two sheets.
+fn html(sheets: &[Sheet; 2]) -> String {
+    let [first, second] = sheets;
+    let title = markup(first.title());
+    let svg = format!("{}{}", first.to_svg(), second.to_svg());
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width\">\n\
          <meta name=\"generator\" content=\"Grouser {}\">\n<title>{title}</title>\n<style>\n\
          @page {{ size: A4; margin: 0 }}\nbody {{ margin: 0 }}\n\
          svg {{ display: block; width: 100%; max-width: 210mm; height: auto; margin: 0 auto }}\n\
-         @media print {{ svg {{ width: 210mm; height: 296.9mm }} }}\n\
+         @media print {{ svg {{ width: 210mm; height: 296.9mm; break-after: page }} \
+         svg:last-child {{ break-after: auto }} }}\n\
          </style>\n</head>\n<body>\n{svg}</body>\n</html>\n",
         env!("CARGO_PKG_VERSION")
     )
 }
 
-/// What is written beside the page.
+/// The card's numbers.
 struct Answers<'a> {
     args: &'a CardArgs,
     inputs: &'a CardInputs,
     card: &'a Card,
-    rows: &'a Table,
-    beside: &'a Table,
+    rows: Table,
+    beside: Table,
+    drives: Option<Table>,
+}
+
+impl Answers<'_> {
+    /// The card's rows, or the comparison or the drives where one of them is asked for.
+    fn table(&self) -> String {
+        let Self { inputs, card, rows, beside, drives, .. } = self;
+        if let Some(drives) = drives {
+            return Rows::of_table(drives).to_table(&card_drives::brief());
+        }
+        if beside.rows() > 0 {
+            return Rows::of_table(beside).to_table(&card::beside_brief());
+        }
+        let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
+        let text = Rows::of_table(rows).to_table(&brief);
+        let scenario = &inputs.scenario;
+        if scenario.stated_uncertainty().is_some() {
+            return text;
+        }
+        let bands = match (card.draws, &scenario.uncertain) {
+            (Some(_), Some(_)) => "bands are of priors and of the models",
+            (Some(_), None) => "bands are of the models alone",
+            (None, _) => "no bands",
+        };
+        format!("{text}no uncertainty of this soil is stated: {bands}; no slope is a go\n")
+    }
+
+    fn json<'a>(&'a self, steepest: &'a Table, courses: &'a Table) -> Answer<Results<'a>> {
+        let Self { args, inputs, card, rows, beside, drives } = self;
+        let measured = (beside.rows() > 0).then_some(beside);
+        let drives = drives.as_ref();
+        let results = Results { steepest: steepest.row(0), rows, courses, measured, drives };
+        Answer::new("card", settings(args, inputs, card), results)
+    }
 }
 
 /// Where the card goes.
@@ -251,25 +315,50 @@ impl<'a> Target<'a> {
                  ending is a folder for all of them"
             )));
         };
-        file::check_new(out, force)?;
+        for end in form.ends() {
+            file::check_new(&with_end(out, end), force)?;
+        }
         Ok(Self::File(out, *form))
     }
 
-    fn write(self, answers: &Answers<'_>, sheet: &Sheet) -> Result<(), Failure> {
+    fn write(
+        self,
+        answers: &Answers<'_>,
+        courses: &Table,
+        sheets: &[Sheet; 2],
+    ) -> Result<(), Failure> {
         let mut folder = match self {
-            Self::File(out, form) => return file::write(out, &form.bytes(sheet)),
+            Self::File(out, form) => {
+                let files = form.files(sheets);
+                return files
+                    .iter()
+                    .try_for_each(|(end, bytes)| file::write(&with_end(out, end), bytes));
+            }
             Self::Folder(folder) => folder,
         };
         for (ending, form) in FORMS {
-            folder.add(format!("card.{ending}"), form.bytes(sheet));
+            for (end, bytes) in form.files(sheets) {
+                folder.add(format!("card{end}.{ending}"), bytes);
+            }
         }
-        let Answers { args, inputs, card, rows, beside } = answers;
-        folder.add(
-            "card.json",
-            answer(args, inputs, card, &card::steepest(card), rows, beside).to_text(),
-        );
-        folder.add("card.csv", Rows::of_table(rows).to_csv()?);
-        folder.add_document("scenario.toml", &inputs.scenario);
+        let steepest = card::steepest(answers.card);
+        folder.add("card.json", answers.json(&steepest, courses).to_text());
+        folder.add("card.csv", Rows::of_table(&answers.rows).to_csv()?);
+        folder.add("courses.csv", Rows::of_table(courses).to_csv()?);
+        folder.add_document("scenario.toml", &answers.inputs.scenario);
         folder.finish()
     }
+}
+
+/// A file's name with something before its ending: `card-2.svg`.
+fn with_end(out: &Path, end: &str) -> PathBuf {
+    if end.is_empty() {
+        return out.to_owned();
+    }
+    let part = |of: Option<&std::ffi::OsStr>| of.unwrap_or_default().to_os_string();
+    let mut name = part(out.file_stem());
+    name.push(end);
+    name.push(".");
+    name.push(part(out.extension()));
+    out.with_file_name(name)
 }

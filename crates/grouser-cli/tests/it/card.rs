@@ -121,11 +121,12 @@ fn the_page_says_what_it_must() {
     assert!(high - low > 4.0, "whole degrees are all that this band carries");
     let slope = texts.iter().position(|text| text == "12°").expect("the slope");
     let every = number(&row["correct_every_m"]);
+    let half = |key: &str| (number(&row[key]) * 2.0).round() / 2.0;
     let expected = [
         format!("{heading:.0}°"),
         format!("{:.0} to {:.0}°", low.floor(), high.ceil()),
         format!("{:.0}", number(&row["roll_deg"])),
-        format!("{}", (number(&row["pitch_deg"]) * 2.0).round() / 2.0),
+        format!("{} to {}", half("pitch_least_deg"), half("pitch_most_deg")),
         format!("{}", (every * 100.0).round() / 100.0),
     ];
     assert_eq!(texts[slope + 1..slope + 6], expected);
@@ -137,7 +138,10 @@ fn the_page_says_what_it_must() {
         "NO-GO",
         "at least 95 % of 40 samples",
         "less than 80 %",
-        "The nose falls: set it again",
+        "The nose falls: correct, set it again",
+        "Pitch above its range: the nose is too far uphill",
+        "to be made anew",
+        "page 1 of 2",
         "STOP IF ABOVE",
         "DATE OF THE SOIL: NOT STATED",
         "Gravity 9.807 m/s² (earth)",
@@ -284,7 +288,8 @@ fn files_are_what_their_names_say_and_are_not_replaced() {
     }
     let other = place.line("card --out card.docx");
     assert!(other.code() == 2 && other.stderr.contains(".pdf"), "{}", other.stderr);
-    assert_eq!(place.names().len(), 4);
+    // Pictures have one for each page.
+    assert_eq!(place.names().len(), 6);
 }
 
 /// A folder is enough to make the card again, with the same bytes.
@@ -297,8 +302,18 @@ fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    let expected =
-        ["card.csv", "card.html", "card.json", "card.pdf", "card.png", "card.svg", "scenario.toml"];
+    let expected = [
+        "card-2.png",
+        "card-2.svg",
+        "card.csv",
+        "card.html",
+        "card.json",
+        "card.pdf",
+        "card.png",
+        "card.svg",
+        "courses.csv",
+        "scenario.toml",
+    ];
     assert_eq!(names, expected);
     place.results("card one/scenario.toml --samples 40 --out two");
     for name in expected {
@@ -366,4 +381,106 @@ fn a_rover_that_cannot_move_has_a_card_that_forbids_it() {
     place.results(&format!("card --samples 4 {slick} --out card.svg"));
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("NO-GO   on any slope"), "{texts}");
+}
+
+/// The second page: where to look at the slip, and a verdict for every course on each of the first page's slopes.
+#[test]
+fn the_second_page_leads_out() {
+    let place = Place::new();
+    place.results("card --soil toyoura-uncertain --samples 16 --out card");
+    let [first, second] =
+        ["card.svg", "card-2.svg"].map(|name| texts(&place.read(&format!("card/{name}"))));
+    let answer: Value = serde_json::from_str(&place.read("card/card.json")).expect("it is JSON");
+    let courses = answer["courses"].as_array().expect("courses");
+    let slopes: Vec<&String> = first.iter().filter(|text| is_slope(text)).collect();
+    // Headings are as large as slopes, on the first page alone.
+    let of_second: Vec<&String> = second.iter().filter(|text| is_slope(text)).collect();
+    assert!(of_second.len() > 4 && of_second.iter().all(|slope| slopes.contains(slope)));
+    let all = second.join("\n");
+    for part in [
+        "page 2 of 2",
+        "SLIP CHECK",
+        "REAR UPHILL",
+        "at most 0.5 % of ways of 10 m",
+        "mechanical",
+        "DATE OF THE SOIL: NOT STATED",
+        "Superseded by",
+    ] {
+        assert!(all.contains(part), "{part} is missing in\n{all}");
+    }
+    for course in ["up", "back-down", "down", "back-up", "back-across", "turn", "turn-on-the-spot"]
+    {
+        let of_course: Vec<&Value> = courses.iter().filter(|it| it["course"] == course).collect();
+        assert!(!of_course.is_empty(), "{course}");
+        for row in of_course {
+            let is_driven = row["verdict"] != "no-go";
+            assert!(!is_driven || row["slip_ratio_p97_5"].is_number(), "{row}");
+        }
+    }
+    for row in rows(&answer).iter().filter(|row| row["verdict"] != "no-go") {
+        let limit = number(&row["slip_limit"]);
+        assert!(limit <= 0.4 && limit <= number(&row["driven_slip_ratio_p97_5"]), "{row}");
+        assert!(
+            number(&row["probability_stuck_with_checks"]) <= 0.005
+                || row["slip_check_every_m"].is_null()
+        );
+    }
+}
+
+fn is_slope(text: &str) -> bool {
+    text.ends_with('°') && text.len() <= 4
+}
+
+/// PDF and HTML have both pages, and letters of the second are as large as those of the first.
+#[test]
+fn both_pages_are_printed() {
+    let place = Place::new();
+    place.results("card --samples 4 --soil dry-sand --out card");
+    let file = |name: &str| std::fs::read(place.file("card").join(name)).expect("a file");
+    let pdf = file("card.pdf");
+    let has = |part: &[u8]| pdf.windows(part.len()).any(|window| window == part);
+    assert!(has(b"/Count 2"));
+    let html = String::from_utf8(file("card.html")).expect("text");
+    assert_eq!(html.matches("<svg").count(), 2);
+    let svg = String::from_utf8(file("card-2.svg")).expect("text");
+    let sizes = svg.split("font-size=\"").skip(1).map(|rest| {
+        rest.split_once('"').expect("the attribute ends").0.parse::<f64>().expect("a size in mm")
+    });
+    assert!(sizes.fold(f64::INFINITY, f64::min) >= 2.47);
+}
+
+/// Other soils, driven by the card; the one who corrects late drifts more.
+#[test]
+fn drives_are_told_beside_what_the_card_states() {
+    let place = Place::new();
+    let line = "card --soil toyoura-uncertain --samples 8 --model ishigami --drives 6";
+    let answer = place.json(line);
+    assert_eq!(answer["inputs"]["seed_of_drives"], 2);
+    let drives = answer["drives"].as_array().expect("drives");
+    let of = |lateness: f64| -> Vec<&Value> {
+        drives.iter().filter(|it| number(&it["lateness"]) == lateness).collect()
+    };
+    let (on_time, late) = (of(1.0), of(2.0));
+    assert!(on_time.len() == late.len() && on_time.len() > 4);
+    for (row, late) in on_time.iter().zip(&late) {
+        assert_eq!((&row["slope_deg"], number(&row["drives"])), (&late["slope_deg"], 6.0));
+        let stated = self::row(&answer, number(&row["slope_deg"]));
+        assert_eq!(row["stated_drift_m_per_m"], stated["drift_m_per_m_p97_5"]);
+        assert_eq!(row["verdict"], stated["verdict"]);
+        assert!(number(&row["distance_m"]) >= 10.0 - 1e-9);
+    }
+}
+
+/// What a driver keeps to on 13° (the step that was missing said: it goes straight across the slope).
+#[test]
+fn an_uncorrected_traverse_ends_low_with_its_nose_down_and_the_card_says_to_correct() {
+    let place = Place::new();
+    let line = "traverse --slope-deg 13 --yaw-deg 6.863 --loads quasi-static-torque --duration-s 167 --set soil.priors=none";
+    let end = &place.json(line)["final"];
+    assert!(
+        (number(&end["y_m"]) + 1.47).abs() < 0.01 && (number(&end["yaw_deg"]) + 9.7).abs() < 0.1,
+        "{end}"
+    );
+    let answer = place.json("card --loads quasi-static-torque --samples 3");
+    assert!(number(&row(&answer, 13.0)["correct_every_m"]) < 1.0);
 }

@@ -72,7 +72,8 @@ const MOST_SCORE: f64 = 39.0;
 /// The standard normal number below which a share of all lies, to 1e-15 of itself: −∞ for 0 and ∞ for 1.
 ///
 /// Source: Wichura (1988), algorithm AS 241, PPND16.
-pub(crate) fn normal_score(share: f64) -> f64 {
+#[must_use]
+pub fn normal_score(share: f64) -> f64 {
     /// Half the width of the middle part [-].
     const MIDDLE: f64 = 0.425;
     /// The root of −ln share from which on the tail is another fit's.

@@ -42,6 +42,7 @@ from ._errors import (
     ParameterError,
     SimulationError,
 )
+from ._card import Card, CardCourses, card
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
 from ._rollouts import Rollout, rollout
@@ -71,6 +72,8 @@ __all__ = [
     "CampaignError",
     "CampaignLockedError",
     "CampaignNotFoundError",
+    "Card",
+    "CardCourses",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
@@ -104,6 +107,7 @@ __all__ = [
     "calibrate",
     "calibrate_plates",
     "campaign",
+    "card",
     "heading",
     "heading_map",
     "require_inside",

@@ -204,6 +204,14 @@ def rollout(
     count: int,
     keep: bool,
 ) -> dict[str, Any]: ...
+def card(
+    scenario: Document,
+    slope_deg: _Floats,
+    seed_and_samples: tuple[int, int],
+    rim_speed_m_s: float | None,
+    is_uphill_right: bool,
+    rule: Sequence[float],
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]: ...
 def heading(
     scenario: Document, slope_deg: _Floats
 ) -> tuple[dict[str, Any], float | None, str, str | None]: ...

@@ -1,6 +1,8 @@
 //! The columns of results: those of `grouser-io`, and those of studies.
 
 pub mod card;
+pub mod card_courses;
+pub mod card_drives;
 pub mod fit;
 pub mod forecast;
 pub mod heading;

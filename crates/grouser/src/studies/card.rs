@@ -6,8 +6,11 @@
 //! does not state, nor near the soil's friction angle, nor beyond what the ground itself stands.
 //! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
 
+pub mod courses;
 mod driven;
+pub mod drives;
 mod rule;
+mod slip_check;
 
 use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
@@ -17,9 +20,10 @@ use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
-pub use driven::{Driven, DrivenMotion, HEADING_ERROR, roll_and_pitch};
+pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG, roll_and_pitch};
 use driven::{STRAIGHT_DOWN, STUCK};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
+pub use slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 
 /// The inputs of a card.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,8 +116,8 @@ struct Draw {
 }
 
 impl CardStudy {
-    /// Computes the card. Samples are shared among threads and keep their order: the result is the same for
-    /// any number of threads.
+    /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among threads and keep
+    /// their order: the result is the same for any number of threads.
     ///
     /// Go or no-go on 5°, 10° and 20°, if the soil is just as written?
     ///
@@ -127,7 +131,7 @@ impl CardStudy {
     /// let heading = HeadingStudy::of(&scenario);
     /// let rule = Rule::DEFAULT;
     /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
-    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| ())?;
+    /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| true)?.expect("not stopped");
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::Caution]);
     /// let level = card.rows[1].level.expect("10° can be crossed");
@@ -137,7 +141,7 @@ impl CardStudy {
     ///
     /// * `samples`: of soil and model; with none there are no bands
     /// * `slopes`: [rad], rising
-    /// * `done`: called after each sample that is computed, from any thread; samples that are alike are one
+    /// * `go_on`: asked before each sample, from any thread, and before each slope that is driven; samples that are alike are one
     ///
     /// # Errors
     /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
@@ -146,8 +150,8 @@ impl CardStudy {
         &self,
         samples: &[Sample],
         slopes: &[f64],
-        done: &(dyn Fn() + Sync),
-    ) -> Result<Card, ParameterError> {
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Card>, ParameterError> {
         self.rule.check()?;
         crate::error::positive("rim speed [m/s]", self.rim_speed)?;
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
@@ -155,35 +159,23 @@ impl CardStudy {
         }
         let nominal = self.draw(&self.nominal(), slopes)?;
         let curve = self.heading.curve()?;
-        let drawn = |sample: &Sample| {
-            let draw = self.draw(sample, slopes);
-            done();
-            draw
-        };
+        let draws = outputs_of_samples(samples, go_on, |sample| self.draw(sample, slopes));
+        let Some(draws) = draws else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let draws = Self::draws(samples, drawn)?;
+        let draws: Vec<Draw> = draws.into_iter().collect::<Result<_, ParameterError>>()?;
         let found = Found { curve, others: self.other_curves()?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
-        Ok(Card {
-            rows: self.rows(slopes, samples, &found),
-            limit: nominal.limit,
+        Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
+            rows,
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
-        })
+            limit: nominal.limit.clone(),
+        }))
     }
 
     /// Soil and model without uncertainty.
     fn nominal(&self) -> Sample {
         Sample { soil: self.heading.soil, theory: self.heading.theory }
-    }
-
-    /// The numbers of each sample, or the error of the first that has one.
-    fn draws(
-        samples: &[Sample],
-        one: impl Fn(&Sample) -> Result<Draw, ParameterError> + Sync + Send,
-    ) -> Result<Vec<Draw>, ParameterError> {
-        let all = outputs_of_samples(samples, &|| true, one);
-        all.into_iter().flatten().collect()
     }
 
     /// The contour traverses of the models that the soil as written is not computed with.
@@ -197,7 +189,14 @@ impl CardStudy {
         WEIGHTS.iter().filter(is_other).map(curve).collect()
     }
 
-    fn rows(&self, slopes: &[f64], samples: &[Sample], found: &Found<'_>) -> Vec<CardRow> {
+    /// * `go_on`: asked before each slope that is driven
+    fn rows(
+        &self,
+        slopes: &[f64],
+        samples: &[Sample],
+        found: &Found<'_>,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<CardRow>> {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
         let mut worst = Verdict::Go;
@@ -206,11 +205,14 @@ impl CardStudy {
             let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
             worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
             if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
+                if !go_on() {
+                    return None;
+                }
                 let course = (*slope, driven.yaw);
                 driven.motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
                 worst = worst.max(verdict_of(driven.motion.as_ref()));
             }
-            found.row(place, *slope, (worst, driven))
+            Some(found.row(place, *slope, (worst, driven)))
         };
         slopes.iter().enumerate().map(row).collect()
     }
@@ -222,14 +224,15 @@ impl CardStudy {
     }
 
     /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none below
-    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself nor a
-    /// rover that tips over is to be driven.
+    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself, nor
+    /// above the friction angle, where it stands by a cohesion that wheels break, nor a rover that tips over is to be
+    /// driven.
     fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
         let (soil, gravity) = (&self.heading.soil, self.heading.gravity);
         let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
         let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
-        if slope > self.heading.ground_limit() || driven.is_some_and(|it| it.tipping_margin <= 0.0)
-        {
+        let is_too_steep = slope > self.heading.ground_limit().min(soil.friction_angle);
+        if is_too_steep || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
             Verdict::NoGo
         } else if slope > flattest || !self.is_uncertainty_stated {
             Verdict::Caution

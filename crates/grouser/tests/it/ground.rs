@@ -116,7 +116,7 @@ fn a_card_says_no_go_where_the_ground_slides() {
     let soil = Soil { friction_angle: deg(45.0), ..soil };
     let samples = [Sample { soil, theory: Theory::Ishigami }];
     let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
-    let card = study.card(&samples, &slopes, &|| ()).expect("a card");
+    let card = study.card(&samples, &slopes, &|| true).expect("a card").expect("not stopped");
     assert_eq!(card.rows[1].verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));
     assert_ne!(card.rows[0].verdict, Verdict::NoGo);

@@ -1,7 +1,7 @@
 //! The table of the card: a row for each slope, a column for each thing that a driver sets, reads or may not exceed.
 
 use grouser::document::columns::card::{
-    CORRECT_EVERY, DRIVEN_DRIFT, DRIVEN_SLIP, PITCH, RIM_WAY, ROLL, TIPPING_MARGIN,
+    CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, ROLL, SLIP_LIMIT, TIPPING_MARGIN,
 };
 use grouser::document::columns::{Quantity, SINKAGE, TORQUE};
 use grouser_page::{Anchor, Face, Shape, Sheet, Stroke, WHITE};
@@ -43,37 +43,38 @@ struct Small {
     head: [&'static str; 3],
     /// Its right edge [mm].
     right: f64,
-    text: fn(CardRow<'_>, &Texts) -> Option<String>,
+    text: fn(CardRow<'_>) -> Option<String>,
 }
 
 const SMALL: [Small; 9] = [
     Small {
         head: ["roll", "reads", "°"],
-        right: 92.5,
-        text: |row, _| Some(in_steps(row.number(ROLL)?, 1.0)),
+        right: 90.0,
+        text: |row| Some(in_steps(row.number(ROLL)?, 1.0)),
     },
     Small {
         head: ["pitch", "reads", "°"],
-        right: 105.0,
-        text: |row, _| Some(in_steps(row.number(PITCH)?, 0.5)),
+        right: 107.0,
+        text: |row| {
+            let [least, most] = PITCH_ENDS.map(|end| row.number(end));
+            let [least, most] = [in_steps(least?, 0.5), in_steps(most?, 0.5)];
+            Some(if least == most { least } else { format!("{least} to {most}") })
+        },
     },
     Small {
         head: ["correct", "every", "m"],
         right: STOP[0],
-        text: |row, _| row.number(CORRECT_EVERY).map(four_digits),
+        text: |row| row.number(CORRECT_EVERY).map(four_digits),
     },
     Small {
         head: ["", "slip", "%"],
         right: 133.0,
-        text: |row, texts| {
-            let slip = high(row, DRIVEN_SLIP)?.min(texts.most_slip);
-            Some(upwards(slip * 100.0, 1))
-        },
+        text: |row| Some(upwards(row.number(SLIP_LIMIT)? * 100.0, 1)),
     },
     Small {
         head: ["", "drift", "cm/m"],
         right: 146.0,
-        text: |row, _| {
+        text: |row| {
             /// Straight downhill is no reading to wait for [-].
             const ANY: f64 = 1.0;
             let drift = high(row, DRIVEN_DRIFT)?;
@@ -83,17 +84,17 @@ const SMALL: [Small; 9] = [
     Small {
         head: ["", "sinkage", "mm"],
         right: 159.5,
-        text: |row, _| Some(upwards(high(row, SINKAGE)?, 1)),
+        text: |row| Some(upwards(high(row, SINKAGE)?, 1)),
     },
     Small {
         head: ["", "torque", "N·m"],
         right: STOP[1],
-        text: |row, _| Some(upwards(high(row, TORQUE)?, 2)),
+        text: |row| Some(upwards(high(row, TORQUE)?, 2)),
     },
     Small {
         head: ["wheel", "way", "m/m"],
         right: 186.5,
-        text: |row, _| {
+        text: |row| {
             let [_, median, _] = row.band(RIM_WAY);
             Some(format!("{:.1}", median?))
         },
@@ -101,7 +102,7 @@ const SMALL: [Small; 9] = [
     Small {
         head: ["tips over", "at", "° more"],
         right: RIGHT,
-        text: |row, _| Some(format!("{}", row.number(TIPPING_MARGIN)?.floor())),
+        text: |row| Some(format!("{}", row.number(TIPPING_MARGIN)?.floor())),
     },
 ];
 
@@ -115,7 +116,7 @@ pub(super) fn draw(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     verdicts(sheet, table);
     heads(sheet, texts, table);
     for (place, row) in table.rows.iter().enumerate() {
-        line(sheet, texts, table, (place, *row));
+        line(sheet, table, (place, *row));
     }
     frame(sheet, table);
 }
@@ -197,7 +198,7 @@ fn three(sheet: &mut Sheet, lines: [&str; 3], middle: f64, y: f64) {
 }
 
 /// One row of numbers.
-fn line(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, (place, row): (usize, CardRow<'_>)) {
+fn line(sheet: &mut Sheet, table: &Table<'_>, (place, row): (usize, CardRow<'_>)) {
     let large = (table.height * 0.98).min(7.4);
     // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
     // one line of text for those who copy it, too.
@@ -217,8 +218,9 @@ fn line(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>, (place, row): (usiz
     }
     let mut left = RANGE;
     for column in &SMALL {
-        if let Some(text) = (column.text)(row, texts) {
-            sheet.text(middle(text, small), at(left.midpoint(column.right)));
+        if let Some(text) = (column.text)(row) {
+            let size = fitting(&text, small, column.right - left - 1.0);
+            sheet.text(middle(text, size), at(left.midpoint(column.right)));
         }
         left = column.right;
     }

@@ -1,4 +1,4 @@
-//! The layout of the card.
+//! The layout of the card's first page.
 //!
 //! A row for each degree, or for every second one: the eye finds the slope on the left, reads the heading in the
 //! largest digits of the page beside it, and goes on to what instruments show and where to stop. What must not be
@@ -15,10 +15,10 @@ use super::row::CardRow;
 use super::texts::{Date, Texts};
 
 /// Size of the page, and the box that everything stands in [mm].
-const PAGE: [f64; 2] = [210.0, 297.0];
+pub(super) const PAGE: [f64; 2] = [210.0, 297.0];
 pub(super) const LEFT: f64 = 10.0;
 pub(super) const RIGHT: f64 = 200.0;
-const TOP: f64 = 17.0;
+pub(super) const TOP: f64 = 17.0;
 const BOTTOM: f64 = 280.0;
 
 /// No letter is smaller [mm]: 7 points.
@@ -28,13 +28,13 @@ pub(super) const LEAST_SIZE: f64 = 2.47;
 const TABLE_TOP: f64 = 64.0;
 const TABLE_BOTTOM: f64 = 194.0;
 /// Height of the bar of what is not to be driven [mm].
-const BAR: f64 = 8.5;
+pub(super) const BAR: f64 = 8.5;
 /// The highest row [mm].
 const HIGHEST_ROW: f64 = 7.2;
 /// Rows that fit at arm's length.
 const MOST_ROWS: usize = 16;
 /// Where the blanks to fill in stand [mm].
-const BLANKS: f64 = BOTTOM;
+pub(super) const BLANKS: f64 = BOTTOM;
 
 /// Draws the card.
 pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> Sheet {
@@ -59,7 +59,7 @@ pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> She
 
 /// The slopes of whole degrees that are driven, or every second of them, third and so on where there are many. Level
 /// ground needs no card, and slopes between whole degrees were asked for elsewhere.
-fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
+pub(super) fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
     let whole = |row: &CardRow<'_>| row.slope() >= 1.0 && row.slope().fract() == 0.0;
     let driven: Vec<CardRow<'_>> =
         CardRow::all(card).filter(whole).filter(|row| !row.is_no_go()).collect();
@@ -67,28 +67,45 @@ fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
     driven.into_iter().filter(|row| row.slope() % step == 0.0).collect()
 }
 
+/// The slopes of the page [°].
+pub(super) fn slopes(card: &table::Table) -> Vec<f64> {
+    shown_rows(card).into_iter().map(CardRow::slope).collect()
+}
+
 fn head(sheet: &mut Sheet, texts: &Texts) {
     /// Room beside the picture [mm].
     const ROOM: f64 = 126.0;
-    let size = fitting(&texts.title, 8.0, RIGHT - LEFT).max(LEAST_SIZE);
-    let title = shortened(&texts.title, size, RIGHT - LEFT);
-    sheet.text(shown(title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
-    sheet.text(
-        shown("OPERATOR'S CARD: how to cross a slope without drifting down", 4.4).face(Face::Bold),
-        [LEFT, TOP + 12.5],
-    );
-    let mut y = TOP + 18.5;
-    for step in &texts.steps {
-        sheet.text(shown(step, fitting(step, 4.0, ROOM)), [LEFT, y]);
-        y += 5.0;
-    }
+    titles(sheet, texts, "OPERATOR'S CARD: how to cross a slope without drifting down", 1);
+    let y = lines(sheet, &texts.steps, TOP + 18.5, ROOM);
     let after = date(sheet, &texts.date, y + 1.5);
     let size = fitting(&texts.setting, 3.6, ROOM + LEFT - after);
     sheet.text(shown(&texts.setting, size), [after, y + 1.5]);
 }
 
+/// Lines of one size, below each other; where they end [mm].
+pub(super) fn lines(sheet: &mut Sheet, all: &[impl AsRef<str>], top: f64, room: f64) -> f64 {
+    let fits = |line: &str| fitting(line, 4.0, room);
+    let size = all.iter().map(|line| fits(line.as_ref())).fold(f64::INFINITY, f64::min);
+    let mut y = top;
+    for line in all {
+        sheet.text(shown(line, size), [LEFT, y]);
+        y += 5.0;
+    }
+    y
+}
+
+/// What the card is of, what the page is about, and which of the two it is.
+pub(super) fn titles(sheet: &mut Sheet, texts: &Texts, about: &str, page: u8) {
+    let size = fitting(&texts.title, 8.0, RIGHT - LEFT).max(LEAST_SIZE);
+    let title = shortened(&texts.title, size, RIGHT - LEFT);
+    sheet.text(shown(title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
+    sheet.text(shown(about, 4.4).face(Face::Bold), [LEFT, TOP + 12.5]);
+    let place = format!("page {page} of 2");
+    sheet.text(shown(place, 3.0).anchor(Anchor::End), [RIGHT, TOP - 1.0]);
+}
+
 /// The day of the soil, loud where it is not known; where it ends [mm].
-fn date(sheet: &mut Sheet, date: &Date, y: f64) -> f64 {
+pub(super) fn date(sheet: &mut Sheet, date: &Date, y: f64) -> f64 {
     let text = match date {
         Date::Stated(date) => shown(format!("Date of the soil: {date}"), 3.6).face(Face::Bold),
         Date::NotStated => shown("DATE OF THE SOIL: NOT STATED", 3.6).face(Face::Bold).grey(WHITE),
@@ -103,7 +120,7 @@ fn date(sheet: &mut Sheet, date: &Date, y: f64) -> f64 {
 }
 
 /// What is filled in by hand.
-fn blanks(sheet: &mut Sheet) {
+pub(super) fn blanks(sheet: &mut Sheet) {
     let mut x = LEFT;
     for (name, end) in
         [("Card no.", 46.0), ("Date", 80.0), ("Signature", 142.0), ("Superseded by", RIGHT)]
@@ -127,7 +144,7 @@ pub(super) fn fitting(text: &str, most: f64, room: f64) -> f64 {
 }
 
 /// As much of a text as fits at a size [mm].
-fn shortened(text: &str, size: f64, room: f64) -> String {
+pub(super) fn shortened(text: &str, size: f64, room: f64) -> String {
     let fits = |text: &str| width(text, Face::Bold, size) <= room;
     if fits(&escape::line(text)) {
         return text.to_owned();
@@ -137,7 +154,7 @@ fn shortened(text: &str, size: f64, room: f64) -> String {
 }
 
 /// A black bar for the no-go slopes.
-fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
+pub(super) fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
     sheet.draw(Shape::rectangle([LEFT, top], [RIGHT - LEFT, BAR], BLACK));
     let text = match from_deg {
         0.0 => "NO-GO   on any slope".to_owned(),
@@ -189,12 +206,12 @@ fn below(sheet: &mut Sheet, texts: &Texts, size: f64, most: usize, top: f64) -> 
     paragraphs(sheet, &rest, all, size, ends[0].max(ends[1]) + SPACE)
 }
 
-fn lines_of<'a>(all: &'a [(&'static str, String)]) -> Vec<(&'a str, &'a str)> {
+pub(super) fn lines_of<'a>(all: &'a [(&'static str, String)]) -> Vec<(&'a str, &'a str)> {
     all.iter().map(|(name, text)| (*name, &**text)).collect()
 }
 
 /// Named paragraphs below each other; where they end [mm].
-fn paragraphs(
+pub(super) fn paragraphs(
     sheet: &mut Sheet,
     all: &[(&str, &str)],
     [left, right]: [f64; 2],

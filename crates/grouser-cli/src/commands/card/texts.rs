@@ -5,7 +5,8 @@ use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
 use grouser::soil::SlopeStability;
 use grouser::studies::card::{
-    BELOW_FRICTION_ANGLE, Card, CardRow, HEADING_ERROR, Rule, STUCK_ON_GO, Verdict,
+    BELOW_FRICTION_ANGLE, Card, CardRow, HEADING_ERROR, MOST_CHECKED_SLIP, Rule, SHORTEST_LEG,
+    STUCK_ON_GO, Verdict,
 };
 use grouser::studies::ensemble::samples::BandInputs;
 
@@ -24,8 +25,6 @@ pub(super) struct Texts {
     /// The other conditions of the numbers: gravity, speed.
     pub(super) setting: String,
     pub(super) has_bands: bool,
-    /// Slip ratio above which nobody drives on [-], whatever the samples say.
-    pub(super) most_slip: f64,
     /// What the columns are, each by its name.
     pub(super) legend: Vec<(&'static str, String)>,
     /// Each verdict with its rule.
@@ -55,13 +54,14 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
             .map_or(Date::NotStated, |date| Date::Stated(date.to_owned())),
         setting: setting(inputs),
         has_bands: card.draws.is_some(),
-        most_slip: inputs.rule.no_go_slip_ratio,
         legend: legend(card.draws),
         rule: rule(inputs, card.draws),
         facts: facts(args, inputs, card),
         holds_for:
             "steady driving along the contour of an even slope of one soil, with all wheels \
-                    turning alike and the nose set again as the card says."
+                    turning alike and the nose set again as the card says. Not true any more, and to be made \
+                    anew: once a reading is above its limit on two legs in a row, or rover, load or ground are \
+                    others than on the day of the soil."
                 .to_owned(),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
@@ -79,8 +79,8 @@ fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
     };
     [
         "1  Find the slope on the left; between two rows take the steeper one.",
-        "2  Turn the nose uphill by the large number; check roll and pitch.",
-        "3  Drive on. The nose falls: set it again every so many metres.",
+        "2  Turn the nose uphill by the large number (page 2: how); check roll and pitch.",
+        "3  Drive on. The nose falls: correct, set it again every so many metres.",
         "4  Stop if a reading is above the limit in the row.",
         side,
     ]
@@ -88,16 +88,31 @@ fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
     .into()
 }
 
+/// An angle, for reading.
+pub(super) fn degrees(angle: f64) -> String {
+    format!("{}°", four_digits(SLOPE.unit.from_si(angle)))
+}
+
+/// A share, for reading.
+pub(super) fn percent(share: f64) -> String {
+    format!("{} %", four_digits(share * 100.0))
+}
+
 /// What the columns are.
 fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
-    let roll = "what instruments show with the nose set: the uphill side and the nose are higher.";
+    let roll = format!(
+        "what instruments show with the nose set: uphill side and nose are higher. Pitch above its range: the nose is \
+         too far uphill by more than {error}; below: too far down.",
+        error = degrees(HEADING_ERROR)
+    );
     let every = format!(
-        "way in which the nose falls by {} or less{}.",
-        format_args!("{}°", four_digits(SLOPE.unit.from_si(HEADING_ERROR))),
-        if draws.is_some() { " in 97.5 % of the samples" } else { "" }
+        "way in which the nose falls by {} or less{}; set it to {} as well.",
+        degrees(HEADING_ERROR),
+        if draws.is_some() { " in 97.5 % of the samples" } else { "" },
+        degrees(HEADING_ERROR)
     );
     let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
-                    travelled; sinkage: mean of the wheels; torque: of the wheel that has most.";
+                    travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel that has most.";
     let others = format!(
         "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope could be before the \
          rover at rest tips.",
@@ -106,7 +121,7 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
     let Some(draws) = draws else {
         return vec![
             ("Nose", "heading that holds the contour on the soil as written; no band.".to_owned()),
-            ("Roll, pitch", roll.to_owned()),
+            ("Roll, pitch", roll.clone()),
             ("Correct", every),
             ("Expected", readings.to_owned()),
             ("Beside", others),
@@ -118,13 +133,14 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
     );
     vec![
         ("Nose", nose),
-        ("Roll, pitch", roll.to_owned()),
+        ("Roll, pitch", roll),
         ("Correct", every),
         (
             "Stop if above",
             format!(
-                "97.5 % of the samples stay below; slip at most that of a no-go. {readings} '–': in more than 2.5 % of the \
-             samples the rover is stuck."
+                "97.5 % of the samples stay below; slip at most {most}. {readings} '–': in more than 2.5 % of the \
+             samples the rover is stuck.",
+                most = percent(MOST_CHECKED_SLIP)
             ),
         ),
         ("Beside", others),
@@ -163,7 +179,6 @@ fn assumed(inputs: &CardInputs) -> Vec<String> {
 
 fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)> {
     let rule: &Rule = &inputs.rule;
-    let percent = |share: f64| format!("{} %", four_digits(share * 100.0));
     let (go_slip, stop_slip) = (percent(rule.go_slip_ratio), percent(rule.no_go_slip_ratio));
     let (share, least) = (percent(rule.go_probability), percent(rule.no_go_probability));
     let (held, not_held) = match draws {
@@ -181,7 +196,6 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
         ),
     };
     let value = &inputs.scenario.value;
-    let degrees = |angle: f64| format!("{}°", four_digits(SLOPE.unit.from_si(angle)));
     let below = degrees(BELOW_FRICTION_ANGLE);
     let friction = degrees(value.site.terrain.soil.friction_angle);
     let usual = four_digits(SlopeStability::USUAL.factor_of_safety);
@@ -194,7 +208,10 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
         )
     };
     let no_go = format!(
-        "{not_held}, the ground slides, or the rover tips over. A steeper slope never gets a better verdict."
+        "{not_held}, the slope is above {friction}, the ground slides, the rover tips over, or the nose falls by {fall} \
+         within {way}. A steeper slope never gets a better verdict.",
+        fall = degrees(HEADING_ERROR),
+        way = format_args!("{} m", four_digits(SHORTEST_LEG))
     );
     let between = "all between: not without a second look, and with slip measured on the way.";
     vec![("GO", go), ("CAUTION", between.to_owned()), ("NO-GO", no_go)]

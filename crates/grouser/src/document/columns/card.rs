@@ -17,6 +17,9 @@ pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
 pub const ROLL: Quantity = quantity("roll_deg", DEG);
 /// The same.
 pub const PITCH: Quantity = quantity("pitch_deg", DEG);
+/// Pitch with the nose too low by what a driver sets it to, and too high.
+pub const PITCH_ENDS: [Quantity; 2] =
+    [quantity("pitch_least_deg", DEG), quantity("pitch_most_deg", DEG)];
 /// Way after which the nose is to be set again.
 pub const CORRECT_EVERY: Quantity = quantity("correct_every_m", M);
 /// By how much the nose falls over the way.
@@ -31,6 +34,12 @@ pub const RIM_WAY: Quantity = quantity("rim_way_m_per_m", M_PER_M);
 pub const TIPPING_MARGIN: Quantity = quantity("tipping_margin_deg", DEG);
 /// The share of the samples that are stuck.
 pub const PROBABILITY_STUCK: Quantity = quantity("probability_stuck", ONE);
+/// The slip above which to turn back where the slip is looked at.
+pub const SLIP_LIMIT: Quantity = quantity("slip_limit", ONE);
+/// Way between two looks at the slip.
+pub const SLIP_CHECK_EVERY: Quantity = quantity("slip_check_every_m", M);
+/// The share of the ways on which a rover gets stuck all the same.
+pub const PROBABILITY_STUCK_WITH_CHECKS: Quantity = quantity("probability_stuck_with_checks", ONE);
 /// The heading on the soil as written.
 pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
 /// The headings of the models on the soil as written.
@@ -77,7 +86,7 @@ impl OnCard<'_> {
 }
 
 /// What the driver sets, reads and may not exceed.
-const fn driven<'a>() -> [Column<OnCard<'a>>; 16] {
+const fn driven<'a>() -> [Column<OnCard<'a>>; 21] {
     const MODEL: &str = "Heading of this model on the soil as written";
     [
         YAW.maybe(
@@ -91,6 +100,12 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 16] {
         PITCH.maybe("Pitch that they show, positive with the nose higher", |it| {
             it.driven().map(|it| it.pitch)
         }),
+        PITCH_ENDS[0].maybe("The same with the nose 2° too low", |it| {
+            it.driven().map(|it| it.pitch_range[0])
+        }),
+        PITCH_ENDS[1].maybe("The same with the nose 2° too high", |it| {
+            it.driven().map(|it| it.pitch_range[1])
+        }),
         CORRECT_EVERY.maybe(
             "Way after which the heading is to be set again; missing on no-go slopes, as all that is driven",
             |it| it.motion().map(|it| it.correct_every),
@@ -99,7 +114,8 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 16] {
             it.motion()?.heading_fall
         }),
         DRIVEN_DRIFT.band(
-            "Drift per metre travelled when driven so, positive downhill; 1 where the rover is stuck",
+            "Drift per metre travelled over 10 m when driven so by a driver who sets the heading to 2°, positive \
+             downhill; 1 where the rover is stuck",
             |it| it.motion()?.drift,
         ),
         DRIVEN_SLIP.band("Mean slip ratio of the wheels when driven so; 1 where it is stuck", |it| {
@@ -113,6 +129,17 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 16] {
         PROBABILITY_STUCK.probability("Share of the samples that are stuck when driven so", |it| {
             it.motion().map(|it| it.stuck)
         }),
+        SLIP_LIMIT.maybe("Slip above which to turn back at a look", |it| {
+            it.motion().map(|it| it.slip_check.limit)
+        }),
+        SLIP_CHECK_EVERY.maybe(
+            "Way between two looks at the slip; missing where the shortest that is tried is too long",
+            |it| it.motion()?.slip_check.every,
+        ),
+        PROBABILITY_STUCK_WITH_CHECKS.maybe(
+            "Share of ways of 10 m on which a rover gets stuck between two looks, on soil that changes on the way",
+            |it| it.motion().map(|it| it.slip_check.stuck),
+        ),
         TIPPING_MARGIN.maybe("How much steeper the slope could be before the rover at rest tips over", |it| {
             it.driven().map(|it| it.tipping_margin)
         }),
@@ -205,12 +232,9 @@ pub fn bands_brief() -> Vec<String> {
 
 /// What instruments show, and the readings at which to stop.
 fn brief_of_driven() -> impl Iterator<Item = String> {
-    let [slip, drift] = [DRIVEN_SLIP, DRIVEN_DRIFT].map(|it| {
-        let [.., high] = it.quantiles();
-        high
-    });
-    let names = [ROLL, PITCH, CORRECT_EVERY].map(|it| it.name.to_owned());
-    names.into_iter().chain([slip, drift])
+    let [.., drift] = DRIVEN_DRIFT.quantiles();
+    let names = [ROLL, PITCH, CORRECT_EVERY, SLIP_LIMIT].map(|it| it.name.to_owned());
+    names.into_iter().chain([drift])
 }
 
 /// How many samples the card has, and the steepest slope: one row.

@@ -2,21 +2,32 @@
 //! every leg.
 //!
 //! A contour traverse balances forces, not the yaw moment: the nose turns on the way. In the steady motion at the
-//! heading γ it turns by κ over the way, so that over a leg of length L the heading is γ + κ L/2 on average, and
-//! the drift is that of the steady motion there.
+//! heading γ it turns by κ over the way, so that over a leg of length L the heading is γ + ε + κ L/2 on average, with
+//! the error ε of the driver who set it, and the drift is that of the steady motion there.
 
-use super::super::ensemble::samples::{Sample, outputs_of_places, outputs_of_samples};
-use super::super::ensemble::{Band, Probability};
+use rand_chacha::ChaCha8Rng;
+
+use super::super::ensemble::samples::{Sample, outputs_of_samples};
+use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::HeadingStudy;
+use super::slip_check::SlipCheck;
 use crate::elementary::wide::{asin, atan2, cos, sin};
 use crate::simulation::{MOST_SLIP, SteadyMotion};
+use crate::studies::random;
 
-/// The heading may be off by this much before it is set again [rad]: 2°. Source: ours; about what a driver reads off
-/// an instrument that shows whole degrees.
+/// The nose is set to this [rad], each heading within it being as likely, and falls by this much before it is set
+/// again: 2°. Source: ours; about what a driver reads off an instrument that shows whole degrees.
 pub const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The heading is set again after this way at the latest [m]. Source: ours.
 const LONGEST_LEG: f64 = 10.0;
+
+/// Where the heading had to be set again after less nobody can hold it [m]: no such slope is to be driven. Source:
+/// ours; a driver who stops as often does not get ahead.
+pub const SHORTEST_LEG: f64 = 0.1;
+
+/// The way that the drift of the card is over [m]. Source: ours; some ten lengths of a small rover.
+pub const DRIFT_WAY: f64 = 10.0;
 
 /// Slip ratio of a rover that holds no course [-].
 pub(super) const STUCK: f64 = 1.0;
@@ -33,6 +44,8 @@ pub struct Driven {
     pub roll: f64,
     /// Pitch that they show [rad], positive with the nose higher.
     pub pitch: f64,
+    /// Pitch with the nose too low and too high by [`HEADING_ERROR`] [rad].
+    pub pitch_range: [f64; 2],
     /// The motion by it, if the rover moves on any of the samples.
     pub motion: Option<DrivenMotion>,
     /// By how much the slope could be steeper before the rover tips over, at rest [rad].
@@ -58,6 +71,8 @@ pub struct DrivenMotion {
     pub rim_way: Option<Band>,
     /// Samples in which the rover is stuck: it has no steady motion, or its wheels all but spin.
     pub stuck: Probability,
+    /// Where to stop and look at the slip.
+    pub slip_check: SlipCheck,
 }
 
 /// Roll and pitch of a rover on a plane slope [rad].
@@ -77,13 +92,18 @@ impl Driven {
     /// What does not depend on the soil.
     pub(super) fn at_rest(study: &HeadingStudy, slope: f64, yaw: f64) -> Self {
         let [roll, pitch] = roll_and_pitch(slope, yaw);
+        let pitch_range = [-HEADING_ERROR, HEADING_ERROR].map(|error| {
+            let [_, pitch] = roll_and_pitch(slope, yaw + error);
+            pitch
+        });
         let tipping_margin = study.tipping_slope(yaw) - slope;
-        Self { yaw, roll, pitch, motion: None, tipping_margin }
+        Self { yaw, roll, pitch, pitch_range, motion: None, tipping_margin }
     }
 }
 
 impl DrivenMotion {
-    /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them.
+    /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or its nose falls
+    /// too fast to be held.
     ///
     /// * `samples`: of soil and model, one at least
     pub(super) fn of(
@@ -99,21 +119,25 @@ impl DrivenMotion {
         let motions: Vec<Option<SteadyMotion>> = motions.unwrap_or_default();
         let moving = || motions.iter().flatten();
         let fastest = Band::of(moving().map(|it| it.turning().abs()))?.high;
-        let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG));
-        let drift = outputs_of_places(samples, &|| true, |place| {
+        let correct_every = drivable(HEADING_ERROR / fastest.max(HEADING_ERROR / LONGEST_LEG))?;
+        let places: Vec<usize> = (0..samples.len()).collect();
+        let drift = outputs(&places, |place| {
+            let place = *place;
             let motion = motions[place].as_ref()?;
-            let mean = yaw + 0.5 * motion.turning() * correct_every;
+            let error = mean_error(place, samples.len(), settings(correct_every));
+            let mean = yaw + error + 0.5 * motion.turning() * correct_every;
             let study = study.of_sample(&samples[place]);
             let motion = study.steady_motion_near(motion, slope, mean, rim_speed).ok()?;
             Some(-sin(moves(motion)?.course()))
         });
-        let drift = drift.unwrap_or_default();
-        let slips = motions.iter().map(|it| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio));
+        let slip = |it: &Option<SteadyMotion>| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio);
+        let slips: Vec<f64> = motions.iter().map(slip).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         Some(Self {
             correct_every,
             heading_fall: Band::of(moving().map(|it| -it.turning())),
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
+            slip_check: SlipCheck::of(&slips),
             slip_ratio: Band::of(slips),
             sinkage: Band::of(moving().map(mean_sinkage)),
             torque: Band::of(moving().map(largest_torque)),
@@ -130,18 +154,45 @@ fn mean_sinkage(motion: &SteadyMotion) -> f64 {
 }
 
 /// Torque of the wheel that has most [N·m].
-fn largest_torque(motion: &SteadyMotion) -> f64 {
-    motion.wheels.iter().map(|wheel| wheel.settled.forces.torque).fold(0.0, f64::max)
+pub(super) fn largest_torque(motion: &SteadyMotion) -> f64 {
+    motion.wheels.iter().map(|wheel| wheel.settled.forces.torque.abs()).fold(0.0, f64::max)
 }
 
-/// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m.
-fn drivable(way: f64) -> f64 {
-    /// Nobody drives by less than this [m].
-    const SHORTEST: f64 = 1e-3;
-    let steps = [(1.0, 0.5), (0.1, 0.1), (0.01, 0.01)];
-    let step = steps.iter().find(|(from, _)| way >= *from).map_or(SHORTEST, |(_, step)| *step);
+/// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m; `None` where
+/// it is too short.
+fn drivable(way: f64) -> Option<f64> {
+    let step = if way >= 1.0 { 0.5 } else { 0.1 };
     // 0.3 over 0.1 is less than 3.
-    (way / step + 1e-9).floor() * step
+    let steps = (way / step + 1e-9).floor();
+    (steps * step >= SHORTEST_LEG).then_some(steps * step)
+}
+
+/// How often the nose is set over [`DRIFT_WAY`].
+///
+/// * `leg`: way between two settings [m]
+pub(super) fn settings(leg: f64) -> usize {
+    /// Legs are not shorter.
+    const MOST: u32 = 1000;
+    let enough = |legs: &u32| f64::from(*legs) * leg >= DRIFT_WAY - 1e-9;
+    (1..MOST).find(enough).unwrap_or(MOST) as usize
+}
+
+/// By how much a driver who sets the nose misses the heading [rad].
+pub(super) fn heading_error(random: &mut ChaCha8Rng) -> f64 {
+    HEADING_ERROR * (2.0 * random::uniform(random) - 1.0)
+}
+
+/// The mean error of the headings that are set over the way [rad], by the driver of one sample; none where there is
+/// one sample alone, and no band.
+fn mean_error(place: usize, samples: usize, settings: usize) -> f64 {
+    /// Of a driver's errors: no soil is drawn from it.
+    const SEED: u64 = 0x0D12_17E5;
+    if samples == 1 {
+        return 0.0;
+    }
+    let mut random = random::generator(SEED, place as u64);
+    let sum: f64 = (0..settings).map(|_| heading_error(&mut random)).sum();
+    sum / settings as f64
 }
 
 #[cfg(test)]
@@ -166,8 +217,30 @@ mod tests {
 
     #[test]
     fn a_way_is_rounded_down_to_what_can_be_driven() {
-        for (way, expected) in [(0.349, 0.3), (0.3, 0.3), (0.061, 0.06), (1.49, 1.0), (7.9, 7.5)] {
-            assert!((drivable(way) - expected).abs() < 1e-12, "{way}");
+        for (way, expected) in [(0.349, 0.3), (0.3, 0.3), (0.199, 0.1), (1.49, 1.0), (7.9, 7.5)] {
+            let found = drivable(way).expect("it is long enough");
+            assert!((found - expected).abs() < 1e-12, "{way}");
         }
+        assert_eq!(drivable(0.099), None);
+    }
+
+    #[test]
+    fn the_nose_is_set_at_the_start_of_every_leg() {
+        for (leg, expected) in [(10.0, 1), (6.0, 2), (0.3, 34), (0.1, 100), (20.0, 1)] {
+            assert_eq!(settings(leg), expected, "{leg}");
+        }
+    }
+
+    /// Of one setting the errors spread over all of ±2°, of a hundred they cancel to a tenth.
+    #[test]
+    fn a_drivers_errors_cancel_over_the_way() {
+        let spread = |settings: usize| {
+            let all = (0..400).map(|place| mean_error(place, 400, settings).powi(2));
+            (all.sum::<f64>() / 400.0).sqrt() / HEADING_ERROR
+        };
+        let expected = 1.0 / 3.0_f64.sqrt();
+        assert!((spread(1) - expected).abs() < 0.05 * expected, "{}", spread(1));
+        assert!((spread(100) - 0.1 * expected).abs() < 0.01 * expected, "{}", spread(100));
+        assert_eq!(mean_error(0, 1, 3), 0.0);
     }
 }

@@ -61,6 +61,12 @@ impl BandInputs {
         &self.models
     }
 
+    /// Whether one soil and one model are all there is: then there is nothing to draw.
+    #[must_use]
+    pub fn is_certain(&self) -> bool {
+        self.soils.is_none() && self.models.shares().len() == 1
+    }
+
     /// Sample number `index`, which depends on the seed and that number alone: a soil with what its document
     /// leaves open and with what a model may get wrong in it, and a model. A soil whose numbers are all taken as
     /// exact is the same in every sample.

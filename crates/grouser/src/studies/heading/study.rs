@@ -47,8 +47,20 @@ impl HeadingStudy {
         yaw: f64,
         rim_speed: f64,
     ) -> Result<SteadyMotion, NotSteady> {
-        let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
-        SteadyMotion::of(self.ground(&self.site(slope)), &rim_speeds, yaw)
+        self.steady_motion_of(slope, yaw, &vec![rim_speed; self.rover.wheel_count()])
+    }
+
+    /// The same with each rim at its own speed [m/s], in the mounts' order; negative backwards.
+    ///
+    /// # Errors
+    /// As for [`steady_motion`](Self::steady_motion).
+    pub fn steady_motion_of(
+        &self,
+        slope: f64,
+        yaw: f64,
+        rim_speeds: &[f64],
+    ) -> Result<SteadyMotion, NotSteady> {
+        SteadyMotion::of(self.ground(&self.site(slope)), rim_speeds, yaw)
     }
 
     /// The same at another yaw *γ* [rad], sought from a motion on that slope.
@@ -63,11 +75,25 @@ impl HeadingStudy {
         rim_speed: f64,
     ) -> Result<SteadyMotion, NotSteady> {
         let rim_speeds = vec![rim_speed; self.rover.wheel_count()];
-        motion.at_yaw(self.ground(&self.site(slope)), &rim_speeds, yaw)
+        self.steady_motion_of_near(motion, slope, yaw, &rim_speeds)
+    }
+
+    /// The same with each rim at its own speed [m/s], sought from a motion with these speeds on a slope that is near.
+    ///
+    /// # Errors
+    /// As for [`steady_motion`](Self::steady_motion).
+    pub fn steady_motion_of_near(
+        &self,
+        motion: &SteadyMotion,
+        slope: f64,
+        yaw: f64,
+        rim_speeds: &[f64],
+    ) -> Result<SteadyMotion, NotSteady> {
+        motion.at_yaw(self.ground(&self.site(slope)), rim_speeds, yaw)
     }
 
     /// The slope *α* [rad].
-    pub(super) fn site(&self, slope: f64) -> Site {
+    pub(in crate::studies) fn site(&self, slope: f64) -> Site {
         Site::plane(self.soil, slope, self.gravity)
     }
 

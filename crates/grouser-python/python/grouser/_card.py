@@ -1,0 +1,192 @@
+"""The operator's card: for each slope whether to go, which heading to set, and where to stop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _core, _tables
+from ._arrays import Floats, line, number, whole_number
+from ._descriptions import Scenario, Source
+from ._errors import ParameterError
+from ._studies import scenario_of
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True, eq=False)
+class CardCourses(_tables.Tabular):
+    """The second page of a card: other courses, a row for each course and slope that may be
+    driven along the contour."""
+
+    slope_deg: Floats
+    """Slopes [°]."""
+    course: NDArray[np.object_]
+    """``up``, ``back-down``, ``down``, ``back-up``, ``back-across``, ``turn`` or
+    ``turn-on-the-spot``."""
+    verdict: NDArray[np.object_]
+    """``go``, ``caution`` or ``no-go``."""
+    columns: Mapping[str, NDArray[Any]]
+    """All columns, by the names of the program's table."""
+
+    def _table(self) -> Mapping[str, Any]:
+        return self.columns
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each course and slope."""
+        return _tables.frame(self.columns)
+
+    def __repr__(self) -> str:
+        return f"<CardCourses with {len(self.course)} rows>"
+
+
+@dataclass(frozen=True, eq=False)
+class Card(_tables.Tabular):
+    """The numbers of an operator's card: arrays of shape (slopes,), NaN where there is no number.
+
+    The attributes are what a driver sets and reads first; `columns` has all that the program's
+    table has, with bands over the samples.
+    """
+
+    slope_deg: Floats
+    """Slopes [°]."""
+    verdict: NDArray[np.object_]
+    """``go``, ``caution`` or ``no-go``."""
+    yaw_deg: Floats
+    """Heading to set [°], positive uphill: the median over all samples."""
+    roll_deg: Floats
+    """Roll that instruments show then [°]."""
+    pitch_deg: Floats
+    """Pitch that they show [°]."""
+    correct_every_m: Floats
+    """Way after which the heading is to be set again [m]; NaN on no-go slopes."""
+    slip_limit: Floats
+    """Slip ratio above which to turn back [-]."""
+    slip_check_every_m: Floats
+    """Way between two looks at the slip [m]; NaN where the shortest that is tried is too long."""
+    flags: NDArray[np.object_]
+    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
+    columns: Mapping[str, NDArray[Any]]
+    """All columns, by the names of the program's table."""
+    courses: CardCourses
+    """The second page: other courses, to get there and to get out."""
+    steepest: Mapping[str, Any]
+    """Number of samples (``draws``), and the steepest slope on which a heading holds the contour,
+    with its band."""
+
+    def _table(self) -> Mapping[str, Any]:
+        return self.columns
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each slope."""
+        return _tables.frame(self.columns)
+
+    def __repr__(self) -> str:
+        goes = self.slope_deg[self.verdict == "go"]
+        upto = f"up to {goes.max():g}°" if goes.size else "on no slope"
+        return f"<Card of {len(self.slope_deg)} slopes, go {upto}>"
+
+
+#: The limits of a rule, as the program has them without flags.
+_RULE = {
+    "go_slip_ratio": 0.3,
+    "go_probability": 0.95,
+    "no_go_slip_ratio": 0.6,
+    "no_go_probability": 0.8,
+}
+
+
+def card(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    slope_deg: ArrayLike | None = None,
+    samples: int = 200,
+    seed: int = 1,
+    rim_speed_m_s: float | None = None,
+    uphill: Literal["left", "right"] = "left",
+    rule: Mapping[str, float] | None = None,
+    **changes: Any,
+) -> Card:
+    """The operator's card: on each slope whether to go, which heading to set, how often to set it
+    again, and where to stop.
+
+    The numbers are those of the program's ``grouser card``, bit for bit. The printed page is
+    the program's: write ``scenario.to_toml()`` into a file and run ``grouser card FILE --out
+    card.pdf``.
+
+    Parameters
+    ----------
+    scenario : Scenario, name, path or mapping, optional
+        Its rover, soil, gravity, model, load transfer and rim speed are used.
+    slope_deg : array_like, shape (slopes,), optional
+        Slopes [°], 0 to 60, rising; without them each whole degree, as the program takes them. A
+        verdict never gets better on a steeper slope, so that it depends on those before it.
+    samples : int
+        Number of samples of soil and model, 2 to 100000.
+    seed : int
+        Seed of the samples: the same seed gives the same soils and models.
+    rim_speed_m_s : float, optional
+        Rim speed [m/s]; without it the scenario's.
+    uphill : {"left", "right"}
+        The side of the rover that is uphill.
+    rule : mapping, optional
+        Limits of the verdicts, any of ``go_slip_ratio`` (0.3), ``go_probability`` (0.95),
+        ``no_go_slip_ratio`` (0.6) and ``no_go_probability`` (0.8).
+    **changes
+        Keys of the scenario with other values.
+
+    Returns
+    -------
+    Card
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `Scenario`; and for slopes that do not rise, or a rule in which a go asks for less than
+        a no-go.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> card = gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 15.0], samples=12)
+    >>> card.verdict.tolist()
+    ['go', 'caution']
+    >>> bool(card.roll_deg[1] < 15.0 and card.correct_every_m[1] < card.correct_every_m[0])
+    True
+    >>> card.courses.to_pandas().query("course == 'back-across'")["verdict"].tolist()
+    ['go', 'go']
+    """
+    slopes = np.arange(61.0) if slope_deg is None else line("slope_deg", slope_deg)
+    run = scenario_of(scenario, changes)
+    if uphill not in ("left", "right"):
+        raise ParameterError(f"uphill {uphill!r}: it must be 'left' or 'right'", "uphill")
+    unknown = set(rule or {}) - set(_RULE)
+    if unknown:
+        names = ", ".join(_RULE)
+        raise ParameterError(f"rule: {sorted(unknown)[0]!r} is none of {names}", "rule")
+    limits = [number(name, value) for name, value in {**_RULE, **(rule or {})}.items()]
+    speed = None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s)
+    draws = (whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1))
+    rows, courses, steepest = _core.card(
+        run._document, slopes, draws, speed, uphill == "right", limits
+    )
+    rows, courses = _arrays_of(rows), _arrays_of(courses)
+    shown = ("slope_deg", "course", "verdict")
+    second = CardCourses(**{name: courses[name] for name in shown}, columns=courses)
+    shown = ("slope_deg", "verdict", "yaw_deg", "roll_deg", "pitch_deg", "correct_every_m")
+    first = {name: rows[name] for name in (*shown, "slip_limit", "slip_check_every_m", "flags")}
+    return Card(**first, columns=rows, courses=second, steepest=steepest)
+
+
+def _arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """Columns as arrays, of objects where they are texts."""
+    return {
+        name: values if isinstance(values, np.ndarray) else np.array(values, dtype=object)
+        for name, values in table.items()
+    }

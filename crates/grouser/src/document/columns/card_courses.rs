@@ -1,0 +1,71 @@
+//! The second page of the operator's card: the other courses on its slopes.
+
+use super::super::table::Table;
+use super::super::unit::M;
+use super::card::{DRIVEN_DRIFT, PROBABILITY_STUCK, TIPPING_MARGIN, VERDICT, name_of};
+use super::{Column, Quantity, SLIP_RATIO, SLOPE, TORQUE, YAW, quantity, text};
+use crate::studies::card::courses::{Course, CourseMotion, CourseRow};
+
+/// A way to drive.
+pub const COURSE: &str = "course";
+/// Way in which the nose turns.
+pub const TURN_WAY: Quantity = quantity("turn_way_m", M);
+/// Way downhill meanwhile.
+pub const TURN_DOWNHILL: Quantity = quantity("turn_downhill_m", M);
+
+/// The keyword of a course.
+#[must_use]
+pub const fn name_of_course(course: Course) -> &'static str {
+    match course {
+        Course::Up => "up",
+        Course::Down => "down",
+        Course::BackDown => "back-down",
+        Course::BackUp => "back-up",
+        Course::BackAcross => "back-across",
+        Course::Turn => "turn",
+        Course::TurnOnTheSpot => "turn-on-the-spot",
+    }
+}
+
+const COURSES: [Column<CourseRow>; 11] = [
+    SLOPE.given("Slope", |it| Some(it.slope)),
+    text(
+        COURSE,
+        "`up`, `back-down` (out of a way up), `down`, `back-up` (out of a way down), `back-across` (along the contour \
+         backwards, the rear uphill), `turn` (the nose uphill, uphill wheels at half speed) or `turn-on-the-spot`",
+        |it| Some(name_of_course(it.course).into()),
+    ),
+    text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.verdict).into())),
+    YAW.number("Yaw, positive where the nose points uphill", |it| it.yaw),
+    SLIP_RATIO.band(
+        "Mean slip ratio of the wheels, negative where the rover runs ahead of its rims, either way; 1 where it is \
+         stuck; missing on no-go slopes, as all that is driven",
+        |it| motion(it)?.slip_ratio,
+    ),
+    TORQUE.band("Largest torque of a wheel, over the samples that move", |it| motion(it)?.torque),
+    DRIVEN_DRIFT.band("Drift per metre travelled of the way backwards along the contour", |it| {
+        motion(it)?.drift
+    }),
+    TURN_WAY.band("Way in which the nose turns uphill by 10°, over the samples that turn", |it| {
+        motion(it)?.turn_way
+    }),
+    TURN_DOWNHILL.band("Way downhill meanwhile", |it| motion(it)?.turn_downhill),
+    PROBABILITY_STUCK.probability(
+        "Share of the samples that are stuck, or do not turn uphill",
+        |it| motion(it).map(|it| it.stuck),
+    ),
+    TIPPING_MARGIN
+        .number("How much steeper the slope could be before the rover at rest tips over", |it| {
+            it.tipping_margin
+        }),
+];
+
+fn motion(row: &CourseRow) -> Option<&CourseMotion> {
+    row.motion.as_ref()
+}
+
+/// A row for each course and slope.
+#[must_use]
+pub fn table(rows: &[CourseRow]) -> Table {
+    Table::of(&COURSES, rows)
+}

@@ -1,0 +1,246 @@
+//! The second page of the card: the other courses on each of its slopes, to get there and to get out.
+//!
+//! Each is the steady motion at one yaw, with all rims at one speed forwards or backwards, or the two sides against
+//! each other to turn. The verdict is that of the first page's rule for the size of the slip, which is negative where
+//! a rover runs ahead of its rims.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::super::ensemble::samples::{Sample, outputs_of_places};
+use super::super::ensemble::{Band, Probability};
+use super::driven::{STRAIGHT_DOWN, STUCK, largest_torque};
+use super::{CardRow, CardStudy, Driven, STUCK_ON_GO, Verdict};
+use crate::elementary::wide::sin;
+use crate::simulation::{MOST_SLIP, SteadyMotion};
+use crate::vehicle::Rover;
+
+/// A way to drive on a slope, other than along the contour with the nose in front.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Course {
+    /// Straight up, nose in front.
+    Up,
+    /// Straight down, nose in front.
+    Down,
+    /// Straight down again, backwards: out of a way up.
+    BackDown,
+    /// Straight up again, backwards: out of a way down.
+    BackUp,
+    /// Along the contour, backwards: out of a traverse. The rear is uphill by as much as the card turns the nose.
+    BackAcross,
+    /// Turning the nose uphill on the way, from the heading of the card: uphill wheels at half the speed.
+    Turn,
+    /// Turning it uphill on the spot: uphill wheels backwards, downhill wheels forwards.
+    TurnOnTheSpot,
+}
+
+impl Course {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Up,
+        Self::BackDown,
+        Self::Down,
+        Self::BackUp,
+        Self::BackAcross,
+        Self::Turn,
+        Self::TurnOnTheSpot,
+    ];
+
+    /// The yaw that it is driven at [rad].
+    ///
+    /// * `contour`: the card's heading on that slope [rad]
+    fn yaw(self, contour: f64) -> f64 {
+        match self {
+            Self::Up | Self::BackDown => FRAC_PI_2,
+            Self::Down | Self::BackUp => -FRAC_PI_2,
+            Self::BackAcross => -contour,
+            Self::Turn | Self::TurnOnTheSpot => contour,
+        }
+    }
+
+    /// Whether the rover is to turn.
+    fn turns(self) -> bool {
+        matches!(self, Self::Turn | Self::TurnOnTheSpot)
+    }
+
+    /// The rims' speeds [m/s], for uphill on the left.
+    fn rim_speeds(self, rover: &Rover, rim_speed: f64) -> Vec<f64> {
+        // Of the wheels uphill, the others, and one on the middle line.
+        let [uphill, downhill] = match self {
+            Self::Up | Self::Down => [rim_speed; 2],
+            Self::BackDown | Self::BackUp | Self::BackAcross => [-rim_speed; 2],
+            Self::Turn => [0.5 * rim_speed, rim_speed],
+            Self::TurnOnTheSpot => [-rim_speed, rim_speed],
+        };
+        let of_mount = |left: f64| match left {
+            left if left > 0.0 => uphill,
+            left if left < 0.0 => downhill,
+            _ => f64::midpoint(uphill, downhill),
+        };
+        rover.mounts().iter().map(|mount| of_mount(mount.position.y)).collect()
+    }
+}
+
+/// A course on one slope of the card.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CourseRow {
+    /// Slope, *α* [rad].
+    pub slope: f64,
+    /// The course.
+    pub course: Course,
+    /// Yaw, *γ* [rad], positive uphill.
+    pub yaw: f64,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// By how much the slope could be steeper before the rover tips over, at rest [rad].
+    pub tipping_margin: f64,
+    /// Over the samples; `None` where the first page says no-go, or they were not asked for.
+    pub motion: Option<CourseMotion>,
+}
+
+/// The motion on a course, over the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CourseMotion {
+    /// Mean slip ratio of the wheels, positive where rims outrun the rover, either way [-]: 1 where it is stuck.
+    pub slip_ratio: Option<Band>,
+    /// Largest torque of a wheel [N·m], over the samples that move.
+    pub torque: Option<Band>,
+    /// Drift of a way along the contour [-], over all samples: 1 where the rover is stuck.
+    pub drift: Option<Band>,
+    /// Way in which the nose turns uphill by [`TURN`] [m], over the samples that turn.
+    pub turn_way: Option<Band>,
+    /// Way downhill meanwhile [m], likewise.
+    pub turn_downhill: Option<Band>,
+    /// Samples in which the rover is stuck, or its nose does not turn uphill.
+    pub stuck: Probability,
+}
+
+/// The turn that ways are given for [rad]: 10°.
+pub const TURN: f64 = PI / 18.0;
+
+impl CardStudy {
+    /// The other courses on each slope that the card does not call a no-go, course by course; `None` if `go_on` was
+    /// false before the end.
+    ///
+    /// * `samples`: those of the card; with none there is the soil as written alone
+    /// * `go_on`: asked after each slope
+    #[must_use]
+    pub fn courses(
+        &self,
+        rows: &[CardRow],
+        samples: &[Sample],
+        go_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<CourseRow>> {
+        let as_written = [self.nominal()];
+        let samples = if samples.is_empty() { &as_written } else { samples };
+        let of_course = |course| self.on_course(course, rows, samples, go_on);
+        let all: Option<Vec<Vec<CourseRow>>> = Course::ALL.into_iter().map(of_course).collect();
+        all.map(|courses| courses.concat())
+    }
+
+    /// One course: never better on a steeper slope.
+    fn on_course(
+        &self,
+        course: Course,
+        rows: &[CardRow],
+        samples: &[Sample],
+        go_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<CourseRow>> {
+        let mut worst = Verdict::Go;
+        let mut before: Vec<Option<SteadyMotion>> = vec![None; samples.len()];
+        let rim_speeds = course.rim_speeds(&self.heading.rover, self.rim_speed);
+        let driven = rows.iter().filter(|row| row.verdict != Verdict::NoGo);
+        let on_slope = |(slope, contour): (f64, f64)| {
+            let yaw = course.yaw(contour);
+            let at_rest = Driven::at_rest(&self.heading, slope, yaw);
+            worst = worst.max(self.best_verdict(slope, Some(&at_rest)));
+            let mut motion = None;
+            if worst != Verdict::NoGo {
+                let steady = self.motions((slope, yaw, &rim_speeds), samples, &before);
+                let on_course =
+                    |it: &Option<SteadyMotion>| OnCourse::of(course, it.as_ref()?, &rim_speeds);
+                let all: Vec<Option<OnCourse>> = steady.iter().map(on_course).collect();
+                worst = worst.max(self.verdict_of_course(&all));
+                motion = Some(CourseMotion::over(course, &all));
+                before = steady;
+            }
+            let tipping_margin = at_rest.tipping_margin;
+            let row = CourseRow { slope, course, yaw, verdict: worst, tipping_margin, motion };
+            go_on().then_some(row)
+        };
+        driven.filter_map(|row| Some((row.slope, row.driven?.yaw))).map(on_slope).collect()
+    }
+
+    fn verdict_of_course(&self, motions: &[Option<OnCourse>]) -> Verdict {
+        let slips: Vec<Option<f64>> =
+            motions.iter().map(|it| it.map(|it| it.slip_ratio.abs())).collect();
+        let stuck = motions.iter().filter(|it| it.is_none()).count();
+        let is_free = stuck as f64 <= STUCK_ON_GO * motions.len() as f64;
+        self.rule.verdict(&slips).max(if is_free { Verdict::Go } else { Verdict::Caution })
+    }
+
+    /// The motion in each sample, if there is a steady one.
+    ///
+    /// * `before`: those on the slope before, from which they are sought
+    fn motions(
+        &self,
+        (slope, yaw, rim_speeds): (f64, f64, &[f64]),
+        samples: &[Sample],
+        before: &[Option<SteadyMotion>],
+    ) -> Vec<Option<SteadyMotion>> {
+        let motion = |place: usize| {
+            let study = self.heading.of_sample(&samples[place]);
+            match &before[place] {
+                Some(near) => study.steady_motion_of_near(near, slope, yaw, rim_speeds),
+                None => study.steady_motion_of(slope, yaw, rim_speeds),
+            }
+        };
+        outputs_of_places(samples, &|| true, |place| motion(place).ok()).unwrap_or_default()
+    }
+}
+
+/// One sample on a course.
+#[derive(Clone, Copy)]
+struct OnCourse {
+    slip_ratio: f64,
+    torque: f64,
+    drift: f64,
+    turn_way: f64,
+}
+
+impl OnCourse {
+    fn of(course: Course, motion: &SteadyMotion, rim_speeds: &[f64]) -> Option<Self> {
+        let turning = motion.wheels.iter().zip(rim_speeds).filter(|(_, rim)| **rim != 0.0);
+        let (sum, count) = turning.fold((0.0, 0), |(sum, count), (wheel, rim)| {
+            (sum + rim.signum() * wheel.slip.ratio, count + 1)
+        });
+        let slip_ratio = sum / f64::from(count.max(1));
+        let turns = !course.turns() || motion.yaw_rate > 0.0;
+        (slip_ratio.abs() <= MOST_SLIP && turns).then(|| {
+            let drift = -sin(motion.course());
+            let turn_way = TURN / motion.turning();
+            Self { slip_ratio, torque: largest_torque(motion), drift, turn_way }
+        })
+    }
+}
+
+impl CourseMotion {
+    fn over(course: Course, motions: &[Option<OnCourse>]) -> Self {
+        let moving = || motions.iter().flatten();
+        let all = |of: fn(&OnCourse) -> f64, stuck: f64| {
+            Band::of(motions.iter().map(|it| it.as_ref().map_or(stuck, of)))
+        };
+        let of_turn = |of: fn(&OnCourse) -> f64| {
+            if course.turns() { Band::of(moving().map(of)) } else { None }
+        };
+        let drift = || all(|it| it.drift, STRAIGHT_DOWN);
+        let stuck = motions.iter().filter(|it| it.is_none()).count();
+        Self {
+            slip_ratio: all(|it| it.slip_ratio, STUCK),
+            torque: Band::of(moving().map(|it| it.torque)),
+            drift: if course == Course::BackAcross { drift() } else { None },
+            turn_way: of_turn(|it| it.turn_way),
+            turn_downhill: of_turn(|it| it.turn_way * it.drift),
+            stuck: Probability { successes: stuck, trials: motions.len() },
+        }
+    }
+}
