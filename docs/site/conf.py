@@ -77,4 +77,4 @@ html_theme_options = {
     "pygments_light_style": "tango",
     "pygments_dark_style": "monokai",
 }
-html_sidebars = {"index": [], "start": [], "trust": [], "validation": [], "performance": []}
+html_sidebars = {"index": [], "start": [], "trust": [], "credibility": [], "validation": [], "performance": []}

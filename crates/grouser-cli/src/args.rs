@@ -3,6 +3,7 @@
 mod campaign;
 mod card;
 mod documents;
+mod forecast;
 mod heading;
 mod measurements;
 mod traverse;
@@ -23,6 +24,7 @@ pub(crate) use campaign::{
 };
 pub(crate) use card::{CardArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
+pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     AttitudeMap(HeadingMapArgs),
     /// The operator's card: heading, slip, drift, power and go or no-go for each slope, on one page.
     Card(CardArgs),
+    /// A rover on the Moon or Mars, from a soil measured on Earth: slip, drift, heading, power, with one error budget.
+    Forecast(ForecastArgs),
     /// Compare a wheel-soil model with measured wheel tests, or rank all models.
     Validate(ValidateArgs),
     /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.

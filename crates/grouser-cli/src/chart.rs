@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use grouser::document::escape;
 use kuva::backend::svg::SvgBackend;
+use kuva::plot::BarPlot;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{ColorMap, Heatmap};
@@ -68,6 +69,9 @@ pub(crate) enum Style {
 /// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
 const COLOURS: [&str; 7] =
     ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+
+/// The colour of what is left over.
+const REST: &str = "#bbbbbb";
 
 const FONTS: &str = "Helvetica, Arial, sans-serif";
 
@@ -154,6 +158,45 @@ impl Series {
             Style::Squares => marks(MarkerShape::Square),
             Style::Triangles => marks(MarkerShape::Triangle),
         }
+    }
+}
+
+/// Horizontal bars, each of parts that are laid end to end.
+#[derive(Clone, Debug)]
+pub(crate) struct Bars {
+    /// What they show.
+    pub(crate) title: String,
+    /// Quantity and unit along them.
+    pub(crate) x_label: String,
+    /// The names of the parts, in their order.
+    pub(crate) parts: Vec<String>,
+    /// Whether the last part is what is left over: it is grey.
+    pub(crate) has_rest: bool,
+    /// From the top down: of each a name, and the length of each part.
+    pub(crate) rows: Vec<(String, Vec<f64>)>,
+}
+
+impl Bars {
+    /// The bars as a stand-alone SVG document.
+    pub(crate) fn to_svg(&self) -> String {
+        let is_rest = |place: usize| self.has_rest && place + 1 == self.parts.len();
+        let colour = |place: usize| {
+            // Black is for text.
+            if is_rest(place) { REST } else { COLOURS[1 + place % (COLOURS.len() - 1)] }
+        };
+        let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
+        // The library draws from the bottom up.
+        for (name, lengths) in self.rows.iter().rev() {
+            let pieces = lengths.iter().enumerate().map(|(place, length)| (*length, colour(place)));
+            plot = plot.with_group(label(name), pieces);
+        }
+        let names: Vec<String> = self.parts.iter().map(|name| label(name)).collect();
+        if names.len() > 1 {
+            plot = plot.with_legend(names.iter().map(String::as_str).collect());
+        }
+        let plots = vec![Plot::Bar(plot)];
+        let layout = layout_of(&plots, [&self.title, &self.x_label, ""]);
+        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
     }
 }
 

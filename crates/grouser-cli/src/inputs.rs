@@ -7,12 +7,15 @@ use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
     self, Document, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
+use grouser::soil::GravityScaling;
 use grouser::studies::card::Rule;
 use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::forecast::{Choices, ForecastStudy, Ground};
+use grouser::studies::heading::HeadingStudy;
 
 use crate::args::{
-    BalanceArgs, CardArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs, TraverseArgs,
-    WheelTestArgs,
+    BalanceArgs, CardArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs,
+    TraverseArgs, WheelTestArgs,
 };
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
@@ -249,6 +252,123 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     Ok(CardInputs { scenario, rim_speed, rule })
 }
 
+/// The inputs of a forecast.
+pub(crate) struct ForecastInputs {
+    pub(crate) scenario: LoadedScenario,
+    pub(crate) study: ForecastStudy,
+    pub(crate) band: BandInputs,
+    /// On which it is asked for [rad].
+    pub(crate) slopes: Vec<f64>,
+    /// The documents of the grounds that are not the soil's own.
+    pub(crate) grounds: Vec<document::LoadedSoil>,
+    /// Whether the soil's document says under which gravity it was measured, or the caller does.
+    pub(crate) is_measured_under_stated: bool,
+}
+
+pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
+    use document::forecast as words;
+    check_slopes(&args.slope_deg)?;
+    let gravity = gravity_in("--site", &args.site)?;
+    let setting = SettingArgs {
+        settings: args.settings.clone(),
+        model: args.model.clone(),
+        gravity: Some(gravity.to_string()),
+    };
+    let settings = Overrides::parse_flags("--set", &args.settings)?;
+    settings.refuse(Kind::Scenario, &["gravity_m_s2"], "the gravity is that of --site")?;
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
+    let name = args.scenario.as_deref();
+    let scenario = balanced("forecast", name, rover, soil, &setting, &args.balance)?;
+    refuse_sampled_keys(&setting, scenario.uncertain.as_ref())?;
+    let heading = HeadingStudy::of(&scenario.value);
+    let stated = match &args.measured_gravity {
+        Some(text) => Some(gravity_in("--measured-gravity-m-s2", text)?),
+        None => words::measured_under(&heading.soil),
+    };
+    let measured_under = stated.unwrap_or(grouser::units::EARTH_GRAVITY);
+    let names = ground_names(args, gravity == measured_under);
+    let (grounds, documents) = grounds(&names)?;
+    let masses = once("--mass", &args.mass)?.iter();
+    let masses = masses.map(|text| words::mass_of(text, gravity / measured_under));
+    let masses = masses.collect::<Result<Vec<_>, _>>();
+    let masses = masses.map_err(|problem| Failure::Usage(format!("--mass {problem}")))?;
+    let scalings = once("--scaling", &args.scaling)?.iter().map(|text| scaling_of(text));
+    let choices = Choices { scalings: scalings.collect::<Result<_, _>>()?, grounds, masses };
+    let rim_speed = match &args.rim_speed_m_s {
+        Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
+        None => scenario.value.drive.nominal_rim_speed(),
+    };
+    let samples = [args.samples, args.discrepancies];
+    let study =
+        ForecastStudy { heading, measured_under, rim_speed, choices, samples, seed: args.seed };
+    let band = BandInputs::of_scenario(&scenario);
+    let cases: usize = study.factors(&band).iter().map(|factor| factor.levels.len()).product();
+    check_rows(cases as f64 * args.slope_deg.0.len() as f64)?;
+    Ok(ForecastInputs {
+        study,
+        band,
+        slopes: args.slope_deg.0.iter().map(|slope| slope.to_radians()).collect(),
+        grounds: documents,
+        is_measured_under_stated: stated.is_some(),
+        scenario,
+    })
+}
+
+/// What the ground may be: as asked for, or else the soil as measured and, where it was measured under another
+/// gravity, what is known of the site.
+fn ground_names(args: &ForecastArgs, is_at_home: bool) -> Vec<String> {
+    use document::forecast::{AS_MEASURED, sites};
+    if !args.ground.is_empty() {
+        return args.ground.clone();
+    }
+    let site = sites().into_iter().find(|site| site.name == args.site.trim() && !is_at_home);
+    let known = site.map_or(&[][..], |site| site.grounds);
+    [AS_MEASURED].iter().chain(known).map(|name| (*name).to_owned()).collect()
+}
+
+/// The grounds by their names, and the documents of those that have one.
+fn grounds(names: &[String]) -> Result<(Vec<Ground>, Vec<document::LoadedSoil>), Failure> {
+    let (mut grounds, mut documents) = (Vec::new(), Vec::new());
+    for name in once("--ground", names)? {
+        if name == document::forecast::AS_MEASURED {
+            grounds.push(Ground::AsMeasured);
+            continue;
+        }
+        let source = flag_source("--ground", Kind::Soil, name)?;
+        let soil = document::read_soil(&source, &Overrides::none())?;
+        grounds.push(Ground::of_soil(name, &soil));
+        documents.push(soil);
+    }
+    Ok((grounds, documents))
+}
+
+fn scaling_of(text: &str) -> Result<GravityScaling, Failure> {
+    document::forecast::scaling_of(text).ok_or_else(|| {
+        let names = GravityScaling::ALL.map(GravityScaling::name);
+        let hint = match document::nearest(text, names) {
+            Some(name) => format!("did you mean `{name}`?"),
+            None => format!("one of {}", names.join(", ")),
+        };
+        Failure::Usage(format!("--scaling {text}: no such way to scale moduli\nhint: {hint}"))
+    })
+}
+
+/// A list in which nothing stands twice: it would count twice.
+fn once<'a>(flag: &str, all: &'a [String]) -> Result<&'a [String], Failure> {
+    let mut places = all.iter().enumerate();
+    match places.find(|(place, name)| all[..*place].contains(name)) {
+        None => Ok(all),
+        Some((_, name)) => Err(Failure::Usage(format!("{flag}: {name} is named twice"))),
+    }
+}
+
+/// A gravity of a flag, in the range of sites.
+fn gravity_in(flag: &str, text: &str) -> Result<f64, Failure> {
+    let gravity = gravity_value(flag, text)?;
+    check_numbers(flag, &Numbers(vec![gravity]), &document::forecast::GRAVITY)?;
+    Ok(gravity)
+}
+
 /// The one number of a flag.
 fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<f64, Failure> {
     let [number] = numbers.0[..] else {
@@ -377,14 +497,14 @@ fn scenario_settings(
         }
     }
     if let Some(gravity) = &setting.gravity {
-        let value = gravity_value(gravity)?;
+        let value = gravity_value("--gravity-m-s2", gravity)?;
         overrides.flag_numbers("--gravity-m-s2", "scenario.gravity_m_s2", gravity, &[value])?;
     }
     Ok(())
 }
 
 /// A number, or what a name stands for [m/s²].
-fn gravity_value(text: &str) -> Result<f64, Failure> {
+fn gravity_value(flag: &str, text: &str) -> Result<f64, Failure> {
     let number = text.trim().parse().ok();
     document::gravity(text.trim()).or(number).ok_or_else(|| {
         let names = document::GRAVITIES.map(|(name, _)| name);
@@ -393,7 +513,7 @@ fn gravity_value(text: &str) -> Result<f64, Failure> {
             None => format!("in m/s², such as 9.80665, or one of {}", names.join(", ")),
         };
         Failure::Usage(format!(
-            "--gravity-m-s2 {text}: this is neither a number nor the name of a gravity\nhint: {hint}"
+            "{flag} {text}: this is neither a number nor the name of a gravity\nhint: {hint}"
         ))
     })
 }

@@ -47,6 +47,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Attitude(args) => commands::heading::run("attitude", args),
         Command::AttitudeMap(args) => commands::heading_map::run("attitude-map", args),
         Command::Card(args) => commands::card::run(args),
+        Command::Forecast(args) => commands::forecast::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Campaign(args) => commands::campaign::run(args),

@@ -6,6 +6,7 @@
 pub mod difference;
 pub mod discrepancy;
 pub mod domain;
+pub mod gravity_scaling;
 pub mod pressure_sinkage;
 pub mod rft;
 pub mod slope;
@@ -16,6 +17,7 @@ use std::f64::consts::FRAC_PI_4;
 pub use difference::SoilDifference;
 pub use discrepancy::Discrepancy;
 pub use domain::{AssumedValues, Domain, Span};
+pub use gravity_scaling::GravityScaling;
 pub use pressure_sinkage::{PressureSinkage, SinkageExponent};
 pub use rft::Rft;
 pub use slope::SlopeStability;

@@ -8,6 +8,7 @@ pub mod checkpoint;
 pub mod columns;
 mod doubts;
 pub mod experiment;
+pub mod forecast;
 pub mod plates;
 pub mod ranking;
 pub mod simulated_test;

@@ -7,6 +7,7 @@
 //! | [`heading`] | the heading offset that holds the contour on a slope |
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
+//! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
 //! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
@@ -22,6 +23,7 @@ pub mod card;
 pub mod comparison;
 pub mod drive;
 pub mod ensemble;
+pub mod forecast;
 pub mod heading;
 pub mod heading_band;
 pub mod heading_map;

@@ -52,7 +52,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 27] = [
+const LINES: [(&str, &str, &[&str]); 28] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -112,6 +112,11 @@ const LINES: [(&str, &str, &[&str]); 27] = [
         "card, page",
         "card --soil uncertain.toml --samples 6 --out card.html --format json",
         &["uncertain.toml"],
+    ),
+    (
+        "forecast",
+        "forecast --soil soil.toml --site moon --slope-deg 5 --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
+        &["soil.toml", "uncertain.toml"],
     ),
     (
         "validate",

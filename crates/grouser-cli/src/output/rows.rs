@@ -52,11 +52,16 @@ impl Rows {
         let columns: Vec<&str> =
             columns.filter(|column| *column != FLAGS || !raised.is_empty()).collect();
         let header: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
-        let cells = self.0.iter().map(|row| {
-            columns.iter().map(|column| row.get(*column).map_or(String::new(), short)).collect()
-        });
         let notes = if columns.contains(&FLAGS) { self.footnotes() } else { String::new() };
-        aligned(&header, &cells.collect::<Vec<Vec<String>>>()) + &notes
+        aligned(&header, &self.cells(&columns)) + &notes
+    }
+
+    /// The cells of some columns, for reading.
+    pub(crate) fn cells(&self, columns: &[impl AsRef<str>]) -> Vec<Vec<String>> {
+        let cell =
+            |row: &Map<String, Value>, column: &str| row.get(column).map_or(String::new(), short);
+        let cells = |row| columns.iter().map(|column| cell(row, column.as_ref())).collect();
+        self.0.iter().map(cells).collect()
     }
 
     /// What the flags of the rows mean, a line each, to stand under a table.

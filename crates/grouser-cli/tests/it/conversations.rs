@@ -79,6 +79,7 @@ fn help_of_each_command() {
         "heading",
         "heading-map",
         "card",
+        "forecast",
         "validate",
         "import",
         "check",

@@ -7,6 +7,7 @@ mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;
+mod forecast;
 mod former_names;
 mod hostile;
 mod import;

@@ -1,7 +1,7 @@
 //! What differs from wheel to wheel: the soil below it, and how fast its motor turns it.
 
 use crate::error::{ParameterError, finite, positive};
-use crate::soil::{Soil, SoilDifference};
+use crate::soil::SoilDifference;
 use crate::terrain::SoilField;
 use crate::units::Vec2;
 
@@ -134,11 +134,13 @@ impl Differences<'_> {
     /// None.
     pub const NONE: Self = Self { by_wheel: None, by_place: None };
 
-    /// The soil below a wheel that stands at a place.
-    pub(super) fn soil(&self, soil: &Soil, wheel: usize, place: Vec2) -> Soil {
-        let by_wheel = self.by_wheel.map_or(SoilDifference::NONE, |all| all.soil(wheel));
-        let by_place = self.by_place.map_or(SoilDifference::NONE, |field| field.at(place));
-        let difference = by_wheel.and(by_place);
-        if difference == SoilDifference::NONE { *soil } else { soil.differing(difference) }
+    /// How the soil below a wheel differs that stands at a place, if it does.
+    pub(super) fn of(&self, wheel: usize, place: Vec2) -> Option<SoilDifference> {
+        let by_wheel = self.by_wheel.map(|all| all.soil(wheel));
+        let by_place = self.by_place.as_ref().map(|field| field.at(place));
+        match (by_wheel, by_place) {
+            (Some(one), Some(other)) => Some(one.and(other)),
+            (one, other) => one.or(other),
+        }
     }
 }

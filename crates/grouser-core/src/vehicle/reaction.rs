@@ -163,7 +163,7 @@ impl Ground<'_> {
         slips: &[Slip],
         before: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let Self { rover, site, model, sharing, differences, .. } = *self;
+        let Self { rover, site, model, sharing, ref differences, .. } = *self;
         let Stance { place, slope_from_body, weight, pull } = *stance;
         let steepness = if weight > 0.0 { pull.norm() / weight } else { 0.0 };
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
@@ -172,12 +172,11 @@ impl Ground<'_> {
         let settled = wheels.map(|(wheel, (((&slip, load), mount), guess))| {
             let at = place + slope_from_body * mount.position.xy();
             let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
-            let contact = Contact {
-                wheel: mount.unit.wheel,
-                soil: differences.soil(&soil, wheel, at).on_slope(steepness),
-                slip,
-                gravity: site.gravity,
+            let soil = match differences.of(wheel, at) {
+                None => soil.on_slope(steepness),
+                Some(difference) => soil.differing(difference).on_slope(steepness),
             };
+            let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity };
             guess
                 .map_or_else(
                     || settle(model, &contact, load),

@@ -307,6 +307,29 @@ impl Rover {
         })
     }
 
+    /// The same rover with all masses and inertias of its parts times a factor: heavier or lighter, of one shape.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if the factor is not above zero.
+    pub fn with_mass_factor(&self, factor: f64) -> Result<Self, ParameterError> {
+        positive("mass factor", factor)?;
+        let scaled = |inertia: Inertia| Inertia {
+            xx: factor * inertia.xx,
+            yy: factor * inertia.yy,
+            zz: factor * inertia.zz,
+        };
+        let mut rover = self.clone();
+        let RoverParts { body, wheel_unit, mounts } = &mut rover.parts;
+        *body = Body { mass: factor * body.mass, inertia: scaled(body.inertia) };
+        wheel_unit.mass *= factor;
+        wheel_unit.inertia = scaled(wheel_unit.inertia);
+        for mount in mounts {
+            mount.mass = mount.mass.map(|mass| factor * mass);
+            mount.inertia = mount.inertia.map(scaled);
+        }
+        rover.checked()
+    }
+
     /// The same rover seen in a mirror: left and right changed. A traverse with the uphill side on
     /// the right is that of the mirrored rover with the uphill side on the left.
     #[must_use]

@@ -4,6 +4,7 @@ pub mod card;
 pub mod card_courses;
 pub mod card_drives;
 pub mod fit;
+pub mod forecast;
 pub mod heading;
 pub mod run;
 pub mod slope;

@@ -6,12 +6,16 @@
 //! [`statistics`] has bands, quantiles and probabilities with their confidence intervals, and [`sensitivity`]
 //! attributes an output's variance to the inputs.
 //!
+//! [`factorial`] has designs in which named choices meet each other and the samples, and splits a variance into their
+//! parts.
+//!
 //! [`samples`] has what a band is drawn from: a soil that its document leaves open, and one of several
 //! wheel–soil [`models`].
 //!
 //! The meaning of the values, and the computation, are the caller's.
 
 pub mod design;
+pub mod factorial;
 pub mod model_discrepancy;
 pub mod models;
 mod permutation;

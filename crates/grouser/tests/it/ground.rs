@@ -240,6 +240,8 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
         .map(|(name, soil, theory)| (name, Soil { cohesion: 0.0, ..soil }, theory))
         // A law by cohesion alone carries nothing without it.
         .filter(|(_, soil, _)| soil.check().is_ok() && carries(soil))
+        // On steeper slopes the rover tips over its rear wheels before it slides.
+        .filter(|(_, soil, _)| soil.friction_angle < deg(47.0))
         .chain([("toyoura, bounded", bounded(given::toyoura()), Theory::Ishigami)]);
     let places: Vec<_> = sands.flat_map(|sand| [(sand, 0.0), (sand, deg(90.0))]).collect();
     assert!(places.len() > 20);

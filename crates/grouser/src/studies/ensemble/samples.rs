@@ -74,15 +74,37 @@ impl BandInputs {
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn sample(&self, seed: u64, index: u64) -> Result<Sample, NothingAccepted> {
-        let theory = self.models.theory(seed, index);
+        self.crossed(self.models.theory(seed, index), seed, [index, index])
+    }
+
+    /// A model with the soil of one sample and what a model may get wrong in another, so that the two can be told
+    /// apart. It depends on its arguments alone.
+    ///
+    /// * `numbers`: of the soil, and of the discrepancy
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    pub fn crossed(
+        &self,
+        theory: Theory,
+        seed: u64,
+        numbers: [u64; 2],
+    ) -> Result<Sample, NothingAccepted> {
+        let [number, discrepancy] = numbers;
         let soil = match &self.soils {
             Some(soils) => {
-                let drawn = self.as_known_to(theory, soils.draw(seed, index)?);
-                with_discrepancy(drawn, seed, index)
+                let drawn = self.as_known_to(theory, soils.draw(seed, number)?);
+                with_discrepancy(drawn, seed, discrepancy)
             }
             None => self.soil,
         };
         Ok(Sample { soil, theory })
+    }
+
+    /// Whether soils differ from sample to sample; if not, no model gets anything wrong in them either.
+    #[must_use]
+    pub fn has_soils(&self) -> bool {
+        self.soils.is_some()
     }
 
     /// A soil without what a calibration found wrong with another model than this.

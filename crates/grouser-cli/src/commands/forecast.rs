@@ -1,0 +1,163 @@
+//! `grouser forecast`: a rover under another gravity than the one its soil was measured under, with one error
+//! budget.
+
+mod figures;
+mod page;
+mod tables;
+
+use grouser::document::columns::SLOPE;
+use grouser::document::forecast::BEKKER_IS_CARRIED;
+use grouser::document::table::{Row, Table};
+use grouser::soil::GravityScaling;
+use grouser::studies::forecast::{Forecast, ForecastError, Ground};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::{Answer, sampling, strict};
+use crate::args::ForecastArgs;
+use crate::failure::Failure;
+use crate::inputs::{self, ForecastInputs};
+use crate::output::folder::OutputFolder;
+use crate::output::rows::Rows;
+use crate::output::{self, Format};
+use tables::Tables;
+
+impl From<ForecastError> for Failure {
+    fn from(error: ForecastError) -> Self {
+        match error {
+            ForecastError::Parameter(error) => error.into(),
+            ForecastError::NothingAccepted(error) => Self::Usage(format!(
+                "the uncertainty of a soil reaches too far: {error}\nhint: smaller standard \
+                 deviations keep the samples within the ranges of their keys"
+            )),
+        }
+    }
+}
+
+pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    let inputs = inputs::forecast(args)?;
+    let ForecastInputs { study, band, slopes, .. } = &inputs;
+    let found = sampling::with_bar(study.steps(band), |go_on| study.run(band, slopes, go_on));
+    let forecast = sampling::whole(found?);
+    let tables = Tables::of(&forecast);
+    let flags = forecast.slopes.iter().map(|slope| &*slope.findings);
+    strict::check(&args.strict, flags, &tables.rows, &[SLOPE.name])?;
+    let notes = notes(&inputs);
+    let answer = Answer::new("forecast", settings(args, &inputs), results(&tables, &notes));
+    if let Some(mut folder) = folder {
+        write(&mut folder, &inputs, &forecast, &tables, &notes)?;
+        folder.add("forecast.json", answer.to_text());
+        folder.finish()?;
+    }
+    match args.output.format {
+        Format::Table => output::print(&tables.text(&notes)),
+        Format::Csv => output::print(&Rows::of_table(&tables.rows).to_csv()?),
+        Format::Json => output::print_json(&answer),
+    }
+}
+
+fn results<'a>(tables: &'a Tables, notes: &'a [String]) -> Results<'a> {
+    let Tables { rows, limit, budget, choices, tests } = tables;
+    Results { steepest: limit.row(0), rows, budget, choices, tests, notes }
+}
+
+/// What has to be said beside the numbers.
+fn notes(inputs: &ForecastInputs) -> Vec<String> {
+    let study = &inputs.study;
+    let (gravity, measured) = (study.heading.gravity, study.measured_under);
+    let source = if inputs.is_measured_under_stated { "" } else { ", which is assumed" };
+    let mut notes = vec![format!(
+        "the soil was measured under {measured} m/s²{source}; the site has {gravity} m/s²"
+    )];
+    if gravity != measured && study.choices.scalings.contains(&GravityScaling::Bekker) {
+        notes.push(BEKKER_IS_CARRIED.to_owned());
+    }
+    if inputs.scenario.stated_uncertainty().is_none() {
+        notes.push(match &inputs.scenario.uncertain {
+            Some(_) => {
+                "no uncertainty of this soil is stated: its samples are of priors".to_owned()
+            }
+            None => {
+                "nothing of this soil is uncertain: the budget has no part of its numbers, and \
+                     none of what a model gets wrong"
+                    .to_owned()
+            }
+        });
+    }
+    notes.push("power is mechanical: motors and their losses come on top".to_owned());
+    notes
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    #[serde(flatten)]
+    steepest: Row<'a>,
+    rows: &'a Table,
+    budget: &'a Table,
+    choices: &'a Table,
+    tests: &'a Table,
+    notes: &'a [String],
+}
+
+/// The inputs of the answer.
+fn settings(args: &ForecastArgs, inputs: &ForecastInputs) -> Value {
+    let ForecastInputs { scenario, study, band, .. } = inputs;
+    let (document, choices) = (&scenario.document, &study.choices);
+    let scalings: Vec<&str> = choices.scalings.iter().map(|scaling| scaling.name()).collect();
+    let grounds: Vec<&str> = choices.grounds.iter().map(Ground::name).collect();
+    let masses = choices.masses.iter().map(|mass| (mass.name.clone(), json!(mass.factor)));
+    let documents: Vec<Value> =
+        inputs.grounds.iter().map(|ground| json!(ground.document)).collect();
+    json!({
+        "rover": document.get("rover"),
+        "soil": document.get("soil"),
+        "site": args.site,
+        "gravity_m_s2": document.get("gravity_m_s2"),
+        "measured_gravity_m_s2": study.measured_under,
+        "scaling": scalings,
+        "ground": grounds,
+        "ground_soils": documents,
+        "mass": masses.collect::<serde_json::Map<_, _>>(),
+        "slope_deg": args.slope_deg.0,
+        "speed_m_s": study.rim_speed,
+        "loads": document.get("loads"),
+        "moments": document.get("moments"),
+        "samples": args.samples,
+        "discrepancies": args.discrepancies,
+        "seed": args.seed,
+        sampling::SHARES: sampling::shares(band),
+    })
+}
+
+fn write(
+    folder: &mut OutputFolder,
+    inputs: &ForecastInputs,
+    forecast: &Forecast,
+    tables: &Tables,
+    notes: &[String],
+) -> Result<(), Failure> {
+    let figures = figures::all(forecast, tables);
+    folder.add("forecast.html", page::html(inputs, forecast, tables, (&figures, notes)));
+    for figure in figures {
+        folder.add(format!("{}.svg", figure.file), figure.svg);
+    }
+    let csv = [
+        ("forecast", &tables.rows),
+        ("budget", &tables.budget),
+        ("choices", &tables.choices),
+        ("tests", &tables.tests),
+    ];
+    for (name, table) in csv {
+        folder.add(format!("{name}.csv"), Rows::of_table(table).to_csv()?);
+    }
+    folder.add_document("scenario.toml", &inputs.scenario);
+    for (place, ground) in inputs.grounds.iter().enumerate() {
+        let place = format!("ground-{}", place + 1);
+        folder.add(format!("{place}/soil.toml"), ground.to_toml());
+        for companion in &ground.companions {
+            folder.add(format!("{place}/{}", companion.name), companion.content.clone());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,80 @@
+//! One case of a forecast: a rover of one mass on one soil, by one model.
+
+use crate::error::ParameterError;
+use crate::studies::heading::{HeadingOffset, HeadingStudy};
+use crate::vehicle::Rover;
+
+/// Slip of a rover that does not move.
+pub(super) const STUCK: f64 = 1.0;
+
+/// Drift of a rover that slides: straight downhill.
+const STRAIGHT_DOWN: f64 = 1.0;
+
+/// The numbers that a forecast needs of a case.
+#[derive(Clone)]
+pub(super) struct OfCase {
+    /// Steepest slope on which a heading holds the contour [rad]; 0 where the rover cannot move.
+    pub(super) limit: f64,
+    /// On each slope.
+    pub(super) slopes: Vec<OnSlope>,
+}
+
+/// The same on a slope; every number is one without a heading too.
+#[derive(Clone, Copy)]
+pub(super) struct OnSlope {
+    /// Infinite where no heading holds the contour.
+    pub(super) yaw: f64,
+    pub(super) slip_ratio: f64,
+    pub(super) sinkage: f64,
+    /// Infinite likewise.
+    pub(super) power: f64,
+    /// Infinite likewise.
+    pub(super) energy_per_metre: f64,
+    /// With the nose on the contour.
+    pub(super) drift: f64,
+}
+
+impl OfCase {
+    pub(super) fn of(
+        study: &HeadingStudy,
+        rim_speed: f64,
+        slopes: &[f64],
+    ) -> Result<Self, ParameterError> {
+        let (level, drifting) = (study.curve()?, study.drift_curve()?);
+        let on_slope = |slope: &f64| {
+            let drift = drifting.at(*slope).map_or(STRAIGHT_DOWN, |heading| heading.drift());
+            match level.at(*slope) {
+                Ok(heading) => OnSlope::held(&heading, &study.rover, rim_speed, drift),
+                Err(_) => OnSlope::stuck(&study.rover, drift),
+            }
+        };
+        Ok(Self {
+            limit: level.limit().map_or(0.0, |(slope, _)| slope),
+            slopes: slopes.iter().map(on_slope).collect(),
+        })
+    }
+}
+
+impl OnSlope {
+    fn held(heading: &HeadingOffset, rover: &Rover, rim_speed: f64, drift: f64) -> Self {
+        Self {
+            yaw: heading.yaw,
+            slip_ratio: heading.slip_ratio,
+            sinkage: heading.mean_sinkage(),
+            power: heading.power(rover, rim_speed),
+            energy_per_metre: heading.energy_per_metre(rover),
+            drift,
+        }
+    }
+
+    fn stuck(rover: &Rover, drift: f64) -> Self {
+        Self {
+            yaw: f64::INFINITY,
+            slip_ratio: STUCK,
+            sinkage: rover.mean_axle_height(),
+            power: f64::INFINITY,
+            energy_per_metre: f64::INFINITY,
+            drift,
+        }
+    }
+}

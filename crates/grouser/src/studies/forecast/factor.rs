@@ -1,0 +1,122 @@
+//! The factors of a forecast: what they are called, their levels, and what would make each of them smaller.
+
+use crate::studies::ensemble::models::ModelSpread;
+
+/// What a forecast does not know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FactorKind {
+    /// How moduli scale with gravity.
+    GravityScaling,
+    /// Strength and density of the ground at the site.
+    Ground,
+    /// The rover's mass.
+    RoverMass,
+    /// The wheel–soil model.
+    Model,
+    /// The numbers of the soil.
+    SoilParameters,
+    /// What the model gets wrong under this wheel.
+    ModelDiscrepancy,
+}
+
+impl FactorKind {
+    /// The name: `gravity-scaling`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::GravityScaling => "gravity-scaling",
+            Self::Ground => "ground",
+            Self::RoverMass => "rover-mass",
+            Self::Model => "model",
+            Self::SoilParameters => "soil-parameters",
+            Self::ModelDiscrepancy => "model-discrepancy",
+        }
+    }
+
+    /// What would make its part smaller, a sentence.
+    #[must_use]
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::GravityScaling => {
+                "plate and wheel tests of one soil under several gravities, in partial-gravity flights, a drop tower or \
+                 at the site, tell which moduli grow with gravity"
+            }
+            Self::Ground => {
+                "cohesion, friction angle and density measured at the site: a cone penetrometer, a trench, the tracks of \
+                 a rover that was there"
+            }
+            Self::RoverMass => "the mass of the rover that flies, in place of the variants",
+            Self::Model => {
+                "wheel tests with the wheel that flies, over slip and slip angle, rank the models; a soil made for one of \
+                 them keeps it in four fifths of the cases"
+            }
+            Self::SoilParameters => {
+                "wheel or plate tests of the soil: a calibration narrows its numbers, and shows which of them matter"
+            }
+            Self::ModelDiscrepancy => {
+                "wheel tests with the wheel that flies: a calibration finds what the model gets wrong under it"
+            }
+        }
+    }
+}
+
+/// What would make the part smaller that no factor has alone.
+pub const REMEDY_OF_INTERACTIONS: &str = "no measurement of its own: it comes down with the factors whose total is much larger than their part";
+
+/// A factor with its levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factor {
+    /// What it is.
+    pub kind: FactorKind,
+    /// Its levels; one where nothing is open.
+    pub levels: Vec<Level>,
+}
+
+/// A level of a factor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Its name: that of a choice or a model, or the number of a sample.
+    pub name: String,
+    /// How often it counts.
+    pub count: u32,
+}
+
+impl Factor {
+    /// Choices, of which all count alike.
+    pub(super) fn named<'a>(kind: FactorKind, names: impl Iterator<Item = &'a str>) -> Self {
+        let level = |name: &str| Level { name: name.to_owned(), count: 1 };
+        Self { kind, levels: names.map(level).collect() }
+    }
+
+    /// Samples.
+    pub(super) fn numbered(kind: FactorKind, count: u32) -> Self {
+        let level = |number: u32| Level { name: number.to_string(), count: 1 };
+        Self { kind, levels: (0..count).map(level).collect() }
+    }
+
+    /// Models by their shares.
+    pub(super) fn of_models(models: &ModelSpread) -> Self {
+        let shares = models.shares();
+        let least = shares.iter().map(|(_, share)| *share).fold(1.0, f64::min);
+        let level = |(theory, share): &(crate::contact::Theory, f64)| {
+            // A share is a small multiple of the least one, and no negative number.
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let count = (share / least).round() as u32;
+            Level { name: theory.name().to_owned(), count }
+        };
+        Self { kind: FactorKind::Model, levels: shares.iter().map(level).collect() }
+    }
+
+    /// Whether it is a choice or the model, whose levels have names.
+    #[must_use]
+    pub fn is_named(&self) -> bool {
+        !matches!(self.kind, FactorKind::SoilParameters | FactorKind::ModelDiscrepancy)
+    }
+
+    /// The share of a level [-].
+    #[must_use]
+    pub fn share(&self, level: &Level) -> f64 {
+        let all: u32 = self.levels.iter().map(|it| it.count).sum();
+        f64::from(level.count) / f64::from(all)
+    }
+}
