@@ -481,6 +481,10 @@ fn an_uncorrected_traverse_ends_low_with_its_nose_down_and_the_card_says_to_corr
         (number(&end["y_m"]) + 1.47).abs() < 0.01 && (number(&end["yaw_deg"]) + 9.7).abs() < 0.1,
         "{end}"
     );
-    let answer = place.json("card --loads quasi-static-torque --samples 3");
-    assert!(number(&row(&answer, 13.0)["correct_every_m"]) < 1.0);
+    let answer =
+        place.json("card --loads quasi-static-torque --model ishigami --set soil.priors=none");
+    // Over that way the nose fell by 16.5°: by 2° it may fall until it is set again.
+    let way = number(&end["x_m"]).hypot(number(&end["y_m"]));
+    let fall = (6.863 - number(&end["yaw_deg"])) / way;
+    assert!(number(&row(&answer, 13.0)["correct_every_m"]) <= 2.0 / fall);
 }

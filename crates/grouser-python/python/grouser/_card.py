@@ -154,13 +154,13 @@ def card(
     Examples
     --------
     >>> import grouser as gr
-    >>> card = gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 15.0], samples=12)
+    >>> card = gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], samples=12)
     >>> card.verdict.tolist()
-    ['go', 'caution']
-    >>> bool(card.roll_deg[1] < 15.0 and card.correct_every_m[1] < card.correct_every_m[0])
+    ['go', 'no-go']
+    >>> bool(card.roll_deg[0] <= 5.0 and card.correct_every_m[0] >= 0.1)
     True
     >>> card.courses.to_pandas().query("course == 'back-across'")["verdict"].tolist()
-    ['go', 'go']
+    ['go']
     """
     slopes = np.arange(61.0) if slope_deg is None else line("slope_deg", slope_deg)
     run = scenario_of(scenario, changes)

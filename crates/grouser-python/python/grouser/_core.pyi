@@ -30,6 +30,7 @@ __all__ = [
     "campaign_row",
     "campaign_shard",
     "campaign_summary",
+    "card",
     "check_shard",
     "find_campaign",
     "find_document",
