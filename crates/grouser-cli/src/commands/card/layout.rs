@@ -161,7 +161,7 @@ pub(super) fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
         _ => format!("NO-GO   {from_deg}° and steeper"),
     };
     sheet.text(shown(text, 6.4).face(Face::Bold).grey(WHITE), [LEFT + 3.0, top + 6.6]);
-    let what = "no heading: do not cross";
+    let what = "do not cross";
     sheet.text(shown(what, 4.2).grey(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 5.8]);
 }
 
