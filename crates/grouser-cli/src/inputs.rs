@@ -286,12 +286,13 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
         None => words::measured_under(&heading.soil),
     };
     let measured_under = stated.unwrap_or(grouser::units::EARTH_GRAVITY);
-    let names = ground_names(args, gravity == measured_under);
+    let names = ground_names(args, gravity, gravity == measured_under);
     let (grounds, documents) = grounds(&names)?;
     let masses = once("--mass", &args.mass)?.iter();
     let masses = masses.map(|text| words::mass_of(text, gravity / measured_under));
     let masses = masses.collect::<Result<Vec<_>, _>>();
     let masses = masses.map_err(|problem| Failure::Usage(format!("--mass {problem}")))?;
+    once("--mass", &masses.iter().map(|mass| mass.name.clone()).collect::<Vec<_>>())?;
     let scalings = once("--scaling", &args.scaling)?.iter().map(|text| scaling_of(text));
     let choices = Choices { scalings: scalings.collect::<Result<_, _>>()?, grounds, masses };
     let rim_speed = match &args.rim_speed_m_s {
@@ -316,12 +317,12 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
 
 /// What the ground may be: as asked for, or else the soil as measured and, where it was measured under another
 /// gravity, what is known of the site.
-fn ground_names(args: &ForecastArgs, is_at_home: bool) -> Vec<String> {
+fn ground_names(args: &ForecastArgs, gravity: f64, is_at_home: bool) -> Vec<String> {
     use document::forecast::{AS_MEASURED, sites};
     if !args.ground.is_empty() {
         return args.ground.clone();
     }
-    let site = sites().into_iter().find(|site| site.name == args.site.trim() && !is_at_home);
+    let site = sites().into_iter().find(|site| site.gravity == gravity && !is_at_home);
     let known = site.map_or(&[][..], |site| site.grounds);
     [AS_MEASURED].iter().chain(known).map(|name| (*name).to_owned()).collect()
 }

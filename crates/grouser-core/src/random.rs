@@ -4,6 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::elementary::wide;
 
+/// The largest seed that JSON keeps exactly.
+pub const LARGEST_SEED: u64 = (1 << 53) - 1;
+
 /// A stream of random numbers: SplitMix64 (Steele, Lea and Flood 2014).
 ///
 /// Studies, which need many more, have a generator of a library; a run needs some dozens, and its crate stays light.
@@ -15,14 +18,14 @@ pub(crate) struct Random {
 impl Random {
     /// A stream of a seed; other seeds and streams have other numbers.
     pub(crate) fn stream(seed: u64, stream: u64) -> Self {
-        let mut streams = Self { state: seed };
-        let start = streams.next();
-        Self { state: start ^ Self { state: stream }.next() }
+        // One after the other, so that seed and stream do not stand for each other.
+        let seeded = Self { state: seed }.next();
+        Self { state: Self { state: seeded.wrapping_add(stream) }.next() }
     }
 
-    /// The seed of a case: of (seed, case) alone.
+    /// The seed of a case: of (seed, case) alone, and one that documents can hold.
     pub(crate) fn of_case(seed: u64, case: u64) -> u64 {
-        Self::stream(seed, case).next()
+        Self::stream(seed, case).next() & LARGEST_SEED
     }
 
     /// A number above 0 and below 1.
@@ -70,6 +73,16 @@ mod tests {
         let variance = all.iter().map(|value| value * value).sum::<f64>() / f64::from(COUNT);
         assert!(mean.abs() < 0.03, "{mean}");
         assert!((variance - 1.0).abs() < 0.04, "{variance}");
+    }
+
+    #[test]
+    fn cases_do_not_share_a_seed() {
+        let mut all: Vec<u64> =
+            (0..60).flat_map(|seed| (0..60).map(move |case| Random::of_case(seed, case))).collect();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), 3600);
+        assert!(all.iter().all(|seed| *seed <= LARGEST_SEED));
     }
 
     #[test]

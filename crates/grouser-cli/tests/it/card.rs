@@ -449,7 +449,7 @@ fn both_pages_are_printed() {
     assert!(sizes.fold(f64::INFINITY, f64::min) >= 2.47);
 }
 
-/// Other soils, driven by the card; the one who corrects late drifts more.
+/// Other soils, driven by the card on time and late.
 #[test]
 fn drives_are_told_beside_what_the_card_states() {
     let place = Place::new();

@@ -92,7 +92,8 @@ impl Observation<'_> {
         self.rover
     }
 
-    /// Rim speed of each wheel so far, *ω r_s* [m/s]; zeros before the start.
+    /// Rim speed that each wheel has so far, *ω r_s* [m/s]; zeros before the start. Where a scenario has wheels that
+    /// turn [at another speed](Scenario::by_wheel) than they are told to, it is not what they were told.
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
         self.rim_speeds

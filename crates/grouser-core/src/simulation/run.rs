@@ -152,7 +152,7 @@ impl Run {
         if self.state.outcome.is_some() {
             return Ok(());
         }
-        let is_new_command = self.state.told != rim_speeds;
+        let is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.rim_speeds;
         if is_new_command {
             self.state.turn(&self.scenario, rim_speeds);
         }

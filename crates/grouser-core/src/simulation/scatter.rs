@@ -1,5 +1,6 @@
 //! What scatters in a run: the soil from place to place, the motors' speeds from wheel to wheel.
 
+use crate::elementary;
 use crate::error::{ParameterError, not_negative, positive};
 use crate::random::Random;
 use crate::terrain::{SoilField, SoilScatter};
@@ -10,11 +11,14 @@ use crate::terrain::{SoilField, SoilScatter};
 pub struct Scatter {
     /// Of the soil, from place to place.
     pub soil: SoilScatter,
-    /// Of each wheel's speed, as a share of what the motor is told [-]; it stays as it is over a run.
+    /// Of the logarithm of each wheel's speed over what its motor is told [-]; it stays as it is over a run.
     pub speed: f64,
     /// Which realisation.
     pub seed: u64,
 }
+
+/// The largest seed of a document.
+pub use crate::random::LARGEST_SEED;
 
 /// The stream of random numbers that speeds are made of.
 const SPEEDS: u64 = 1;
@@ -56,7 +60,7 @@ impl Scatter {
     /// Factors on the wheels' speeds [-], in the mounts' order.
     pub fn speed_factors(&self) -> impl Iterator<Item = f64> + use<> {
         let (mut random, deviation) = (Random::stream(self.seed, SPEEDS), self.speed);
-        std::iter::repeat_with(move || 1.0 + deviation * random.normal())
+        std::iter::repeat_with(move || elementary::exp(deviation * random.normal()))
     }
 
     /// That it can be.

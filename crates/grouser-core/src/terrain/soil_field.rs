@@ -30,7 +30,7 @@ const WAVES: usize = 32;
 /// let scatter = SoilScatter { friction_angle: deg(1.0), stiffness: 0.1, correlation_length: 0.3 };
 /// let field = SoilField::new(scatter, 1);
 /// let at = |x: f64| format!("{:+.2}°", field.at(Vec2::new(x, 0.0)).friction_angle.to_degrees());
-/// assert_eq!([at(0.0), at(0.01), at(0.5)], ["+0.47°", "+0.42°", "-0.38°"]);
+/// assert_eq!([at(0.0), at(0.01), at(0.5)], ["-0.77°", "-0.72°", "+1.33°"]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoilField {

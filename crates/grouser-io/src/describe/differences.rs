@@ -4,10 +4,8 @@ use super::super::field::{
     DEG, Field, Fill, Form, M, ONE, Table, number, numbers, positive, whole,
 };
 use grouser_core::simulation::Scatter;
+pub(super) use grouser_core::simulation::scatter::LARGEST_SEED;
 use grouser_core::vehicle::{ByWheel, PerWheel};
-
-/// The largest seed that JSON keeps exactly.
-pub(super) const LARGEST_SEED: u64 = (1 << 53) - 1;
 
 pub(super) static BY_WHEEL: Table<ByWheel> = Table {
     doc: "What is known to differ from wheel to wheel: one number for all, or a list with one for each mount, in their order.",
@@ -93,7 +91,7 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "speed_std",
             ONE,
             0.0..=0.2,
-            "Standard deviation of each wheel's speed over a run, as a share of what its motor is told",
+            "Standard deviation of each wheel's speed over a run, as a share of what its motor is told (of its logarithm)",
             |all: &mut Scatter| Some(&mut all.speed),
         )
         .or(0.0),

@@ -191,8 +191,10 @@ impl Campaign {
         let (values, theory) = self.prepared.split(&inputs.values);
         row.extend(values.iter().map(|value| Cell::Float(Some(*value))));
         row.extend(theory.map(|theory| Cell::text(theory.name())));
-        let case =
-            rows::Case { keys: self.prepared.keys(), values, theory, seed: self.seed(), index };
+        // The runs of a point of a design for sensitivities differ by their inputs alone.
+        let bed = inputs.place.map_or(index, |place| place.point);
+        let keys = self.prepared.keys();
+        let case = rows::Case { keys, values, theory, seed: self.seed(), bed };
         rows::run(self.study, &self.base, &case, &mut row);
         // A row without an answer has its status, and nothing in the columns after it.
         let missing = self.columns[row.len()..].iter().map(|column| Cell::none(column.kind));

@@ -89,6 +89,9 @@ pub fn mass_of(text: &str, q: f64) -> Result<RoverMass, String> {
     };
     let (name, number) = (name.trim(), factor.trim().parse::<f64>());
     match number {
+        _ if MASSES.contains(&name) => Err(format!(
+            "'{text}': {name} has its factor already; give another name to another mass"
+        )),
         Ok(factor) if MASS_FACTOR.contains(&factor) && !name.is_empty() => Ok(mass(name, factor)),
         _ => {
             let (from, to) = (MASS_FACTOR.start(), MASS_FACTOR.end());

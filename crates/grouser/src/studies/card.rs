@@ -200,6 +200,7 @@ impl CardStudy {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
         let mut worst = Verdict::Go;
+        let mut gentler: Option<DrivenMotion> = None;
         let row = |(place, slope): (usize, &f64)| {
             let mut driven = self.driven(found.judged(), place, *slope);
             let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
@@ -209,7 +210,9 @@ impl CardStudy {
                     return None;
                 }
                 let course = (*slope, driven.yaw);
-                driven.motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
+                let motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
+                driven.motion = motion.map(|motion| motion.no_laxer_than(gentler.as_ref()));
+                gentler = driven.motion.or(gentler);
                 worst = worst.max(verdict_of(driven.motion.as_ref()));
             }
             Some(found.row(place, *slope, (worst, driven)))

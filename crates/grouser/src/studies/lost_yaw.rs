@@ -7,7 +7,7 @@
 
 use super::comparison::MeasuredTraverse;
 use super::ensemble::{Band, Probability, outputs};
-use crate::simulation::{Integrator, Numerics, Run, RunError, Scatter, Scenario, Start};
+use crate::simulation::{Integrator, Numerics, Outcome, Run, RunError, Scatter, Scenario, Start};
 use crate::terrain::SoilScatter;
 
 /// Runs from the measured starts, with soil and speeds that scatter.
@@ -76,6 +76,9 @@ pub struct Losses {
     pub losses: Band,
     /// Its standard deviation.
     pub deviation: f64,
+    /// In how many of the runs the rover slid, got stuck or tipped over before the end: they count with the yaw that
+    /// they had then.
+    pub ended_early: Probability,
 }
 
 /// A cause of scatter.
@@ -137,7 +140,7 @@ impl LostYawPlan {
 
     fn on_slope(&self, measured: &MeasuredTraverse) -> Result<SlopeLoss, RunError> {
         let all = self.losses(measured, self.scatter)?;
-        let less = all.iter().filter(|loss| **loss < measured.yaw_loss()).count();
+        let less = all.iter().filter(|run| run.loss < measured.yaw_loss()).count();
         let alone = Cause::ALL.map(|cause| self.losses(measured, cause.of(self.scatter)));
         let [friction_angle, stiffness, speed] = alone;
         let of_length = |length: &f64| {
@@ -147,7 +150,7 @@ impl LostYawPlan {
         };
         Ok(SlopeLoss {
             measured: *measured,
-            by_loads: self.loss(measured, Scatter::NONE)?,
+            by_loads: self.one(measured, Scatter::NONE)?.loss,
             together: Losses::of(&all),
             alone: [Losses::of(&friction_angle?), Losses::of(&stiffness?), Losses::of(&speed?)],
             by_length: self.other_lengths.iter().map(of_length).collect::<Result<_, _>>()?,
@@ -157,13 +160,13 @@ impl LostYawPlan {
 
     /// Yaws lost in runs whose realisations depend on the seed and the run's number alone: causes alone and
     /// together meet the same beds and motors.
-    fn losses(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<Vec<f64>, RunError> {
-        let loss = |sample: u32| self.loss(measured, scatter.of_case(self.seed, sample.into()));
-        outputs(0..self.samples, loss).into_iter().collect()
+    fn losses(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<Vec<Lost>, RunError> {
+        let one = |sample: u32| self.one(measured, scatter.of_case(self.seed, sample.into()));
+        outputs(0..self.samples, one).into_iter().collect()
     }
 
-    /// Yaw lost in a run [rad]. One that ends early keeps the yaw with which it ended.
-    fn loss(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<f64, RunError> {
+    /// One run. One that ends early keeps the yaw with which it ended.
+    fn one(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<Lost, RunError> {
         let base = self.scenario.clone();
         let numerics = Numerics {
             integrator: Integrator::Adaptive { tolerance: TOLERANCE },
@@ -173,19 +176,32 @@ impl LostYawPlan {
         let site = base.site.with_slope(measured.slope);
         let start = Start { yaw: measured.initial_yaw, ..base.start };
         let run = Run::new(&Scenario { scatter, site, start, numerics, ..base })?.to_end()?;
-        Ok(measured.initial_yaw - run.last().state.yaw)
+        let loss = measured.initial_yaw - run.last().state.yaw;
+        Ok(Lost { loss, is_whole: run.outcome == Outcome::Completed })
     }
+}
+
+/// What became of one run.
+struct Lost {
+    /// Yaw lost [rad].
+    loss: f64,
+    /// Whether it went to its end.
+    is_whole: bool,
 }
 
 /// Relative tolerance of the runs [-]: they differ from each other by a thousand times as much.
 const TOLERANCE: f64 = 1e-4;
 
 impl Losses {
-    fn of(losses: &[f64]) -> Self {
-        let count = losses.len() as f64;
-        let mean = losses.iter().sum::<f64>() / count;
-        let squares: f64 = losses.iter().map(|loss| (loss - mean) * (loss - mean)).sum();
-        let band = Band::of(losses.iter().copied()).expect("there are samples");
-        Self { losses: band, deviation: (squares / (count - 1.0).max(1.0)).sqrt() }
+    fn of(runs: &[Lost]) -> Self {
+        let (count, losses) = (runs.len() as f64, || runs.iter().map(|run| run.loss));
+        let mean = losses().sum::<f64>() / count;
+        let squares: f64 = losses().map(|loss| (loss - mean) * (loss - mean)).sum();
+        let early = runs.iter().filter(|run| !run.is_whole).count();
+        Self {
+            losses: Band::of(losses()).expect("there are samples"),
+            deviation: (squares / (count - 1.0).max(1.0)).sqrt(),
+            ended_early: Probability { successes: early, trials: runs.len() },
+        }
     }
 }

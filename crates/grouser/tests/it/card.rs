@@ -197,6 +197,12 @@ fn a_steeper_slope_is_never_better() {
     for soils in [Vec::new(), soils(40)] {
         let card = card(&study(), &soils, &slopes(30));
         assert!(card.rows.windows(2).all(|pair| pair[0].verdict <= pair[1].verdict));
+        let motions = card.rows.iter().filter_map(|row| row.driven.as_ref()?.motion);
+        let asked: Vec<(f64, f64)> = motions
+            .map(|motion| (motion.correct_every, motion.slip_check.every.unwrap_or(0.0)))
+            .collect();
+        assert!(asked.len() > 5, "{asked:?}");
+        assert!(asked.windows(2).all(|pair| pair[0].0 >= pair[1].0 && pair[0].1 >= pair[1].1));
         assert_eq!(card.rows[0].verdict, Verdict::Go);
         assert_eq!(card.rows[30].verdict, Verdict::NoGo);
         assert!(card.rows.iter().any(|row| row.verdict == Verdict::Caution));

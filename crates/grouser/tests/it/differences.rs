@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use grouser::document::campaign::Campaign;
 use grouser::document::table::Cell;
 use grouser::document::{self, Overrides, Source, experiment};
-use grouser::simulation::{Approach, Method, NotSteady, Numerics, Run, Scatter, Scenario, Start};
+use grouser::simulation::{
+    Approach, Integrator, Method, NotSteady, Numerics, Run, Scatter, Scenario, Start,
+};
 use grouser::soil::{Soil, SoilDifference};
 use grouser::studies::lost_yaw::LostYawPlan;
 use grouser::terrain::{SoilField, SoilScatter};
@@ -241,4 +243,42 @@ fn lost_yaw_scatters_about_as_an_independent_estimate_has_it() {
         assert!(off.abs() < 0.6, "{off}");
     }
     assert_eq!(found, plan.run(&mut |_| ()).expect("it runs"));
+}
+
+/// Steps that know how the ground differs from place to place keep their order: a run at the usual tolerance is that
+/// of a finer one, and of an integrator that knows of no Jacobian.
+#[test]
+fn a_scattered_run_is_that_of_finer_and_of_simpler_steps() {
+    let soil = SoilScatter { friction_angle: deg(2.0), stiffness: 0.2, correlation_length: 0.1 };
+    let scatter = Scatter { soil, seed: 5, ..Scatter::NONE };
+    let base = scenario(&["scenario.start.yaw_deg=5", "scenario.duration_s=4"]);
+    let end = |integrator| {
+        let numerics = Numerics { integrator, sample_interval: 4.0, ..base.numerics };
+        let run = Run::new(&Scenario { scatter, numerics, ..base.clone() }).and_then(Run::to_end);
+        let run = run.expect("it runs");
+        (run.last().state, run.work.steps)
+    };
+    let (usual, steps) = end(Integrator::Adaptive { tolerance: 1e-6 });
+    let (finer, _) = end(Integrator::Adaptive { tolerance: 1e-9 });
+    let (simple, _) = end(Integrator::Rk4 { step: 5e-4 });
+    for other in [finer, simple] {
+        assert!((usual.position - other.position).norm() < 1e-6, "{usual:?} {other:?}");
+        assert!((usual.yaw - other.yaw).abs() < 1e-6, "{usual:?} {other:?}");
+    }
+    // Without the columns of the place the steps would be a hundred times as many.
+    assert!(steps < 400, "{steps}");
+}
+
+/// The runs of a point of a design for sensitivities share its bed, or the total index of every input would have the
+/// scatter in it.
+#[test]
+fn a_design_for_sensitivities_scatters_from_point_to_point() {
+    let spread = "sensitivity = true\n[scenario]\nduration_s = 3\n[scenario.scatter]\nstiffness_std = 0.3\n\
+                  [[parameter]]\nkey = \"gravity_m_s2\"\ndistribution = \"normal\"\nstandard_deviation = 1e-9\n";
+    let found = yaws(&campaign(spread));
+    assert_eq!(found.len(), 4 * 3);
+    for point in found.chunks(3) {
+        assert!(point.iter().all(|yaw| (yaw - point[0]).abs() < 1e-5), "{found:?}");
+    }
+    assert!((found[0] - found[3]).abs() > 1e-3, "{found:?}");
 }

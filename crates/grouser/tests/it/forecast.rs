@@ -166,7 +166,7 @@ fn any_number_of_threads_makes_the_same_bits() {
     assert_eq!(with(1), with(3));
 }
 
-/// A forecast of some slopes has the numbers of one of more slopes, and of more samples the same first ones.
+/// A forecast of some slopes has the numbers of one of more slopes.
 #[test]
 fn slopes_do_not_depend_on_each_other() {
     let scenario = scenario(&[UNCERTAIN]);

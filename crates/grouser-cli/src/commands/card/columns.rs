@@ -226,12 +226,11 @@ fn line(sheet: &mut Sheet, table: &Table<'_>, (place, row): (usize, CardRow<'_>)
     }
 }
 
-/// Lines between the rows, heavier at every fifth, and between the groups of columns.
+/// Lines between the rows, and between the groups of columns.
 fn frame(sheet: &mut Sheet, table: &Table<'_>) {
     for place in 1..=table.rows.len() {
         let y = table.top + table.height * place as f64;
-        let stroke = if place % 5 == 0 { Stroke::black(0.45) } else { Stroke::grey(0.15, 0.5) };
-        sheet.draw(Shape::line([[STRIP, y], [RIGHT, y]], stroke));
+        sheet.draw(Shape::line([[STRIP, y], [RIGHT, y]], Stroke::grey(0.15, 0.5)));
     }
     sheet.draw(Shape::line([[LEFT, table.top], [RIGHT, table.top]], Stroke::black(0.45)));
     let light = |x: &f64| (*x, Stroke::grey(0.15, 0.5));

@@ -100,8 +100,16 @@ pub(super) fn titles(sheet: &mut Sheet, texts: &Texts, about: &str, page: u8) {
     let title = shortened(&texts.title, size, RIGHT - LEFT);
     sheet.text(shown(title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
     sheet.text(shown(about, 4.4).face(Face::Bold), [LEFT, TOP + 12.5]);
-    let place = format!("page {page} of 2");
-    sheet.text(shown(place, 3.0).anchor(Anchor::End), [RIGHT, TOP - 1.0]);
+    let place = shown(format!("page {page} of 2"), 3.0).anchor(Anchor::End);
+    let left = RIGHT - place.width() - 4.0;
+    sheet.text(place, [RIGHT, TOP - 1.0]);
+    if !texts.outside.is_empty() {
+        let loud = shown("OUTSIDE ITS DOMAIN: see page 1, at the end", 3.2);
+        let loud = loud.face(Face::Bold).grey(WHITE).anchor(Anchor::End);
+        let width = loud.width() + 3.0;
+        sheet.draw(Shape::rectangle([left - width, TOP - 4.6], [width, 5.0], BLACK));
+        sheet.text(loud, [left - 1.5, TOP - 1.0]);
+    }
 }
 
 /// The day of the soil, loud where it is not known; where it ends [mm].
@@ -199,7 +207,11 @@ fn below(sheet: &mut Sheet, texts: &Texts, size: f64, most: usize, top: f64) -> 
     if let Some(more @ 1..) = texts.assumed.len().checked_sub(most) {
         assumed = format!("{assumed}  ·  and {more} more, in the documents");
     }
+    let outside = texts.outside.join("  ·  ");
     let mut rest = vec![("Holds for", &*texts.holds_for), ("Leaves out", &*texts.leaves_out)];
+    if !outside.is_empty() {
+        rest.push(("Outside", &outside));
+    }
     if !assumed.is_empty() {
         rest.push(("Assumed", &assumed));
     }

@@ -287,8 +287,11 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         length = four_digits(SOIL_LENGTH),
         most = percent(MOST_CHECKED_SLIP),
     );
-    let range =
-        if texts.has_bands { "95 % of the samples are in the range; stop above it. " } else { "" };
+    let range = if texts.has_bands {
+        "95 % of the samples are in the range; stop above it, and above 40 % wherever it ends. "
+    } else {
+        ""
+    };
     vec![
         ("Look every", check),
         (
@@ -302,7 +305,7 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
             "Turn",
             format!(
                 "from the heading of page 1 uphill. For {turn} it takes up to so many metres, and the rover comes lower by \
-                 up to so many centimetres: a correction is a fifth of it. On the spot the two sides run against each \
+                 up to so many centimetres, in 97.5 % of the samples that turn: a correction is a fifth of it. On the spot the two sides run against each \
                  other; samples that do not turn count as stuck.",
                 turn = degrees(TURN)
             ),
@@ -317,7 +320,8 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         ),
         (
             "Leaves out",
-            "how deep wheels have dug already: where the rover is stuck no row holds. Starts, stops, and steered wheels. \
+            "how deep wheels have dug already: where the rover is stuck no row holds. Turning downhill, starts, stops, and \
+             steered wheels. \
              Power, torque and wheel way on page 1 are mechanical."
                 .to_owned(),
         ),

@@ -33,6 +33,8 @@ pub(super) struct Texts {
     pub(super) facts: Vec<(&'static str, String)>,
     pub(super) holds_for: String,
     pub(super) leaves_out: String,
+    /// What is an extrapolation, and from which slope on.
+    pub(super) outside: Vec<String>,
     pub(super) assumed: Vec<String>,
 }
 
@@ -66,7 +68,8 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
             .to_owned(),
-        assumed: extrapolations(card).into_iter().chain(assumed(inputs)).collect(),
+        outside: extrapolations(card),
+        assumed: assumed(inputs),
     }
 }
 
@@ -101,18 +104,20 @@ pub(super) fn percent(share: f64) -> String {
 /// What the columns are.
 fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
     let roll = format!(
-        "what instruments show with the nose set: uphill side and nose are higher. Pitch above its range: the nose is \
-         too far uphill by more than {error}; below: too far down.",
+        "what instruments show with the nose set: roll reads the slope itself, and uphill side and nose are higher. Pitch \
+         above its range: the nose is too far uphill by more than {error}; below: too far down. Where the range begins \
+         with 0 pitch cannot tell.",
         error = degrees(HEADING_ERROR)
     );
     let every = format!(
-        "way in which the nose falls by {} or less{}; set it to {} as well.",
+        "way in which the nose falls by {} or less{}; set it to within {} of the large number.",
         degrees(HEADING_ERROR),
         if draws.is_some() { " in 97.5 % of the samples" } else { "" },
         degrees(HEADING_ERROR)
     );
     let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
-                    travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel that has most.";
+                    travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel that has most; both of samples \
+                    that are not stuck.";
     let others = format!(
         "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope could be before the \
          rover at rest tips.",
@@ -154,7 +159,7 @@ fn extrapolations(card: &Card) -> Vec<String> {
     let line = |flag: Flag| {
         let first = held().find(|row| carries(row, flag))?;
         let slope = four_digits(SLOPE.unit.from_si(first.slope));
-        Some(format!("OUTSIDE ITS DOMAIN from {slope}° ({}): {}", flag.name(), flag.rule().meaning))
+        Some(format!("from {slope}° ({}): {}", flag.name(), flag.rule().meaning))
     };
     Flag::ALL.into_iter().filter_map(line).collect()
 }
@@ -240,9 +245,8 @@ fn known(args: &CardArgs, inputs: &CardInputs, card: &Card) -> String {
 fn model(inputs: &CardInputs) -> String {
     let nominal = inputs.scenario.value.theory.name();
     let band = BandInputs::of_scenario(&inputs.scenario);
-    let share = |(theory, share): &(Theory, f64)| {
-        format!("{} {} %", theory.name(), four_digits(share * 100.0))
-    };
+    let share =
+        |(theory, share): &(Theory, f64)| format!("{} {:.0} %", theory.name(), share * 100.0);
     match band.models().shares() {
         [_] => nominal.to_owned(),
         all => {

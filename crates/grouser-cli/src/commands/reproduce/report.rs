@@ -3,13 +3,14 @@
 use grouser::contact::validity::Finding;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::run::table as run_table;
-use grouser::simulation::{Scatter, Scenario, Trajectory};
+use grouser::simulation::{Scenario, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::studies::validity::RoverOnSlope;
 
+use super::study::SCATTER;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::Rows;
+use crate::output::rows::{Rows, four_digits};
 use crate::report::experiment::{self as against, Study};
 use crate::report::figures::{self, Figure};
 use crate::report::outlines;
@@ -129,7 +130,8 @@ fn findings(study: &Reproduction, scenario: &Scenario) -> Vec<Finding> {
         let scenario = on_slope(scenario, runs);
         let all =
             [&runs.uncompensated, &runs.from_measured_yaw, &runs.from_measured_yaw_with_torque];
-        let all = all.into_iter().chain(&runs.compensated);
+        let others = [&runs.from_measured_yaw_complete, &runs.at_measured_yaw];
+        let all = all.into_iter().chain(others).chain(&runs.compensated);
         let raised = all.flat_map(|run| RoverOnSlope::of(&scenario).over(run));
         raised.map(|raised| raised.finding).collect::<Vec<_>>()
     });
@@ -202,10 +204,13 @@ fn lost_on_the_way(report: &mut Report<'_>, study: &Study) -> Result<(), Failure
     report.page.answer(&against::lost_yaw_verdict(study));
     report.table(&against::lost_yaw(study))?;
     report.page.paragraph(&format!(
-        "Scattered runs have sand whose friction angle differs from place to place by 1° and whose stiffness by a tenth \
-         (standard deviations, correlated over {} m), and wheels whose speeds differ by half a per cent; all of that is \
-         assumed for a raked bed. {}",
-        Scatter::USUAL_LENGTH,
+        "Scattered runs have sand whose friction angle differs from place to place by {}° and whose stiffness by {} % \
+         (standard deviations, correlated over {} m), and wheels whose speeds differ by {} %; all of that is assumed for a \
+         raked bed. Runs that end early, because the rover slides or gets stuck, count with the yaw that they had then. {}",
+        four_digits(SCATTER.soil.friction_angle.to_degrees()),
+        four_digits(100.0 * SCATTER.soil.stiffness),
+        SCATTER.soil.correlation_length,
+        four_digits(100.0 * SCATTER.speed),
         against::lengths_sentence(study)
     ));
     Ok(())
@@ -218,7 +223,8 @@ fn closing(page: &mut Page, scenario: &LoadedScenario) {
         "Besides these: the slope is plane and the sand homogeneous; wheels are rigid and settle \
          at once; load transfer is quasi-static, by weight and slope, without the wheels' torque \
          unless stated; the wheels' own overturning and aligning moments are neglected; rear \
-         wheels meet sand as fresh as the front ones do.",
+         wheels meet sand as fresh as the front ones do. The band of headings, the yaw lost on the way and the runs that \
+         say so have the complete load transfer instead, with the wheels' own moments.",
     );
     page.heading("How the numbers were made");
     page.paragraph(&format!(
@@ -234,9 +240,7 @@ fn closing(page: &mut Page, scenario: &LoadedScenario) {
          grouser traverse --slope-deg 10 --yaw-deg 5.51 --load-transfer quasi-static-torque\n\
          grouser traverse --slope-deg 10 --load-transfer quasi-static \\\n    \
          --set 'scenario.drive.yaw_deg=[[0, 5.51], [20, 3.10]]'\n\
-         grouser wheel-test --load-n 20 --slip-ratio 0:1:0.02 --set soil.shear.longitudinal_m=0.03\n\
-         grouser traverse --slope-deg 10 --yaw-deg 5.51 --set scenario.scatter.friction_angle_std_deg=1 \\\n    \
-         --set scenario.scatter.stiffness_std=0.1 --set scenario.scatter.speed_std=0.005",
+         grouser wheel-test --load-n 20 --slip-ratio 0:1:0.02 --set soil.shear.longitudinal_m=0.03",
     );
     page.paragraph("The scenario in full:");
     page.code(&scenario.to_toml());

@@ -32,7 +32,7 @@ const SLIP_ANGLES_DEG: [f64; 3] = [0.0, 15.0, 30.0];
 const OTHER_MODELS: [Theory; 2] = [Theory::Rft, Theory::Bekker];
 /// What scatters where the yaw that is lost is explained: 1° of friction, a tenth of stiffness, half a per cent of
 /// speed. Source: assumed, for a raked bed and motors under speed control.
-const SCATTER: Scatter = Scatter {
+pub(super) const SCATTER: Scatter = Scatter {
     soil: SoilScatter {
         friction_angle: PI / 180.0,
         stiffness: 0.1,

@@ -236,6 +236,12 @@ fn nothing_uncertain(tree: &Node) -> DocumentError {
 }
 
 fn check_design(settings: &Settings, inputs: &Inputs, tree: &Node) -> Result<(), DocumentError> {
+    if settings.sensitivity && inputs.distribution.dimensions() == 0 {
+        let problem =
+            Problem::Conflict("there is no input whose share of the variance could be told");
+        return Err(DocumentError::at(tree.origin_of("sensitivity"), problem)
+            .with_hint("name keys with their distributions as [[parameter]]".to_owned()));
+    }
     if settings.sensitivity && inputs.is_correlated {
         let problem = Problem::Conflict(
             "inputs that are correlated have no Sobol indices of their own: leave out \

@@ -36,9 +36,10 @@ pub(super) struct Case<'a> {
     pub values: &'a [f64],
     /// The model, where it is not the base's.
     pub theory: Option<Theory>,
-    /// The campaign's seed and the run's number: which realisation of what scatters it has.
+    /// The campaign's seed.
     pub seed: u64,
-    pub index: u64,
+    /// Which realisation of what scatters it has.
+    pub bed: u64,
 }
 
 /// The domain value of a sample.
@@ -169,7 +170,7 @@ impl Sampled {
         match &mut self {
             Self::Scenario(scenario) => {
                 scenario.theory = case.theory.unwrap_or(scenario.theory);
-                scenario.scatter = scenario.scatter.of_case(case.seed, case.index);
+                scenario.scatter = scenario.scatter.of_case(case.seed, case.bed);
             }
             Self::WheelTest { theory, .. } => *theory = case.theory.unwrap_or(*theory),
         }

@@ -102,6 +102,17 @@ impl Driven {
 }
 
 impl DrivenMotion {
+    /// The same with corrections and looks at the slip at least as often as on a gentler slope: where samples get stuck,
+    /// those that are left may seem to need fewer.
+    pub(super) fn no_laxer_than(mut self, gentler: Option<&Self>) -> Self {
+        if let Some(gentler) = gentler {
+            self.correct_every = self.correct_every.min(gentler.correct_every);
+            let looks = self.slip_check.every.zip(gentler.slip_check.every);
+            self.slip_check.every = looks.map(|(one, other)| one.min(other));
+        }
+        self
+    }
+
     /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or its nose falls
     /// too fast to be held.
     ///

@@ -111,7 +111,7 @@ impl CardDrives<'_> {
     /// Drift over the whole way [-]; nothing if the rover gets stuck on it.
     fn drive(&self, course: &Course, sample: &Sample, index: u64) -> Result<Option<f64>, RunError> {
         let legs = Legs::run(&self.scenario(course, sample), course)?;
-        let mut errors = random::generator(self.seed, index);
+        let mut errors = random::generator(self.seed, STREAMS | index);
         let mut gone = Vec2::zeros();
         for _ in 0..course.legs() {
             match legs.from(heading_error(&mut errors)) {
@@ -142,6 +142,9 @@ impl CardDrives<'_> {
         }
     }
 }
+
+/// The streams of the drivers' errors begin here: samples of soils have those below.
+const STREAMS: u64 = 0xFC << 56;
 
 /// What a driver keeps to.
 struct Course {
