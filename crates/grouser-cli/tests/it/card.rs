@@ -139,7 +139,7 @@ fn the_page_says_what_it_must() {
         "at least 95 % of 40 samples",
         "less than 80 %",
         "The nose falls: correct, set it again",
-        "Pitch above its range: the nose is too far uphill",
+        "the nose is too far uphill",
         "to be made anew",
         "page 1 of 2",
         "STOP IF ABOVE",
@@ -157,7 +157,8 @@ fn the_page_says_what_it_must() {
         "Superseded by",
         &format!("grouser {}", env!("CARGO_PKG_VERSION")),
     ] {
-        assert!(all.contains(part), "{part} is missing in\n{all}");
+        let is_there = all.contains(part) || all.replace('\n', " ").contains(part);
+        assert!(is_there, "{part} is missing in\n{all}");
     }
     let slopes = texts.iter().filter(|text| text.ends_with('°') && text.len() <= 4);
     // Slopes and headings stand in large digits.
@@ -198,7 +199,7 @@ fn models_alone_have_bands_and_no_go() {
     let table = place.results(&format!("{line} --out card.svg"));
     assert!(table.contains("bands are of the models alone; no slope is a go"));
     let texts = texts(&place.read("card.svg")).join("\n");
-    assert!(texts.contains("NOT STATED: bands") && texts.contains("rft 33.33 %"), "{texts}");
+    assert!(texts.contains("NOT STATED: bands") && texts.contains("rft 33 %"), "{texts}");
     let card = place.json(line);
     let row = row(&card, 10.0);
     let models = place.json("heading --set soil.priors=none --slope-deg 10 --model all");
@@ -229,7 +230,13 @@ fn the_rover_is_drawn_as_it_is() {
         // Arrows have three corners, wheels four, and none of them is upright as the bars of the table are.
         let areas = svg.lines().filter(|line| line.contains("Z\" fill=\"rgb(0,0,0)\""));
         let has_four = |line: &&str| line.matches('L').count() == 3;
-        areas.filter(has_four).count()
+        let is_upright = |line: &&str| {
+            let path = line.split("d=\"M").nth(1).expect("a path");
+            let height = |point: &str| point.split(' ').nth(1).map(str::to_owned);
+            let mut points = path.split('L');
+            points.next().and_then(height) == points.next().and_then(height)
+        };
+        areas.filter(has_four).filter(|line| !is_upright(line)).count()
     };
     assert_eq!(wheels("six"), wheels("four") + 2);
 }
