@@ -177,8 +177,8 @@ def card(
         run._document, slopes, draws, speed, uphill == "right", limits
     )
     rows, courses = _arrays_of(rows), _arrays_of(courses)
-    shown = ("slope_deg", "course", "verdict")
-    second = CardCourses(**{name: courses[name] for name in shown}, columns=courses)
+    of_course = ("slope_deg", "course", "verdict")
+    second = CardCourses(**{name: courses[name] for name in of_course}, columns=courses)
     shown = ("slope_deg", "verdict", "yaw_deg", "roll_deg", "pitch_deg", "correct_every_m")
     first = {name: rows[name] for name in (*shown, "slip_limit", "slip_check_every_m", "flags")}
     return Card(**first, columns=rows, courses=second, steepest=steepest)
