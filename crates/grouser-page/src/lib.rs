@@ -1,9 +1,8 @@
-//! Printed pages: each drawn once, in millimetres and greys, and written as SVG, PDF or PNG; several make one PDF.
+//! Printed pages: each drawn once, in millimetres, and written as SVG, PDF or PNG; several make one PDF.
 //!
 //! A [`Sheet`] holds shapes and lines of text. Its letters are outlines of a font that comes along
 //! (DejaVu Sans Condensed), so that the page looks the same on a machine without fonts, and the same page has the
-//! same bytes; text can still be searched and copied from SVG and PDF. There are no colours:
-//! words, lines and hatching distinguish.
+//! same bytes; text can still be searched and copied from SVG and PDF.
 //!
 //! ```
 //! use grouser_page::{Face, Sheet, Text};
@@ -14,6 +13,7 @@
 //! assert!(sheet.to_pdf().starts_with(b"%PDF-"));
 //! ```
 
+mod colour;
 mod font;
 mod markup;
 mod pdf;
@@ -21,8 +21,9 @@ mod png;
 mod sheet;
 mod svg;
 
+pub use colour::{BLACK, Colour, WHITE};
 pub use font::{Face, width, wrap};
 pub use markup::markup;
 pub use pdf::pdf_of;
-pub use png::PIXELS_PER_MM;
-pub use sheet::{Anchor, BLACK, Grey, Place, Shape, Sheet, Stroke, Text, WHITE};
+pub use png::{PIXELS_PER_MM, Picture};
+pub use sheet::{Anchor, Place, Shape, Sheet, Stroke, Text};

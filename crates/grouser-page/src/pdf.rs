@@ -1,11 +1,13 @@
 //! A page as PDF: its letters are a font of outlines (Type 3), so that its text is text.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use pdf_writer::types::UnicodeCmap;
+use pdf_writer::types::{LineCapStyle, LineJoinStyle, UnicodeCmap};
+use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 
+use crate::colour::{Colour, WHITE};
 use crate::font::{FACES, Face, Step};
 use crate::sheet::{Item, Place, Shape, Sheet, Text};
 use crate::svg::letters;
@@ -64,6 +66,16 @@ fn write_page(pdf: &mut Pdf, sheet: &Sheet, [pages, page]: [Ref; 2], id: &mut im
         named.pair(name(*face), *font);
     }
     named.finish();
+    let veils = veils(sheet);
+    if !veils.is_empty() {
+        let mut states = resources.ext_g_states();
+        for percent in veils {
+            let share = f32::from(percent) / 100.0;
+            let mut state =
+                states.insert(Name(veil(percent).as_bytes())).start::<ExtGraphicsState>();
+            state.non_stroking_alpha(share).stroking_alpha(share);
+        }
+    }
     resources.finish();
     writer.finish();
     let drawn = compress_to_vec_zlib(&drawing(sheet, &codes), EFFORT);
@@ -172,6 +184,10 @@ fn letter_drawing(face: Face, letter: char) -> Vec<u8> {
 fn drawing(sheet: &Sheet, codes: &BTreeMap<Face, Codes>) -> Vec<u8> {
     let mut content = Content::new();
     let place = |[x, y]: Place| [x * POINTS, (sheet.height - y) * POINTS].map(single);
+    if sheet.ground != WHITE {
+        let ground = Shape::rectangle([0.0, 0.0], [sheet.width, sheet.height], sheet.ground);
+        draw_shape(&mut content, &ground, &place);
+    }
     for item in &sheet.items {
         match item {
             Item::Shape(shape) => draw_shape(&mut content, shape, &place),
@@ -185,11 +201,14 @@ fn drawing(sheet: &Sheet, codes: &BTreeMap<Face, Codes>) -> Vec<u8> {
 
 fn draw_shape(content: &mut Content, shape: &Shape, place: &impl Fn(Place) -> [f32; 2]) {
     content.save_state();
-    if let Some(grey) = shape.fill {
-        content.set_fill_gray(single(grey));
+    if let Some(colour) = shape.fill {
+        set_fill(content, colour);
     }
     if let Some(stroke) = shape.stroke {
-        content.set_stroke_gray(single(stroke.grey));
+        set_stroke(content, stroke.colour);
+        if stroke.round {
+            content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
+        }
         content.set_line_width(single(stroke.width * POINTS));
         if let Some(lengths) = stroke.dash {
             content.set_dash_pattern(lengths.map(|length| single(length * POINTS)), 0.0);
@@ -205,6 +224,10 @@ fn draw_shape(content: &mut Content, shape: &Shape, place: &impl Fn(Place) -> [f
     }
     if shape.closed {
         content.close_path();
+    }
+    let hides = shape.fill.or(shape.stroke.map(|stroke| stroke.colour));
+    if let Some(percent) = hides.and_then(percent) {
+        content.set_parameters(Name(veil(percent).as_bytes()));
     }
     match (shape.fill, shape.stroke) {
         (Some(_), Some(_)) => content.fill_nonzero_and_stroke(),
@@ -228,11 +251,49 @@ fn draw_text(
     let bytes: Vec<u8> =
         text.content.chars().map(|letter| codes.get(&letter).copied().unwrap_or(0)).collect();
     content.begin_text();
-    content.set_fill_gray(single(text.grey));
+    set_fill(content, text.colour);
     content.set_font(name(text.face), single(text.size * POINTS));
     content.set_text_matrix([a, b, -b, a, x, y]);
     content.show(Str(&bytes));
     content.end_text();
+}
+
+fn set_fill(content: &mut Content, colour: Colour) {
+    let [red, green, blue] = colour.parts().map(single);
+    if colour.is_grey() {
+        content.set_fill_gray(red);
+    } else {
+        content.set_fill_rgb(red, green, blue);
+    }
+}
+
+fn set_stroke(content: &mut Content, colour: Colour) {
+    let [red, green, blue] = colour.parts().map(single);
+    if colour.is_grey() {
+        content.set_stroke_gray(red);
+    } else {
+        content.set_stroke_rgb(red, green, blue);
+    }
+}
+
+/// The percentages by which shapes hide what is below them. A shape has one: its fill's if it has one.
+fn veils(sheet: &Sheet) -> BTreeSet<u8> {
+    let hides = sheet.items.iter().filter_map(|item| match item {
+        Item::Shape(shape) => shape.fill.or(shape.stroke.map(|stroke| stroke.colour)),
+        Item::Text { .. } => None,
+    });
+    hides.filter_map(percent).collect()
+}
+
+/// How much a colour hides, unless it hides all.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn percent(colour: Colour) -> Option<u8> {
+    (colour.hides() < 1.0).then_some((colour.hides() * 100.0).round() as u8)
+}
+
+/// The name of a state in which shapes hide a percentage of what is below them.
+fn veil(percent: u8) -> String {
+    format!("V{percent}")
 }
 
 /// Lengths on a page are well within what the narrower type holds.

@@ -1,17 +1,10 @@
 //! The shapes and texts of a page.
 
+use crate::colour::{BLACK, Colour, WHITE};
 use crate::font::{Face, width};
 
 /// A place on the page, or a way across it: to the right, and down [mm].
 pub type Place = [f64; 2];
-
-/// A grey: 0 is black, 1 is white.
-pub type Grey = f64;
-
-/// Black.
-pub const BLACK: Grey = 0.0;
-/// White.
-pub const WHITE: Grey = 1.0;
 
 /// A page.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +12,7 @@ pub struct Sheet {
     pub(crate) title: String,
     pub(crate) width: f64,
     pub(crate) height: f64,
+    pub(crate) ground: Colour,
     pub(crate) items: Vec<Item>,
 }
 
@@ -34,7 +28,7 @@ pub(crate) enum Item {
 pub struct Shape {
     pub(crate) points: Vec<Place>,
     pub(crate) closed: bool,
-    pub(crate) fill: Option<Grey>,
+    pub(crate) fill: Option<Colour>,
     pub(crate) stroke: Option<Stroke>,
 }
 
@@ -43,29 +37,43 @@ pub struct Shape {
 pub struct Stroke {
     /// Its width [mm].
     pub width: f64,
-    /// Its grey.
-    pub grey: Grey,
+    /// Its colour.
+    pub colour: Colour,
     /// Lengths of dashes and gaps [mm].
     pub dash: Option<[f64; 2]>,
+    /// Whether its ends and corners are round; otherwise ends are cut square and corners are sharp.
+    pub round: bool,
 }
 
 impl Stroke {
+    /// A full line.
+    #[must_use]
+    pub const fn new(width: f64, colour: Colour) -> Self {
+        Self { width, colour, dash: None, round: false }
+    }
+
     /// A full black line.
     #[must_use]
     pub const fn black(width: f64) -> Self {
-        Self { width, grey: BLACK, dash: None }
+        Self::new(width, BLACK)
     }
 
     /// A full grey line.
     #[must_use]
-    pub const fn grey(width: f64, grey: Grey) -> Self {
-        Self { width, grey, dash: None }
+    pub const fn grey(width: f64, level: f64) -> Self {
+        Self::new(width, Colour::grey(level))
     }
 
     /// The same, dashed.
     #[must_use]
     pub const fn dashed(self, on: f64, off: f64) -> Self {
         Self { dash: Some([on, off]), ..self }
+    }
+
+    /// The same with round ends and corners.
+    #[must_use]
+    pub const fn rounded(self) -> Self {
+        Self { round: true, ..self }
     }
 }
 
@@ -79,14 +87,14 @@ impl Shape {
 
     /// An area.
     #[must_use]
-    pub fn area(points: impl IntoIterator<Item = Place>, fill: Grey) -> Self {
+    pub fn area(points: impl IntoIterator<Item = Place>, fill: Colour) -> Self {
         let points = points.into_iter().collect();
         Self { points, closed: true, fill: Some(fill), stroke: None }
     }
 
     /// A rectangle by its upper left corner and its size.
     #[must_use]
-    pub fn rectangle([left, top]: Place, [width, height]: Place, fill: Grey) -> Self {
+    pub fn rectangle([left, top]: Place, [width, height]: Place, fill: Colour) -> Self {
         let (right, bottom) = (left + width, top + height);
         Self::area([[left, top], [right, top], [right, bottom], [left, bottom]], fill)
     }
@@ -123,7 +131,7 @@ pub struct Text {
     /// Height of the font [mm]; a capital is 0.73 of it.
     pub(crate) size: f64,
     pub(crate) face: Face,
-    pub(crate) grey: Grey,
+    pub(crate) colour: Colour,
     anchor: Anchor,
     /// Reads from the bottom up.
     pub(crate) upright: bool,
@@ -138,7 +146,7 @@ impl Text {
             content: content.into(),
             size,
             face: Face::Regular,
-            grey: BLACK,
+            colour: BLACK,
             anchor: Anchor::Start,
             upright: false,
         }
@@ -150,10 +158,10 @@ impl Text {
         Self { face, ..self }
     }
 
-    /// The same in another grey.
+    /// The same in another colour.
     #[must_use]
-    pub fn grey(self, grey: Grey) -> Self {
-        Self { grey, ..self }
+    pub fn colour(self, colour: Colour) -> Self {
+        Self { colour, ..self }
     }
 
     /// The same with its place elsewhere.
@@ -195,10 +203,22 @@ impl Text {
 }
 
 impl Sheet {
-    /// An empty page of a size [mm].
+    /// An empty white page of a size [mm].
     #[must_use]
     pub fn new(title: &str, width: f64, height: f64) -> Self {
-        Self { title: title.to_owned(), width, height, items: Vec::new() }
+        Self { title: title.to_owned(), width, height, ground: WHITE, items: Vec::new() }
+    }
+
+    /// The same page on a ground of another colour.
+    #[must_use]
+    pub fn on(self, ground: Colour) -> Self {
+        Self { ground, ..self }
+    }
+
+    /// Width and height of the page [mm].
+    #[must_use]
+    pub fn size(&self) -> [f64; 2] {
+        [self.width, self.height]
     }
 
     /// The title of the page.

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
+use crate::colour::{Colour, WHITE};
 use crate::font::{Face, Step};
 use crate::markup::markup;
-use crate::sheet::{Grey, Item, Place, Shape, Sheet, Text};
+use crate::sheet::{Item, Place, Shape, Sheet, Text};
 
 impl Sheet {
     /// The page as an SVG document.
@@ -27,7 +28,8 @@ fn write(sheet: &Sheet) -> String {
         let _ = writeln!(svg, "<path id=\"{}\" d=\"{outline}\"/>", id(face, character));
     }
     svg.push_str("</defs>\n");
-    let _ = writeln!(svg, "<path d=\"M0 0H{width}V{height}H0Z\" fill=\"#fff\"/>");
+    let ground = if sheet.ground == WHITE { "#fff".to_owned() } else { sheet.ground.code() };
+    let _ = writeln!(svg, "<path d=\"M0 0H{width}V{height}H0Z\" fill=\"{ground}\"/>");
     for item in &sheet.items {
         match item {
             Item::Shape(shape) => write_shape(&mut svg, shape),
@@ -56,11 +58,14 @@ fn write_shape(svg: &mut String, shape: &Shape) {
     if shape.closed {
         path.push('Z');
     }
-    let fill = shape.fill.map_or("none".to_owned(), colour);
-    let _ = write!(svg, "<path d=\"{path}\" fill=\"{fill}\"");
+    let fill = shape.fill.map_or(" fill=\"none\"".to_owned(), |fill| ink("fill", fill));
+    let _ = write!(svg, "<path d=\"{path}\"{fill}");
     if let Some(stroke) = shape.stroke {
-        let (line, width) = (colour(stroke.grey), short(stroke.width));
-        let _ = write!(svg, " stroke=\"{line}\" stroke-width=\"{width}\"");
+        let (line, width) = (ink("stroke", stroke.colour), short(stroke.width));
+        let _ = write!(svg, "{line} stroke-width=\"{width}\"");
+        if stroke.round {
+            svg.push_str(" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+        }
         if let Some([on, off]) = stroke.dash {
             let _ = write!(svg, " stroke-dasharray=\"{} {}\"", short(on), short(off));
         }
@@ -75,9 +80,9 @@ fn write_text(svg: &mut String, text: &Text, at: Place) {
     let (left, top) = (short(x), short(y));
     let _ = write!(
         svg,
-        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} {:.7})\" fill=\"{}\">",
+        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} {:.7})\"{}>",
         -scale,
-        colour(text.grey)
+        ink("fill", text.colour)
     );
     let mut gone = 0.0;
     for letter in text.content.chars() {
@@ -119,9 +124,14 @@ fn id(face: Face, letter: char) -> String {
     format!("{name}{:x}", u32::from(letter))
 }
 
-fn colour(grey: Grey) -> String {
-    let level = (grey.clamp(0.0, 1.0) * 255.0).round();
-    format!("rgb({level},{level},{level})")
+/// The attributes of a fill or a stroke in a colour.
+fn ink(of: &str, colour: Colour) -> String {
+    let [red, green, blue] = colour.bytes();
+    let ink = format!(" {of}=\"rgb({red},{green},{blue})\"");
+    if colour.hides() < 1.0 {
+        return format!("{ink} {of}-opacity=\"{}\"", short(colour.hides()));
+    }
+    ink
 }
 
 /// A micrometre is fine enough.

@@ -1,6 +1,11 @@
 //! What a page promises: the same in every form, and the same bytes every time.
 
-use grouser_page::{Anchor, BLACK, Face, PIXELS_PER_MM, Shape, Sheet, Stroke, Text, width, wrap};
+// Colours are written as style sheets write them.
+#![allow(clippy::unreadable_literal)]
+
+use grouser_page::{
+    Anchor, BLACK, Colour, Face, PIXELS_PER_MM, Shape, Sheet, Stroke, Text, width, wrap,
+};
 
 fn page() -> Sheet {
     let mut sheet = Sheet::new("Page & <title>", 40.0, 20.0);
@@ -119,4 +124,33 @@ fn widths_go_with_the_size() {
     let start = placed(Anchor::Start, 10.0);
     assert_eq!(placed(Anchor::End, 10.0 + once), start);
     assert_eq!(placed(Anchor::Middle, 10.0 + once / 2.0), start);
+}
+
+/// Half of blue over white is light blue in every form.
+#[test]
+fn colours_and_what_they_hide_are_in_every_form() {
+    let mut sheet = Sheet::new("t", 10.0, 10.0).on(Colour::hex(0xffffff));
+    let blue = Colour::hex(0x0000ff);
+    sheet.draw(Shape::rectangle([0.0, 0.0], [10.0, 5.0], blue.opacity(0.5)));
+    sheet.draw(Shape::line([[0.0, 8.0], [10.0, 8.0]], Stroke::new(2.0, blue).rounded()));
+    let picture = sheet.to_picture(2.0);
+    assert_eq!((picture.width, picture.height), (20, 20));
+    let [red, green, blue] = picture.pixels[5 * 20 + 10];
+    assert!(red == green && (127..=128).contains(&red) && blue == 255, "{red} {green} {blue}");
+    assert_eq!(picture.pixels[16 * 20 + 10], [0, 0, 255]);
+    let svg = sheet.to_svg();
+    assert!(svg.contains("fill=\"rgb(0,0,255)\" fill-opacity=\"0.5\""));
+    assert!(svg.contains("stroke-linecap=\"round\""));
+    let pdf = String::from_utf8_lossy(&sheet.to_pdf()).into_owned();
+    assert!(pdf.contains("/V50") && pdf.contains("/ca 0.5"));
+    let png = sheet.to_png();
+    let reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a picture");
+    assert_eq!(reader.info().color_type, png::ColorType::Rgb);
+}
+
+#[test]
+fn colours_mix_and_have_codes() {
+    assert_eq!(Colour::hex(0x0072b2).code(), "#0072b2");
+    assert_eq!(BLACK.mixed(Colour::hex(0xff0000), 0.5).bytes(), [128, 0, 0]);
+    assert_eq!(Colour::grey(0.5).bytes(), [128; 3]);
 }

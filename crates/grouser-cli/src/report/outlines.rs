@@ -4,7 +4,7 @@ use grouser::simulation::{Record, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::units::Vec2;
 use grouser::vehicle::Rover;
-use grouser_page::{Place, Shape, Sheet, Stroke, Text};
+use grouser_page::{Place, Shape, Sheet, Stroke, Text, WHITE};
 
 /// Name of the drawing's file, without ending.
 pub(crate) const FILE: &str = "fig9-outlines";
@@ -96,7 +96,7 @@ fn draw_rover(
     });
     let body = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
     let body = body.map(|(x, y)| place(Vec2::new(x * half.x, y * half.y)));
-    sheet.draw(Shape::area(body, 1.0).unfilled().outlined(stroke));
+    sheet.draw(Shape::area(body, WHITE).unfilled().outlined(stroke));
     for mount in rover.mounts() {
         let half = Vec2::new(mount.shearing_radius(), 0.5 * mount.unit.wheel.width);
         let corner = |(x, y): (f64, f64)| {
@@ -104,6 +104,6 @@ fn draw_rover(
             place(mount.position.xy() + of_wheel)
         };
         let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)].map(corner);
-        sheet.draw(Shape::area(corners, stroke.grey));
+        sheet.draw(Shape::area(corners, stroke.colour));
     }
 }

@@ -4,7 +4,7 @@ use grouser::document::columns::card::{
     CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, ROLL, SLIP_LIMIT, TIPPING_MARGIN,
 };
 use grouser::document::columns::{Quantity, SINKAGE, TORQUE};
-use grouser_page::{Anchor, Face, Shape, Sheet, Stroke, WHITE};
+use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::row::{CardRow, in_steps, upwards};
@@ -168,19 +168,19 @@ fn heads(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     sheet.text(bold("SLOPE", 4.2), [f64::midpoint(STRIP, SLOPE), y - 0.6]);
     let black = |sheet: &mut Sheet, [left, right]: [f64; 2], height: f64| {
         let corner = [left, table.top - HEAD + 1.0];
-        sheet.draw(Shape::rectangle(corner, [right - left, height], 0.0));
+        sheet.draw(Shape::rectangle(corner, [right - left, height], BLACK));
     };
     black(sheet, [SLOPE, HEADING], HEAD - 1.0);
     let middle = f64::midpoint(SLOPE, HEADING);
-    sheet.text(bold("TURN NOSE", 3.8).grey(WHITE), [middle, y - 6.6]);
-    sheet.text(bold("UPHILL BY", 3.8).grey(WHITE), [middle, y - 1.4]);
+    sheet.text(bold("TURN NOSE", 3.8).colour(WHITE), [middle, y - 6.6]);
+    sheet.text(bold("UPHILL BY", 3.8).colour(WHITE), [middle, y - 1.4]);
     let middle = f64::midpoint(HEADING, RANGE);
     let range =
         if texts.has_bands { ["95 % of", "samples", "°"] } else { ["no band", "stated", ""] };
     black(sheet, STOP, 5.0);
     let stop = if texts.has_bands { "STOP IF ABOVE" } else { "EXPECTED" };
     let at = [STOP[0].midpoint(STOP[1]), table.top - HEAD + 4.8];
-    sheet.text(bold(stop, 3.4).grey(WHITE), at);
+    sheet.text(bold(stop, 3.4).colour(WHITE), at);
     three(sheet, range, middle, y);
     let mut left = RANGE;
     for column in &SMALL {

@@ -105,7 +105,7 @@ pub(super) fn titles(sheet: &mut Sheet, texts: &Texts, about: &str, page: u8) {
     sheet.text(place, [RIGHT, TOP - 1.0]);
     if !texts.outside.is_empty() {
         let loud = shown("OUTSIDE ITS DOMAIN: see page 1, at the end", 3.2);
-        let loud = loud.face(Face::Bold).grey(WHITE).anchor(Anchor::End);
+        let loud = loud.face(Face::Bold).colour(WHITE).anchor(Anchor::End);
         let width = loud.width() + 3.0;
         sheet.draw(Shape::rectangle([left - width, TOP - 4.6], [width, 5.0], BLACK));
         sheet.text(loud, [left - 1.5, TOP - 1.0]);
@@ -116,7 +116,9 @@ pub(super) fn titles(sheet: &mut Sheet, texts: &Texts, about: &str, page: u8) {
 pub(super) fn date(sheet: &mut Sheet, date: &Date, y: f64) -> f64 {
     let text = match date {
         Date::Stated(date) => shown(format!("Date of the soil: {date}"), 3.6).face(Face::Bold),
-        Date::NotStated => shown("DATE OF THE SOIL: NOT STATED", 3.6).face(Face::Bold).grey(WHITE),
+        Date::NotStated => {
+            shown("DATE OF THE SOIL: NOT STATED", 3.6).face(Face::Bold).colour(WHITE)
+        }
     };
     let width = text.width();
     let margin = if matches!(date, Date::NotStated) { 1.5 } else { 0.0 };
@@ -168,9 +170,9 @@ pub(super) fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
         0.0 => "NO-GO   on any slope".to_owned(),
         _ => format!("NO-GO   {from_deg}° and steeper"),
     };
-    sheet.text(shown(text, 6.4).face(Face::Bold).grey(WHITE), [LEFT + 3.0, top + 6.6]);
+    sheet.text(shown(text, 6.4).face(Face::Bold).colour(WHITE), [LEFT + 3.0, top + 6.6]);
     let what = "do not cross";
-    sheet.text(shown(what, 4.2).grey(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 5.8]);
+    sheet.text(shown(what, 4.2).colour(WHITE).anchor(Anchor::End), [RIGHT - 3.0, top + 5.8]);
 }
 
 /// Rule, facts and assumptions, as large as they fit.

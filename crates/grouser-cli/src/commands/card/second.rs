@@ -117,7 +117,7 @@ fn heads(sheet: &mut Sheet, texts: &Texts) {
     let mut group = |[left, right]: [f64; 2], text: &str| {
         sheet.draw(Shape::rectangle([left, top], [right - left, 5.0], BLACK));
         let size = fitting(text, 3.2, right - left - 1.0).max(LEAST_SIZE);
-        sheet.text(bold(text, size).grey(WHITE), [left.midpoint(right), top + 3.7]);
+        sheet.text(bold(text, size).colour(WHITE), [left.midpoint(right), top + 3.7]);
     };
     group([CHECK[0], CHECK[2]], "SLIP CHECK");
     let slip = if texts.has_bands {
@@ -236,7 +236,7 @@ impl<'a> Cell<'a> {
         let (corner, area) = ([left, top], [right - left, height]);
         if self.verdict() == "no-go" {
             sheet.draw(Shape::rectangle(corner, area, BLACK));
-            let text = shown("NO-GO", size).face(Face::Bold).grey(WHITE).anchor(Anchor::Middle);
+            let text = shown("NO-GO", size).face(Face::Bold).colour(WHITE).anchor(Anchor::Middle);
             return sheet.text(text, [left.midpoint(right), y]);
         }
         let text = self.slip().unwrap_or_default();

@@ -1,0 +1,16 @@
+//! Pictures of rovers and wheels: animations of runs, drawings of the theory.
+//!
+//! A picture draws recorded results; it computes no force. Its colours are named by what they stand for
+//! ([`style`]), so that every picture has a light and a dark form, and all of them look alike.
+//!
+//! ```
+//! use grouser_page::{Shape, Sheet};
+//! use grouser_pictures::style::{Ground, Role};
+//!
+//! let ground = Ground::Dark;
+//! let mut sheet = Sheet::new("A slope", 40.0, 30.0).on(Role::Paper.on(ground));
+//! sheet.draw(Shape::area([[0.0, 30.0], [40.0, 10.0], [40.0, 30.0]], Role::Soil.on(ground)));
+//! assert!(sheet.to_svg().contains(&Role::Paper.on(ground).code()));
+//! ```
+
+pub mod style;
