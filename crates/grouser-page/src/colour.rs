@@ -18,7 +18,7 @@ impl Colour {
     /// A grey: 0 is black, 1 is white.
     #[must_use]
     pub const fn grey(level: f64) -> Self {
-        let level = (level.clamp(0.0, 1.0) * 255.0).round();
+        let level = level.clamp(0.0, 1.0) * 255.0;
         Self { rgb: [level; 3], opacity: 1.0 }
     }
 
@@ -39,7 +39,7 @@ impl Colour {
     #[must_use]
     pub fn mixed(self, other: Self, share: f64) -> Self {
         let between = |a: f64, b: f64| a + (b - a) * share.clamp(0.0, 1.0);
-        let rgb = [0, 1, 2].map(|k| between(self.rgb[k], other.rgb[k]).round());
+        let rgb = [0, 1, 2].map(|k| between(self.rgb[k], other.rgb[k]));
         Self { rgb, opacity: between(self.opacity, other.opacity) }
     }
 
@@ -53,7 +53,7 @@ impl Colour {
     #[must_use]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn bytes(self) -> [u8; 3] {
-        self.rgb.map(|part| part as u8)
+        self.rgb.map(|part| part.round() as u8)
     }
 
     /// Red, green and blue, of 1.
