@@ -8,6 +8,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import grouser  # noqa: E402
+from grouser_site import equations  # noqa: E402
 from numpydoc import xref  # noqa: E402
 
 project = "Grouser"
@@ -29,7 +30,11 @@ exclude_patterns = ["site"]
 templates_path = [str(HERE / "templates")]
 
 # Links and headings as the code host has them.
-myst_enable_extensions = ["colon_fence", "deflist"]
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_dmath_double_inline = True
+# Displayed equations are blocks of the language `math`, which the code host sets too.
+myst_fence_as_directive = ["math"]
+html_math_renderer = "katex"
 myst_heading_anchors = 6
 # What has no colours of its own is shown as it is.
 highlight_language = "text"
@@ -61,7 +66,7 @@ numpydoc_class_members_toctree = False
 
 html_theme = "pydata_sphinx_theme"
 html_title = "Grouser"
-html_static_path = ["static"]
+html_static_path = ["static", equations.font()]
 html_css_files = ["grouser.css"]
 html_show_sourcelink = False
 html_copy_source = False

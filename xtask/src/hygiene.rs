@@ -1,4 +1,5 @@
-//! Finds texts that must not be in the repository: hosts that are not allowed, and paths of one machine.
+//! Finds texts that must not be in the repository: hosts that are not allowed, paths of one machine, and
+//! letters with marks that browsers lose.
 
 use crate::flaw::Flaw;
 
@@ -42,6 +43,12 @@ pub(crate) fn flaws(path: &str, text: &str) -> Vec<Flaw> {
                 found(format!("{word} looks like a package registry"));
             }
         }
+        if let Some(mark) = line.chars().find(|&letter| is_combining(letter)) {
+            let code = u32::from(mark);
+            found(format!(
+                "a combining mark (U+{code:04X}), which browsers lose: write TeX, or γ'"
+            ));
+        }
         if let Some(folder) = machine_folder(line) {
             found(format!("a path below /{folder} exists on one machine only"));
         }
@@ -59,6 +66,12 @@ fn url_hosts(line: &str) -> impl Iterator<Item = &str> {
         let ends = |c: char| !(c.is_ascii_alphanumeric() || "-._".contains(c));
         rest.split(ends).next().filter(|host| host.contains('.'))
     })
+}
+
+/// Whether a mark stands over the letter before it, such as the dot of a derivative: in the monospaced
+/// fonts of browsers many are missing.
+fn is_combining(letter: char) -> bool {
+    ('\u{0300}'..='\u{036F}').contains(&letter)
 }
 
 fn names_a_registry(word: &str) -> bool {
@@ -97,6 +110,12 @@ mod tests {
     fn registries_are_seen_without_an_address_too() {
         assert_eq!(whats(&format!("from {}.example.com", "mirror")).len(), 1);
         assert!(whats("index.html, rows.index.x, self.index.len()").is_empty());
+    }
+
+    #[test]
+    fn marks_over_letters_are_seen() {
+        assert_eq!(whats("the rate γ\u{0307} of the yaw").len(), 1);
+        assert!(whats("the rate γ' of the yaw, Größe").is_empty());
     }
 
     #[test]

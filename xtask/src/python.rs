@@ -20,13 +20,17 @@ use crate::{markers, workspace};
 const PACKAGE: &str = "crates/grouser-python";
 
 /// What builds the site, besides what tests the package.
-const SITE: [&str; 6] = [
+const SITE: [&str; 9] = [
     "sphinx>=8.1,<10",
     "myst-nb>=1.3,<2",
     "pydata-sphinx-theme>=0.16,<1",
     "numpydoc>=1.8,<2",
     "sphinx-design",
     "sphinx-copybutton",
+    // Equations: KaTeX, what runs it, and a font.
+    "sphinxcontrib-katex>=0.9.10,<1",
+    "dukpy>=0.5,<1",
+    "ziamath>=0.12",
 ];
 
 /// What builds and tests the package besides what it requires itself, by name: where from is for pip's

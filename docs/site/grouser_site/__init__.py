@@ -1,14 +1,15 @@
 """What Sphinx has to learn to make this site: pages made from the program and from the schemas, links that
-leave the site, docstrings of re-exported names, and a count at the end."""
+leave the site, docstrings of re-exported names, equations, and a count at the end."""
 
 from pygments.lexers import TextLexer
 
-from . import count, documents, links, program, reexports
+from . import count, documents, equations, links, program, reexports
 
 
 def setup(app):
     # What programs read needs no colours, and the name of no language may be unknown.
     app.add_lexer("csv", TextLexer)
+    equations.setup(app)
     # Before autosummary makes its own pages.
     app.connect("builder-inited", program.write_pages, priority=100)
     app.connect("builder-inited", documents.write_pages, priority=100)

@@ -7,7 +7,7 @@
 //! weight and its friction, and no force is adjusted to wheels.
 //!
 //! ```text
-//! F = ∫ ξ d α(n̂, v̂) dA     v = v_hub + ω × r     over rim, grousers and both side faces
+//! F = ∫ ξ d α(e_n, e_v) dA     v = v_hub + ω × r     over rim, grousers and both side faces
 //! ```
 //!
 //! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `sums` what they meet

@@ -1,10 +1,10 @@
 //! Quasi-steady motion: steady velocities at every instant, the pose alone integrated.
 //!
 //! On a plane with steady commands nothing but the yaw γ decides the steady state: velocities V(γ),
-//! powers and wheels are functions of one variable,
+//! powers and wheels are functions of one variable. With a dash for the rate of change, γ' = dγ/dt,
 //!
 //! ```text
-//! γ̇ = r(γ)        (ẋ, ẏ) = R(γ) (u, v)(γ)        Ė = P(γ)
+//! γ' = r(γ)        (x', y') = R(γ) (u, v)(γ)        E' = P(γ)
 //! ```
 //!
 //! They are tabulated over the stretch of yaw ahead, as polynomials through steady states found there,

@@ -1,9 +1,9 @@
 //! Steady states: the velocities at which nothing accelerates.
 //!
-//! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ̇) with
+//! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ'), γ' = dγ/dt, with
 //!
 //! ```text
-//! a(V; γ) = 0          a = (u̇, v̇, γ̈) of the equations of motion, at the yaw γ
+//! a(V; γ) = 0          a = (u', v', γ'') of the equations of motion, at the yaw γ
 //! ```
 //!
 //! They are sought by Newton's method with Broyden's updates of the inverse Jacobian, from the
@@ -65,7 +65,7 @@ pub enum NotSteady {
 pub(super) struct SteadyState {
     /// Yaw, *γ* [rad].
     pub(super) yaw: f64,
-    /// *(u, v, γ̇)* [m/s, m/s, rad/s], in the body frame.
+    /// *(u, v, γ')* [m/s, m/s, rad/s], in the body frame.
     pub(super) velocities: Vector3<f64>,
     /// Power of the motors and into the soil [W].
     pub(super) powers: (f64, f64),

@@ -1,11 +1,12 @@
 //! The rover's acceleration ([FourWheel], Eqs 5-11, corrected).
 //!
-//! Written about the body's centre of mass, in body axes, with *S* the wheels' first moment:
+//! Written about the body's centre of mass, in body axes, with *S* the wheels' first moment and a
+//! dash for the rate of change, γ' = dγ/dt:
 //!
 //! ```text
-//! m (u̇ − γ̇ v) − S_x γ̇² − S_y γ̈ = ΣF_x + G_x
-//! m (v̇ + γ̇ u) − S_y γ̇² + S_x γ̈ = ΣF_y + G_y
-//! I γ̈ + S_x (v̇ + γ̇ u) − S_y (u̇ − γ̇ v) = Σ(d_x F_y − d_y F_x + M_z) + (S_x G_y − S_y G_x)/m
+//! m (u' − γ' v) − S_x γ'² − S_y γ'' = ΣF_x + G_x
+//! m (v' + γ' u) − S_y γ'² + S_x γ'' = ΣF_y + G_y
+//! I γ'' + S_x (v' + γ' u) − S_y (u' − γ' v) = Σ(d_x F_y − d_y F_x + M_z) + (S_x G_y − S_y G_x)/m
 //! ```
 //!
 //! The source mixes body and inertial axes in its Eq. 5, has two wrong signs there and two in
@@ -63,7 +64,7 @@ pub fn acceleration<'a>(
 /// The same of a rover whose yaw is held: it turns with a yaw acceleration of its own, for which
 /// something gives it the moment that is returned [N·m].
 ///
-/// * `yaw_acceleration`: *γ̈* [rad/s²]
+/// * `yaw_acceleration`: *γ''* [rad/s²]
 #[must_use]
 pub fn held_acceleration<'a>(
     rover: &Rover,

@@ -5,7 +5,7 @@ use super::state::RoverState;
 use crate::contact::Slip;
 use crate::units::Vec2;
 
-/// Velocity of a hub, in the body frame [m/s]: v_x = u − γ̇ d_y, v_y = v + γ̇ d_x.
+/// Velocity of a hub, in the body frame [m/s]: v_x = u − γ' d_y, v_y = v + γ' d_x, with the yaw rate γ'.
 ///
 /// * `arm`: the hub seen from the body's centre of mass, in the body frame, *d* [m]
 #[must_use]

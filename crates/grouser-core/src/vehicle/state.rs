@@ -14,7 +14,7 @@ pub struct RoverState {
     pub yaw: f64,
     /// Velocity of the body's centre of mass, in the body frame, *(u, v)* [m/s].
     pub velocity: Vec2,
-    /// Yaw rate, *γ̇* [rad/s].
+    /// Yaw rate, *γ' = dγ/dt* [rad/s].
     pub yaw_rate: f64,
 }
 
@@ -41,8 +41,8 @@ pub(crate) fn rotation(angle: f64) -> Rotation2<f64> {
 /// Rates of the velocities.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Acceleration {
-    /// Rate of [`RoverState::velocity`], *(u̇, v̇)* [m/s²]: components in the turning body frame.
+    /// Rate of [`RoverState::velocity`], *(u', v')* [m/s²]: components in the turning body frame.
     pub velocity_rate: Vec2,
-    /// Yaw acceleration, *γ̈* [rad/s²].
+    /// Yaw acceleration, *γ'' = d²γ/dt²* [rad/s²].
     pub yaw_acceleration: f64,
 }

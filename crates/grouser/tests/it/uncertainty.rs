@@ -225,7 +225,7 @@ fn the_band_of_normal_draws_is_the_normals() {
     }
 }
 
-/// Wilson's interval ends where the score test is at its limit: (p̂ − p)² = z² p(1 − p)/n.
+/// Wilson's interval ends where the score test is at its limit: (p_hat − p)² = z² p(1 − p)/n.
 #[test]
 fn wilsons_interval_solves_its_equation() {
     let z: f64 = Normal::standard().inverse_cdf(0.975);

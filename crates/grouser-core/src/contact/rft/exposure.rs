@@ -2,7 +2,7 @@
 //!
 //! A facet pushes the soil in front of it, along its motion. Where the next grouser stands there, the
 //! soil between is shut in and turns with the wheel; it pushes with its own surface, at the
-//! grousers' tips. Seen in the wheel, soil comes in along −v̂: past a tip it falls by k = v_n/|v_t|
+//! grousers' tips. Seen in the wheel, soil comes in along −e_v: past a tip it falls by k = v_n/|v_t|
 //! (velocities normal to and along the rim, at the tips) per length, and the rim curves away from it:
 //!
 //! ```text

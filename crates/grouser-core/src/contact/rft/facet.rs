@@ -1,17 +1,17 @@
 //! What a piece of surface meets in granular soil: the law of three-dimensional resistive force
 //! theory (Agarwal, Goldman and Kamrin, PNAS 2023).
 //!
-//! A small plane facet with outward normal n̂, moving in the direction v̂ at depth d, meets the stress
-//! ξ d α. With the upright ẑ and the three numbers on which an isotropic soil can depend,
+//! A small plane facet with outward normal e_n, moving in the direction e_v at depth d, meets the
+//! stress ξ d α. With the upright e_z and the three numbers on which an isotropic soil can depend,
 //!
 //! ```text
-//! x₁ = −ẑ·v̂     x₂ = −ẑ·n̂     x₃ = n̂·v̂          n̂ turned so that x₂ ≥ 0: a plate has no front
-//! α = f₁ n̂ + f₂ v̂ − f₃ ẑ                          fᵢ = Σ cᵢₖ Tₖ(x₁, x₂, x₃), cubic, 20 terms each
+//! x₁ = −e_z·e_v     x₂ = −e_z·e_n     x₃ = e_n·e_v     e_n turned so that x₂ ≥ 0: a plate has no front
+//! α = f₁ e_n + f₂ e_v − f₃ e_z                          fᵢ = Σ cᵢₖ Tₖ(x₁, x₂, x₃), cubic, 20 terms each
 //! ξ = ρ g (894 μ³ − 386 μ² + 89 μ)                 μ = tan φ
 //! ```
 //!
-//! The part along n̂ pushes; the part across it is friction, at most μ_s times the push. A facet is
-//! loaded where it leads, n̂·v̂ ≥ 0.
+//! The part along e_n pushes; the part across it is friction, at most μ_s times the push. A facet is
+//! loaded where it leads, e_n·e_v ≥ 0.
 //!
 //! The published law jumps in three places: where a facet ceases to lead, where friction that
 //! would drive a facet is turned against it, and where the facet is upright. Here the first two pass
@@ -20,7 +20,7 @@
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
-/// Half the width, in n̂·v̂ [-], over which a facet ceases to lead. Source: ours.
+/// Half the width, in e_n·e_v [-], over which a facet ceases to lead. Source: ours.
 ///
 /// A facet that slides along itself still carries soil, on both sides alike; the published law
 /// gives all to whichever side leads by a hair. A wheel that spins on the spot slides along itself
@@ -122,14 +122,14 @@ pub(super) struct Response {
     pub pressure: f64,
     /// Along the plate, as a vector.
     pub shear: Vector,
-    /// n̂·v̂ [-]: how far the face of the normal leads.
+    /// e_n·e_v [-]: how far the face of the normal leads.
     pub lead: f64,
 }
 
 /// What a plate meets. No branch and no call: a loop over plates becomes vector instructions.
 ///
-/// * `IS_UPRIGHT`: whether n̂ lies level
-/// * `normal`: n̂, and `direction` of its motion, v̂ [-], in the wheel frame
+/// * `IS_UPRIGHT`: whether e_n lies level
+/// * `normal`: e_n, and `direction` of its motion, e_v [-], in the wheel frame
 /// * `friction`: of the surface, *μ_s* [-]
 #[inline(always)]
 pub(super) fn response<const IS_UPRIGHT: bool>(

@@ -269,10 +269,10 @@ fn dense_grousers(it: &Situation<'_>) -> Option<Grousers> {
 /// pushes it ahead.
 ///
 /// ```text
-/// φ_g < [√((1 + ĥ)² − (1 − ẑ)²) − √(1 − (1 − ẑ)²)] / (1 − s)
+/// φ_g < [√((1 + h')² − (1 − z')²) − √(1 − (1 − z')²)] / (1 − s)
 /// ```
 ///
-/// after Skonieczny, Moreland and Wettergreen (2012); ĥ = h_g/r, and ẑ = z/r with the rim's sinkage z. Skid
+/// after Skonieczny, Moreland and Wettergreen (2012); h' = h_g/r, and z' = z/r with the rim's sinkage z. Skid
 /// counts as s = 0, and a rim above the soil as z = 0.
 fn grousers_apart(it: &Situation<'_>) -> Option<(f64, Span)> {
     let grousers = dense_grousers(it)?;

@@ -159,7 +159,7 @@ pub fn correlations_of(covariance: &DMatrix<f64>) -> DMatrix<f64> {
 /// of all chains lie than those of one half of one chain.
 ///
 /// ```text
-/// R̂ = √[(W (n−1)/n + B)/W]      W: mean variance within halves      B: variance of their means
+/// R_hat = √[(W (n−1)/n + B)/W]      W: mean variance within halves      B: variance of their means
 /// ```
 ///
 /// * `walkers`: places of each step
