@@ -7,7 +7,7 @@ use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
 use super::kind::Kind;
-use super::priors::stated_by_priors;
+use super::priors::{stated_by_priors, without_priors_of};
 use super::stated::{Samples, Stated};
 use super::tree::Companion;
 use super::tree::Node;
@@ -64,6 +64,18 @@ impl UncertainSoil {
     /// As [`draw`](Self::draw), for the first soil that cannot be drawn.
     pub fn draws(&self, seed: u64, count: u32) -> Result<Vec<Soil>, NothingAccepted> {
         (0..count).map(|index| self.draw(seed, index.into())).collect()
+    }
+
+    /// The same soil as a document of its own, whose numbers are exact.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    pub fn draw_document(&self, seed: u64, index: u64) -> Result<Document, NothingAccepted> {
+        let accept = |values: &[f64]| self.soil(values).map(|_| values.to_vec());
+        let values = self.distribution.draw(seed, index, accept)?;
+        let keys: Vec<&str> = self.keys().collect();
+        let document = self.base.document.with(keys.iter().copied().zip(values));
+        Ok(without_priors_of(&document, &keys))
     }
 
     /// Whether the document itself says how well its numbers are known. Otherwise all that is known of that is its

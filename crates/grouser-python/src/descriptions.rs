@@ -165,6 +165,23 @@ impl Document {
         self.companions().iter().map(pair).collect()
     }
 
+    /// Samples of an uncertain soil, each an exact soil: those of the studies over samples.
+    fn samples(&self, py: Python<'_>, count: u32, seed: u64) -> PyResult<Vec<Self>> {
+        let Some(soils) = &self.soil()?.uncertain else {
+            let message = "the soil is exact: it states no uncertainty to sample".to_owned();
+            return Err(errors::parameter(message, "soil", None, "a soil with uncertainty"));
+        };
+        let sample = |index: u64| {
+            let document = soils.draw_document(seed, index).map_err(|error| {
+                let expected = "smaller standard deviations";
+                errors::parameter(error.to_string(), "uncertainty", None, expected)
+            })?;
+            py.check_signals()?;
+            Self::of_soil(document.to_toml(), Vec::new())
+        };
+        (0..u64::from(count)).map(sample).collect()
+    }
+
     /// The resolved document as TOML.
     fn to_toml(&self) -> String {
         self.resolved().to_toml()

@@ -24,6 +24,7 @@ mod time_step;
 mod validation;
 mod validity;
 mod values;
+mod varied;
 mod wheels;
 
 /// The module `grouser._core`.

@@ -2,7 +2,9 @@
 
 use grouser::contact::Theory;
 use grouser::document::columns::run::RECORD;
-use grouser::document::{Kind, range, scenario_with};
+use grouser::document::{
+    Described as _, Kind, LoadedScenario, LoadedSoil, Misfit, range, scenario_with,
+};
 use grouser::error::ParameterError;
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
@@ -16,7 +18,8 @@ use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
 use crate::studies::run;
-use crate::wheels::{check, column};
+use crate::varied::{self, VariedKeys};
+use crate::wheels::{check_or_nan, column, misfit_at};
 
 /// Many runs, which share what is the same for them.
 pub(crate) struct Runs {
@@ -25,8 +28,12 @@ pub(crate) struct Runs {
     base_of: Option<Vec<usize>>,
     soils: Vec<(Soil, Theory)>,
     soil_of: Option<Vec<usize>>,
-    /// Keys of scenarios, with a value for each run.
-    varied: Vec<(&'static str, Vec<f64>)>,
+    /// Arguments, and the keys of scenarios that they set, with a value for each run.
+    varied: Vec<([&'static str; 2], Vec<f64>)>,
+    /// Other keys, of the scenarios.
+    of_bases: VariedKeys,
+    /// Those of the soils, where there are some in the place of the scenarios' own.
+    of_soils: VariedKeys,
     count: usize,
 }
 
@@ -55,48 +62,75 @@ impl Runs {
         varied: &Bound<'_, PyDict>,
         count: usize,
     ) -> PyResult<Self> {
-        let bases = scenarios.iter().map(|it| {
-            let loaded = it.scenario()?;
-            Ok((loaded.value.clone(), loaded.document.theory().is_some()))
-        });
-        let soils = soils.iter().map(|it| {
-            let loaded = it.soil()?;
-            Ok((loaded.value, loaded.document.usual_theory("")))
-        });
-        let bases = bases.collect::<PyResult<Vec<_>>>()?;
-        let soils = soils.collect::<PyResult<Vec<_>>>()?;
+        let bases = scenarios.iter().map(|it| it.scenario()).collect::<PyResult<Vec<_>>>()?;
+        let soils = soils.iter().map(|it| it.soil()).collect::<PyResult<Vec<_>>>()?;
         if bases.is_empty() && count > 0 {
             let message = "there is no scenario".to_owned();
             return Err(errors::parameter(message, "scenarios", None, "at least one"));
         }
-        Ok(Self {
-            base_of: places(scenario_index, bases.len(), count)?,
-            bases,
-            soil_of: places(soil_index, soils.len(), count)?,
-            soils,
-            varied: varied_of(varied, count)?,
+        let base_of = places(scenario_index, bases.len(), count)?;
+        let soil_of = places(soil_index, soils.len(), count)?;
+        let arguments = arguments_of(varied, count)?;
+        let documents: Vec<_> = soils.iter().map(|soil| varied::parts(soil)).collect();
+        let prefix = if soils.is_empty() { NO_KEY } else { "soil." };
+        let of_soils = VariedKeys::taken(varied, prefix, &documents, count)?;
+        let documents: Vec<_> = bases.iter().map(|base| varied::parts(base)).collect();
+        let of_bases = VariedKeys::taken(varied, "", &documents, count)?;
+        let named = |it: &&LoadedScenario| (it.value.clone(), it.document.theory().is_some());
+        let usual = |it: &&LoadedSoil| (it.value, it.document.usual_theory(""));
+        let runs = Self {
+            bases: bases.iter().map(named).collect(),
+            base_of,
+            soils: soils.iter().map(usual).collect(),
+            soil_of,
+            varied: arguments,
+            of_bases,
+            of_soils,
             count,
-        })
+        };
+        runs.of_bases.check(|place| runs.base_at(place))?;
+        runs.of_soils.check(|place| runs.soil_at(place))?;
+        Ok(runs)
+    }
+
+    fn base_at(&self, place: usize) -> usize {
+        self.base_of.as_ref().map_or(0, |index| index[place])
+    }
+
+    fn soil_at(&self, place: usize) -> usize {
+        self.soil_of.as_ref().map_or(0, |index| index[place])
     }
 
     /// The scenario of a run.
     fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
-        let of = |index: &Option<Vec<usize>>| index.as_ref().map_or(0, |index| index[place]);
-        let (base, names_its_model) = &self.bases[of(&self.base_of)];
+        let (base, names_its_model) = &self.bases[self.base_at(place)];
         let mut scenario = base.clone();
-        if let Some((soil, theory)) = self.soils.get(of(&self.soil_of)) {
-            scenario.site.terrain.soil = *soil;
+        if let Some((soil, theory)) = self.soils.get(self.soil_at(place)) {
+            let numbers = self.of_soils.at(self.soil_at(place), place);
+            scenario.site.terrain.soil = soil.with(numbers).map_err(Misfit::of_numbers)?;
             if !names_its_model {
                 scenario.theory = *theory;
             }
         }
-        scenario_with(&scenario, self.varied.iter().map(|(key, values)| (*key, values[place])))
+        let arguments = self.varied.iter().map(|([_, key], values)| (*key, values[place]));
+        scenario_with(&scenario, self.of_bases.at(self.base_at(place), place).chain(arguments))
+    }
+
+    /// The first number of a run that is NaN.
+    fn missing(&self, place: usize) -> Option<&str> {
+        let argument = self.varied.iter().find(|(_, values)| values[place].is_nan());
+        let argument = argument.map(|([name, _], _)| *name);
+        argument.or_else(|| self.of_bases.missing(place)).or_else(|| self.of_soils.missing(place))
     }
 
     /// The first run whose numbers are invalid, with its place.
     fn first_misfit(&self) -> Option<(usize, ParameterError)> {
         let places = (0..self.count).into_par_iter().with_min_len(256);
-        places.find_map_first(|place| self.scenario(place).err().map(|error| (place, error)))
+        let misfit = |place: usize| {
+            let error = self.scenario(place).err().filter(|_| self.missing(place).is_none())?;
+            Some((place, error))
+        };
+        places.find_map_first(misfit)
     }
 }
 
@@ -112,18 +146,24 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
     Ok(Some(all))
 }
 
-fn varied_of(dict: &Bound<'_, PyDict>, count: usize) -> PyResult<Vec<(&'static str, Vec<f64>)>> {
+/// What no key starts with.
+const NO_KEY: &str = "\0";
+
+/// The arguments among what varies, taken from it.
+fn arguments_of(
+    varied: &Bound<'_, PyDict>,
+    count: usize,
+) -> PyResult<Vec<([&'static str; 2], Vec<f64>)>> {
     let mut all = Vec::new();
     for [name, key, ranged] in KEYS {
-        let Some(values) = dict.get_item(name)? else { continue };
-        let values: PyReadonlyArray1<'_, f64> = values.extract()?;
-        let values = values.as_slice()?.to_vec();
-        check(name, &values, &range(Kind::Scenario, ranged).unwrap_or(f64::MIN..=f64::MAX))?;
-        if values.len() != count {
-            let message = format!("{name} has {} values for {count} runs", values.len());
-            return Err(errors::parameter(message, name, None, "a value for each run"));
+        if !varied.contains(name)? {
+            continue;
         }
-        all.push((key, values));
+        let values = varied::numbers(varied, name, count)?;
+        varied.del_item(name)?;
+        let allowed = range(Kind::Scenario, ranged).unwrap_or(f64::MIN..=f64::MAX);
+        check_or_nan(name, &values, &allowed)?;
+        all.push(([name, key], values));
     }
     Ok(all)
 }
@@ -141,6 +181,15 @@ struct End {
 }
 
 impl End {
+    fn failed(reason: String) -> Self {
+        Self {
+            outcome: "failed",
+            reason: Some(reason),
+            last: [f64::NAN; RECORD.len()],
+            samples: Vec::new(),
+        }
+    }
+
     fn of(scenario: &Scenario, keep: bool) -> Self {
         let row = |sample| RECORD.each_ref().map(|column| column.number(sample));
         match run(scenario) {
@@ -150,12 +199,7 @@ impl End {
                 last: row(run.last()),
                 samples: if keep { run.records.iter().map(row).collect() } else { Vec::new() },
             },
-            Err(error) => Self {
-                outcome: "failed",
-                reason: Some(error.to_string()),
-                last: [f64::NAN; RECORD.len()],
-                samples: Vec::new(),
-            },
+            Err(error) => Self::failed(error.to_string()),
         }
     }
 }
@@ -163,7 +207,7 @@ impl End {
 /// Many runs, on all cores; in their order, whatever the threads did.
 ///
 /// * `soils`: in the place of the scenarios' own; none, to leave those
-/// * `varied`: an array of `count` numbers for each key that varies
+/// * `varied`: an array of `count` numbers for each argument and key that varies; emptied
 /// * `keep`: whether all records are kept, beside the ends
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
@@ -184,18 +228,16 @@ pub(crate) fn rollout<'py>(
             return Err(misfit);
         }
         let end = |place: usize| {
+            if let Some(name) = runs.missing(place) {
+                return Ok(End::failed(format!("{name} is NaN")));
+            }
             let scenario = runs.scenario(place).map_err(|error| (place, error))?;
             Ok(End::of(&scenario, keep))
         };
         let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
         ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
-    let ends = ends.map_err(|(place, error)| {
-        let ParameterError { name, value, expected } = &error;
-        let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
-        let message = format!("{name} is {value}{at}, it must be {expected}");
-        errors::parameter(message, name, Some(*value), *expected)
-    })?;
+    let ends = ends.map_err(|(place, error)| misfit_at(place, count, &error))?;
     to_python(py, &ends, keep)
 }
 

@@ -7,16 +7,19 @@ use grouser::contact::validity::{Finding, Situation};
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
-use grouser::document::study;
+use grouser::document::{Described, Kind, Misfit, range, study};
+use grouser::error::ParameterError;
 use grouser::soil::Soil;
 use grouser::wheel::Wheel;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::validity::bits;
+use crate::varied::{self, VariedKeys};
 use crate::{errors, threads};
 
 /// Wheels between two checks for signals, to begin with: a part of a second for the slowest model.
@@ -30,44 +33,138 @@ const BATCH_TIME: RangeInclusive<Duration> = Duration::from_millis(50)..=Duratio
 const SHARE: usize = 256;
 const SHARES: usize = 32;
 
-/// What all wheels share.
+/// What all wheels share, and the keys of it that differ from wheel to wheel.
 struct Stand {
     soils: Vec<(Soil, Theory)>,
     wheel: Wheel,
     gravity: f64,
+    of_soils: VariedKeys,
+    of_wheels: VariedKeys,
+    gravities: Option<Vec<f64>>,
 }
 
 /// What each wheel has of its own.
 struct Inputs<'a> {
-    /// Load [N], or sinkage [m].
+    /// Load [N], or sinkage [mm].
     pressed: &'a [f64],
     slip_ratios: &'a [f64],
     slip_angles_deg: &'a [f64],
     soils: Option<&'a [i64]>,
 }
 
+/// The key of the gravity, beside those of soil and wheel.
+const GRAVITY: &str = "gravity_m_s2";
+
 impl Stand {
     /// * `setting`: a scenario that gives gravity, and a wheel–soil model where it names one
-    fn new(soils: &[PyRef<'_, Document>], wheel: &Document, setting: &Document) -> PyResult<Self> {
+    /// * `vary`: keys of soil and wheel, and the gravity, with a number for each wheel
+    fn new(
+        soils: &[PyRef<'_, Document>],
+        wheel: &Document,
+        setting: &Document,
+        vary: &Bound<'_, PyDict>,
+        count: usize,
+    ) -> PyResult<Self> {
+        let loaded = soils.iter().map(|soil| soil.soil()).collect::<PyResult<Vec<_>>>()?;
+        let documents: Vec<_> = loaded.iter().map(|soil| varied::parts(soil)).collect();
+        let of_soils = VariedKeys::taken(vary, "soil.", &documents, count)?;
+        let loaded_wheel = wheel.wheel()?;
+        let of_wheels = VariedKeys::taken(vary, "wheel.", &[varied::parts(loaded_wheel)], count)?;
+        let gravities = if vary.contains(GRAVITY)? {
+            let gravities = varied::numbers(vary, GRAVITY, count)?;
+            vary.del_item(GRAVITY)?;
+            let allowed = range(Kind::Scenario, GRAVITY).unwrap_or(f64::MIN..=f64::MAX);
+            check_or_nan(GRAVITY, &gravities, &allowed)?;
+            Some(gravities)
+        } else {
+            None
+        };
+        varied::check_taken(
+            vary,
+            "a key such as soil.cohesion_kpa, wheel.radius_m or gravity_m_s2",
+        )?;
         let soils = soils.iter().map(|soil| {
             let (theory, _) = model_and_gravity(soil, setting)?;
             Ok((soil.soil()?.value, theory))
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
         let gravity = setting.scenario()?.value.site.gravity;
-        Ok(Self { soils, wheel: wheel.wheel()?.value, gravity })
+        Ok(Self { soils, wheel: loaded_wheel.value, gravity, of_soils, of_wheels, gravities })
     }
 
-    fn contact(&self, inputs: &Inputs<'_>, place: usize) -> (Contact, Theory) {
-        let soil = inputs.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0));
-        let (soil, theory) = self.soils[soil];
+    /// Whether anything of it differs from wheel to wheel.
+    fn is_varied(&self) -> bool {
+        !self.of_soils.is_empty() || !self.of_wheels.is_empty()
+    }
+
+    /// A wheel's contact and model.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if its numbers do not go together.
+    fn contact(
+        &self,
+        inputs: &Inputs<'_>,
+        place: usize,
+    ) -> Result<(Contact, Theory), ParameterError> {
+        let of = inputs.soil_of(place);
+        let (mut soil, theory) = self.soils[of];
+        let mut wheel = self.wheel;
+        if !self.of_soils.is_empty() {
+            soil = soil.with(self.of_soils.at(of, place)).map_err(Misfit::of_numbers)?;
+        }
+        if !self.of_wheels.is_empty() {
+            wheel = wheel.with(self.of_wheels.at(0, place)).map_err(Misfit::of_numbers)?;
+        }
+        let gravity = self.gravities.as_ref().map_or(self.gravity, |all| all[place]);
         let angle = SLIP_ANGLE.unit.to_si(inputs.slip_angles_deg[place]);
         let slip = Slip::on_test_stand(inputs.slip_ratios[place], angle);
-        (Contact { wheel: self.wheel, soil, slip, gravity: self.gravity }, theory)
+        Ok((Contact { wheel, soil, slip, gravity }, theory))
+    }
+
+    /// Whether one of a wheel's numbers is NaN.
+    fn is_missing(&self, inputs: &Inputs<'_>, place: usize) -> bool {
+        let Inputs { pressed, slip_ratios, slip_angles_deg, .. } = inputs;
+        let gravity = self.gravities.as_ref().map_or(self.gravity, |all| all[place]);
+        let own = [pressed[place], slip_ratios[place], slip_angles_deg[place], gravity];
+        own.iter().any(|number| number.is_nan())
+            || self.of_soils.missing(place).is_some()
+            || self.of_wheels.missing(place).is_some()
+    }
+
+    /// Checks that the numbers that differ from wheel to wheel are in their ranges, and that those of each
+    /// wheel go together.
+    fn check(&self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
+        if !self.is_varied() {
+            return Ok(());
+        }
+        self.of_soils.check(|place| inputs.soil_of(place))?;
+        self.of_wheels.check(|_| 0)?;
+        let misfit = |place: usize| {
+            let error =
+                self.contact(inputs, place).err().filter(|_| !self.is_missing(inputs, place))?;
+            Some((place, error))
+        };
+        let count = inputs.pressed.len();
+        let places = (0..count).into_par_iter().with_min_len(SHARE);
+        let found = threads::detached(py, || places.find_map_first(misfit))?;
+        found.map_or(Ok(()), |(place, error)| Err(misfit_at(place, count, &error)))
     }
 }
 
+/// Numbers of an entry that do not go together.
+pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> PyErr {
+    let ParameterError { name, value, expected } = error;
+    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
+    let message = format!("{name} is {value}{at}, it must be {expected}");
+    errors::parameter(message, name, Some(*value), *expected)
+}
+
 impl Inputs<'_> {
+    /// Which soil a wheel has.
+    fn soil_of(&self, place: usize) -> usize {
+        self.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0))
+    }
+
     /// Checks that all arrays are of one length and in their ranges.
     fn check(&self, soils: usize, name: &str, pressed: &RangeInclusive<f64>) -> PyResult<()> {
         let count = self.pressed.len();
@@ -82,22 +179,51 @@ impl Inputs<'_> {
             let message = "there is no soil for every wheel".to_owned();
             return Err(errors::parameter(message, "soil", None, "at least one soil"));
         }
-        check(name, self.pressed, pressed)?;
-        check(SLIP_RATIO.name, self.slip_ratios, &study::SLIP_RATIO)?;
-        check(SLIP_ANGLE.name, self.slip_angles_deg, &study::SLIP_ANGLE_DEG)
+        check_or_nan(name, self.pressed, pressed)?;
+        check_or_nan(SLIP_RATIO.name, self.slip_ratios, &study::SLIP_RATIO)?;
+        check_or_nan(SLIP_ANGLE.name, self.slip_angles_deg, &study::SLIP_ANGLE_DEG)
     }
 }
 
 /// Checks that numbers are in their range; the error names the first that is not, by its place.
 pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> PyResult<()> {
-    let Some(place) = values.iter().position(|value| !range.contains(value)) else {
-        return Ok(());
-    };
+    first_outside(name, values, range, |value| range.contains(value))
+}
+
+/// The same of numbers that may be NaN, for what has no value then.
+pub(crate) fn check_or_nan(
+    name: &str,
+    values: &[f64],
+    range: &RangeInclusive<f64>,
+) -> PyResult<()> {
+    first_outside(name, values, range, |value| value.is_nan() || range.contains(value))
+}
+
+fn first_outside(
+    name: &str,
+    values: &[f64],
+    range: &RangeInclusive<f64>,
+    is_fit: impl Fn(&f64) -> bool,
+) -> PyResult<()> {
+    let misfit = values.iter().position(|value| !is_fit(value));
+    let error = |place: usize| out_of_range(name, values[place], place, values.len(), range);
+    misfit.map_or(Ok(()), |place| Err(error(place)))
+}
+
+/// A number that is not in its range.
+///
+/// * `place`, `count`: which of how many it is
+pub(crate) fn out_of_range(
+    name: &str,
+    value: f64,
+    place: usize,
+    count: usize,
+    range: &RangeInclusive<f64>,
+) -> PyErr {
     let expected = format!("from {} to {}", range.start(), range.end());
-    let value = values[place];
-    let at = if values.len() > 1 { format!(" (entry {place})") } else { String::new() };
+    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
     let message = format!("{name} is {value}{at}, it must be {expected}");
-    Err(errors::parameter(message, name, Some(value), expected))
+    errors::parameter(message, name, Some(value), expected)
 }
 
 /// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].
@@ -185,7 +311,10 @@ fn names(last: &'static str) -> Vec<&'static str> {
 }
 
 /// The sinkages at which wheels carry their loads, and the forces there. A row that is NaN but for
-/// `capacity_n` and the flags' bits, its last two, is a wheel that the soil does not carry.
+/// `capacity_n` and the flags' bits, its last two, is a wheel that the soil does not carry; one that is all NaN but
+/// for the bits has an input that is.
+///
+/// * `vary`: keys of soil and wheel, and `gravity_m_s2`, with a number for each wheel; emptied
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -198,17 +327,22 @@ pub(crate) fn settle<'py>(
     slip_ratio: PyReadonlyArray1<'py, f64>,
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
     soil_index: Option<PyReadonlyArray1<'py, i64>>,
+    vary: &Bound<'py, PyDict>,
 ) -> PyResult<Answer<'py>> {
-    let stand = Stand::new(&soils, wheel, setting)?;
     let inputs = Inputs {
         pressed: load_n.as_slice()?,
         slip_ratios: slip_ratio.as_slice()?,
         slip_angles_deg: slip_angle_deg.as_slice()?,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
+    let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
     inputs.check(stand.soils.len(), LOAD.name, &study::LOAD_N)?;
+    stand.check(py, &inputs)?;
     let one = |place: usize| {
-        let (contact, theory) = stand.contact(&inputs, place);
+        let contact = stand.contact(&inputs, place).ok();
+        let Some((contact, theory)) = contact.filter(|_| !stand.is_missing(&inputs, place)) else {
+            return row(&NO_WHEEL, f64::NAN, &[]);
+        };
         let load = inputs.pressed[place];
         let found = settle_one(theory.model(), &contact, load);
         let flags = findings(&contact, theory, load, found.as_ref().ok());
@@ -235,18 +369,40 @@ pub(crate) fn wheel_forces<'py>(
     slip_ratio: PyReadonlyArray1<'py, f64>,
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
     soil_index: Option<PyReadonlyArray1<'py, i64>>,
+    vary: &Bound<'py, PyDict>,
 ) -> PyResult<Answer<'py>> {
-    let stand = Stand::new(&soils, wheel, setting)?;
     let inputs = Inputs {
         pressed: sinkage_mm.as_slice()?,
         slip_ratios: slip_ratio.as_slice()?,
         slip_angles_deg: slip_angle_deg.as_slice()?,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
-    let deepest = SINKAGE.unit.from_si(stand.wheel.shearing_radius());
+    let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
+    let depth = |wheel: &Wheel| SINKAGE.unit.from_si(wheel.shearing_radius());
+    let deepest = if stand.of_wheels.is_empty() { depth(&stand.wheel) } else { f64::MAX };
     inputs.check(stand.soils.len(), SINKAGE.name, &(0.0..=deepest))?;
+    stand.check(py, &inputs)?;
+    if !stand.of_wheels.is_empty() {
+        for (place, sinkage) in inputs.pressed.iter().enumerate() {
+            let Ok((contact, _)) = stand.contact(&inputs, place) else { continue };
+            let range = 0.0..=depth(&contact.wheel);
+            // NaN is not deeper than anything.
+            if sinkage > range.end() {
+                return Err(out_of_range(
+                    SINKAGE.name,
+                    *sinkage,
+                    place,
+                    inputs.pressed.len(),
+                    &range,
+                ));
+            }
+        }
+    }
     let one = |place: usize| {
-        let (contact, theory) = stand.contact(&inputs, place);
+        let contact = stand.contact(&inputs, place).ok();
+        let Some((contact, theory)) = contact.filter(|_| !stand.is_missing(&inputs, place)) else {
+            return row(&NO_WHEEL, inputs.pressed[place], &[]);
+        };
         let sinkage = SINKAGE.unit.to_si(inputs.pressed[place]);
         let forces = theory.model().forces(&contact, sinkage);
         let settled = Settled { sinkage, forces, evaluations: 1 };

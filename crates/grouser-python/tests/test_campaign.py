@@ -323,6 +323,17 @@ def test_sensitivities_are_those_of_the_inputs(tmp_path: Path) -> None:
     assert load["first_low"] <= 1.0 <= load["first_high"]
     # What the wheel bears differs from its load by what settling tolerates.
     assert abs(slip["total"]) < 1e-6
+    table = found.to_pandas("sensitivity")
+    assert table[["name", "input"]].values.tolist() == [
+        ["normal_force_n", "load_n"],
+        ["normal_force_n", "slip_ratio"],
+    ]
+    assert table["total"].tolist() == [load["total"], slip["total"]]
+    runs = found.to_pandas("convergence").runs.tolist()
+    assert runs == sorted(runs) and runs[-1] == found.runs
+    assert "Sobol indices" in found._repr_html_()
+    with pytest.raises(gr.ParameterError, match="table is 'sobol'"):
+        found.to_pandas("sobol")  # type: ignore[arg-type]
 
 
 def test_program_and_python_find_the_same(program: Program, tmp_path: Path) -> None:
@@ -377,7 +388,7 @@ def test_a_missing_engine_is_named_with_its_command(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, engine: str, module: str
 ) -> None:
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(ImportError, match=rf"pip install grouser\[{engine}\]"):
+    with pytest.raises(ImportError, match=f"pip install {module}"):
         gr.campaign.run(campaigns.wheel_study(), out=tmp_path, executor=engine)
 
 

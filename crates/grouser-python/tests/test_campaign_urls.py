@@ -102,5 +102,5 @@ def test_without_fsspec_its_command_is_named(monkeypatch: pytest.MonkeyPatch) ->
     import sys
 
     monkeypatch.setitem(sys.modules, "fsspec", None)
-    with pytest.raises(ImportError, match=r"pip install grouser\[fsspec\]"):
+    with pytest.raises(ImportError, match=r"pip install fsspec"):
         gr.campaign.run(campaigns.wheel_study(), out="memory://nowhere")

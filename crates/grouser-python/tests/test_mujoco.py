@@ -77,7 +77,7 @@ def test_without_mujoco_the_error_says_what_to_install() -> None:
     command = [sys.executable, "-c", code]
     finished = subprocess.run(command, check=False, capture_output=True, text=True)
     assert finished.returncode == 1
-    assert "ImportError: grouser.mujoco needs MuJoCo: pip install grouser[mujoco]" in finished.stderr
+    assert "ImportError: grouser.mujoco needs MuJoCo: pip install mujoco" in finished.stderr
 
 
 @pytest.mark.parametrize(

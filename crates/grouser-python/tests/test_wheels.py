@@ -81,7 +81,7 @@ def test_a_soil_brings_its_theory_and_the_caller_may_choose_another() -> None:
     ("arguments", "message"),
     [
         ({"load_n": -1.0}, "load_n is -1, it must be from 0 to 100000"),
-        ({"load_n": [1.0, np.nan]}, r"load_n is NaN \(entry 1\)"),
+        ({"load_n": [1.0, np.inf]}, r"load_n is inf \(entry 1\)"),
         ({"slip_ratio": 2.5}, "slip_ratio is 2.5"),
         ({"slip_angle_deg": [0.0, 91.0]}, "slip_angle_deg is 91"),
         ({"load_n": "17"}, "load_n has dtype <U2, it must be real numbers"),
@@ -121,3 +121,125 @@ def test_tables_have_units() -> None:
     assert wheels.to_pandas().status.tolist() == [0, 1]
     with pytest.raises(gr.ParameterError, match="dims"):
         wheels.to_xarray(dims=["a", "b"])
+
+
+# ---- numbers that are NaN ----
+
+
+def test_nan_in_is_nan_out_and_leaves_the_others() -> None:
+    nan = np.nan
+    wheels = gr.settle("toyoura", "hakuto", load_n=[17.0, nan, 5e4], slip_ratio=[[0.2], [nan]])
+    assert wheels.status.tolist() == [[0, 2, 1], [2, 2, 2]]
+    assert np.isnan(wheels.sinkage_mm).tolist() == [[False, True, True], [True] * 3]
+    assert wheels.messages[0, 1] == "an input is NaN" and wheels.flags[1, 0] == ""
+    alone = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2)
+    assert wheels.drawbar_pull_n[0, 0] == alone.drawbar_pull_n
+    forces = gr.wheel_forces("toyoura", "hakuto", sinkage_mm=[10.0, nan], slip_ratio=0.2)
+    assert np.isnan(forces.torque_nm).tolist() == [False, True]
+
+
+def test_other_invalid_numbers_are_errors_beside_nan() -> None:
+    for inputs in ({"load_n": [np.nan, -1.0]}, {"load_n": 17.0, "slip_ratio": [np.nan, 3.0]}):
+        with pytest.raises(gr.ParameterError, match=r"\(entry 1\)"):
+            gr.settle("toyoura", "hakuto", **{"slip_ratio": 0.2, **inputs})
+    with pytest.raises(gr.ParameterError, match="gravity_m_s2"):
+        gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, gravity_m_s2=np.nan)
+
+
+# ---- keys of documents as arrays ----
+
+
+def test_a_varied_key_is_the_soil_or_wheel_with_that_value() -> None:
+    vary = {"soil.cohesion_kpa": [[0.0], [0.7]], "wheel.radius_m": [0.1, 0.12]}
+    many = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary=vary)
+    assert many.shape == (2, 2)
+    for (i, j), pull in np.ndenumerate(many.drawbar_pull_n):
+        soil = gr.Soil("toyoura", cohesion_kpa=vary["soil.cohesion_kpa"][i][0])
+        wheel = gr.Wheel("hakuto", radius_m=vary["wheel.radius_m"][j])
+        alone = gr.settle(soil, wheel, load_n=17.0, slip_ratio=0.2)
+        assert alone.drawbar_pull_n == pull and alone.flags == many.flags[i, j]
+        forces = gr.wheel_forces(
+            "toyoura", "hakuto", sinkage_mm=alone.sinkage_mm, slip_ratio=0.2,
+            vary={"soil.cohesion_kpa": soil.cohesion_kpa, "wheel.radius_m": wheel.radius_m},
+        )
+        np.testing.assert_allclose(forces.drawbar_pull_n, pull, rtol=1e-11)
+
+
+def test_gravities_broadcast_and_soils_are_varied_one_by_one() -> None:
+    moon = gr.settle("toyoura", "hakuto", load_n=5.0, slip_ratio=0.2, slip_angle_deg=20.0,
+                     gravity_m_s2=gr.MOON_GRAVITY)
+    both = gr.settle("toyoura", "hakuto", load_n=5.0, slip_ratio=0.2, slip_angle_deg=20.0,
+                     gravity_m_s2=[gr.EARTH_GRAVITY, gr.MOON_GRAVITY])
+    assert both.side_force_n[1] == moon.side_force_n != both.side_force_n[0]
+    soils = gr.settle(["toyoura", "dry-sand"], "hakuto", load_n=17.0, slip_ratio=0.2,
+                      vary={"soil.friction_angle_deg": [30.0, 35.0]})
+    other = gr.Soil("dry-sand", friction_angle_deg=35.0)
+    assert soils.drawbar_pull_n[1] == gr.settle(other, "hakuto", load_n=17, slip_ratio=0.2).drawbar_pull_n
+
+
+@pytest.mark.parametrize(
+    ("vary", "message"),
+    [
+        ({"soil.cohesion_kap": 1.0}, "did you mean `cohesion_kpa`"),
+        ({"cohesion_kpa": 1.0}, "a key such as soil.cohesion_kpa"),
+        ({"soil.name": 1.0}, "not a number"),
+        ({"soil.cohesion_kpa": [0.5, -1.0]}, r"soil.cohesion_kpa is -1 \(entry 1\), it must be from 0 to"),
+        ({"wheel.radius_m": 1e9}, "wheel.radius_m is 1000000000, it must be"),
+        ({"gravity_m_s2": 1.0}, "gravity_m_s2 is given twice"),
+        ({"soil.cohesion_kpa": "much"}, "real numbers"),
+        ({"soil.cohesion_kpa": [0.1, 0.2], "wheel.radius_m": [0.1, 0.1, 0.1]}, "do not broadcast"),
+        (["soil.cohesion_kpa"], "mapping of keys"),
+        ({3: 1.0}, "key of type int"),
+    ],
+)
+def test_keys_that_cannot_vary_are_named(vary: Any, message: str) -> None:
+    for call, pressed in ((gr.settle, "load_n"), (gr.wheel_forces, "sinkage_mm")):
+        with pytest.raises(gr.ParameterError, match=message):
+            call("toyoura", "hakuto", **{pressed: 17.0}, slip_ratio=0.2, vary=vary)
+
+
+# ---- what was asked ----
+
+
+def test_inputs_are_columns_and_coordinates() -> None:
+    soils = np.array([["toyoura"], ["dry-sand"]], dtype=object)
+    wheels = gr.settle(
+        soils,
+        "hakuto",
+        load_n=17.0,
+        slip_ratio=[0.1, 0.2, 0.4],
+        vary={"soil.cohesion_kpa": [[0.0], [0.5]]},
+    )
+    table = wheels.to_pandas()
+    assert table.soil.tolist() == ["Toyoura sand"] * 3 + ["Dry sand"] * 3
+    assert table["soil.cohesion_kpa"].tolist() == [0.0] * 3 + [0.5] * 3
+    data = wheels.to_xarray(dims=["soil", "slip_ratio"])
+    assert data.sinkage_mm.sel(soil="Dry sand", slip_ratio=0.2) == wheels.sinkage_mm[1, 1]
+    assert data["soil.cohesion_kpa"].dims == ("soil",) and data.load_n.dims == ()
+    assert data["soil.cohesion_kpa"].attrs["units"] == "kPa"
+    assert wheels.to_arrow().column_names[:3] == ["soil", "soil.cohesion_kpa", "load_n"]
+    anonymous = gr.settle(["toyoura", gr.Soil("toyoura", cohesion_kpa=1.0)], "hakuto", load_n=1, slip_ratio=0)
+    assert anonymous.inputs["soil"].tolist() == ["Toyoura sand (0)", "Toyoura sand (1)"]
+
+
+def test_few_wheels_are_shown_whole_and_many_as_their_spread() -> None:
+    few = repr(gr.settle("toyoura", "hakuto", load_n=[17.0, 5e4], slip_ratio=0.2)).splitlines()
+    assert few[0].startswith("<Settled of shape (2,): 1 sunk") and len(few) == 4
+    assert few[1].split()[:2] == ["load_n", "slip_ratio"] and "down to axle depth" in few[3]
+    many = gr.settle("toyoura", "hakuto", load_n=np.linspace(1.0, 20.0, 21), slip_ratio=0.2)
+    spread = {line.split()[0]: line.split()[1:] for line in repr(many).splitlines()[1:]}
+    assert spread["load_n"] == ["1", "10.5", "20"]
+    assert float(spread["sinkage_mm"][1]) == pytest.approx(np.median(many.sinkage_mm), rel=1e-3)
+    assert repr(gr.settle("toyoura", "hakuto", load_n=[], slip_ratio=0.2)) == "<Settled of shape (0,)>"
+
+
+def test_notebooks_show_tables_that_are_cut() -> None:
+    loads = np.linspace(1.0, 20.0, 40)
+    shown = gr.settle("toyoura", "hakuto", load_n=loads, slip_ratio=0.2)._repr_html_()
+    assert shown.count("<tr>") == 2 + 12 + 1 and "40 rows" in shown and "[mm]" in shown
+    assert ">20<" in shown and ">10.26<" not in shown
+    square = gr.settle("toyoura", "hakuto", load_n=[[1.0], [2.0]], slip_ratio=[0.1, 0.2])
+    assert ">1, 0<" in square._repr_html_() and "more columns" in square._repr_html_()
+    # A text in a table cannot end it.
+    soils = [gr.Soil("toyoura", name="<b>"), gr.Soil("dry-sand")]
+    assert "<b>" not in gr.settle(soils, "hakuto", load_n=1.0, slip_ratio=0.2)._repr_html_()

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -56,6 +56,31 @@ def line(name: str, values: ArrayLike) -> Floats:
     return np.ascontiguousarray(np.atleast_1d(array))
 
 
+def varied(vary: Any, taken: Iterable[str] = ()) -> dict[str, ArrayLike]:
+    """Arrays by the keys of documents.
+
+    Parameters
+    ----------
+    vary
+        The caller's argument ``vary``.
+    taken
+        Keys that other arguments give.
+    """
+    if vary is None:
+        return {}
+    if not isinstance(vary, Mapping):
+        raise ParameterError(
+            f"vary is of type {type(vary).__name__}, it must be a mapping of keys to arrays", "vary"
+        )
+    for name in vary:
+        if not isinstance(name, str):
+            given = type(name).__name__
+            raise ParameterError(f"vary has a key of type {given}, it must be text", "vary")
+        if name in taken:
+            raise ParameterError(f"{name} is given twice: once of them in vary", name)
+    return dict(vary)
+
+
 def mask(name: str, values: ArrayLike, count: int) -> NDArray[np.bool_]:
     """A truth value for each of ``count`` items."""
     _refuse_masked(name, values)
@@ -69,10 +94,23 @@ def mask(name: str, values: ArrayLike, count: int) -> NDArray[np.bool_]:
     return np.ascontiguousarray(array)
 
 
+class Broadcast(NamedTuple):
+    """Arguments of a call, and their entries at the common shape."""
+
+    given: dict[str, Floats]
+    """Real numbers as they were given."""
+    flat: dict[str, Floats]
+    """Their entries, in the order of the flattened shape."""
+    places: list[NDArray[np.int64]]
+    """The same of indices."""
+    shape: tuple[int, ...]
+    """The common shape."""
+
+
 def broadcast(
     inputs: Mapping[str, ArrayLike], places: Mapping[str, NDArray[np.int64]]
-) -> tuple[list[Floats], list[NDArray[np.int64]], tuple[int, ...]]:
-    """Real numbers and indices at their common shape, flat; and that shape.
+) -> Broadcast:
+    """Real numbers and indices at their common shape.
 
     Axes are matched by their order. So DataArrays of xarray, whose axes are matched by name, must
     have the same dimensions in the same order, and the same coordinates.
@@ -85,8 +123,8 @@ def broadcast(
         Indices by the names of arguments.
     """
     _refuse_other_labels(inputs)
-    arrays: dict[str, Any] = {name: _real(name, values) for name, values in inputs.items()}
-    arrays |= places
+    given = {name: _real(name, values) for name, values in inputs.items()}
+    arrays: dict[str, Any] = {**given, **places}
     try:
         whole = np.broadcast_arrays(*arrays.values())
     except ValueError:
@@ -94,7 +132,7 @@ def broadcast(
         raise ParameterError(f"shapes do not broadcast: {shapes}") from None
     shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     flat = [np.ascontiguousarray(array).ravel() for array in whole]
-    return flat[: len(inputs)], flat[len(inputs) :], shape
+    return Broadcast(given, dict(zip(given, flat)), flat[len(given) :], shape)
 
 
 def _real(name: str, values: ArrayLike) -> Floats:

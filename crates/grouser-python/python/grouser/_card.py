@@ -82,6 +82,9 @@ class Card(_tables.Tabular):
     def _table(self) -> Mapping[str, Any]:
         return self.columns
 
+    def _shown(self) -> Mapping[str, Any]:
+        return {name: self.columns[name] for name in _SHOWN}
+
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
         return _tables.frame(self.columns)
@@ -91,6 +94,19 @@ class Card(_tables.Tabular):
         upto = f"up to {goes.max():g}°" if goes.size else "on no slope"
         return f"<Card of {len(self.slope_deg)} slopes, go {upto}>"
 
+
+#: What a driver sets and reads first.
+_SHOWN = (
+    "slope_deg",
+    "verdict",
+    "yaw_deg",
+    "roll_deg",
+    "pitch_deg",
+    "correct_every_m",
+    "slip_limit",
+    "slip_check_every_m",
+    "flags",
+)
 
 #: The limits of a rule, as the program has them without flags.
 _RULE = {
@@ -179,8 +195,7 @@ def card(
     rows, courses = _arrays_of(rows), _arrays_of(courses)
     of_course = ("slope_deg", "course", "verdict")
     second = CardCourses(**{name: courses[name] for name in of_course}, columns=courses)
-    shown = ("slope_deg", "verdict", "yaw_deg", "roll_deg", "pitch_deg", "correct_every_m")
-    first = {name: rows[name] for name in (*shown, "slip_limit", "slip_check_every_m", "flags")}
+    first = {name: rows[name] for name in _SHOWN}
     return Card(**first, columns=rows, courses=second, steepest=steepest)
 
 

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, TypeVar, Union
 
 from . import _core, _former_names
+from ._arrays import whole_number
 from ._errors import ParameterError
 
 _Self = TypeVar("_Self", bound="_Description")
@@ -249,6 +250,47 @@ class Soil(_Description):
 
     __slots__ = ()
     _kind = "soil"
+
+    def sample(self, n: int, seed: int = 1) -> list[Soil]:
+        """Samples of an uncertain soil, by the deviations or the samples that its document states,
+        and by priors where it states none: the soils of the studies with ``uncertainty=True``.
+
+        Sample *i* depends on the seed and *i* alone, so that more samples begin with the same ones.
+        Those studies sample the error of the wheel–soil model as well, which is not a number of the
+        soil.
+
+        Parameters
+        ----------
+        n : int
+            Number of samples, up to 100000.
+        seed : int
+            Seed of the samples.
+
+        Returns
+        -------
+        list of Soil
+            Exact soils, without uncertainty.
+
+        Raises
+        ------
+        ParameterError
+            For a soil that is exact.
+
+        Examples
+        --------
+        >>> import grouser as gr
+        >>> soils = gr.Soil("toyoura-uncertain").sample(100, seed=1)
+        >>> wheels = gr.settle(soils, "hakuto", load_n=17.0, slip_ratio=0.2)
+        >>> wheels.drawbar_pull_n.shape
+        (100,)
+        """
+        count = whole_number("n", n, most=100_000)
+        made = []
+        for document in self._document.samples(count, whole_number("seed", seed)):
+            soil = Soil.__new__(Soil)
+            soil._take(document)
+            made.append(soil)
+        return made
 
 
 class Wheel(_Description):

@@ -86,7 +86,9 @@ class Headings(_tables.Tabular):
         return axes
 
     def __repr__(self) -> str:
-        return f"<Headings on {len(self.status)} slopes, the steepest is {self.limit_slope_deg}°>"
+        limit = self.limit_slope_deg
+        steepest = "the rover cannot move" if limit is None else f"the steepest is {limit:.2f}°"
+        return f"<Headings on {len(self.status)} slopes, {steepest}>"
 
 
 def heading(

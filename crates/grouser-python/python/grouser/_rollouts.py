@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _former_names, _tables
-from ._arrays import Floats, broadcast
+from ._arrays import Floats, broadcast, varied
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import SAMPLE, columns_of, scenario_of
-from ._wheels import Soils, soils_of
+from ._wheels import Soils, names_of, soils_of
 
 if TYPE_CHECKING:
     import pandas
@@ -31,7 +31,7 @@ class Rollout(_tables.Tabular):
     """
 
     outcome: NDArray[np.str_]
-    """Each run's outcome; ``failed`` where it could not be computed."""
+    """Each run's outcome; ``failed`` where it could not be computed, and where an input is NaN."""
     message: NDArray[np.object_]
     """The outcome explained; None for a completed run."""
     time_s: Floats
@@ -62,6 +62,10 @@ class Rollout(_tables.Tabular):
     records: Mapping[str, Floats] | None = None
     """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the
     fields after it): arrays with one dimension more, NaN after a run's end."""
+    inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    """What was asked, by name: arrays as given, which broadcast to `shape`. ``scenario`` counts the
+    scenarios, if there were several; soils have their names; the yaw at the start is
+    ``start.yaw_deg``."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -72,14 +76,20 @@ class Rollout(_tables.Tabular):
         return self.outcome.size
 
     def _table(self) -> dict[str, Any]:
+        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
+        return {**inputs, **self._results()}
+
+    def _results(self) -> dict[str, Any]:
         return {"outcome": self.outcome, "message": self.message, **columns_of(self, SAMPLE)}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each run: its final state."""
+        """A table with a row for each run: its inputs, then its final state."""
         return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
         """A dataset with units in the attributes; records have names that start with ``sample_``.
+        Inputs are coordinates, each over the dimensions along which it was given: with
+        ``dims=["slope_deg", "start.yaw_deg"]`` slopes and yaws index the dimensions of their names.
 
         Parameters
         ----------
@@ -93,7 +103,7 @@ class Rollout(_tables.Tabular):
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
             )
-        data = _tables.dataset(names, self._table())
+        data = _tables.with_inputs(_tables.dataset(names, self._results()), names, self.inputs)
         for name, values in (self.records or {}).items():
             data[f"sample_{name}"] = _tables.variable((*names, "sample"), name, values)
         return data
@@ -127,6 +137,7 @@ def rollout(
     rim_speed_m_s: ArrayLike | None = None,
     gravity_m_s2: ArrayLike | None = None,
     duration_s: ArrayLike | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
     trajectories: bool = False,
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
@@ -152,12 +163,16 @@ def rollout(
         Gravities [m/s²], 0.01 to 30.
     duration_s : array_like, optional
         Durations of the runs [s], above 0, to 86400.
+    vary : mapping of str to array_like, optional
+        Other numbers of the scenario by their keys, as ``soil.cohesion_kpa`` or
+        ``rover.body.mass_kg``: they broadcast with the other arguments.
     trajectories : bool
         Whether to keep the records over time, as `Rollout.records`.
 
     Returns
     -------
     Rollout
+        A run with an input that is NaN has the outcome ``failed``, and NaN for all results.
 
     Raises
     ------
@@ -182,26 +197,38 @@ def rollout(
         "gravity_m_s2": gravity_m_s2,
         "duration_s": duration_s,
     }
-    varied = {name: it for name, it in given.items() if it is not None}
-    arrays, (index, soil_index), shape = broadcast(
-        varied, {"scenarios": places, "soil": soil_places}
+    arguments = {name: it for name, it in given.items() if it is not None}
+    both = [*arguments, *(_KEYS[name] for name in arguments if name in _KEYS)]
+    asked = broadcast(
+        {**varied(vary, taken=both), **arguments}, {"scenarios": places, "soil": soil_places}
     )
+    index, soil_index = asked.places
     found = _core.rollout(
         [run._document for run in runs],
         index if len(runs) > 1 else None,
         [one._document for one in soils],
         soil_index if len(soils) > 1 else None,
-        dict(zip(varied, arrays)),
+        asked.flat,
         index.size,
         trajectories,
     )
+    shape = asked.shape
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
     message = np.array(found.pop("reason"), dtype=object).reshape(shape)
     records = found.pop("samples", None)
     if records is not None:
         records = {name: it.reshape(*shape, it.shape[-1]) for name, it in records.items()}
     ends = {name: values.reshape(shape) for name, values in found.items()}
-    return Rollout(outcome=outcome, message=message, **ends, records=records)
+    inputs: dict[str, NDArray[Any]] = {} if places.ndim == 0 else {"scenario": places}
+    inputs |= names_of(soils, soil_places)
+    inputs |= {_COLUMNS.get(name, name): values for name, values in asked.given.items()}
+    return Rollout(outcome=outcome, message=message, **ends, records=records, inputs=inputs)
+
+
+#: The keys of documents that arguments set, where they have other names.
+_KEYS = {"yaw_deg": "start.yaw_deg", "rim_speed_m_s": "drive.rim_speed_m_s"}
+#: The columns of arguments, where a result has the argument's name.
+_COLUMNS = {"yaw_deg": "start.yaw_deg"}
 
 
 def _scenarios(scenarios: Any) -> tuple[list[Scenario], NDArray[np.int64]]:

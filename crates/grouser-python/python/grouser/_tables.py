@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from . import _core, _former_names
+from . import _core, _former_names, _shown
 
 if TYPE_CHECKING:
     import pandas
@@ -32,6 +33,18 @@ def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
     if array.dtype.kind != "f":
         return dims, array
     return dims, array, {"units": unit_of(name)}
+
+
+def with_inputs(
+    data: xarray.Dataset, dims: tuple[str, ...], inputs: Mapping[str, NDArray[Any]]
+) -> xarray.Dataset:
+    """A dataset with inputs as coordinates, each over the dimensions along which it was given."""
+    for name, values in inputs.items():
+        own = dims[len(dims) - values.ndim :]
+        kept = [k for k, size in enumerate(values.shape) if size > 1 or data.sizes[own[k]] == 1]
+        cells = values.reshape([values.shape[k] for k in kept])
+        data = data.assign_coords({name: variable(tuple(own[k] for k in kept), name, cells)})
+    return data
 
 
 def dataset(
@@ -76,6 +89,16 @@ class Tabular:
     def _unit_of(self, name: str) -> str | None:
         """The unit of a column of numbers; None where it differs from row to row."""
         return unit_of(name)
+
+    def _shown(self) -> Mapping[str, Any]:
+        """The columns that a notebook shows, most important first."""
+        return self._table()
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks: the first and last rows."""
+        shape = getattr(self, "shape", ())
+        title = repr(self).partition("\n")[0].strip("<>")
+        return _shown.html_table(title, self._shown(), self._unit_of, shape)
 
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         """The table as an Arrow stream of one batch, by the Arrow PyCapsule interface: what a

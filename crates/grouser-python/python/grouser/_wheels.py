@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _tables
-from ._arrays import Floats, broadcast, number
+from . import _core, _shown, _tables
+from ._arrays import Broadcast, Floats, broadcast, number, varied
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._validity import flags_of
@@ -27,6 +27,11 @@ Soils = Union[Soil, Source, Sequence[Any], NDArray[np.object_]]
 CARRIED = 0
 #: `Settled.status` of a wheel that sinks to its axle.
 SUNK_TO_AXLE = 1
+#: `Settled.status` of a wheel with an input that is NaN.
+INPUT_IS_NAN = 2
+
+#: What the text of many wheels has.
+_BRIEF = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +78,9 @@ class WheelForces(_tables.Tabular):
     """Part of the drawbar pull from normal stress and bulldozing [N]; it counts negative."""
     max_normal_stress_kpa: Floats
     """Largest normal stress on the rim [kPa]."""
+    inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict, kw_only=True)
+    """What was asked, by name: arrays as given, which broadcast to `shape`; soils by their names, if
+    there were several."""
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -80,14 +88,19 @@ class WheelForces(_tables.Tabular):
         return self.slip_ratio.shape
 
     def _table(self) -> dict[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        own = (one.name for one in fields(self) if one.name != "inputs")
+        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
+        return {**inputs, **{name: getattr(self, name) for name in own}}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each wheel, in the order of the flattened fields."""
+        """A table with a row for each wheel, in the order of the flattened fields: inputs first,
+        then results."""
         return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
-        """A dataset with units in the attributes.
+        """A dataset with units in the attributes. Inputs are coordinates, each over the dimensions
+        along which it was given: with ``dims=["load_n", "slip_ratio"]`` loads and slip ratios index
+        the dimensions of their names.
 
         Parameters
         ----------
@@ -101,21 +114,43 @@ class WheelForces(_tables.Tabular):
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {len(self.shape)} dimensions", "dims"
             )
-        return _tables.dataset(names, self._table())
+        results = {name: it for name, it in self._table().items() if name not in self.inputs}
+        return _tables.with_inputs(_tables.dataset(names, results), names, self.inputs)
+
+    def _shown(self) -> dict[str, Any]:
+        table = self._table()
+        first = {name: table[name] for name in (*self.inputs, *_BRIEF)}
+        return {**first, **self._states(), **table}
+
+    def _counts(self) -> str:
+        """How many wheels are in which state."""
+        return ""
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__} of shape {self.shape}>"
+        head = f"<{type(self).__name__} of shape {self.shape}{self._counts()}>"
+        table = self._table()
+        names = [*self.inputs, *(name for name in _BRIEF if name not in self.inputs)]
+        if 0 < self.slip_ratio.size <= _shown.MOST_LINES:
+            shown = {name: table[name] for name in names}
+            return f"{head}\n{_shown.text_table({**shown, **self._states()})}"
+        numbers = {name: table[name] for name in names if table[name].dtype.kind == "f"}
+        return f"{head}\n{_shown.spread(numbers)}" if self.slip_ratio.size else head
+
+    def _states(self) -> dict[str, Any]:
+        """Columns with the state of each wheel."""
+        return {}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Settled(WheelForces):
     """Wheels at the sinkage at which the soil carries their load. A wheel that it cannot carry has
-    ``status`` 1 and NaN for all results."""
+    ``status`` 1 and NaN for all results; one with an input that is NaN has ``status`` 2 and NaN."""
 
     load_n: Floats
     """Load [N], as asked."""
     status: NDArray[np.int8]
-    """0 for a wheel that is carried, 1 for one that sinks to its axle."""
+    """0 for a wheel that is carried, 1 for one that sinks to its axle, 2 for one with an input that
+    is NaN."""
     capacity_n: Floats
     """The most that the soil carries down to axle depth [N], where that is less than the load; else
     NaN."""
@@ -129,7 +164,21 @@ class Settled(WheelForces):
         messages = np.full(self.shape, "ok", dtype=object)
         sunk = self.status == SUNK_TO_AXLE
         messages[sunk] = _core.not_carried(self.load_n[sunk], self.capacity_n[sunk])
+        messages[self.status == INPUT_IS_NAN] = "an input is NaN"
         return messages
+
+    def _counts(self) -> str:
+        sunk, missing = (int((self.status == it).sum()) for it in (SUNK_TO_AXLE, INPUT_IS_NAN))
+        flagged = int((self.flags != "").sum())
+        counts = {"sunk to the axle": sunk, "with an input that is NaN": missing}
+        counts["with flags"] = flagged
+        found = [f"{count} {state}" for state, count in counts.items() if count]
+        return f": {', '.join(found)}" if found else ""
+
+    def _states(self) -> dict[str, Any]:
+        states = {"status": self.messages, "flags": self.flags}
+        plain = {"status": "ok", "flags": ""}
+        return {name: it for name, it in states.items() if (it != plain[name]).any()}
 
 
 def settle(
@@ -139,8 +188,9 @@ def settle(
     load_n: ArrayLike,
     slip_ratio: ArrayLike,
     slip_angle_deg: ArrayLike = 0.0,
-    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
 ) -> Settled:
     """Finds the smallest sinkages at which the soil carries wheels (F_z = load), and the forces
     there.
@@ -162,21 +212,26 @@ def settle(
         Slip ratio [-], −2 to 2, positive where the wheel drives.
     slip_angle_deg : array_like
         Slip angle [°], −90 to 90, positive where the hub moves to the left.
-    gravity_m_s2 : float
-        Gravity [m/s²]; it gives the soil its weight.
+    gravity_m_s2 : array_like
+        Gravity [m/s²], 0.01 to 30; it gives the soil its weight.
     model : str, optional
         The wheel–soil model: ``ishigami``, ``bekker``, ``small-wheel`` or ``rft``; by default each
         soil's own.
+    vary : mapping of str to array_like, optional
+        Numbers of the soil or the wheel, by their keys, as ``soil.cohesion_kpa`` or
+        ``wheel.radius_m``: they broadcast with the other arguments.
 
     Returns
     -------
     Settled
+        A wheel with an input that is NaN has NaN for all results.
 
     Raises
     ------
     ParameterError
         For a value that is not a number, masked or out of its range, for shapes that do not
-        broadcast, and for DataArrays over different dimensions.
+        broadcast, for DataArrays over different dimensions, and for keys that the soil or the wheel
+        does not have.
     DocumentNotFoundError
         If a name is neither a preset nor a file.
 
@@ -186,17 +241,23 @@ def settle(
     >>> wheels = gr.settle("toyoura", "hakuto", load_n=[[10.0], [20.0]], slip_ratio=[0.1, 0.2, 0.3])
     >>> wheels.drawbar_pull_n.shape
     (2, 3)
+    >>> cohesion = {"soil.cohesion_kpa": [0.0, 0.5, 1.0]}
+    >>> stiff = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary=cohesion)
+    >>> stiff.drawbar_pull_n.round(2).tolist()
+    [1.82, 3.01, 4.22]
+    >>> gr.settle("toyoura", "hakuto", load_n=[10.0, 20.0], slip_ratio=0.2)
+    <Settled of shape (2,)>
+    load_n  slip_ratio  slip_angle_deg  sinkage_mm  drawbar_pull_n  side_force_n  torque_nm
+        10         0.2               0        10.2          0.9266             0     0.1888
+        20         0.2               0          14           2.233             0     0.4527
     """
-    stand = _Stand(soil, wheel, gravity_m_s2, model)
+    stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
     inputs = {"load_n": load_n, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
-    arrays, shape = stand.broadcast(inputs)
-    loads, ratios, angles = arrays
-    rows, names = _core.settle(*stand.documents, loads, ratios, angles, stand.index)
-    found = dict(zip(names, rows.reshape(len(names), *shape)))
-    found |= zip(inputs, (array.reshape(shape) for array in arrays))
-    status = np.isnan(found["normal_force_n"]).astype(np.int8)
+    found = stand.found(_core.settle, inputs)
+    sunk, missing = np.isnan(found["normal_force_n"]), np.isnan(found["capacity_n"])
+    status = np.where(sunk, np.where(missing, INPUT_IS_NAN, SUNK_TO_AXLE), CARRIED)
     flags = flags_of(found.pop("flag_bits"))
-    return Settled(**found, status=status, flags=flags)
+    return Settled(**found, status=status.astype(np.int8), flags=flags)
 
 
 def wheel_forces(
@@ -206,8 +267,9 @@ def wheel_forces(
     sinkage_mm: ArrayLike,
     slip_ratio: ArrayLike,
     slip_angle_deg: ArrayLike = 0.0,
-    gravity_m_s2: float = _core.EARTH_GRAVITY,
+    gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
 ) -> WheelForces:
     """Computes the forces of the soil on wheels at given sinkages.
 
@@ -217,55 +279,72 @@ def wheel_forces(
     ----------
     sinkage_mm : array_like
         Sinkage of the grouser tips [mm], from 0 to the axle's depth.
-    soil, wheel, slip_ratio, slip_angle_deg, gravity_m_s2, model
+    soil, wheel, slip_ratio, slip_angle_deg, gravity_m_s2, model, vary
         As for `settle`.
 
     Returns
     -------
     WheelForces
+        A wheel with an input that is NaN has NaN for all results.
 
     Raises
     ------
     ParameterError, DocumentNotFoundError
         As `settle`.
     """
-    stand = _Stand(soil, wheel, gravity_m_s2, model)
+    stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
     inputs = {"sinkage_mm": sinkage_mm, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
-    arrays, shape = stand.broadcast(inputs)
-    depths, ratios, angles = arrays
-    rows, names = _core.wheel_forces(*stand.documents, depths, ratios, angles, stand.index)
-    found = dict(zip(names, rows.reshape(len(names), *shape)))
+    found = stand.found(_core.wheel_forces, inputs)
     del found["given_sinkage_mm"], found["flag_bits"]
-    found |= zip(inputs, (array.reshape(shape) for array in arrays))
     return WheelForces(**found)
 
 
 class _Stand:
-    """Wheel, gravity and model of a call, and the soil of each wheel."""
+    """Wheel, gravity and model of a call, the soil of each wheel, and the keys that are varied."""
 
     def __init__(
-        self, soil: Soils, wheel: Wheel | Source, gravity_m_s2: float, model: str | None
+        self,
+        soil: Soils,
+        wheel: Wheel | Source,
+        gravity_m_s2: ArrayLike,
+        model: str | None,
+        vary: Mapping[str, ArrayLike] | None,
     ) -> None:
         wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        stand = setting(gravity_m_s2, model)
-        self._soils, places = soils_of(soil)
-        self._places = places
-        self.index: NDArray[np.int64] | None = None
-        self.documents = (
-            [one._document for one in self._soils],
-            wheel._document,
-            stand._document,
-        )
+        self._vary = varied(vary, taken=("gravity_m_s2",))
+        gravity = gravity_m_s2
+        if np.ndim(gravity_m_s2) > 0:
+            self._vary["gravity_m_s2"], gravity = gravity_m_s2, _core.EARTH_GRAVITY
+        self._soils, self._places = soils_of(soil)
+        soils = [one._document for one in self._soils]
+        self._documents = (soils, wheel._document, setting(gravity, model)._document)
 
-    def broadcast(self, inputs: dict[str, ArrayLike]) -> tuple[list[Floats], tuple[int, ...]]:
-        """The arguments at their common shape, flat."""
-        arrays, (index,), shape = broadcast(inputs, {"soil": self._places})
-        if len(self._soils) > 1:
-            self.index = index
-        return arrays, shape
+    def found(self, native: Any, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
+        """Results and inputs by name, as arrays of the common shape."""
+        asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
+        index = asked.places[0] if len(self._soils) > 1 else None
+        vary = {name: asked.flat[name] for name in self._vary}
+        numbers = (asked.flat[name] for name in inputs)
+        rows, names = native(*self._documents, *numbers, index, vary)
+        found = dict(zip(names, rows.reshape(len(names), *asked.shape)))
+        found |= {name: asked.flat[name].reshape(asked.shape) for name in inputs}
+        return {**found, "inputs": self._inputs(asked)}
+
+    def _inputs(self, asked: Broadcast) -> dict[str, NDArray[Any]]:
+        return {**names_of(self._soils, self._places), **asked.given}
 
 
-def setting(gravity_m_s2: float, model: str | None) -> Scenario:
+def names_of(soils: Sequence[Soil], places: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+    """The column of the soils' names, if there are several; soils of one name are numbered."""
+    if places.ndim == 0:
+        return {}
+    names = [str(soil.name) for soil in soils]
+    twice = {name for name in names if names.count(name) > 1}
+    shown = [f"{name} ({k})" if name in twice else name for k, name in enumerate(names)]
+    return {"soil": np.array(shown, dtype=object)[places]}
+
+
+def setting(gravity_m_s2: Any, model: str | None) -> Scenario:
     """Gravity and wheel–soil model, checked as those of a scenario are. They are cached, because
     computing one wheel is faster than reading a document."""
     if not isinstance(model, (str, type(None))):

@@ -1,7 +1,7 @@
 """Gymnasium environments: hold the contour line on a slope of unknown soil.
 
 Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that simulates all
-its rovers at once on all cores. It needs Gymnasium: ``pip install grouser[gym]``.
+its rovers at once on all cores. It needs Gymnasium: ``pip install gymnasium``.
 
 Examples
 --------
@@ -33,7 +33,7 @@ try:
     from gymnasium.vector.utils import batch_space
 except ImportError as error:
     raise ImportError(
-        "grouser.gym needs Gymnasium: pip install grouser[gym]", name="gymnasium"
+        "grouser.gym needs Gymnasium: pip install gymnasium", name="gymnasium"
     ) from error
 
 from ._arrays import Floats, mask as mask_of, number, numbers, whole_number

@@ -69,6 +69,21 @@ fn drawn_numbers_take_the_place_of_the_documents() {
 }
 
 #[test]
+fn a_drawn_document_is_the_drawn_soil_and_exact() {
+    for preset in ["toyoura-uncertain", "toyoura"] {
+        let loaded = read(document::preset(Kind::Soil, preset).expect("a preset").text)
+            .expect("it is right");
+        let uncertain = loaded.uncertain.as_ref().expect("by its own words or by priors");
+        for index in 0..20 {
+            let document = uncertain.draw_document(3, index).expect("it can be drawn");
+            let again = read(&document.to_toml()).expect("it is a soil");
+            assert_eq!(again.value, draw(&loaded, index), "{preset}");
+            assert!(again.uncertain.is_none(), "{preset}");
+        }
+    }
+}
+
+#[test]
 fn without_a_section_nothing_is_uncertain() {
     let loaded = read(&toyoura_with("")).expect("it is right");
     assert!(loaded.uncertain.is_none() && loaded.companions.is_empty());

@@ -301,7 +301,7 @@ def _imported(module: str, otherwise: str) -> Any:
 
 
 def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
-    distributed = _imported("distributed", "Dask is not installed: pip install grouser[dask]")
+    distributed = _imported("distributed", "Dask is not installed: pip install distributed")
     if scheduler is not None:
         client = distributed.Client(scheduler, set_as_default=False)
     else:
@@ -316,7 +316,7 @@ def _dask(job: Job, scheduler: str | None, workers: int | None, in_flight: int |
 
 
 def _ray(job: Job, scheduler: str | None, workers: int | None, in_flight: int | None) -> Engine:
-    ray = _imported("ray", "Ray is not installed: pip install grouser[ray]")
+    ray = _imported("ray", "Ray is not installed: pip install ray")
     owned = not ray.is_initialized()
     if owned:
         if scheduler is not None:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .. import _core
+from .. import _core, _shown
 from .._errors import ParameterError
 
 if TYPE_CHECKING:
@@ -79,12 +79,60 @@ class Summary:
     quantities: Mapping[str, Quantity]
     """Statistics of each result."""
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each result; quantiles are columns such as ``0.975``, with
-        ``0.975_low`` and ``0.975_high``."""
+    def to_pandas(
+        self, table: Literal["results", "sensitivity", "convergence"] = "results"
+    ) -> pandas.DataFrame:
+        """One of the tables of the summary.
+
+        Parameters
+        ----------
+        table : {"results", "sensitivity", "convergence"}
+            ``results`` has a row for each result; quantiles are columns such as ``0.975``, with
+            ``0.975_low`` and ``0.975_high``. ``sensitivity`` has the Sobol indices: a row for each
+            result and input, with ``first`` and ``total`` and the ends of their intervals; no rows
+            for a campaign without ``sensitivity``. ``convergence`` has a row for each result and
+            number of runs.
+
+        Raises
+        ------
+        ParameterError
+            For another name.
+        """
         import pandas
 
-        return pandas.DataFrame([_row(quantity) for quantity in self.quantities.values()])
+        rows, names = self._rows(table)
+        return pandas.DataFrame(rows, columns=names if not rows else None)
+
+    def _rows(self, table: str) -> tuple[list[dict[str, Any]], tuple[str, ...]]:
+        """Rows of a table, and the columns that it has at least."""
+        all_of_them = self.quantities.values()
+        if table == "results":
+            return [_row(quantity) for quantity in all_of_them], ("name",)
+        if table == "sensitivity":
+            indices = [
+                {"name": it.name, "input": name, **index}
+                for it in all_of_them
+                for name, index in it.sensitivity.items()
+            ]
+            return indices, ("name", "input", "first", "total")
+        if table == "convergence":
+            found = [{"name": it.name, **row} for it in all_of_them for row in it.convergence]
+            return found, ("name", "runs")
+        known = "results, sensitivity or convergence"
+        raise ParameterError(f"table is {table!r}, it must be {known}", "table", None, known)
+
+    def _repr_html_(self) -> str:
+        """Tables for notebooks: of the results, and of the Sobol indices if there are some."""
+        titles = {"results": f"Summary of {self.runs} runs", "sensitivity": "Sobol indices"}
+        shown = []
+        for table, title in titles.items():
+            rows, _ = self._rows(table)
+            if rows:
+                columns = {
+                    name: np.array([row.get(name) for row in rows], dtype=object) for name in rows[0]
+                }
+                shown.append(_shown.html_table(title, columns, lambda name: None))
+        return "".join(shown)
 
     def __repr__(self) -> str:
         lines = [f"{self.runs} runs"]

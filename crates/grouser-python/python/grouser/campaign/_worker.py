@@ -104,7 +104,7 @@ def open_url(url: str, options: tuple[tuple[str, Any], ...]) -> tuple[Any, str]:
         import fsspec
     except ImportError as error:
         raise ImportError(
-            "URLs need fsspec: pip install grouser[fsspec], and what your store needs, such as s3fs"
+            "URLs need fsspec: pip install fsspec, and what your store needs, such as s3fs"
         ) from error
     try:
         files, path = fsspec.core.url_to_fs(url, **dict(options))

@@ -2,14 +2,14 @@
 
 `SoilContact` applies the forces of the soil to the wheels of a model, in place of MuJoCo's own
 contact. `rover_xml` writes a model of a `grouser.Rover`. Needs MuJoCo: ``pip install
-grouser[mujoco]``.
+mujoco``.
 """
 
 try:
     import mujoco as _mujoco  # noqa: F401
 except ImportError as _missing:
     raise ImportError(
-        "grouser.mujoco needs MuJoCo: pip install grouser[mujoco]", name=_missing.name
+        "grouser.mujoco needs MuJoCo: pip install mujoco", name=_missing.name
     ) from _missing
 
 from ._contact import SoilContact

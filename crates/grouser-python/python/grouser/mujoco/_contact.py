@@ -155,7 +155,7 @@ class SoilContact:
     def forces(self) -> WheelForces:
         """Forces that the last `apply` wrote, with an entry for each wheel; sinkage and slip
         are those at the end of the step."""
-        found = dict(zip(self._reaction.names, self._found))
+        found: dict[str, Any] = dict(zip(self._reaction.names, self._found))
         return WheelForces(**found)
 
     @property

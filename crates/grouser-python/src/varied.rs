@@ -1,0 +1,125 @@
+//! Numbers of documents that differ from entry to entry: keys, with an array each.
+
+use grouser::document::varied::{Key, NoNumber, Numbers as _, Varied};
+use grouser::document::{Described, Document, Loaded};
+use numpy::PyReadonlyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+use crate::wheels::out_of_range;
+
+/// Keys of documents with a number for each entry.
+pub(crate) struct VariedKeys {
+    keys: Vec<VariedKey>,
+}
+
+/// One of them.
+struct VariedKey {
+    /// As the caller has it: `soil.cohesion_kpa`.
+    name: String,
+    /// In each of the documents.
+    keys: Vec<Key>,
+    values: Vec<f64>,
+}
+
+impl VariedKeys {
+    /// The keys that start with a prefix, taken from `all`.
+    ///
+    /// * `documents`: those that have the keys; each entry belongs to one of them
+    /// * `count`: number of entries
+    ///
+    /// # Errors
+    /// `ParameterError` for a key that leads to no number in one of the documents.
+    pub(crate) fn taken<V: Described>(
+        all: &Bound<'_, PyDict>,
+        prefix: &str,
+        documents: &[(&V, &Document)],
+        count: usize,
+    ) -> PyResult<Self> {
+        let mut keys = Vec::new();
+        for name in all.keys() {
+            let name: String = name.extract()?;
+            let Some(path) = name.strip_prefix(prefix) else { continue };
+            let key = |(value, document): &(&V, &Document)| {
+                let one = Varied { value: (*value).clone(), document: (*document).clone() };
+                one.key(path).map_err(|error| unknown(&name, &error))
+            };
+            let found = documents.iter().map(key).collect::<PyResult<Vec<_>>>()?;
+            let values = numbers(all, &name, count)?;
+            all.del_item(&name)?;
+            keys.push(VariedKey { name, keys: found, values });
+        }
+        Ok(Self { keys })
+    }
+
+    /// Whether nothing differs.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.keys.is_empty()
+    }
+
+    /// That all numbers are in their ranges, or NaN.
+    ///
+    /// * `document_of`: the document that an entry belongs to
+    ///
+    /// # Errors
+    /// `ParameterError` for the first that is not.
+    pub(crate) fn check(&self, document_of: impl Fn(usize) -> usize) -> PyResult<()> {
+        for VariedKey { name, keys, values } in &self.keys {
+            let is_fit = |(place, value): &(usize, &f64)| {
+                value.is_nan() || keys[document_of(*place)].range.contains(value)
+            };
+            if let Some((place, value)) = values.iter().enumerate().find(|it| !is_fit(it)) {
+                let range = &keys[document_of(place)].range;
+                return Err(out_of_range(name, *value, place, values.len(), range));
+            }
+        }
+        Ok(())
+    }
+
+    /// The keys and numbers of an entry.
+    pub(crate) fn at(&self, document: usize, place: usize) -> impl Iterator<Item = (&str, f64)> {
+        self.keys.iter().map(move |key| (&*key.keys[document].path, key.values[place]))
+    }
+
+    /// The first key whose number is NaN.
+    pub(crate) fn missing(&self, place: usize) -> Option<&str> {
+        self.keys.iter().find(|key| key.values[place].is_nan()).map(|key| &*key.name)
+    }
+}
+
+/// What documents mean, and what they say.
+pub(crate) fn parts<V>(loaded: &Loaded<V>) -> (&V, &Document) {
+    (&loaded.value, &loaded.document)
+}
+
+/// The array under a name.
+pub(crate) fn numbers(all: &Bound<'_, PyDict>, name: &str, count: usize) -> PyResult<Vec<f64>> {
+    let values: Option<PyReadonlyArray1<'_, f64>> =
+        all.get_item(name)?.map(|it| it.extract()).transpose()?;
+    let values = values.map(|it| it.as_array().to_vec()).unwrap_or_default();
+    if values.len() != count {
+        let message = format!("{name} has {} values for {count} entries", values.len());
+        return Err(errors::parameter(message, name, None, "a value for each entry"));
+    }
+    Ok(values)
+}
+
+/// That every key was taken.
+///
+/// * `known`: what keys may start with
+///
+/// # Errors
+/// `ParameterError` for the first that was not.
+pub(crate) fn check_taken(all: &Bound<'_, PyDict>, known: &str) -> PyResult<()> {
+    let Some(name) = all.keys().iter().next() else { return Ok(()) };
+    let name: String = name.extract()?;
+    let message = format!("vary has the key {name:?}, it must be {known}");
+    Err(errors::parameter(message, &name, None, known))
+}
+
+fn unknown(name: &str, error: &NoNumber) -> PyErr {
+    let hint = error.hint.as_ref().map_or_else(String::new, |hint| format!(": {hint}"));
+    let message = format!("vary: {}{hint}", error.problem);
+    errors::parameter(message, name, None, "the key of a number")
+}
