@@ -1,5 +1,7 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
+use std::ops::RangeInclusive;
+
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
 use grouser::document::{DocumentError, Problem};
@@ -133,6 +135,30 @@ pub(crate) fn parameter(
     expected: impl Into<String>,
 ) -> PyErr {
     classes::ParameterError::new_err((message, name.to_owned(), value, expected.into()))
+}
+
+/// A number that is not in its range.
+///
+/// * `place`, `count`: which of how many it is
+pub(crate) fn out_of_range(
+    name: &str,
+    value: f64,
+    place: usize,
+    count: usize,
+    range: &RangeInclusive<f64>,
+) -> PyErr {
+    let expected = format!("from {} to {}", range.start(), range.end());
+    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
+    let message = format!("{name} is {value}{at}, it must be {expected}");
+    parameter(message, name, Some(value), expected)
+}
+
+/// Numbers of an entry that do not go together.
+pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> PyErr {
+    let ParameterError { name, value, expected } = error;
+    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
+    let message = format!("{name} is {value}{at}, it must be {expected}");
+    parameter(message, name, Some(*value), *expected)
 }
 
 /// A run that cannot be computed.

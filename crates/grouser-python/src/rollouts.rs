@@ -19,7 +19,7 @@ use crate::errors;
 use crate::interrupt::listening;
 use crate::studies::run;
 use crate::varied::{self, VariedKeys};
-use crate::wheels::{check_or_nan, column, misfit_at};
+use crate::wheels::{check_or_nan, column};
 
 /// Many runs, which share what is the same for them.
 pub(crate) struct Runs {
@@ -237,7 +237,7 @@ pub(crate) fn rollout<'py>(
         let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
         ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
-    let ends = ends.map_err(|(place, error)| misfit_at(place, count, &error))?;
+    let ends = ends.map_err(|(place, error)| errors::misfit_at(place, count, &error))?;
     to_python(py, &ends, keep)
 }
 

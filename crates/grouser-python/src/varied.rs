@@ -7,7 +7,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors;
-use crate::wheels::out_of_range;
 
 /// Keys of documents with a number for each entry.
 pub(crate) struct VariedKeys {
@@ -71,7 +70,7 @@ impl VariedKeys {
             };
             if let Some((place, value)) = values.iter().enumerate().find(|it| !is_fit(it)) {
                 let range = &keys[document_of(place)].range;
-                return Err(out_of_range(name, *value, place, values.len(), range));
+                return Err(errors::out_of_range(name, *value, place, values.len(), range));
             }
         }
         Ok(())

@@ -147,16 +147,8 @@ impl Stand {
         let count = inputs.pressed.len();
         let places = (0..count).into_par_iter().with_min_len(SHARE);
         let found = threads::detached(py, || places.find_map_first(misfit))?;
-        found.map_or(Ok(()), |(place, error)| Err(misfit_at(place, count, &error)))
+        found.map_or(Ok(()), |(place, error)| Err(errors::misfit_at(place, count, &error)))
     }
-}
-
-/// Numbers of an entry that do not go together.
-pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> PyErr {
-    let ParameterError { name, value, expected } = error;
-    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
-    let message = format!("{name} is {value}{at}, it must be {expected}");
-    errors::parameter(message, name, Some(*value), *expected)
 }
 
 impl Inputs<'_> {
@@ -206,24 +198,9 @@ fn first_outside(
     is_fit: impl Fn(&f64) -> bool,
 ) -> PyResult<()> {
     let misfit = values.iter().position(|value| !is_fit(value));
-    let error = |place: usize| out_of_range(name, values[place], place, values.len(), range);
+    let error =
+        |place: usize| errors::out_of_range(name, values[place], place, values.len(), range);
     misfit.map_or(Ok(()), |place| Err(error(place)))
-}
-
-/// A number that is not in its range.
-///
-/// * `place`, `count`: which of how many it is
-pub(crate) fn out_of_range(
-    name: &str,
-    value: f64,
-    place: usize,
-    count: usize,
-    range: &RangeInclusive<f64>,
-) -> PyErr {
-    let expected = format!("from {} to {}", range.start(), range.end());
-    let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
-    let message = format!("{name} is {value}{at}, it must be {expected}");
-    errors::parameter(message, name, Some(value), expected)
 }
 
 /// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].
@@ -388,7 +365,7 @@ pub(crate) fn wheel_forces<'py>(
             let range = 0.0..=depth(&contact.wheel);
             // NaN is not deeper than anything.
             if sinkage > range.end() {
-                return Err(out_of_range(
+                return Err(errors::out_of_range(
                     SINKAGE.name,
                     *sinkage,
                     place,
