@@ -6,6 +6,7 @@ mod documents;
 mod forecast;
 mod heading;
 mod measurements;
+mod terminal;
 mod traverse;
 mod uncertainty;
 mod wheel_test;
@@ -29,6 +30,7 @@ pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
+pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
@@ -41,6 +43,8 @@ pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
                         open in a browser. Exit codes: 0 done, 1 the run or the disk failed, 2 \
                         wrong use or a bad document, 3 some runs of a campaign failed, 130 interrupted.")]
 pub(crate) struct Cli {
+    #[command(flatten)]
+    pub(crate) terminal: TerminalArgs,
     #[command(subcommand)]
     pub(crate) command: Command,
 }

@@ -16,17 +16,21 @@ mod report;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, FromArgMatches as _};
 
-use args::{Cli, Command};
+use args::{Cli, Command, TerminalArgs};
 use failure::Failure;
+use output::terminal::Settings;
 
 fn main() -> ExitCode {
     interrupt::exit_on_ctrl_c();
     interrupt::fail_at_file_size_limit();
-    let done = match Cli::try_parse() {
-        Ok(cli) => run(&cli.command),
-        Err(answer) => output::print_answer(&answer),
+    let done = match Cli::command().try_get_matches() {
+        Ok(matches) => parsed(&matches),
+        Err(answer) => {
+            output::terminal::set_colours(args::colours_of(std::env::args_os()));
+            output::print_answer(&answer)
+        }
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -35,6 +39,17 @@ fn main() -> ExitCode {
             ExitCode::from(failure.code())
         }
     }
+}
+
+fn parsed(matches: &clap::ArgMatches) -> Result<(), Failure> {
+    let cli = match Cli::from_arg_matches(matches) {
+        Ok(cli) => cli,
+        Err(answer) => return output::print_answer(&answer),
+    };
+    let TerminalArgs { color, quiet, width } = cli.terminal;
+    output::terminal::set(Settings { is_quiet: quiet, width }, color);
+    output::activity::start(matches.subcommand_name().unwrap_or_default());
+    run(&cli.command)
 }
 
 fn run(command: &Command) -> Result<(), Failure> {

@@ -1,25 +1,32 @@
 //! Output: results to the standard output, messages to the standard error, files to a folder.
 
+pub(crate) mod activity;
 pub(crate) mod file;
 pub(crate) mod folder;
 pub(crate) mod json;
 pub(crate) mod rows;
+mod screen;
+pub(crate) mod terminal;
+pub(crate) mod text;
 
 use std::borrow::Cow;
 use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
 use std::path::Path;
-use std::time::Duration;
 
+use anstream::AutoStream;
 use grouser::document::escape;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::hints;
 
+pub(crate) use activity::{progress_bar, rate_bar};
+use text::Text;
+
 /// Writes text to the standard output. Names and cells may hold what steers a terminal: it is
 /// written out here, whatever the text is made of.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    activity::end();
     let mut stdout = stdout().lock();
     stdout
         .write_all(escape::visible(text).as_bytes())
@@ -27,8 +34,18 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         .map_err(failed_to_print)
 }
 
+/// Writes text for reading to the standard output: as it is to a file or a pipe, and to a terminal in its width
+/// and colours.
+pub(crate) fn show(text: impl Into<Text>) -> Result<(), Failure> {
+    activity::end();
+    let shown = terminal::stdout_screen().show(&text.into());
+    let mut stdout = AutoStream::auto(stdout().lock());
+    stdout.write_all(shown.as_bytes()).and_then(|()| stdout.flush()).map_err(failed_to_print)
+}
+
 /// Writes JSON to the standard output, without keeping the text: that of a long run is large.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    activity::end();
     let mut stdout = BufWriter::new(stdout().lock());
     json::write(&mut stdout, value)
         .and_then(|()| writeln!(stdout))
@@ -49,38 +66,27 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
     if answer.use_stderr() { Err(Failure::UsageReported) } else { printed.map_err(failed_to_print) }
 }
 
-/// Prints a message beside the results, to the standard error.
+/// Prints a message beside the results, to the standard error; nothing where the caller wants no notes.
 pub(crate) fn message(text: &str) {
-    // Without a reader of messages there are still the results.
-    let _ = writeln!(stderr(), "{}", escape::visible(text));
+    if !terminal::is_quiet() {
+        activity::make_room();
+        write_message(&format!("{text}\n"));
+    }
 }
 
 /// Prints the message of a failure to the standard error.
 pub(crate) fn report(failure: &Failure) {
+    activity::end();
     if failure.needs_message() {
         let message = hints::with_flags(&failure.to_string());
-        let _ = writeln!(stderr(), "{}: {}", failure.label(), escape::visible(&message));
+        write_message(&format!("{}: {message}\n", failure.label()));
     }
 }
 
-/// A bar with its rate and the time that is left, drawn only where the standard error is a terminal.
-pub(crate) fn rate_bar(length: u64) -> ProgressBar {
-    let template =
-        "{bar:30} {human_pos}/{human_len} runs  {per_sec}  {msg}{elapsed} gone, {eta} left";
-    let style =
-        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(length).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
-}
-
-/// A bar on the standard error, drawn only where that is a terminal.
-pub(crate) fn progress_bar(length: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg} {elapsed}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    let bar = ProgressBar::new(length).with_style(style);
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
+fn write_message(text: &str) {
+    let shown = terminal::stderr_screen().words(text);
+    // Without a reader of messages there are still the results.
+    let _ = AutoStream::auto(stderr().lock()).write_all(shown.as_bytes());
 }
 
 fn failed_to_print(error: std::io::Error) -> Failure {

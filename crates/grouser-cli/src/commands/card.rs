@@ -30,6 +30,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
+use crate::output::text::Text;
 use crate::output::{self, Format, file};
 use picture::Picture;
 use row::CardRow;
@@ -74,7 +75,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         target.write(&answers, &courses, &sheets)?;
     }
     match args.format {
-        Format::Table => output::print(&answers.table()),
+        Format::Table => output::show(answers.table()),
         Format::Csv => output::print(&Rows::of_table(&answers.rows).to_csv()?),
         Format::Json => output::print_json(&answers.json(&card::steepest(&card), &courses)),
     }
@@ -263,7 +264,7 @@ struct Answers<'a> {
 
 impl Answers<'_> {
     /// The card's rows, or the comparison or the drives where one of them is asked for.
-    fn table(&self) -> String {
+    fn table(&self) -> Text {
         let Self { inputs, card, rows, beside, drives, .. } = self;
         if let Some(drives) = drives {
             return Rows::of_table(drives).to_table(&card_drives::brief());
@@ -282,7 +283,7 @@ impl Answers<'_> {
             (Some(_), None) => "bands are of the models alone",
             (None, _) => "no bands",
         };
-        format!("{text}no uncertainty of this soil is stated: {bands}; no slope is a go\n")
+        text + format!("no uncertainty of this soil is stated: {bands}; no slope is a go\n")
     }
 
     fn json<'a>(&'a self, steepest: &'a Table, courses: &'a Table) -> Answer<Results<'a>> {

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&tables.text(&notes)),
+        Format::Table => output::show(tables.text(&notes)),
         Format::Csv => output::print(&Rows::of_table(&tables.rows).to_csv()?),
         Format::Json => output::print_json(&answer),
     }

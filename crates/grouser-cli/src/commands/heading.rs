@@ -62,7 +62,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         Format::Table => {
             let lines = all.iter().map(|of_model| of_model.lines(all.len())).collect::<String>();
             let model = inputs::model_line(&all[0].scenario.document, "soil");
-            output::print(&(rows.to_table(&brief(args)) + &lines + &model))
+            output::show(rows.to_table(&brief(args)) + lines + model)
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),

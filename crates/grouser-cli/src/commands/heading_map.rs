@@ -1,5 +1,7 @@
 //! `grouser heading-map`: the heading offset over slope, course and soil.
 
+mod pivot;
+
 use grouser::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW, heading};
 use grouser::document::table::{Table, Values};
 use grouser::document::{LoadedScenario, escape};
@@ -56,7 +58,16 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     }
     match args.output.format {
         Format::Table => {
-            output::print(&(rows.to_table(&brief(args)) + &model_lines(&scenarios, &names)))
+            let titles: Vec<String> = scenarios
+                .iter()
+                .zip(&names)
+                .map(|(scenario, name)| title(args, scenario, name))
+                .collect();
+            let text = match output::terminal::width() {
+                Some(_) => pivot::text(&table, args, &titles),
+                None => rows.to_table(&brief(args)),
+            };
+            output::show(text + model_lines(&scenarios, &names))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),

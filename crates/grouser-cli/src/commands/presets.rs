@@ -76,7 +76,7 @@ fn list(presets: &[&'static Preset], format: Format) -> Result<(), Failure> {
         .collect();
     let rows = Rows::of(&records);
     match format {
-        Format::Table => output::print(&rows.to_table(&["kind", "name", "title", "source"])),
+        Format::Table => output::show(rows.to_table(&["kind", "name", "title", "source"])),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => {
             let results = Results { rows: &records };

@@ -12,6 +12,7 @@ use crate::args::ReproduceArgs;
 use crate::failure::Failure;
 use crate::output;
 use crate::output::folder::{OldFiles, OutputFolder, has_entries};
+use crate::output::text::Text;
 use crate::report::experiment as against;
 use crate::report::page;
 use crate::report::tables::{self, Table};
@@ -24,21 +25,25 @@ pub(crate) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
     let (scenario, study) = study::run(args.samples)?;
     report::write(&mut folder, &study, &scenario)?;
     folder.finish()?;
-    output::print(&format!(
-        "{PAPER}\n\n{}\n{}\n\n{}\n{}\n{}\n{}\nreport: {}\n",
-        titled(&against::verdict(&study)),
-        tables::limit_sentence(&study.paper),
-        titled(&against::by_model(&study.paper)),
-        titled(&tables::measured_yaw_drift(&study.paper)),
-        titled(&against::lost_yaw(&study)),
-        against::lost_yaw_verdict(&study),
-        escape::path(&target.join(REPORT))
-    ))
+    let limit = tables::limit_sentence(&study.paper);
+    let verdict = against::lost_yaw_verdict(&study);
+    let report = escape::path(&target.join(REPORT));
+    output::show(
+        Text::from(format!("{PAPER}\n\n"))
+            + titled(&against::verdict(&study))
+            + format!("\n{limit}\n\n")
+            + titled(&against::by_model(&study.paper))
+            + "\n"
+            + titled(&tables::measured_yaw_drift(&study.paper))
+            + "\n"
+            + titled(&against::lost_yaw(&study))
+            + format!("\n{verdict}\nreport: {report}\n"),
+    )
 }
 
 /// A table under its caption.
-fn titled(table: &Table) -> String {
-    format!("{}\n{}", table.caption, table.to_text())
+fn titled(table: &Table) -> Text {
+    Text::from(format!("{}\n", table.caption)) + table.to_text()
 }
 
 /// Opens the output folder: the default one may be replaced if it is an earlier report, another one only with `--force`.

@@ -18,6 +18,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, four_digits};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 
 /// Lines of the table on a terminal, besides the start.
@@ -104,9 +105,7 @@ impl OfModel {
             folder.finish()?;
         }
         match args.output.format {
-            Format::Table => {
-                output::print(&(table(&self.run, &self.scenario) + &self.band_table()))
-            }
+            Format::Table => output::show(table(&self.run, &self.scenario) + self.band_table()),
             Format::Csv => {
                 tell_end(&self.run);
                 output::print(&rows.to_csv()?)
@@ -116,19 +115,18 @@ impl OfModel {
     }
 
     /// Some of the bands over time, and what becomes of the samples; nothing without bands.
-    fn band_table(&self) -> String {
-        let Some(band) = &self.band else { return String::new() };
+    fn band_table(&self) -> Text {
+        let Some(band) = &self.band else { return Text::default() };
         let last = band.times.len() - 1;
         let lines = LINES.min(last);
         let places: Vec<usize> = (0..=lines).map(|line| line * last / lines.max(1)).collect();
         let times = Table::of(&TIME_BAND, &band.times).rows_at(&places);
         let RunBand { completed, immobilised, sliding, tipped_over, .. } = band.run;
-        format!(
-            "\n{}{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over\n",
-            Rows::of_table(&times).to_table(&run::bands_brief()),
-            completed.trials,
-            completed.successes,
-        )
+        let samples = format!(
+            "{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over\n",
+            completed.trials, completed.successes,
+        );
+        Text::from("\n") + Rows::of_table(&times).to_table(&run::bands_brief()) + samples
     }
 }
 
@@ -202,7 +200,7 @@ fn output_all(
             let mut names = vec![MODEL.to_owned()];
             let has_bands = args.uncertainty.sampling.uncertainty;
             names.extend(if has_bands { run::summary_bands_brief() } else { run::summary_brief() });
-            output::print(&rows.to_table(&names))
+            output::show(rows.to_table(&names))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
@@ -224,7 +222,7 @@ fn reason(run: &Trajectory) -> String {
 }
 
 /// Some of the records with the means of their wheels, the model where nobody names one, and the outcome.
-fn table(run: &Trajectory, scenario: &LoadedScenario) -> String {
+fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     let samples = run::brief(run, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
@@ -238,15 +236,16 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> String {
         let last = samples.numbers(quantity.name).last().copied().flatten();
         four_digits(last.unwrap_or(f64::NAN))
     });
-    format!(
-        "{}{}{}{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
-        Rows::of_table(&samples).to_table(&names),
-        flag_lines(run, &scenario.value),
-        inputs::model_line(&scenario.document, "soil"),
+    let outcome = format!(
+        "{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),
-    )
+    );
+    Rows::of_table(&samples).to_table(&names)
+        + flag_lines(run, &scenario.value)
+        + inputs::model_line(&scenario.document, "soil")
+        + outcome
 }
 
 /// The flags of a run, a line each: since when, and what they mean.

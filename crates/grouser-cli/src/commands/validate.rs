@@ -24,6 +24,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
@@ -77,7 +78,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
         notes: &measured.notes,
     };
     let answer = Answer::new("validate", settings(args, data, &stand), results);
-    let text = text_of(&validation) + &Rows::of_table(&cells).footnotes();
+    let text = text_of(&validation) + Rows::of_table(&cells).footnotes();
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", long_rows(&validation).to_csv()?);
@@ -92,7 +93,7 @@ fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), 
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&text),
+        Format::Table => output::show(text),
         Format::Csv => output::print(&long_rows(&validation).to_csv()?),
         Format::Json => output::print_json(&answer),
     }
@@ -163,23 +164,23 @@ fn rows_of(group: &GroupRecord, yardstick: Option<&str>) -> Vec<Map<String, Valu
 }
 
 /// For people: a block for each quantity, and what could not be predicted.
-fn text_of(validation: &Validation) -> String {
+fn text_of(validation: &Validation) -> Text {
     let groups = groups_and_sums(validation);
     let blocks = Quantity::ALL.into_iter().filter_map(|it| block(&groups, validation, it));
     let (unsettled, trials) = (validation.overall.unsettled, validation.overall.trials);
     let missing = (unsettled > 0).then(|| {
-        format!(
+        Text::from(format!(
             "{unsettled} of {trials} trials have no prediction: the soil cannot carry the wheel. \
              They are in no error above.\n"
-        )
+        ))
     });
-    blocks.chain(missing).collect::<Vec<String>>().join("\n")
+    Text::blocks(blocks.chain(missing))
 }
 
-fn block(groups: &[GroupRecord], validation: &Validation, quantity: Quantity) -> Option<String> {
+fn block(groups: &[GroupRecord], validation: &Validation, quantity: Quantity) -> Option<Text> {
     let rows = error_rows(groups, validation, quantity);
     let table = aligned(&ERRORS.map(str::to_owned), &rows);
-    (!rows.is_empty()).then(|| format!("{}\n{table}", column_of(quantity).name))
+    (!rows.is_empty()).then(|| Text::from(format!("{}\n", column_of(quantity).name)) + table)
 }
 
 /// Columns of a quantity's errors.

@@ -130,7 +130,7 @@ fn output_results(
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&(rows.to_table(&brief(args)) + &model_line(args, inputs))),
+        Format::Table => output::show(rows.to_table(&brief(args)) + model_line(args, inputs)),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }

@@ -3,13 +3,18 @@
 use std::borrow::Borrow;
 
 use grouser::contact::validity::Flag;
+use grouser::document::columns::STATUS;
 use grouser::document::columns::flags::FLAGS;
 use grouser::document::escape;
 use grouser::document::table::{BETWEEN_NAMES, Table};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::text::{Grid, Text};
 use crate::failure::Failure;
+
+/// The column that says what an outcome means.
+const REASON: &str = "reason";
 
 /// Rows with the same keys, in their order.
 pub(crate) struct Rows(Vec<Map<String, Value>>);
@@ -45,15 +50,20 @@ impl Rows {
     }
 
     /// The rows as an aligned table of some of their columns; a column's header is its key.
-    pub(crate) fn to_table(&self, columns: &[impl AsRef<str>]) -> String {
+    pub(crate) fn to_table(&self, columns: &[impl AsRef<str>]) -> Text {
         let raised = self.raised();
         // Without any flag the column would be empty.
         let columns = columns.iter().map(AsRef::as_ref);
         let columns: Vec<&str> =
             columns.filter(|column| *column != FLAGS || !raised.is_empty()).collect();
         let header: Vec<String> = columns.iter().map(|column| (*column).to_owned()).collect();
-        let notes = if columns.contains(&FLAGS) { self.footnotes() } else { String::new() };
-        aligned(&header, &self.cells(&columns)) + &notes
+        let place = |name: &str| columns.iter().position(|column| *column == name);
+        let mut grid = Grid::new(&header, &self.cells(&columns))
+            .with_reasons([STATUS, REASON].into_iter().filter_map(place));
+        if let Some(column) = place(FLAGS) {
+            grid = grid.with_notes(column, self.meanings());
+        }
+        grid.into()
     }
 
     /// The cells of some columns, for reading.
@@ -66,8 +76,13 @@ impl Rows {
 
     /// What the flags of the rows mean, a line each, to stand under a table.
     pub(crate) fn footnotes(&self) -> String {
-        let line = |flag: &Flag| format!("{}: {}\n", flag.name(), flag.rule().meaning);
-        self.raised().iter().map(line).collect()
+        self.meanings().iter().map(|(name, meaning)| format!("{name}: {meaning}\n")).collect()
+    }
+
+    /// The flags of the rows, each with its meaning.
+    fn meanings(&self) -> Vec<(String, String)> {
+        let pair = |flag: &Flag| (flag.name().to_owned(), flag.rule().meaning.to_owned());
+        self.raised().iter().map(pair).collect()
     }
 
     /// The first row as `load_n 17, slip_ratio 0.2`.
@@ -202,29 +217,8 @@ fn trimmed(text: &str) -> String {
 }
 
 /// Columns under their headers: numbers to the right, words to the left, each cell on its line.
-pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> String {
-    let shown = |cells: &[String]| -> Vec<String> {
-        cells.iter().map(|cell| escape::line(cell).into_owned()).collect()
-    };
-    let header = &shown(header);
-    let rows: &[Vec<String>] = &rows.iter().map(|row| shown(row)).collect::<Vec<_>>();
-    let width_of = |column: usize| {
-        let cells = rows.iter().map(|row| row[column].chars().count());
-        cells.chain([header[column].chars().count()]).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..header.len()).map(width_of).collect();
-    let is_number = |column: usize| {
-        rows.iter().all(|row| row[column] == "-" || row[column].parse::<f64>().is_ok())
-    };
-    let numeric: Vec<bool> = (0..header.len()).map(is_number).collect();
-    let line = |cells: &[String]| {
-        let padded = cells.iter().enumerate().map(|(column, cell)| {
-            let width = widths[column];
-            if numeric[column] { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
-        });
-        padded.collect::<Vec<String>>().join("  ").trim_end().to_owned() + "\n"
-    };
-    std::iter::once(line(header)).chain(rows.iter().map(|row| line(row))).collect()
+pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> Text {
+    Grid::new(header, rows).into()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use serde_json::{Map, Value, json};
 
 use crate::output::rows::{Rows, aligned, rounded_down};
+use crate::output::text::Text;
 
 /// A table: words for people, keys for files.
 pub(crate) struct Table {
@@ -49,7 +50,7 @@ impl Table {
     }
 
     /// For a terminal.
-    pub(crate) fn to_text(&self) -> String {
+    pub(crate) fn to_text(&self) -> Text {
         aligned(&self.header(), &self.cells())
     }
 

@@ -15,6 +15,7 @@ mod models;
 mod program;
 mod scrambled;
 mod simulated;
+mod terminal;
 mod validate;
 mod validity;
 mod yaws;

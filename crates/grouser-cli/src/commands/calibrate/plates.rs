@@ -18,6 +18,7 @@ use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output;
+use crate::output::text::Text;
 use crate::report::page::Page;
 
 pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
@@ -45,7 +46,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     report::tell_notes(solved);
     let answer = Answer::new("calibrate", settings, found.results());
     let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
-    let text = blocks.join("\n");
+    let text = Text::blocks(blocks);
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
         report::add_soil(&mut folder, problem.family(), solved, &found.soil)?;
@@ -62,7 +63,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove()?;
     }
-    report::print(args, &text, solved, &answer)
+    report::print(args, text, solved, &answer)
 }
 
 fn settings(

@@ -19,6 +19,7 @@ use crate::chart::{Chart, Grid, Series, Style};
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::page::Page;
 
@@ -33,12 +34,12 @@ const BARS: usize = 24;
 /// Prints the results.
 pub(super) fn print<R: Serialize>(
     args: &CalibrateArgs,
-    text: &str,
+    text: Text,
     solved: &Solved,
     answer: &Answer<R>,
 ) -> Result<(), Failure> {
     match args.output.format {
-        Format::Table => output::print(text),
+        Format::Table => output::show(text),
         Format::Csv => output::print(&Rows::of(&solved.records).to_csv()?),
         Format::Json => output::print_json(answer),
     }
@@ -67,16 +68,16 @@ pub(super) fn tell_notes(solved: &Solved) {
 }
 
 /// The report as text: blocks with an empty line between them.
-pub(super) fn text(found: &WheelFound, target: &str) -> String {
+pub(super) fn text(found: &WheelFound, target: &str) -> Text {
     let solved = &found.solved;
     let mut blocks = vec![parameters(&solved.records)];
     blocks.extend(conclusions(solved));
     blocks.extend(judgement(found, target));
-    blocks.join("\n")
+    Text::blocks(blocks)
 }
 
 /// Errors of the fit, errors at slip angles left out, and proposed runs.
-fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
+fn judgement(found: &WheelFound, target: &str) -> Vec<Text> {
     let overall = GroupRecord::from(&found.validation.overall);
     let mut blocks = vec![errors("with the fit", &[overall])];
     let left_out: Vec<&LeftOutRecord> =
@@ -89,16 +90,14 @@ fn judgement(found: &WheelFound, target: &str) -> Vec<String> {
         blocks.push(coverage(&left_out));
     }
     if !found.proposals.is_empty() {
-        blocks.push(format!(
-            "next runs that narrow the prediction of {target}\n{}",
-            next_runs(found)
-        ));
+        let title = format!("next runs that narrow the prediction of {target}\n");
+        blocks.push(Text::from(title) + next_runs(found));
     }
     blocks
 }
 
 /// How the bands of posteriors hold cells that they have not seen, a row for each quantity.
-fn coverage(groups: &[&LeftOutRecord]) -> String {
+fn coverage(groups: &[&LeftOutRecord]) -> Text {
     let header = [
         SLIP_ANGLE.name,
         "motion",
@@ -119,7 +118,7 @@ fn coverage(groups: &[&LeftOutRecord]) -> String {
     };
     let rows = groups.iter().flat_map(|group| Quantity::ALL.map(|quantity| row(group, quantity)));
     let table = aligned(&header.map(str::to_owned), &rows.flatten().collect::<Vec<_>>());
-    format!("predictive bands with the angle left out of the fit\n{table}")
+    Text::from("predictive bands with the angle left out of the fit\n") + table
 }
 
 /// Slip angle and motion of a group.
@@ -128,7 +127,7 @@ fn condition(group: &GroupRecord) -> Vec<String> {
     vec![angle, group.motion().to_owned()]
 }
 
-fn next_runs(found: &WheelFound) -> String {
+fn next_runs(found: &WheelFound) -> Text {
     let header = [LOAD.name, SLIP_RATIO.name, SLIP_ANGLE.name, "std_before", "std_after"];
     let rows = found.proposals.iter().map(|it| {
         [it.load_n, it.slip_ratio, it.slip_angle_deg, it.std_before, it.std_after]
@@ -139,7 +138,7 @@ fn next_runs(found: &WheelFound) -> String {
 }
 
 /// The parameters as a table.
-pub(super) fn parameters(records: &[ParameterRecord]) -> String {
+pub(super) fn parameters(records: &[ParameterRecord]) -> Text {
     let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
     let row = |it: &ParameterRecord| {
         vec![
@@ -160,38 +159,37 @@ pub(super) fn parameters(records: &[ParameterRecord]) -> String {
 }
 
 /// Parameters that the data do not determine, and the discrepancy between model and data.
-pub(super) fn conclusions(solved: &Solved) -> Vec<String> {
+pub(super) fn conclusions(solved: &Solved) -> Vec<Text> {
     let mut blocks = Vec::new();
     if !solved.unidentifiable.is_empty() {
         let lines: String = solved.unidentifiable.iter().map(|it| format!("- {it}\n")).collect();
-        blocks.push(format!("what these data do not determine\n{lines}"));
+        blocks.push(format!("what these data do not determine\n{lines}").into());
     }
     blocks.push(discrepancies(solved));
     blocks
 }
 
-fn discrepancies(solved: &Solved) -> String {
+fn discrepancies(solved: &Solved) -> Text {
     let rows = solved
         .discrepancies
         .iter()
         .map(|it| vec![it.channel.clone(), four_digits(it.mean.unwrap_or(it.fit))]);
     let header = ["channel", "std"].map(str::to_owned);
     let table = aligned(&header, &rows.collect::<Vec<_>>());
-    let mut text = format!("model discrepancy, beyond the scatter of the trials\n{table}");
+    let text = Text::from("model discrepancy, beyond the scatter of the trials\n") + table;
     let lengths = solved.correlation_lengths.iter();
     let lengths: Vec<Vec<String>> = lengths
         .map(|it| vec![it.along.to_owned(), four_digits(it.mean.unwrap_or(it.fit))])
         .collect();
-    if !lengths.is_empty() {
-        let header = ["along", "correlation_length"].map(str::to_owned);
-        text.push('\n');
-        text.push_str(&aligned(&header, &lengths));
+    if lengths.is_empty() {
+        return text;
     }
-    text
+    let header = ["along", "correlation_length"].map(str::to_owned);
+    text + "\n" + aligned(&header, &lengths)
 }
 
 /// Root mean square errors of groups of cells.
-fn errors(what: &str, groups: &[GroupRecord]) -> String {
+fn errors(what: &str, groups: &[GroupRecord]) -> Text {
     let [pull, side, sinkage, torque] = Quantity::ALL.map(|it| column_of(it).name);
     let header = [SLIP_ANGLE.name, "motion", "cells", pull, side, sinkage, torque];
     let row = |group: &GroupRecord| {
@@ -204,7 +202,8 @@ fn errors(what: &str, groups: &[GroupRecord]) -> String {
         row
     };
     let rows: Vec<Vec<String>> = groups.iter().map(row).collect();
-    format!("root mean square errors {what}\n{}", aligned(&header.map(str::to_owned), &rows))
+    Text::from(format!("root mean square errors {what}\n"))
+        + aligned(&header.map(str::to_owned), &rows)
 }
 
 /// The page, and the figures as files.
@@ -217,7 +216,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     page.heading("Results");
     add_parameters(&mut page, &found.solved);
     for block in judgement(found, target) {
-        page.code(&block);
+        page.code(&block.to_string());
     }
     page.heading("Measured and predicted with the fit");
     for figure in validate::figures::all(&found.validation) {
@@ -227,7 +226,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     }
     add_posterior(folder, &mut page, &found.solved);
     page.heading("Correlations");
-    page.code(&correlations(&found.solved));
+    page.code(&correlations(&found.solved).to_string());
     page.heading("How it was made");
     page.paragraph(
         "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
@@ -252,12 +251,12 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
 
 /// The fitted keys, those that the data do not determine, and the discrepancy between model and data.
 pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
-    page.code(&parameters(&solved.records));
+    page.code(&parameters(&solved.records).to_string());
     if !solved.unidentifiable.is_empty() {
         page.heading("What these data do not determine");
         page.list(&solved.unidentifiable);
     }
-    page.code(&discrepancies(solved));
+    page.code(&discrepancies(solved).to_string());
 }
 
 /// Corner plot and traces, if there is a posterior.
@@ -370,7 +369,7 @@ fn traces(records: &[ParameterRecord], samples: &Samples) -> Chart {
 }
 
 /// Correlations of the fitted keys, two digits, under numbers for names.
-fn correlations(solved: &Solved) -> String {
+fn correlations(solved: &Solved) -> Text {
     let count = solved.records.len();
     let solution = &solved.solution;
     let matrix = match &solution.posterior {

@@ -47,7 +47,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     if let Some(checkpoint) = checkpoint {
         checkpoint.remove()?;
     }
-    report::print(args, &text, solved, &answer)
+    report::print(args, text, solved, &answer)
 }
 
 fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {

@@ -39,7 +39,7 @@ pub(super) fn run(args: &CampaignCostArgs) -> Result<(), Failure> {
     }
     bar.finish_and_clear();
     match args.format {
-        TableOrJson::Table => output::print(&table(&rows, args.runs)),
+        TableOrJson::Table => output::show(table(&rows, args.runs)),
         TableOrJson::Json => {
             let asked = json!({ "runs": args.runs, "seconds": args.seconds });
             output::print_json(&Answer::new("campaign.cost", asked, json!({ "rows": rows })))

@@ -43,7 +43,7 @@ pub(super) fn run(args: &CampaignDigestArgs) -> Result<(), Failure> {
     let results = Results::open(&args.folder)?;
     let record = DigestRecord::from(results.digest()?);
     match args.format {
-        TableOrJson::Table => output::print(&record.line()),
+        TableOrJson::Table => output::show(record.line()),
         TableOrJson::Json => {
             output::print_json(&Answer::new("campaign.digest", inputs(&results), record))
         }

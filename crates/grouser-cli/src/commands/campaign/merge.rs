@@ -22,7 +22,7 @@ pub(super) fn run(args: &CampaignMergeArgs) -> Result<(), Failure> {
     bar.finish_and_clear();
     let record = DigestRecord::from(merged?);
     match args.format {
-        TableOrJson::Table => output::print(&record.line()),
+        TableOrJson::Table => output::show(record.line()),
         TableOrJson::Json => {
             let results = Results::open(&args.out)?;
             output::print_json(&Answer::new("campaign.merge", inputs(&results), record))

@@ -31,7 +31,7 @@ pub(super) fn run(args: &CampaignRerunArgs) -> Result<(), Failure> {
             let line = |(name, value): (&String, &Value)| vec![name.clone(), written(value)];
             let lines: Vec<Vec<String>> = cells.iter().map(line).collect();
             let header = ["column", "value"].map(str::to_owned);
-            output::print(&format!("{}{verdict}\n", aligned(&header, &lines)))
+            output::show(aligned(&header, &lines) + format!("{verdict}\n"))
         }
         TableOrJson::Json => {
             let answer = json!({ "run": args.run, "row": cells, "stored": kept.is_some() });

@@ -198,7 +198,7 @@ fn finish(args: &CampaignRunArgs, results: &Results, record: RunRecord) -> Resul
     let all: u64 = record.statuses.values().sum();
     let failed: u64 = FAILED.iter().filter_map(|word| record.statuses.get(*word)).sum();
     match args.format {
-        TableOrJson::Table => output::print(&text_of(args, &record, all))?,
+        TableOrJson::Table => output::show(text_of(args, &record, all))?,
         TableOrJson::Json => {
             let answer = Answer::new("campaign.run", inputs(results), record);
             output::print(&answer.to_line())?;

@@ -14,6 +14,7 @@ use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 
 /// The results for programs.
@@ -55,14 +56,14 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&text_of(&statistics, &digest)),
+        Format::Table => output::show(text_of(&statistics, &digest)),
         Format::Csv => output::print(&Rows::of(&statistics.rows).to_csv()?),
         Format::Json => output::print_json(&answer),
     }
 }
 
-fn text_of(statistics: &Statistics, digest: &DigestRecord) -> String {
+fn text_of(statistics: &Statistics, digest: &DigestRecord) -> Text {
     let tables = statistics.tables();
     let tables = tables.iter().map(|table| aligned(&table.header, &table.cells) + "\n");
-    tables.collect::<String>() + &digest.line()
+    tables.collect::<Text>() + digest.line()
 }

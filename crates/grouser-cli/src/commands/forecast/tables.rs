@@ -6,6 +6,7 @@ use grouser::document::table::Table;
 use grouser::studies::forecast::Forecast;
 
 use crate::output::rows::{Rows, rounded_down};
+use crate::output::text::Text;
 
 /// The tables of a forecast.
 pub(super) struct Tables {
@@ -47,24 +48,20 @@ impl Tables {
     }
 
     /// For reading.
-    pub(super) fn text(&self, notes: &[String]) -> String {
+    pub(super) fn text(&self, notes: &[String]) -> Text {
         let budget = self.budget_of(&[SLIP_RATIO.name, LIMIT_SLOPE.name]);
         let budget = Rows::of_table(&budget).to_table(&columns::budget_brief());
         let tests = if self.tests.rows() == 0 {
-            String::new()
+            Text::default()
         } else {
             let names: Vec<&String> = self.tests.columns.iter().map(|(name, _)| name).collect();
-            format!(
-                "\ntests where the soil was measured\n{}",
-                Rows::of_table(&self.tests).to_table(&names)
-            )
+            let tests = Rows::of_table(&self.tests).to_table(&names);
+            Text::from("\ntests where the soil was measured\n") + tests
         };
         let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
-        format!(
-            "{}{}\nerror budget of the slip ratio and of the steepest slope\n{budget}{tests}\n{notes}",
-            Rows::of_table(&self.rows).to_table(&columns::brief()),
-            self.limit_line(),
-        )
+        let title = "\nerror budget of the slip ratio and of the steepest slope\n";
+        let rows = Rows::of_table(&self.rows).to_table(&columns::brief());
+        rows + self.limit_line() + title + budget + tests + format!("\n{notes}")
     }
 
     /// The steepest slope, in a line.

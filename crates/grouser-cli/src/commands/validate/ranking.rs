@@ -19,6 +19,7 @@ use crate::args::ValidateArgs;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{aligned, csv, csv_of_nested, four_digits};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 
 #[derive(Serialize)]
@@ -75,7 +76,7 @@ fn write(
     if let Some(mut folder) = folder {
         folder.add("ranking.json", answer.to_text());
         folder.add("ranking.csv", rows.clone());
-        folder.add("ranking.txt", text.clone());
+        folder.add("ranking.txt", text.to_string());
         if let Some(first) = slopes.first() {
             let columns: Vec<String> = first.keys().cloned().collect();
             folder.add("slopes.csv", csv(&columns, slopes.iter())?);
@@ -93,7 +94,7 @@ fn write(
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&text),
+        Format::Table => output::show(text),
         Format::Csv => output::print(&rows),
         Format::Json => output::print_json(&answer),
     }
@@ -171,8 +172,8 @@ score: 0 is perfect, 1 no better than the mean of what was measured. Rows withou
 ";
 
 /// A block for each part of each data set, and one for all together.
-fn text_of(ranking: &Ranking) -> String {
-    let mut blocks = vec![LEGEND.to_owned()];
+fn text_of(ranking: &Ranking) -> Text {
+    let mut blocks = vec![Text::from(LEGEND)];
     let is_same = |one: &RankedTheory, other: &RankedTheory| {
         (&one.data_set, &one.case) == (&other.data_set, &other.case)
     };
@@ -184,21 +185,24 @@ fn text_of(ranking: &Ranking) -> String {
             .filter(|it| (&it.data_set, &it.case) == (&first.data_set, &first.case))
             .collect();
         let title = format!("{}, {}\n", first.data_set, first.case);
-        let mut pieces = vec![title, all_cells(part, &yardsticks)];
+        let mut block = Text::from(title) + all_cells(part, &yardsticks);
         let has_skid = first.driven.as_ref().is_some_and(|driven| {
             matches!(&first.overall, PartErrors::Wheel(all) if all.0.cells > driven.0.cells)
         });
         if has_skid {
-            pieces.extend(["driven cells alone\n".to_owned(), driven_cells(part, &yardsticks)]);
+            block = block + "driven cells alone\n" + driven_cells(part, &yardsticks);
         }
-        pieces.push(repeatability(&first.overall));
-        pieces.extend([SLIP_RATIO, YAW].map(|quantity| over_slopes(part, quantity)));
-        blocks.push(pieces.concat());
+        block = block + repeatability(&first.overall);
+        blocks.push(
+            [SLIP_RATIO, YAW]
+                .into_iter()
+                .fold(block, |block, quantity| block + over_slopes(part, quantity)),
+        );
     }
     if ranking.models.first().is_some_and(|first| first.scores.len() > 1) {
         blocks.push(all_parts(&ranking.models));
     }
-    blocks.join("\n")
+    Text::blocks(blocks)
 }
 
 /// Columns of the errors of a part.
@@ -207,7 +211,7 @@ fn header(quantities: &[Quantity]) -> Vec<String> {
     names.into_iter().chain(quantities.iter().map(|it| it.name.to_owned())).collect()
 }
 
-fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> String {
+fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> Text {
     let measured = measured_in(yardsticks.iter().map(|it| it.reference.overall.measured()));
     let models = part.iter().map(|row| {
         let errors = row.overall.measured();
@@ -221,7 +225,7 @@ fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> String {
     aligned(&header(&measured), &models.chain(references).collect::<Vec<_>>())
 }
 
-fn driven_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> String {
+fn driven_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> Text {
     let errors = |driven: &Option<_>| {
         driven
             .as_ref()
@@ -299,7 +303,7 @@ fn repeatability(overall: &PartErrors) -> String {
 }
 
 /// A quantity of a rover, slope by slope: measured, then each model.
-fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> String {
+fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> Text {
     let tables: Vec<(String, Table)> = part
         .iter()
         .filter_map(|row| match &row.found {
@@ -307,10 +311,10 @@ fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> String {
             Found::Wheel(_) => None,
         })
         .collect();
-    let Some((_, first)) = tables.first() else { return String::new() };
+    let Some((_, first)) = tables.first() else { return Text::default() };
     let measured = first.numbers(&quantity.measurement());
     if measured.iter().all(Option::is_none) {
-        return String::new();
+        return Text::default();
     }
     let number = |value: &Option<f64>| value.map_or("-".to_owned(), four_digits);
     let line = |name: &str, values: &[Option<f64>]| -> Vec<String> {
@@ -326,7 +330,7 @@ fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> String {
 }
 
 /// The scores of all models and yardsticks on all parts.
-fn all_parts(models: &[OverAll]) -> String {
+fn all_parts(models: &[OverAll]) -> Text {
     let name = |one: &OverAll| one.model.or(one.yardstick).unwrap_or("-").to_owned();
     let header: Vec<String> =
         std::iter::once("score on".to_owned()).chain(models.iter().map(name)).collect();
@@ -344,8 +348,6 @@ fn all_parts(models: &[OverAll]) -> String {
         row("no prediction".to_owned(), &|one| one.unsettled_trials.to_string()),
     ];
     let rows: Vec<Vec<String>> = scores.chain(sums).collect();
-    format!(
-        "All parts, with soils that were not fitted to them; best first, then what has no physics\n{}",
-        aligned(&header, &rows)
-    )
+    let title = "All parts, with soils that were not fitted to them; best first, then what has no physics\n";
+    Text::from(title) + aligned(&header, &rows)
 }

@@ -21,6 +21,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::text::Text;
 use crate::output::{self, Format};
 
 #[derive(Serialize)]
@@ -59,17 +60,17 @@ pub(super) fn run(
         Results { overall: &overall, yardsticks: &yardsticks, rows: &table, notes: &tests.notes };
     let answer = Answer::new("validate", settings(args, data, &scenario, &tests), results);
     let slopes = rows.to_table(&slope::brief(&validation.points));
-    let text = text_of(&slopes, &validation, &overall, &yardsticks);
+    let text = text_of(slopes, &validation, &overall, &yardsticks);
     if let Some(mut folder) = folder {
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", rows.to_csv()?);
-        folder.add("validation.txt", text.clone());
+        folder.add("validation.txt", text.to_string());
         add_figures(&mut folder, &validation);
         folder.add_document("scenario.toml", &scenario);
         folder.finish()?;
     }
     match args.output.format {
-        Format::Table => output::print(&text),
+        Format::Table => output::show(text),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
@@ -104,11 +105,11 @@ fn settings(
 
 /// For people: every slope, then the errors beside those of the yardsticks, and what could not be predicted.
 fn text_of(
-    slopes: &str,
+    slopes: Text,
     validation: &SlopeValidation,
     overall: &SlopeErrorsRecord,
     yardsticks: &[ReferenceRecord<SlopeErrorsRecord>],
-) -> String {
+) -> Text {
     let mut lines = Vec::new();
     let mut add = |of: &str, errors: &SlopeErrorsRecord| {
         for (name, measured, errors) in quantities(validation, errors) {
@@ -128,7 +129,7 @@ fn text_of(
             overall.cells
         ),
     };
-    format!("{slopes}\n{errors}{missing}")
+    slopes + "\n" + errors + missing
 }
 
 /// The columns of the errors.
