@@ -1,4 +1,4 @@
-//! Code that the documents cite, and the ledger of equations: what they name must exist.
+//! Code and works that are cited, and the ledger of equations: what they name must exist.
 
 use std::collections::HashMap;
 
@@ -11,17 +11,22 @@ const SOURCES: [&str; 3] =
     ["crates/grouser/src", "crates/grouser-io/src", "crates/grouser-core/src"];
 /// The ledger of the source paper's equations.
 const LEDGER: &str = "docs/equations.md";
+/// The list of the works that code and documents cite, a heading for each.
+const BIBLIOGRAPHY: &str = "docs/bibliography.md";
+/// Names of works that do not end in their year.
+const WITHOUT_YEAR: [&str; 2] = ["FourWheel", "LunarSourcebook"];
 /// The numbers of its equations; the paper numbers two of them 10.
 const EQUATIONS: [u32; 19] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18];
 
-/// Paths of documents that lead to nothing, and equations missing from the ledger.
+/// Paths of documents that lead to nothing, works that the bibliography lacks, and equations missing from
+/// the ledger.
 pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
     let sources: HashMap<&str, &str> = texts
         .iter()
         .filter(|(path, _)| SOURCES.iter().any(|folder| path.starts_with(folder)))
         .map(|(path, text)| (path.as_str(), text.as_str()))
         .collect();
-    let mut flaws = Vec::new();
+    let mut flaws = unlisted(texts);
     for (path, text) in texts.iter().filter(|(path, _)| workspace::has_extension(path, "md")) {
         for (number, code) in Page::read(text).codes {
             if code.starts_with("crate::") && !exists(&code, &sources) {
@@ -33,6 +38,49 @@ pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
         }
     }
     flaws
+}
+
+/// Works that are cited and have no heading in the bibliography; and, in a document, citations without
+/// the line that links them there.
+fn unlisted(texts: &[(String, String)]) -> Vec<Flaw> {
+    let listed: Vec<String> = texts
+        .iter()
+        .filter(|(path, _)| path == BIBLIOGRAPHY)
+        .flat_map(|(_, text)| Page::read(text).headings)
+        .collect();
+    let mut flaws = Vec::new();
+    for (path, text) in texts {
+        let is_page = workspace::has_extension(path, "md");
+        if !is_page && !["rs", "toml"].iter().any(|kind| workspace::has_extension(path, kind)) {
+            continue;
+        }
+        for (index, line) in text.lines().enumerate() {
+            for work in works(line) {
+                let mut found = |what| flaws.push(Flaw::new(path, index + 1, what));
+                if !listed.iter().any(|listed| listed == work) {
+                    found(format!("{BIBLIOGRAPHY} has no {work}"));
+                } else if is_page && !text.contains(&format!("\n[{work}]: ")) {
+                    found(format!(
+                        "[{work}] is not linked: its address stands at the end of the file"
+                    ));
+                }
+            }
+        }
+    }
+    flaws
+}
+
+/// Names of works that a line cites, such as Ishigami2007 where it stands in brackets.
+fn works(line: &str) -> impl Iterator<Item = &str> {
+    line.split('[').skip(1).filter_map(|rest| {
+        let name = rest.split_once(']')?.0;
+        let author = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let has_year = name.len() == author.len() + 4
+            && author.len() > 2
+            && author.starts_with(|c: char| c.is_ascii_uppercase())
+            && author.chars().all(|c| c.is_ascii_alphabetic());
+        (has_year || WITHOUT_YEAR.contains(&name)).then_some(name)
+    })
 }
 
 /// Whether a path such as `crate::contact::slip::slip_ratio` or `crate::soil::Soil::check` names
@@ -147,6 +195,25 @@ pub struct Slip {
         ] {
             check_exists(path, false);
         }
+    }
+
+    #[test]
+    fn a_work_is_cited_by_its_name_in_brackets() {
+        let line = "by [Hegedus1960] and [FourWheel], not `a[0]`, [link](x.md) or [ABC2]";
+        assert_eq!(works(line).collect::<Vec<_>>(), ["Hegedus1960", "FourWheel"]);
+    }
+
+    #[test]
+    fn works_need_a_heading_and_pages_a_link() {
+        let work = format!("[{}2007]", "Ishigami");
+        let flaws = |path: &str, text: String| {
+            let list = (BIBLIOGRAPHY.to_owned(), "# List\n## Ishigami2007\n".to_owned());
+            unlisted(&[list, (path.to_owned(), text)]).len()
+        };
+        assert_eq!(flaws("a.rs", format!("// {work}")), 0);
+        assert_eq!(flaws("a.rs", format!("// [{}2007]", "Another")), 1);
+        assert_eq!(flaws("a.md", format!("{work}\n\n{work}: list.md\n")), 0);
+        assert_eq!(flaws("a.md", format!("{work}\n")), 1);
     }
 
     #[test]

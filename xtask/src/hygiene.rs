@@ -23,7 +23,9 @@ const MACHINE_FOLDERS: [&str; 6] = ["home", "root", "tmp", "work", "Users", "wor
 const LOCKED_SOURCE: (&str, &str) = ("registry+", "/crates.io-index");
 
 /// What is wrong in a file, by these rules.
-pub(crate) fn flaws(path: &str, text: &str) -> Vec<Flaw> {
+///
+/// * `own_host`: that of the project's address
+pub(crate) fn flaws(path: &str, text: &str, own_host: &str) -> Vec<Flaw> {
     let mut flaws = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let mut found = |what: String| flaws.push(Flaw::new(path, index + 1, what));
@@ -35,7 +37,7 @@ pub(crate) fn flaws(path: &str, text: &str) -> Vec<Flaw> {
             }
             continue;
         }
-        for host in url_hosts(line).filter(|host| !HOSTS.contains(host)) {
+        for host in url_hosts(line).filter(|host| !HOSTS.contains(host) && *host != own_host) {
             found(format!("the host {host} is not one that texts may name"));
         }
         for word in line.split(|c: char| !(c.is_ascii_alphanumeric() || "-.".contains(c))) {
@@ -97,12 +99,13 @@ mod tests {
     use super::*;
 
     fn whats(text: &str) -> Vec<String> {
-        flaws("a.md", text).into_iter().map(|flaw| flaw.what).collect()
+        flaws("a.md", text, "git.example").into_iter().map(|flaw| flaw.what).collect()
     }
 
     #[test]
     fn only_agreed_hosts_pass() {
         assert!(whats("see https://doi.org/10.1002/rob.20187").is_empty());
+        assert!(whats("see https://git.example/grouser").is_empty());
         assert_eq!(whats(&format!("see https:{}example.org/x", "//")).len(), 1);
     }
 
@@ -130,7 +133,7 @@ mod tests {
     fn locked_packages_come_from_one_source() {
         let (start, end) = LOCKED_SOURCE;
         let line = format!("source = \"{start}somewhere{end}\"\n");
-        assert!(flaws("Cargo.lock", &line).is_empty());
-        assert_eq!(flaws("Cargo.lock", "source = \"git+somewhere\"\n").len(), 1);
+        assert!(flaws("Cargo.lock", &line, "").is_empty());
+        assert_eq!(flaws("Cargo.lock", "source = \"git+somewhere\"\n", "").len(), 1);
     }
 }

@@ -1,5 +1,6 @@
 //! Chores of the workspace that need logic: `cargo xtask` lists them.
 
+mod address;
 mod alone;
 mod ci;
 mod cited;

@@ -40,6 +40,8 @@ const TESTING: [&str; 2] = ["pytest>=8", "hypothesis>=6"];
 const TYPES: &str = "mypy>=1.10";
 /// What reads the workflows.
 const YAML: &str = "pyyaml>=6";
+/// What knows the form of `CITATION.cff`.
+const CITATION: &str = "check-jsonschema>=0.33";
 /// An extra that only `ci --full` installs: its package is larger than all others together, and starting
 /// its workers takes longest of all tests. Without it those tests are skipped.
 const HEAVY: &str = "ray";
@@ -126,7 +128,7 @@ fn make_environment() -> Result<PathBuf> {
     let python = made(&folder().join("environment"))?;
     let required = requirements()?.into_iter().filter(|one| one.extra != HEAVY);
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
-    needed.extend([BUILDING, TYPES, YAML].map(String::from));
+    needed.extend([BUILDING, TYPES, YAML, CITATION].map(String::from));
     needed.extend(TESTING.map(String::from));
     needed.extend(SITE.map(String::from));
     install(&python, &needed)?;

@@ -5,7 +5,7 @@ use std::process::Command;
 use anyhow::{Context, Result};
 
 use crate::flaw::Flaw;
-use crate::{cited, hygiene, links, workspace};
+use crate::{address, cited, hygiene, links, workspace};
 
 /// Whether every text is in order; prints what is not.
 pub(crate) fn check() -> Result<bool> {
@@ -17,9 +17,11 @@ pub(crate) fn check() -> Result<bool> {
             texts.push((path, text));
         }
     }
+    let own_host = address::of(&texts).map_or("", address::host);
     for (path, text) in &texts {
-        flaws.extend(hygiene::flaws(path, text));
+        flaws.extend(hygiene::flaws(path, text, own_host));
     }
+    flaws.extend(address::flaws(&texts));
     flaws.extend(links::flaws(&texts));
     flaws.extend(cited::flaws(&texts));
     for Flaw { path, line, what } in &flaws {
