@@ -13,6 +13,7 @@
 pub mod by_wheel;
 pub mod drive;
 pub mod dynamics;
+pub mod estimate;
 pub mod kinematics;
 pub mod load;
 pub mod reaction;

@@ -10,7 +10,7 @@ use std::fmt;
 /// use grouser_io::{Kind, presets};
 ///
 /// let rovers: Vec<&str> = presets(Kind::Rover).map(|preset| preset.name).collect();
-/// assert_eq!(rovers, ["hakuto", "hakuto-flight", "el-dorado-2", "mgru3"]);
+/// assert!(rovers.contains(&"hakuto") && rovers.contains(&"curiosity"), "{rovers:?}");
 /// assert_eq!(Kind::Rover.tag(), "rover/1");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

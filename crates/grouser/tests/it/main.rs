@@ -11,6 +11,7 @@ mod discrepancy;
 mod documents;
 mod examples;
 mod files;
+mod flown;
 mod forecast;
 mod former_names;
 mod given;
