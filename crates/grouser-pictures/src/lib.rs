@@ -13,4 +13,19 @@
 //! assert!(sheet.to_svg().contains(&Role::Paper.on(ground).code()));
 //! ```
 
+mod animation;
+mod camera;
+mod form;
+mod gif;
+mod glb;
+mod html;
+mod marks;
+mod motion;
+mod mp4;
+mod rover;
+mod scene;
 pub mod style;
+
+pub use animation::{Animation, Shown};
+pub use form::{Form, UnknownEnding};
+pub use mp4::VideoError;

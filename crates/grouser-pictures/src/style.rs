@@ -34,10 +34,14 @@ pub enum Role {
     Soil,
     /// The soil where it is cut or ends.
     SoilEdge,
+    /// The other side of the soil that is cut.
+    SoilSide,
     /// Contour lines on the soil.
     Contour,
     /// What a wheel leaves behind in the soil.
     Track,
+    /// What a grouser leaves in a wheel's track.
+    Print,
     /// Shade on the soil.
     Shade,
     /// The rover's body, seen from above.
@@ -46,6 +50,10 @@ pub enum Role {
     BodyLit,
     /// The sides of the body that do not.
     BodyDark,
+    /// A solar panel.
+    Panel,
+    /// The edges of the body.
+    Edge,
     /// The side of a wheel.
     Wheel,
     /// The rim of a wheel.
@@ -60,8 +68,12 @@ pub enum Role {
     Side,
     /// Forces across the surface of the soil: loads, and what carries them.
     Normal,
+    /// A light edge around arrows, before what is dark.
+    Halo,
     /// Weight.
     Weight,
+    /// A message, such as what became of a rover.
+    Message,
     /// A path.
     Path,
     /// What is compared with it.
@@ -70,19 +82,23 @@ pub enum Role {
 
 impl Role {
     /// Every one of them.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 28] = [
         Self::Paper,
         Self::Ink,
         Self::Faint,
         Self::Grid,
         Self::Soil,
         Self::SoilEdge,
+        Self::SoilSide,
         Self::Contour,
         Self::Track,
+        Self::Print,
         Self::Shade,
         Self::BodyTop,
         Self::BodyLit,
         Self::BodyDark,
+        Self::Panel,
+        Self::Edge,
         Self::Wheel,
         Self::Rim,
         Self::Grouser,
@@ -90,7 +106,9 @@ impl Role {
         Self::Thrust,
         Self::Side,
         Self::Normal,
+        Self::Halo,
         Self::Weight,
+        Self::Message,
         Self::Path,
         Self::Other,
     ];
@@ -99,25 +117,30 @@ impl Role {
     #[must_use]
     pub const fn on(self, ground: Ground) -> Colour {
         let [light, dark] = match self {
-            Self::Paper => [0xffffff, 0x14171c],
+            Self::Paper | Self::Halo => [0xffffff, 0x14171c],
             Self::Ink | Self::Weight => [0x1a1d22, 0xf0f1f3],
             Self::Faint => [0x5b6470, 0xa3abb6],
             Self::Grid => [0xdde1e6, 0x333a44],
             Self::Soil => [0xece3d2, 0x3a352c],
             Self::SoilEdge => [0xcdbfa5, 0x5a5142],
+            Self::SoilSide => [0xb8a988, 0x4a4336],
             Self::Contour => [0xc3b594, 0x5f5747],
             Self::Track => [0xb39f78, 0x7a6c51],
+            Self::Print => [0x94815a, 0x4d4433],
             Self::Shade => [0x6b5d42, 0x000000],
             Self::BodyTop => [0xf7f8fa, 0xc9ced6],
             Self::BodyLit => [0xd3d8df, 0x9aa2ad],
             Self::BodyDark => [0xa9b1bc, 0x6d7682],
+            Self::Panel => [0x35507a, 0x2b4468],
+            Self::Edge => [0x5b6470, 0x2b3038],
             Self::Wheel => [0x6d7682, 0x8a94a1],
             Self::Rim => [0x434b56, 0x59626e],
-            Self::Grouser => [0x1a1d22, 0xd9dde3],
+            Self::Grouser => [0x1a1d22, 0xb4bcc7],
             Self::Force => [0xd55e00, 0xff8a3d],
             Self::Thrust | Self::Path => [0x0072b2, 0x56b4e9],
             Self::Side => [0x009e73, 0x2fcf9f],
             Self::Normal => [0xcc79a7, 0xe7a3c8],
+            Self::Message => [0xa84300, 0xff9b57],
             Self::Other => [0x8a94a1, 0x8a94a1],
         };
         let colour = Colour::hex(match ground {
@@ -173,6 +196,7 @@ mod tests {
                     "{ground:?} {back:?}: {}",
                     against(Role::Faint)
                 );
+                assert!(against(Role::Message) >= 4.5, "{}", against(Role::Message));
                 for role in [Role::Force, Role::Thrust, Role::Path] {
                     let found = against(role);
                     assert!(found >= 3.0, "{role:?} on {back:?}, {ground:?}: {found:.2}");

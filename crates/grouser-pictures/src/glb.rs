@@ -1,0 +1,524 @@
+//! A run as a scene in three dimensions: binary glTF 2.0, for Blender and browsers.
+//!
+//! Below the node `slope`, which turns the slope's plane by its inclination, everything is in the slope frame
+//! [m]. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
+
+use std::f64::consts::TAU;
+
+use grouser_core::elementary::wide;
+use grouser_core::units::Vec3;
+use grouser_core::wheel::Wheel;
+use serde_json::{Value, json};
+
+use crate::animation::Animation;
+use crate::motion::Pose;
+use crate::rover::{Block, PlacedWheel};
+use crate::scene::Actor;
+use crate::style::{Ground, Role};
+
+/// How far a wheel may turn between two samples [rad]: what turns by half a circle could turn back as well.
+const TURN: f64 = 1.0;
+/// Samples of a run at most.
+const MOST: usize = 20_000;
+/// How many pieces tracks come in.
+const PIECES: usize = 60;
+/// Flat faces around a wheel.
+const ROUND: u32 = 36;
+
+/// Kinds of numbers and uses of buffers, by their codes in the format.
+const FLOAT: u32 = 5126;
+const UNSIGNED: u32 = 5125;
+const VERTICES: u32 = 34962;
+const INDICES: u32 = 34963;
+
+impl Animation {
+    /// The run as binary glTF 2.0: body, wheels with their grousers, the plane with contour lines, and tracks
+    /// that appear as they are made. A second of it is a second of the run, or as many as `extras` of its
+    /// animation says.
+    #[must_use]
+    pub fn to_glb(&self) -> Vec<u8> {
+        let mut file = File::new();
+        let times = self.samples();
+        let seconds: Vec<f64> = times.iter().map(|time| time / self.speed).collect();
+        let input = file.numbers("SCALAR", &seconds, true, None);
+        let mut below = vec![self.ground(&mut file)];
+        below.extend(self.tracks(&mut file));
+        for (actor, row) in self.actors.iter().zip(&self.rows) {
+            let rover = rover(&mut file, actor, &row.name, &times, input);
+            below.push(rover);
+        }
+        let [sin, cos] = half(self.slope - 0.25 * TAU);
+        let root = file.node(json!({
+            "name": "slope",
+            "rotation": [sin, 0.0, 0.0, cos],
+            "children": below,
+        }));
+        file.finish(root, &self.title, self.speed)
+    }
+
+    /// Times of the samples [s]: those of the pictures, and as many between them as the wheels' turning needs.
+    fn samples(&self) -> Vec<f64> {
+        let mut times = vec![self.times[0]];
+        for pair in self.times.windows(2) {
+            let turns = self.actors.iter().flat_map(|actor| {
+                let [a, b] = [pair[0], pair[1]].map(|time| actor.motion.at(time).wheels);
+                a.iter().zip(&b).map(|(a, b)| (b.turned - a.turned).abs()).collect::<Vec<_>>()
+            });
+            let steps = (turns.fold(0.0, f64::max) / TURN).ceil().max(1.0);
+            let mut step = 1.0;
+            while step <= steps && times.len() < MOST {
+                times.push(pair[0] + (pair[1] - pair[0]) * step / steps);
+                step += 1.0;
+            }
+        }
+        times
+    }
+
+    /// The plane and its contour lines.
+    fn ground(&self, file: &mut File) -> usize {
+        let patch = self.scene.whole;
+        let mut plane = Solid::default();
+        plane.face(&patch.corners(), Vec3::z());
+        let plane = file.mesh("ground", &plane, Role::Soil);
+        let lift = Vec3::new(0.0, 0.0, 1e-3);
+        let lines: Vec<Vec3> = self
+            .scene
+            .contours
+            .iter()
+            .flat_map(|y| [patch.low.x, patch.high.x].map(|x| Vec3::new(x, *y, 0.0) + lift))
+            .collect();
+        let mut children = Vec::new();
+        if !lines.is_empty() {
+            let mesh = file.lines("contour lines", &lines, Role::Contour);
+            children.push(file.node(json!({ "name": "contour lines", "mesh": mesh })));
+        }
+        let mut node = json!({ "name": "ground", "mesh": plane });
+        if !children.is_empty() {
+            node["children"] = children.into();
+        }
+        file.node(node)
+    }
+
+    /// The tracks in pieces, each of which appears when it has been made.
+    fn tracks(&self, file: &mut File) -> Vec<usize> {
+        let mut nodes = Vec::new();
+        let last = self.times.len() - 1;
+        let pieces = last.min(PIECES);
+        for piece in 0..pieces {
+            let frames = piece * last / pieces..(piece + 1) * last / pieces;
+            let mut strips = Solid::default();
+            for actor in &self.actors {
+                for frame in frames.clone() {
+                    let poses = [frame, frame + 1].map(|it| actor.motion.at(self.times[it]));
+                    strip(&mut strips, actor, &poses, frame);
+                }
+            }
+            if strips.places.is_empty() {
+                continue;
+            }
+            let mesh = file.mesh("track", &strips, Role::Track);
+            let node = file.node(json!({ "name": format!("track {}", piece + 1), "mesh": mesh }));
+            let end = self.times[frames.end] / self.speed;
+            let input = file.numbers("SCALAR", &[0.0, end], true, None);
+            let shown = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+            let output = file.numbers("VEC3", &shown, false, None);
+            file.channel(node, "scale", [input, output], "STEP");
+            nodes.push(node);
+        }
+        nodes
+    }
+}
+
+/// What a wheel leaves between two poses, a little above the plane, the later the higher: faces in one
+/// plane would flicker.
+fn strip(strips: &mut Solid, actor: &Actor, poses: &[Pose; 2], frame: usize) {
+    let lift = Vec3::new(0.0, 0.0, 1e-3 + 1e-6 * frame as f64);
+    for (index, mount) in actor.mounts().iter().enumerate() {
+        let [a, b] = poses.each_ref().map(|pose| {
+            let wheel = PlacedWheel::of(mount, &pose.wheels[index], pose, actor.lane());
+            let half = 0.5 * mount.unit.wheel.width * wheel.left;
+            [wheel.foot() - half + lift, wheel.foot() + half + lift]
+        });
+        if (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) > 1e-6 {
+            strips.face(&[a[0], b[0], b[1], a[1]], Vec3::z());
+        }
+    }
+}
+
+/// A rover with its wheels and their motion.
+fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize) -> usize {
+    let poses: Vec<Pose> = times.iter().map(|time| actor.motion.at(*time)).collect();
+    let likeness = actor.likeness();
+    let mut body = Solid::default();
+    for block in [&likeness.body, &likeness.mast, &likeness.head] {
+        body.block(block);
+    }
+    let body = file.mesh("body", &body, Role::BodyLit);
+    let mut panel = Solid::default();
+    let (low, high) = (likeness.body.low, likeness.body.high);
+    let size = high - low;
+    panel.block(&Block {
+        low: Vec3::new(low.x + 0.08 * size.x, low.y + 0.1 * size.y, high.z),
+        high: Vec3::new(low.x + 0.7 * size.x, high.y - 0.1 * size.y, high.z + 0.02 * size.z),
+    });
+    let panel = file.mesh("panel", &panel, Role::Panel);
+    let panel = file.node(json!({ "name": "panel", "mesh": panel }));
+    let mut children = vec![panel];
+    let mut known: Vec<(Wheel, usize)> = Vec::new();
+    for (index, mount) in actor.mounts().iter().enumerate() {
+        let wheel = mount.unit.wheel;
+        let found = known.iter().find(|(other, _)| *other == wheel).map(|(_, mesh)| *mesh);
+        let mesh = found.unwrap_or_else(|| {
+            let mesh = file.wheel(&wheel);
+            known.push((wheel, mesh));
+            mesh
+        });
+        let turned = poses.iter().flat_map(|pose| {
+            // Turning forward is turning about the axle, to the left, by the right-hand rule.
+            let [sin, cos] = half(pose.wheels[index].turned);
+            [0.0, sin, 0.0, cos]
+        });
+        let [sin, cos] = half(mount.steering);
+        let spinning = file.node(json!({ "name": format!("{} wheel", mount.name), "mesh": mesh }));
+        let output = file.numbers("VEC4", &turned.collect::<Vec<_>>(), false, None);
+        file.channel(spinning, "rotation", [input, output], "LINEAR");
+        let steered = file.node(json!({
+            "name": mount.name,
+            "rotation": [0.0, 0.0, sin, cos],
+            "children": [spinning],
+        }));
+        let height =
+            |pose: &Pose| mount.shearing_radius() - pose.wheels[index].sinkage - pose.centre.z;
+        let places = poses.iter().flat_map(|pose| {
+            let [x, y] = [mount.position.x, mount.position.y];
+            [x, y, height(pose)]
+        });
+        let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
+        file.channel(steered, "translation", [input, output], "LINEAR");
+        children.push(steered);
+    }
+    let node = file.node(json!({ "name": name, "mesh": body, "children": children }));
+    let places = poses.iter().flat_map(|pose| {
+        let centre = actor.lane() + pose.centre;
+        [centre.x, centre.y, centre.z]
+    });
+    let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
+    file.channel(node, "translation", [input, output], "LINEAR");
+    let yaws = poses.iter().flat_map(|pose| {
+        let [sin, cos] = half(pose.yaw);
+        [0.0, 0.0, sin, cos]
+    });
+    let output = file.numbers("VEC4", &yaws.collect::<Vec<_>>(), false, None);
+    file.channel(node, "rotation", [input, output], "LINEAR");
+    node
+}
+
+/// Sine and cosine of half an angle: the parts of a quaternion.
+fn half(angle: f64) -> [f64; 2] {
+    let (sin, cos) = wide::sin_cos(0.5 * angle);
+    [sin, cos]
+}
+
+/// Triangles with the directions in which their faces look.
+#[derive(Default)]
+struct Solid {
+    places: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    triangles: Vec<u32>,
+}
+
+impl Solid {
+    /// A flat convex face, its corners counterclockwise as seen from outside.
+    fn face(&mut self, corners: &[Vec3], normal: Vec3) {
+        let first = u32::try_from(self.places.len()).unwrap_or(u32::MAX);
+        let count = u32::try_from(corners.len()).unwrap_or(u32::MAX);
+        self.places.extend_from_slice(corners);
+        self.normals.extend(corners.iter().map(|_| normal));
+        for corner in 2..count {
+            self.triangles.extend([first, first + corner - 1, first + corner]);
+        }
+    }
+
+    fn block(&mut self, block: &Block) {
+        let corner = |axis: usize, is_high: bool, a: bool, b: bool| {
+            let mut of = [is_high; 3];
+            of[(axis + 1) % 3] = a;
+            of[(axis + 2) % 3] = b;
+            block.corner(of)
+        };
+        for axis in 0..3 {
+            for is_high in [false, true] {
+                let mut normal = Vec3::zeros();
+                normal[axis] = if is_high { 1.0 } else { -1.0 };
+                let mut ends = [(false, false), (true, false), (true, true), (false, true)]
+                    .map(|(a, b)| corner(axis, is_high, a, b));
+                if !is_high {
+                    ends.reverse();
+                }
+                self.face(&ends, normal);
+            }
+        }
+    }
+}
+
+/// The rim with its side walls, and what shows its turning: spokes and grousers. The axle is along y.
+fn wheel_solids(wheel: &Wheel) -> [Solid; 2] {
+    let (radius, side) = (wheel.radius, 0.5 * wheel.width);
+    let out = |angle: f64| {
+        let (sin, cos) = wide::sin_cos(angle);
+        Vec3::new(sin, 0.0, cos)
+    };
+    let at = |angle: f64, radius: f64, y: f64| radius * out(angle) + Vec3::new(0.0, y, 0.0);
+    let mut rim = Solid::default();
+    let step = TAU / f64::from(ROUND);
+    for k in 0..ROUND {
+        let (a, b) = (step * f64::from(k), step * f64::from(k + 1));
+        let corners =
+            [at(a, radius, -side), at(a, radius, side), at(b, radius, side), at(b, radius, -side)];
+        rim.face(&[corners[3], corners[2], corners[1], corners[0]], out(0.5 * (a + b)));
+    }
+    for y in [side, -side] {
+        let mut disc: Vec<Vec3> = (0..ROUND).map(|k| at(step * f64::from(k), radius, y)).collect();
+        if y < 0.0 {
+            disc.reverse();
+        }
+        rim.face(&disc, Vec3::new(0.0, y.signum(), 0.0));
+    }
+    let mut bars = Solid::default();
+    let mut bar = |angle: f64, [inner, outer]: [f64; 2], half_thick: f64, half_wide: f64| {
+        let (along, across) = (out(angle), out(angle + 0.25 * TAU));
+        let corner = |r: f64, t: f64, y: f64| r * along + t * across + Vec3::new(0.0, y, 0.0);
+        let (t, w) = (half_thick, half_wide);
+        let faces = [
+            ([(outer, t, w), (outer, t, -w), (outer, -t, -w), (outer, -t, w)], along),
+            ([(inner, t, w), (outer, t, w), (outer, -t, w), (inner, -t, w)], Vec3::y()),
+            ([(inner, t, -w), (inner, -t, -w), (outer, -t, -w), (outer, t, -w)], -Vec3::y()),
+            ([(inner, t, -w), (outer, t, -w), (outer, t, w), (inner, t, w)], across),
+            ([(inner, -t, w), (outer, -t, w), (outer, -t, -w), (inner, -t, -w)], -across),
+        ];
+        for (corners, normal) in faces {
+            bars.outward(&corners.map(|(r, t, y)| corner(r, t, y)), normal);
+        }
+    };
+    const SPOKES: u32 = 5;
+    for spoke in 0..SPOKES {
+        let angle = TAU * f64::from(spoke) / f64::from(SPOKES);
+        bar(angle, [0.0, 0.85 * radius], 0.06 * radius, 1.03 * side);
+    }
+    if let Some(grousers) = wheel.grousers {
+        for k in 0..grousers.count {
+            let angle = TAU * f64::from(k) / f64::from(grousers.count);
+            let thick =
+                (0.15 * grousers.height).min(0.1 * radius * TAU / f64::from(grousers.count));
+            bar(angle, [radius, wheel.shearing_radius()], thick, side);
+        }
+    }
+    [rim, bars]
+}
+
+impl Solid {
+    /// A flat face whose corners are put in the order that its direction asks for.
+    fn outward(&mut self, corners: &[Vec3; 4], normal: Vec3) {
+        let turn = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+        let mut corners = *corners;
+        if turn.dot(&normal) < 0.0 {
+            corners.reverse();
+        }
+        self.face(&corners, normal);
+    }
+}
+
+/// The parts of the file.
+struct File {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+    meshes: Vec<Value>,
+    materials: Vec<Role>,
+    nodes: Vec<Value>,
+    samplers: Vec<Value>,
+    channels: Vec<Value>,
+}
+
+impl File {
+    fn new() -> Self {
+        Self {
+            bytes: Vec::new(),
+            views: Vec::new(),
+            accessors: Vec::new(),
+            meshes: Vec::new(),
+            materials: Vec::new(),
+            nodes: Vec::new(),
+            samplers: Vec::new(),
+            channels: Vec::new(),
+        }
+    }
+
+    fn node(&mut self, node: Value) -> usize {
+        self.nodes.push(node);
+        self.nodes.len() - 1
+    }
+
+    fn material(&mut self, role: Role) -> usize {
+        let known = self.materials.iter().position(|other| *other == role);
+        known.unwrap_or_else(|| {
+            self.materials.push(role);
+            self.materials.len() - 1
+        })
+    }
+
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        let mut view = json!({
+            "buffer": 0,
+            "byteOffset": self.bytes.len(),
+            "byteLength": bytes.len(),
+        });
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.bytes.extend_from_slice(bytes);
+        self.views.push(view);
+        self.views.len() - 1
+    }
+
+    /// Numbers of a shape, such as `VEC3`; returns their accessor.
+    ///
+    /// * `has_range`: whether least and largest are listed
+    #[expect(clippy::cast_possible_truncation)]
+    fn numbers(
+        &mut self,
+        shape: &str,
+        values: &[f64],
+        has_range: bool,
+        target: Option<u32>,
+    ) -> usize {
+        let size = match shape {
+            "VEC3" => 3,
+            "VEC4" => 4,
+            _ => 1,
+        };
+        let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+        let view = self.view(&bytes, target);
+        let mut accessor = json!({
+            "bufferView": view,
+            "componentType": FLOAT,
+            "count": values.len() / size,
+            "type": shape,
+        });
+        if has_range {
+            let end = |pick: fn(f32, f32) -> f32, start: f32| -> Vec<f32> {
+                let part = |k: usize| values[k..].iter().step_by(size).copied().fold(start, pick);
+                (0..size).map(part).collect()
+            };
+            accessor["min"] = json!(end(f32::min, f32::INFINITY));
+            accessor["max"] = json!(end(f32::max, f32::NEG_INFINITY));
+        }
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn primitive(&mut self, solid: &Solid, role: Role) -> Value {
+        let flat = |vectors: &[Vec3]| -> Vec<f64> {
+            vectors.iter().flat_map(|vector| [vector.x, vector.y, vector.z]).collect()
+        };
+        let places = self.numbers("VEC3", &flat(&solid.places), true, Some(VERTICES));
+        let normals = self.numbers("VEC3", &flat(&solid.normals), false, Some(VERTICES));
+        let bytes: Vec<u8> = solid.triangles.iter().flat_map(|index| index.to_le_bytes()).collect();
+        let view = self.view(&bytes, Some(INDICES));
+        self.accessors.push(json!({
+            "bufferView": view,
+            "componentType": UNSIGNED,
+            "count": solid.triangles.len(),
+            "type": "SCALAR",
+        }));
+        json!({
+            "attributes": { "POSITION": places, "NORMAL": normals },
+            "indices": self.accessors.len() - 1,
+            "material": self.material(role),
+        })
+    }
+
+    fn mesh(&mut self, name: &str, solid: &Solid, role: Role) -> usize {
+        let primitive = self.primitive(solid, role);
+        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
+        self.meshes.len() - 1
+    }
+
+    fn wheel(&mut self, wheel: &Wheel) -> usize {
+        let [rim, bars] = wheel_solids(wheel);
+        let primitives = [self.primitive(&rim, Role::Wheel), self.primitive(&bars, Role::Grouser)];
+        self.meshes.push(json!({ "name": "wheel", "primitives": primitives }));
+        self.meshes.len() - 1
+    }
+
+    fn lines(&mut self, name: &str, ends: &[Vec3], role: Role) -> usize {
+        let flat: Vec<f64> = ends.iter().flat_map(|end| [end.x, end.y, end.z]).collect();
+        let places = self.numbers("VEC3", &flat, true, Some(VERTICES));
+        let material = self.material(role);
+        let primitive =
+            json!({ "attributes": { "POSITION": places }, "mode": 1, "material": material });
+        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
+        self.meshes.len() - 1
+    }
+
+    fn channel(&mut self, node: usize, path: &str, ends: [usize; 2], interpolation: &str) {
+        self.samplers.push(json!({
+            "input": ends[0],
+            "output": ends[1],
+            "interpolation": interpolation,
+        }));
+        self.channels.push(json!({
+            "sampler": self.samplers.len() - 1,
+            "target": { "node": node, "path": path },
+        }));
+    }
+
+    fn finish(mut self, root: usize, title: &str, speed: f64) -> Vec<u8> {
+        let document = json!({
+            "asset": { "version": "2.0", "generator": "Grouser" },
+            "scene": 0,
+            "scenes": [{ "name": title, "nodes": [root] }],
+            "nodes": self.nodes,
+            "meshes": self.meshes,
+            "materials": self.materials.iter().map(|role| material(*role)).collect::<Vec<_>>(),
+            "animations": [{
+                "name": "run",
+                "samplers": self.samplers,
+                "channels": self.channels,
+                "extras": { "run_seconds_per_second": speed },
+            }],
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{ "byteLength": self.bytes.len() }],
+        });
+        let mut text = document.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        let length = |count: usize| u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes();
+        let mut file = Vec::with_capacity(28 + text.len() + self.bytes.len());
+        file.extend(*b"glTF");
+        file.extend(2_u32.to_le_bytes());
+        file.extend(length(28 + text.len() + self.bytes.len()));
+        for (kind, chunk) in [(*b"JSON", &text), (*b"BIN\0", &self.bytes)] {
+            file.extend(length(chunk.len()));
+            file.extend(kind);
+            file.extend(chunk);
+        }
+        file
+    }
+}
+
+fn material(role: Role) -> Value {
+    // The format has the light's strength, of which a screen's colour is the root.
+    let [red, green, blue] = role.on(Ground::Light).parts().map(|part| part * part);
+    json!({
+        "name": format!("{role:?}").to_lowercase(),
+        "doubleSided": true,
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [red, green, blue, 1.0],
+            "metallicFactor": 0.0,
+            "roughnessFactor": 0.9,
+        },
+    })
+}
