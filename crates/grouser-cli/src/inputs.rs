@@ -11,7 +11,6 @@ use grouser::soil::GravityScaling;
 use grouser::studies::card::Rule;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastStudy, Ground};
-use grouser::studies::heading::HeadingStudy;
 
 use crate::args::{
     BalanceArgs, CardArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs,
@@ -261,7 +260,7 @@ pub(crate) struct ForecastInputs {
     pub(crate) slopes: Vec<f64>,
     /// The documents of the grounds that are not the soil's own.
     pub(crate) grounds: Vec<document::LoadedSoil>,
-    /// Whether the soil's document says under which gravity it was measured, or the caller does.
+    /// Whether the caller says under which gravity the soil was measured.
     pub(crate) is_measured_under_stated: bool,
 }
 
@@ -280,13 +279,11 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
     let name = args.scenario.as_deref();
     let scenario = balanced("forecast", name, rover, soil, &setting, &args.balance)?;
     refuse_sampled_keys(&setting, scenario.uncertain.as_ref())?;
-    let heading = HeadingStudy::of(&scenario.value);
-    let stated = match &args.measured_gravity {
-        Some(text) => Some(gravity_in("--measured-gravity-m-s2", text)?),
-        None => words::measured_under(&heading.soil),
-    };
-    let measured_under = stated.unwrap_or(grouser::units::EARTH_GRAVITY);
-    let names = ground_names(args, gravity, gravity == measured_under);
+    let stated = args.measured_gravity.as_ref();
+    let stated = stated.map(|text| gravity_in("--measured-gravity-m-s2", text)).transpose()?;
+    let usual = words::study_of(&scenario, stated);
+    let measured_under = usual.measured_under;
+    let names = ground_names(args, &usual);
     let (grounds, documents) = grounds(&names)?;
     let masses = once("--mass", &args.mass)?.iter();
     let masses = masses.map(|text| words::mass_of(text, gravity / measured_under));
@@ -297,11 +294,10 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
     let choices = Choices { scalings: scalings.collect::<Result<_, _>>()?, grounds, masses };
     let rim_speed = match &args.rim_speed_m_s {
         Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
-        None => scenario.value.drive.nominal_rim_speed(),
+        None => usual.rim_speed,
     };
     let samples = [args.samples, args.discrepancies];
-    let study =
-        ForecastStudy { heading, measured_under, rim_speed, choices, samples, seed: args.seed };
+    let study = ForecastStudy { rim_speed, choices, samples, seed: args.seed, ..usual };
     let band = BandInputs::of_scenario(&scenario);
     let cases: usize = study.factors(&band).iter().map(|factor| factor.levels.len()).product();
     check_rows(cases as f64 * args.slope_deg.0.len() as f64)?;
@@ -315,16 +311,12 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
     })
 }
 
-/// What the ground may be: as asked for, or else the soil as measured and, where it was measured under another
-/// gravity, what is known of the site.
-fn ground_names(args: &ForecastArgs, gravity: f64, is_at_home: bool) -> Vec<String> {
-    use document::forecast::{AS_MEASURED, sites};
+/// What the ground may be: as asked for, or else as it usually is.
+fn ground_names(args: &ForecastArgs, study: &ForecastStudy) -> Vec<String> {
     if !args.ground.is_empty() {
         return args.ground.clone();
     }
-    let site = sites().into_iter().find(|site| site.gravity == gravity && !is_at_home);
-    let known = site.map_or(&[][..], |site| site.grounds);
-    [AS_MEASURED].iter().chain(known).map(|name| (*name).to_owned()).collect()
+    document::forecast::usual_grounds(study).into_iter().map(str::to_owned).collect()
 }
 
 /// The grounds by their names, and the documents of those that have one.

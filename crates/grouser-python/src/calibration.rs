@@ -1,13 +1,12 @@
 //! Calibration: soil parameters, with confidence intervals, from wheel or plate tests.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
 use std::sync::Mutex;
 
 use grouser::document::calibration::{
     AimError, AimWords, PlateProblem, STEPS, Solved, WheelProblem, fit_notes, samples_csv, sampling,
 };
-use grouser::document::measurements::{self, Choice, MeasurementError};
+use grouser::document::measurements::{Choice, Limits, MeasurementError};
 use grouser::document::{self, Companion, FitKey, SAMPLES_FILE, SoilFamily, plates};
 use grouser::studies::calibration::diagnostics::correlations_of;
 use grouser::studies::calibration::{CalibrationError, Fit, Observer, PosteriorState, Sampling};
@@ -19,6 +18,7 @@ use crate::columns::columns;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::{Cancelled, listening};
+use crate::measurements::Data;
 use crate::validation::{conditions_of, record_to_python, validation_to_python};
 use crate::wheels::model_and_gravity;
 
@@ -135,7 +135,7 @@ fn keys_of(keys: Vec<Key>) -> Result<Vec<FitKey>, Failure> {
 #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
 pub(crate) fn calibrate_wheel_tests<'py>(
     py: Python<'py>,
-    data: PathBuf,
+    data: Data,
     soil: &Document,
     wheel: &Document,
     setting: &Document,
@@ -154,9 +154,9 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     let sampling = sampling_of(seed, steps)?;
     let (target, propose, load_n, slip_ratio, slip_angle_deg) = aim;
     let words = AimWords { target: target.clone(), propose, load_n, slip_ratio, slip_angle_deg };
-    let (label, file) = (data.display().to_string(), name_of(&data));
+    let (label, file) = (data.label(), data.name());
     let found = listening(py, move |cancelled| {
-        let measured = measurements::Source::find(&data)?.read(&choice)?;
+        let measured = data.source()?.read(&choice)?;
         let family = SoilFamily::new(&soil, &keys_of(keys)?).map_err(Failure::Fit)?;
         let aim = words.aim(&measured.tests.trials).map_err(Failure::Aim)?;
         let listener = Listener::new(cancelled);
@@ -193,7 +193,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
 #[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
 pub(crate) fn calibrate_plate_tests<'py>(
     py: Python<'py>,
-    data: PathBuf,
+    data: Data,
     soil: &Document,
     setting: &Document,
     law: Option<String>,
@@ -207,9 +207,10 @@ pub(crate) fn calibrate_plate_tests<'py>(
     let gravity = setting.scenario()?.value.site.gravity;
     let soil = soil.soil()?.document.clone();
     let sampling = sampling_of(seed, steps)?;
-    let (label, file) = (data.display().to_string(), name_of(&data));
+    let (label, file) = (data.label(), data.name());
     let found = listening(py, move |cancelled| {
-        let measured = plates::read(&data)?;
+        let (source, limits) = (data.file(), Limits::default());
+        let measured = plates::read_from(&source.label(), &*source.bytes(limits)?, limits)?;
         let problem = PlateProblem::new(&soil, law.as_deref(), gravity, measured.curves)
             .map_err(Failure::Fit)?;
         let listener = Listener::new(cancelled);
@@ -221,10 +222,6 @@ pub(crate) fn calibrate_plate_tests<'py>(
     let dict = solved_to_python(py, &found.solved, &found.soil, problem.family(), notes)?;
     dict.set_item("curves", columns(py, &problem.records(&found))?)?;
     Ok(dict)
-}
-
-fn name_of(path: &std::path::Path) -> String {
-    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// The results that every calibration has.

@@ -283,6 +283,28 @@ fn kind_of(name: &str) -> PyResult<Kind> {
         .ok_or_else(|| PyValueError::new_err(format!("there are no documents of kind {name:?}")))
 }
 
+/// Kind, keys that are taken from priors, each with its value and the priors' name, and notes.
+type Checked = (&'static str, Vec<(String, Option<f64>, String)>, Vec<String>);
+
+/// Checks a document of any kind: a file, or a text under a label for messages.
+///
+/// * `text`: the content; without it `name` is a path
+#[pyfunction]
+pub(crate) fn check_document(
+    py: Python<'_>,
+    name: PathBuf,
+    text: Option<String>,
+) -> PyResult<Checked> {
+    let source = match text {
+        Some(text) => Source::text(name.display().to_string(), text),
+        None => Source::file(name),
+    };
+    let found = py.detach(|| Ok((document::checked(&source)?, document::doubts(&source)?)));
+    let (checked, notes) = found.map_err(|error| errors::of_document(&error, &[]))?;
+    let assumed = checked.assumed.into_iter().map(|it| (it.key, it.value, it.prior));
+    Ok((checked.kind.name(), assumed.collect(), notes))
+}
+
 /// The presets of a kind: name, title and source of each.
 #[pyfunction]
 pub(crate) fn presets(kind: &str) -> PyResult<Vec<(&'static str, String, String)>> {

@@ -16,6 +16,7 @@ mod descriptions;
 mod errors;
 mod ground;
 mod interrupt;
+mod measurements;
 mod rollouts;
 mod simulators;
 mod studies;
@@ -44,19 +45,21 @@ mod _core {
     use super::columns::{result_columns, unit_of};
     #[pymodule_export]
     use super::descriptions::{
-        Document, find_document, presets, read_document_file, read_document_table,
+        Document, check_document, find_document, presets, read_document_file, read_document_table,
         read_document_text, to_toml,
     };
     #[pymodule_export]
     use super::ground::Footprints;
+    #[pymodule_export]
+    use super::measurements::import_wheel_tests;
     #[pymodule_export]
     use super::rollouts::rollout;
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
     use super::studies::{
-        card, heading, heading_band, heading_map, heading_map_band, simulate, simulate_band,
-        simulated_wheel_test, wheel_test_band,
+        card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,
+        heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_test_band,
     };
     #[pymodule_export]
     use super::time_step::SteppingWheels;

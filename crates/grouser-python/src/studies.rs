@@ -2,21 +2,25 @@
 
 use std::ops::RangeInclusive;
 
+use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
 };
+use grouser::document::forecast as words;
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
 use grouser::document::table::{BETWEEN_NAMES, Table};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
-use grouser::studies::card::{CardStudy, Rule};
+use grouser::soil::GravityScaling;
+use grouser::studies::card::{CardStudy, Rule, Side};
 use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
@@ -319,14 +323,10 @@ pub(crate) fn card<'py>(
     let scenario = scenario.scenario()?;
     let rim_speed = rim_speed_m_s.unwrap_or_else(|| scenario.value.drive.nominal_rim_speed());
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
-    let mut heading = HeadingStudy::of(&scenario.value);
-    if is_uphill_right {
-        heading.rover = heading.rover.mirrored();
-    }
+    let uphill = if is_uphill_right { Side::Right } else { Side::Left };
     let [go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability] = rule;
     let rule = Rule { go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability };
-    let is_uncertainty_stated = scenario.stated_uncertainty().is_some();
-    let study = CardStudy { heading, rim_speed, rule, is_uncertainty_stated };
+    let study = CardStudy { rim_speed, rule, ..CardStudy::of(scenario, uphill) };
     let inputs = BandInputs::of_scenario(scenario);
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
@@ -347,6 +347,116 @@ pub(crate) fn card<'py>(
         table_to_python(py, columns::card_courses::table(&courses))?,
         record_to_python(py, &Some(columns::card::steepest(&card).row(0)))?,
     ))
+}
+
+/// The limits of [`Rule::DEFAULT`] by their names.
+#[pyfunction]
+pub(crate) fn card_rule(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    record_to_python(py, &RuleRecord::from(&Rule::DEFAULT))
+}
+
+/// A gravity [m/s²] by its name, or as a number in a text.
+#[pyfunction]
+pub(crate) fn gravity_of(text: &str) -> Option<f64> {
+    words::gravity_of(text)
+}
+
+/// The choices of a forecast: whose ground it is, each by its name, with a soil where it is not the one that was
+/// measured; and names of scalings and of masses, with factors as `NAME=FACTOR`.
+type ChoiceNames<'py> =
+    (Option<Vec<(String, Option<PyRef<'py, Document>>)>>, Vec<String>, Vec<String>);
+
+/// A forecast under the scenario's gravity: its rows, steepest slope, budget, choices, tests and notes.
+///
+/// * `counts`: samples of the soil, and of what a model gets wrong
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn forecast<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    slope_deg: PyReadonlyArray1<'py, f64>,
+    measured_gravity_m_s2: Option<f64>,
+    choices: ChoiceNames<'py>,
+    rim_speed_m_s: Option<f64>,
+    counts: [u32; 2],
+    seed: u64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let slopes = slopes(&slope_deg)?;
+    let scenario = scenario.scenario()?;
+    if let Some(gravity) = measured_gravity_m_s2 {
+        check("measured_gravity_m_s2", &[gravity], &words::GRAVITY)?;
+    }
+    for (name, count, most) in
+        [("samples", counts[0], words::SAMPLES), ("discrepancies", counts[1], words::DISCREPANCIES)]
+    {
+        let range = f64::from(*most.start())..=f64::from(*most.end());
+        check(name, &[f64::from(count)], &range)?;
+    }
+    let usual = words::study_of(scenario, measured_gravity_m_s2);
+    let (grounds, scalings, masses) = choices;
+    let grounds = match grounds {
+        Some(grounds) => grounds.iter().map(ground_of).collect::<PyResult<Vec<_>>>()?,
+        None => usual_grounds(&usual)?,
+    };
+    let scalings = scalings.iter().map(|name| scaling_of(name)).collect::<PyResult<Vec<_>>>()?;
+    let ratio = usual.heading.gravity / usual.measured_under;
+    let mass = |text: &String| {
+        words::mass_of(text, ratio).map_err(|why| {
+            errors::parameter(format!("mass: {why}"), "mass", None, words::MASSES.join(", "))
+        })
+    };
+    let masses = masses.iter().map(mass).collect::<PyResult<Vec<_>>>()?;
+    let rim_speed = rim_speed_m_s.unwrap_or(usual.rim_speed);
+    check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
+    let choices = Choices { scalings, grounds, masses };
+    let study = ForecastStudy { rim_speed, choices, samples: counts, seed, ..usual };
+    let band = BandInputs::of_scenario(scenario);
+    let notes = words::notes(&study, scenario, measured_gravity_m_s2.is_some());
+    let found = listening(py, move |cancelled| {
+        study.run(&band, &slopes, &|| !cancelled.is_set()).map_err(|error| match error {
+            ForecastError::Parameter(error) => Problem::Parameter(error),
+            ForecastError::NothingAccepted(error) => Problem::Sampling(error),
+        })
+    })?;
+    let dict = PyDict::new(py);
+    let Some(found) = found.map_err(|problem| problem.raised())? else { return Ok(dict) };
+    use columns::forecast as tables;
+    dict.set_item("rows", table_to_python(py, tables::table(&found))?)?;
+    dict.set_item("steepest", record_to_python(py, &tables::steepest(&found).row(0))?)?;
+    dict.set_item("budget", table_to_python(py, tables::budget(&found))?)?;
+    dict.set_item("choices", table_to_python(py, tables::choices(&found))?)?;
+    dict.set_item("tests", table_to_python(py, tables::tests(&found))?)?;
+    dict.set_item("notes", notes)?;
+    Ok(dict)
+}
+
+fn ground_of((name, soil): &(String, Option<PyRef<'_, Document>>)) -> PyResult<Ground> {
+    match soil {
+        Some(soil) => Ok(Ground::of_soil(name, soil.soil()?)),
+        None => Ok(Ground::AsMeasured),
+    }
+}
+
+fn usual_grounds(study: &ForecastStudy) -> PyResult<Vec<Ground>> {
+    let ground = |name: &&str| {
+        if *name == words::AS_MEASURED {
+            return Ok(Ground::AsMeasured);
+        }
+        let soil = document::Source::find(Kind::Soil, name)
+            .and_then(|source| document::read_soil(&source, &document::Overrides::none()));
+        soil.map(|soil| Ground::of_soil(name, &soil))
+            .map_err(|error| errors::of_document(&error, &[]))
+    };
+    words::usual_grounds(study).iter().map(ground).collect()
+}
+
+fn scaling_of(name: &str) -> PyResult<GravityScaling> {
+    words::scaling_of(name).ok_or_else(|| {
+        let known = GravityScaling::ALL.map(GravityScaling::name).join(", ");
+        let message = format!("scaling has {name:?}, it must be of {known}");
+        errors::parameter(message, "scaling", None, known)
+    })
 }
 
 /// How many samples may be asked for.

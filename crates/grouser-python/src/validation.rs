@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use grouser::document::columns::{fit, slope};
-use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
+use grouser::document::measurements::{Choice, Condition, Limits, Measurements};
 use grouser::document::ranking::{RankingError, rank_all};
 use grouser::document::validation::{GroupRecord, ReferenceRecord, SlopeErrorsRecord};
 use grouser::studies::heading::HeadingStudy;
@@ -16,6 +16,7 @@ use serde::Serialize;
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
+use crate::measurements::Data;
 use crate::wheels::model_and_gravity;
 use crate::{errors, values};
 
@@ -27,7 +28,7 @@ use crate::{errors, values};
 #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
 pub(crate) fn validate<'py>(
     py: Python<'py>,
-    data: PathBuf,
+    data: Data,
     soil: &Document,
     wheel: &Document,
     setting: &Document,
@@ -38,9 +39,9 @@ pub(crate) fn validate<'py>(
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
     let (theory, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
-    let file = data.display().to_string();
+    let file = data.label();
     let found = listening(py, move |_| {
-        let measured = measurements::Source::find(&data)?.read(&choice)?;
+        let measured = data.source()?.read(&choice)?;
         let study = ValidationStudy { tests: &measured.tests, wheel, soil, theory, gravity };
         let validation = study.run();
         Ok((measured, validation))
@@ -84,16 +85,16 @@ pub(crate) fn validation_to_python<'py>(
 #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
 pub(crate) fn validate_slopes<'py>(
     py: Python<'py>,
-    data: PathBuf,
+    data: Data,
     scenario: &Document,
     conditions: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, ..Choice::default() };
     let scenario = scenario.scenario()?.value.clone();
-    let file = data.display().to_string();
+    let file = data.label();
     let found = listening(py, move |_| {
-        let source = measurements::Source::find(&data).map_err(RankingError::from)?;
+        let source = data.source().map_err(RankingError::from)?;
         let tests = source.read_slopes(&choice, &scenario.rover).map_err(RankingError::from)?;
         let heading = HeadingStudy::of(&scenario);
         let validation = SlopeValidationStudy { tests: &tests, heading: &heading }.run()?;

@@ -17,9 +17,8 @@ use grouser::document::escape;
 use grouser::document::table::{Row, Table};
 use grouser::simulation::Approach;
 use grouser::studies::card::drives::{CardDrives, RowDrives};
-use grouser::studies::card::{Card, CardStudy};
+use grouser::studies::card::{Card, CardStudy, Side};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::heading::HeadingStudy;
 use grouser_page::{Sheet, markup, pdf_of};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -91,13 +90,9 @@ fn samples(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Sample>, Failure>
 }
 
 fn study(args: &CardArgs, inputs: &CardInputs) -> CardStudy {
-    let mut heading = HeadingStudy::of(&inputs.scenario.value);
-    if args.uphill == SideChoice::Right {
-        heading.rover = heading.rover.mirrored();
-    }
-    let is_uncertainty_stated = inputs.scenario.stated_uncertainty().is_some();
+    let uphill = if args.uphill == SideChoice::Right { Side::Right } else { Side::Left };
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    CardStudy { heading, rim_speed, rule, is_uncertainty_stated }
+    CardStudy { rim_speed, rule, ..CardStudy::of(&inputs.scenario, uphill) }
 }
 
 fn compute(

@@ -6,9 +6,8 @@ mod page;
 mod tables;
 
 use grouser::document::columns::SLOPE;
-use grouser::document::forecast::BEKKER_IS_CARRIED;
+use grouser::document::forecast::notes;
 use grouser::document::table::{Row, Table};
-use grouser::soil::GravityScaling;
 use grouser::studies::forecast::{Forecast, ForecastError, Ground};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -43,7 +42,7 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
     let tables = Tables::of(&forecast);
     let flags = forecast.slopes.iter().map(|slope| &*slope.findings);
     strict::check(&args.strict, flags, &tables.rows, &[SLOPE.name])?;
-    let notes = notes(&inputs);
+    let notes = notes(study, &inputs.scenario, inputs.is_measured_under_stated);
     let answer = Answer::new("forecast", settings(args, &inputs), results(&tables, &notes));
     if let Some(mut folder) = folder {
         write(&mut folder, &inputs, &forecast, &tables, &notes)?;
@@ -60,33 +59,6 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
 fn results<'a>(tables: &'a Tables, notes: &'a [String]) -> Results<'a> {
     let Tables { rows, limit, budget, choices, tests } = tables;
     Results { steepest: limit.row(0), rows, budget, choices, tests, notes }
-}
-
-/// What has to be said beside the numbers.
-fn notes(inputs: &ForecastInputs) -> Vec<String> {
-    let study = &inputs.study;
-    let (gravity, measured) = (study.heading.gravity, study.measured_under);
-    let source = if inputs.is_measured_under_stated { "" } else { ", which is assumed" };
-    let mut notes = vec![format!(
-        "the soil was measured under {measured} m/s²{source}; the site has {gravity} m/s²"
-    )];
-    if gravity != measured && study.choices.scalings.contains(&GravityScaling::Bekker) {
-        notes.push(BEKKER_IS_CARRIED.to_owned());
-    }
-    if inputs.scenario.stated_uncertainty().is_none() {
-        notes.push(match &inputs.scenario.uncertain {
-            Some(_) => {
-                "no uncertainty of this soil is stated: its samples are of priors".to_owned()
-            }
-            None => {
-                "nothing of this soil is uncertain: the budget has no part of its numbers, and \
-                     none of what a model gets wrong"
-                    .to_owned()
-            }
-        });
-    }
-    notes.push("power is mechanical: motors and their losses come on top".to_owned());
-    notes
 }
 
 #[derive(Serialize)]

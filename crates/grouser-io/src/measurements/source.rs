@@ -26,6 +26,13 @@ pub enum Source {
     },
     /// A CSV file.
     File(PathBuf),
+    /// A CSV text that is in no file.
+    Text {
+        /// What messages call it.
+        label: String,
+        /// The text.
+        rows: String,
+    },
 }
 
 impl Source {
@@ -62,6 +69,7 @@ impl Source {
         match self {
             Self::Preset { name, .. } => format!("preset {name}"),
             Self::File(path) => escape::path(path),
+            Self::Text { label, .. } => label.clone(),
         }
     }
 
@@ -91,10 +99,11 @@ impl Source {
     ///
     /// # Errors
     /// [`MeasurementError`] for a file that cannot be read, or is too large.
-    pub fn bytes(&self, limits: Limits) -> Result<Cow<'static, [u8]>, MeasurementError> {
+    pub fn bytes(&self, limits: Limits) -> Result<Cow<'_, [u8]>, MeasurementError> {
         match self {
             Self::Preset { rows, .. } => Ok(Cow::Borrowed(rows.as_bytes())),
             Self::File(path) => read_bytes(path, limits).map(Cow::Owned),
+            Self::Text { rows, .. } => Ok(Cow::Borrowed(rows.as_bytes())),
         }
     }
 }

@@ -3,7 +3,9 @@
 `Soil`, `Wheel`, `Rover`, `Site` and `Scenario` describe the inputs. `settle` and `wheel_forces`
 compute the forces of the soil on wheels, for whole arrays. `simulate`, `rollout`, `heading` and
 `heading_map` compute the motion of a rover, `wheel_test` simulates a wheel on a test stand, and
-`validate` and `calibrate` compare models with measurements. `Run` and ``grouser.gym``, which is
+`validate` and `calibrate` compare models with measurements, which `import_wheel_tests` converts.
+`card` is the operator's card, `forecast` predicts under another gravity, and `check` checks
+documents. `Run` and ``grouser.gym``, which is
 imported by itself, are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte
 Carlo campaigns, on one machine or on many.
 
@@ -43,8 +45,11 @@ from ._errors import (
     SimulationError,
 )
 from ._card import Card, CardCourses, card
+from ._check import Checked, check
+from ._forecast import Forecast, forecast
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
+from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._rollouts import Rollout, rollout
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, TraverseBand, simulate
@@ -74,15 +79,18 @@ __all__ = [
     "CampaignNotFoundError",
     "Card",
     "CardCourses",
+    "Checked",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
     "FLAGS",
+    "Forecast",
     "GrouserError",
     "HeadingBand",
     "HeadingMap",
     "HeadingMapBand",
     "Headings",
+    "ImportedWheelTests",
     "OutsideDomainError",
     "ParameterError",
     "Ranking",
@@ -108,8 +116,11 @@ __all__ = [
     "calibrate_plates",
     "campaign",
     "card",
+    "check",
+    "forecast",
     "heading",
     "heading_map",
+    "import_wheel_tests",
     "require_inside",
     "rollout",
     "settle",

@@ -14,6 +14,7 @@ from . import _core, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
 from ._errors import ParameterError
+from ._measurements import Data, rows_of
 from ._studies import soil_of
 from ._validation import Validation, validation_of
 from ._wheels import setting
@@ -266,7 +267,7 @@ def _corner_cell(axes: Axes, y: Floats, x: Floats, place: tuple[int, int]) -> No
 
 
 def calibrate(
-    data: str | os.PathLike[str],
+    data: Data,
     soil: Soil | Source,
     wheel: Wheel | Source,
     *,
@@ -285,7 +286,7 @@ def calibrate(
     candidate_slip_ratio: ArrayLike = (-0.6, -0.3, 0.0, 0.3, 0.6, 0.9),
     candidate_slip_angle_deg: ArrayLike = (0.0, 15.0, 30.0, 45.0),
 ) -> Calibration:
-    """Fits numbers of a soil to a file of measured wheel tests: bounded least squares from several
+    """Fits numbers of a soil to measured wheel tests: bounded least squares from several
     starts, then an affine-invariant ensemble sampler. Results equal the program's, bit for bit.
 
     Parameters
@@ -331,17 +332,12 @@ def calibrate(
 
     Examples
     --------
-    >>> import os, tempfile
     >>> import grouser as gr
-    >>> test = gr.wheel_test(load_n=20, slip_ratio=[0.0, 0.2, 0.4, 0.6], trials=3)
-    >>> folder = tempfile.TemporaryDirectory()
-    >>> file = os.path.join(folder.name, "test.csv")
-    >>> test.to_pandas().to_csv(file, index=False)
+    >>> test = gr.wheel_test(load_n=20, slip_ratio=[0.0, 0.2, 0.4, 0.6], trials=3).to_pandas()
     >>> start = gr.Soil("toyoura", shear={"longitudinal_m": 0.1})
-    >>> found = gr.calibrate(file, start, "hakuto", fit="shear.longitudinal_m", point_fit=True)
+    >>> found = gr.calibrate(test, start, "hakuto", fit="shear.longitudinal_m", point_fit=True)
     >>> found.outcome, bool(abs(found.fit[0] - 0.036) < 4 * found.fit_std[0])
     ('determined', True)
-    >>> folder.cleanup()
     """
     if wheel_label is None and isinstance(wheel, (str, os.PathLike)):
         wheel_label = os.fspath(wheel)
@@ -359,7 +355,7 @@ def calibrate(
         line("candidate_slip_angle_deg", candidate_slip_angle_deg).tolist(),
     )
     found = _core.calibrate_wheel_tests(
-        os.fspath(data),
+        rows_of(data),
         soil_of(soil)._document,
         wheel._document,
         setting(gravity_m_s2, model)._document,
@@ -382,7 +378,7 @@ def calibrate(
 
 
 def calibrate_plates(
-    data: str | os.PathLike[str],
+    data: Data,
     soil: Soil | Source,
     *,
     plate_law: str | None = None,
@@ -396,8 +392,8 @@ def calibrate_plates(
 
     Parameters
     ----------
-    data : str or path
-        A CSV file with ``plate_width_mm``, ``sinkage_mm`` and ``pressure_kpa``.
+    data : str, path or table
+        A CSV file, or a table as for `validate`, with ``plate_width_mm``, ``sinkage_mm`` and ``pressure_kpa``.
     soil : Soil, name, path or mapping
         The soil, for all other values.
     plate_law : {"bekker", "reece"}, optional
@@ -420,7 +416,7 @@ def calibrate_plates(
         given = type(plate_law).__name__
         raise ParameterError(f"plate_law is of type {given}, it must be a name", "plate_law")
     found = _core.calibrate_plate_tests(
-        os.fspath(data),
+        rows_of(data),
         soil_of(soil)._document,
         setting(gravity_m_s2, None)._document,
         plate_law,

@@ -109,12 +109,7 @@ _SHOWN = (
 )
 
 #: The limits of a rule, as the program has them without flags.
-_RULE = {
-    "go_slip_ratio": 0.3,
-    "go_probability": 0.95,
-    "no_go_slip_ratio": 0.6,
-    "no_go_probability": 0.8,
-}
+_RULE: dict[str, float] = _core.card_rule()
 
 
 def card(
@@ -192,16 +187,8 @@ def card(
     rows, courses, steepest = _core.card(
         run._document, slopes, draws, speed, uphill == "right", limits
     )
-    rows, courses = _arrays_of(rows), _arrays_of(courses)
+    rows, courses = _tables.arrays_of(rows), _tables.arrays_of(courses)
     of_course = ("slope_deg", "course", "verdict")
     second = CardCourses(**{name: courses[name] for name in of_course}, columns=courses)
     first = {name: rows[name] for name in _SHOWN}
     return Card(**first, columns=rows, courses=second, steepest=steepest)
-
-
-def _arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
-    """Columns as arrays, of objects where they are texts."""
-    return {
-        name: values if isinstance(values, np.ndarray) else np.array(values, dtype=object)
-        for name, values in table.items()
-    }

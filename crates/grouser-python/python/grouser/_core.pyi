@@ -31,15 +31,20 @@ __all__ = [
     "campaign_shard",
     "campaign_summary",
     "card",
+    "card_rule",
+    "check_document",
     "check_shard",
     "find_campaign",
     "find_document",
     "flag_names",
     "flags",
+    "forecast",
+    "gravity_of",
     "heading",
     "heading_band",
     "heading_map",
     "heading_map_band",
+    "import_wheel_tests",
     "merge_campaign",
     "most_shard_bytes",
     "not_carried",
@@ -74,6 +79,7 @@ SINKAGE_DAMPING_S_M: float
 REST_SPEED_M_S: float
 
 _Floats = NDArray[np.float64]
+_Data = str | os.PathLike[str] | tuple[str, str]
 
 @final
 class Document:
@@ -173,6 +179,17 @@ def read_document_text(
 def read_document_table(
     kind: str, label: str, table: dict[str, Any], changes: dict[str, Any], files: dict[str, str]
 ) -> Document: ...
+def check_document(
+    name: str | os.PathLike[str], text: str | None
+) -> tuple[str, list[tuple[str, float | None, str]], list[str]]: ...
+def import_wheel_tests(
+    file: str | os.PathLike[str],
+    columns: Sequence[str],
+    delimiter: str,
+    decimal_comma: bool,
+    skip_lines: int,
+    slip_definition: str,
+) -> tuple[str, list[str], list[str]]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(
@@ -216,6 +233,17 @@ def card(
     is_uphill_right: bool,
     rule: Sequence[float],
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]: ...
+def card_rule() -> dict[str, float]: ...
+def gravity_of(text: str) -> float | None: ...
+def forecast(
+    scenario: Document,
+    slope_deg: _Floats,
+    measured_gravity_m_s2: float | None,
+    choices: tuple[Sequence[tuple[str, Document | None]] | None, Sequence[str], Sequence[str]],
+    rim_speed_m_s: float | None,
+    counts: Sequence[int],
+    seed: int,
+) -> dict[str, Any]: ...
 def heading(
     scenario: Document, slope_deg: _Floats
 ) -> tuple[dict[str, Any], float | None, str, str | None]: ...
@@ -257,7 +285,7 @@ def simulate_band(
     scenario: Document, seed: int, samples: int
 ) -> tuple[dict[str, Any], dict[str, Any]]: ...
 def validate(
-    data: str | os.PathLike[str],
+    data: _Data,
     soil: Document,
     wheel: Document,
     setting: Document,
@@ -265,11 +293,11 @@ def validate(
     conditions: Sequence[str],
 ) -> dict[str, Any]: ...
 def validate_slopes(
-    data: str | os.PathLike[str], scenario: Document, conditions: Sequence[str]
+    data: _Data, scenario: Document, conditions: Sequence[str]
 ) -> dict[str, Any]: ...
 def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
 def calibrate_wheel_tests(
-    data: str | os.PathLike[str],
+    data: _Data,
     soil: Document,
     wheel: Document,
     setting: Document,
@@ -282,7 +310,7 @@ def calibrate_wheel_tests(
     cross_validate: bool,
 ) -> dict[str, Any]: ...
 def calibrate_plate_tests(
-    data: str | os.PathLike[str],
+    data: _Data,
     soil: Document,
     setting: Document,
     law: str | None,

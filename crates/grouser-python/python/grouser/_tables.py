@@ -27,6 +27,14 @@ def unit_of(name: str) -> str:
     return _core.unit_of(name) or "1"
 
 
+def arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """Columns as arrays, of objects where they are texts."""
+    return {
+        name: values if isinstance(values, np.ndarray) else np.array(values, dtype=object)
+        for name, values in table.items()
+    }
+
+
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
     """A variable for xarray, with its unit where it is a number."""
     array = np.asarray(values)

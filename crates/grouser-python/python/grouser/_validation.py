@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core, _tables
 from ._descriptions import Rover, Soil, Source, Wheel
+from ._measurements import Data, rows_of
 from ._studies import scenario_of
 from ._wheels import setting
 
@@ -76,7 +77,7 @@ class Validation(_tables.Tabular):
 
 
 def validate(
-    data: str | os.PathLike[str],
+    data: Data,
     soil: Soil | Source,
     wheel: Wheel | Source,
     *,
@@ -85,13 +86,15 @@ def validate(
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     model: str | None = None,
 ) -> Validation:
-    """Compares a wheel–soil model with a file of measured wheel tests.
+    """Compares a wheel–soil model with measured wheel tests, from a file or a table.
 
     Parameters
     ----------
-    data : str or path
-        A data set that comes with Grouser, such as ``"cmu-single-wheel"``, or a CSV file in the
-        layout of ``docs/guide/data.md``.
+    data : str, path or table
+        A data set that comes with Grouser, such as ``"cmu-single-wheel"``; a CSV file in the layout
+        of ``docs/guide/data.md``; or a table with the same columns: a DataFrame of pandas or
+        polars, a table of Arrow, or a mapping of columns. NaN and None are missing cells. Messages
+        count the lines of a table as those of a file: line 1 is the header.
     soil, wheel, gravity_m_s2, model
         As for `settle`; one soil.
     where : sequence of str
@@ -118,7 +121,7 @@ def validate(
     stand = setting(gravity_m_s2, model)
     conditions = [where] if isinstance(where, str) else list(where)
     documents = (soil._document, wheel._document, stand._document)
-    found = _core.validate(os.fspath(data), *documents, wheel_label, conditions)
+    found = _core.validate(rows_of(data), *documents, wheel_label, conditions)
     return validation_of(found)
 
 
@@ -171,7 +174,7 @@ class SlopeValidation(_tables.Tabular):
 
 
 def validate_slopes(
-    data: str | os.PathLike[str],
+    data: Data,
     soil: Soil | Source,
     rover: Rover | Source,
     *,
@@ -182,9 +185,9 @@ def validate_slopes(
 
     Parameters
     ----------
-    data : str or path
-        A data set that comes with Grouser, such as ``"viper-slip-slope"``, or a CSV file in the
-        layout of ``docs/guide/data.md``.
+    data : str, path or table
+        A data set that comes with Grouser, such as ``"viper-slip-slope"``, a CSV file in the layout
+        of ``docs/guide/data.md``, or a table with the same columns, as for `validate`.
     soil, rover
         The soil, and the rover that was driven.
     where : sequence of str
@@ -205,7 +208,7 @@ def validate_slopes(
     """
     scenario = scenario_of(None, {"soil": soil, "rover": rover, **changes})
     conditions = [where] if isinstance(where, str) else list(where)
-    found = _core.validate_slopes(os.fspath(data), scenario._document, conditions)
+    found = _core.validate_slopes(rows_of(data), scenario._document, conditions)
     found["yardsticks"], found["notes"] = tuple(found["yardsticks"]), tuple(found["notes"])
     return SlopeValidation(**found)
 

@@ -2,9 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use super::{GRAVITIES, gravity};
+use super::{GRAVITIES, LoadedScenario, gravity};
 use crate::soil::{GravityScaling, Soil};
-use crate::studies::forecast::RoverMass;
+use crate::studies::forecast::{Choices, ForecastStudy, RoverMass};
+use crate::studies::heading::HeadingStudy;
+use crate::units::EARTH_GRAVITY;
 
 /// Mass factors that a rover may have [-].
 pub const MASS_FACTOR: RangeInclusive<f64> = 1e-3..=1e3;
@@ -35,6 +37,76 @@ pub fn sites() -> Vec<Site> {
         grounds: if name == "moon" { &OF_THE_MOON } else { &[] },
     };
     GRAVITIES.into_iter().map(site).collect()
+}
+
+/// How many samples of the soil a forecast may have.
+pub const SAMPLES: RangeInclusive<u32> = 2..=10_000;
+/// How many of what a model gets wrong.
+pub const DISCREPANCIES: RangeInclusive<u32> = 2..=1000;
+
+/// The study of a scenario whose gravity is that of the site: with every scaling, on the soil as measured, for the
+/// rover's own mass, over 12 samples of the soil and 4 of what a model gets wrong.
+///
+/// * `measured_under`: gravity under which the soil was measured [m/s²]; `None` for that of its document, or else the
+///   Earth's
+#[must_use]
+pub fn study_of(scenario: &LoadedScenario, measured_under: Option<f64>) -> ForecastStudy {
+    let heading = HeadingStudy::of(&scenario.value);
+    let stated = measured_under.or_else(|| self::measured_under(&heading.soil));
+    ForecastStudy {
+        measured_under: stated.unwrap_or(EARTH_GRAVITY),
+        heading,
+        rim_speed: scenario.value.drive.nominal_rim_speed(),
+        choices: Choices::of_scalings(GravityScaling::ALL),
+        samples: [12, 4],
+        seed: 1,
+    }
+}
+
+/// What the ground may be if nobody says so: the soil as measured and, where it was measured under another gravity,
+/// what is known of the site.
+#[must_use]
+pub fn usual_grounds(study: &ForecastStudy) -> Vec<&'static str> {
+    let gravity = study.heading.gravity;
+    let is_away = gravity != study.measured_under;
+    let site = sites().into_iter().find(|site| site.gravity == gravity && is_away);
+    let known = site.map_or(&[][..], |site| site.grounds);
+    [AS_MEASURED].iter().chain(known).copied().collect()
+}
+
+/// What has to be said beside the numbers, a sentence each.
+///
+/// * `scenario`: that of the study
+/// * `is_measured_under_stated`: whether the caller says under which gravity the soil was measured
+#[must_use]
+pub fn notes(
+    study: &ForecastStudy,
+    scenario: &LoadedScenario,
+    is_measured_under_stated: bool,
+) -> Vec<String> {
+    let (gravity, measured) = (study.heading.gravity, study.measured_under);
+    let is_known = is_measured_under_stated || measured_under(&study.heading.soil).is_some();
+    let source = if is_known { "" } else { ", which is assumed" };
+    let mut notes = vec![format!(
+        "the soil was measured under {measured} m/s²{source}; the site has {gravity} m/s²"
+    )];
+    if gravity != measured && study.choices.scalings.contains(&GravityScaling::Bekker) {
+        notes.push(BEKKER_IS_CARRIED.to_owned());
+    }
+    if scenario.stated_uncertainty().is_none() {
+        notes.push(match &scenario.uncertain {
+            Some(_) => {
+                "no uncertainty of this soil is stated: its samples are of priors".to_owned()
+            }
+            None => {
+                "nothing of this soil is uncertain: the budget has no part of its numbers, and \
+                     none of what a model gets wrong"
+                    .to_owned()
+            }
+        });
+    }
+    notes.push("power is mechanical: motors and their losses come on top".to_owned());
+    notes
 }
 
 /// The name of the soil itself among grounds.

@@ -12,6 +12,8 @@ pub mod drives;
 mod rule;
 mod slip_check;
 
+use grouser_io::LoadedScenario;
+
 use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
@@ -36,6 +38,15 @@ pub struct CardStudy {
     pub rule: Rule,
     /// Whether the soil's document states its uncertainty; priors do not count. If not, no slope is a go.
     pub is_uncertainty_stated: bool,
+}
+
+/// A side of the rover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The left one, as in the paper.
+    Left,
+    /// The right one.
+    Right,
 }
 
 /// The card's numbers.
@@ -116,6 +127,23 @@ struct Draw {
 }
 
 impl CardStudy {
+    /// The study of a scenario, with its rim speed and [`Rule::DEFAULT`].
+    ///
+    /// * `uphill`: the side of the rover that is uphill
+    #[must_use]
+    pub fn of(scenario: &LoadedScenario, uphill: Side) -> Self {
+        let mut heading = HeadingStudy::of(&scenario.value);
+        if uphill == Side::Right {
+            heading.rover = heading.rover.mirrored();
+        }
+        Self {
+            heading,
+            rim_speed: scenario.value.drive.nominal_rim_speed(),
+            rule: Rule::DEFAULT,
+            is_uncertainty_stated: scenario.stated_uncertainty().is_some(),
+        }
+    }
+
     /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among threads and keep
     /// their order: the result is the same for any number of threads.
     ///
@@ -123,14 +151,11 @@ impl CardStudy {
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
-    /// use grouser::studies::heading::HeadingStudy;
-    /// use grouser::studies::card::{CardStudy, Rule, Verdict};
+    /// use grouser::studies::card::{CardStudy, Side, Verdict};
     /// use grouser::units::deg;
     ///
-    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-    /// let heading = HeadingStudy::of(&scenario);
-    /// let rule = Rule::DEFAULT;
-    /// let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
+    /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
+    /// let study = CardStudy { is_uncertainty_stated: true, ..CardStudy::of(&scenario, Side::Left) };
     /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| true)?.expect("not stopped");
     /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::Caution]);
