@@ -72,14 +72,16 @@ html_show_sourcelink = False
 html_copy_source = False
 html_theme_options = {
     "navbar_end": ["theme-switcher"],
-    "header_links_before_dropdown": 7,
+    "header_links_before_dropdown": 6,
     "navigation_with_keys": False,
-    "show_prev_next": False,
     "show_toc_level": 2,
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": ["page-toc", "notebook.html"],
     "footer_start": ["copyright"],
     "footer_end": [],
-    "pygments_light_style": "tango",
-    "pygments_dark_style": "monokai",
+    # Colours with enough contrast.
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+    # Without the buttons that unfold parts of it, which have no name that is read out.
+    "collapse_navigation": True,
 }
-html_sidebars = {"index": [], "start": [], "trust": [], "credibility": [], "validation": [], "performance": []}
+html_sidebars = {"index": [], "gallery": []}

@@ -11,8 +11,8 @@ use anyhow::{Context, Result};
 use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{
-    count, cpu, crates, figures, fuzz, packages, python, rustdoc, schema, texts, tools, wasm,
-    workflows, workspace,
+    count, cpu, crates, figures, fuzz, packages, pages, python, rustdoc, schema, texts, tools,
+    wasm, workflows, workspace,
 };
 
 /// A step that was taken.
@@ -69,6 +69,7 @@ pub(crate) fn run(extent: Extent) -> bool {
     steps.push(step("python", || python::check(extent)));
     steps.push(step("workflows", || workflows::check().map(Count::one)));
     steps.extend([site.end(), instructions.end()]);
+    steps.push(step("pages", pages::check));
     let mut total = Count::default();
     let heads = ["passed", "failed", "skipped"].map(|head| format!(" {head:>7}")).concat();
     println!("\n{:<14}{heads} {:>9} {:>9}", "step", "seconds", "CPU s");

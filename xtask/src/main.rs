@@ -20,6 +20,7 @@ mod links;
 mod markdown;
 mod markers;
 mod packages;
+mod pages;
 mod python;
 mod requirements;
 mod rustdoc;
@@ -51,6 +52,8 @@ cargo xtask CHORE
                       --lowest with the lowest versions of all that it requires
   site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is
                       with the Python package that is installed already
+  pages               look at the site of `cargo xtask site`, and at reports, in Chromium: at two widths,
+                      light and dark
   python-times        measure what Python costs, and write it into docs/performance.md
   count [--check | --build]
                       count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
@@ -99,6 +102,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["packages"] => good(packages::check(extent::Extent::Usual)?),
         ["packages", "--full"] => good(packages::check(extent::Extent::Full)?),
         ["python"] => good(python::check(extent::Extent::Usual)?),
+        ["pages"] => good(pages::check()?),
         ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build(&python::installed()?)?),
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),

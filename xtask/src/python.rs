@@ -20,7 +20,7 @@ use crate::{markers, workspace};
 const PACKAGE: &str = "crates/grouser-python";
 
 /// What builds the site, besides what tests the package.
-const SITE: [&str; 9] = [
+const SITE: [&str; 10] = [
     "sphinx>=8.1,<10",
     "myst-nb>=1.3,<2",
     "pydata-sphinx-theme>=0.16,<1",
@@ -31,7 +31,12 @@ const SITE: [&str; 9] = [
     "sphinxcontrib-katex>=0.9.10,<1",
     "dukpy>=0.5,<1",
     "ziamath>=0.12",
+    // What a notebook shows besides Dask.
+    "joblib>=1.3",
 ];
+
+/// What looks at the site: a driver of browsers, and the rules of accessibility.
+const LOOKING: [&str; 2] = ["playwright>=1.45,<2", "axe-playwright-python>=0.1.4"];
 
 /// What builds and tests the package besides what it requires itself, by name: where from is for pip's
 /// own settings to say.
@@ -131,6 +136,7 @@ fn make_environment() -> Result<PathBuf> {
     needed.extend([BUILDING, TYPES, YAML, CITATION].map(String::from));
     needed.extend(TESTING.map(String::from));
     needed.extend(SITE.map(String::from));
+    needed.extend(LOOKING.map(String::from));
     install(&python, &needed)?;
     Ok(python)
 }

@@ -20,6 +20,9 @@ pub(crate) struct SystemTool {
     found: fn() -> bool,
 }
 
+/// All of them.
+const ALL: [SystemTool; 3] = [VALGRIND, RENDERER, CHROMIUM];
+
 /// What counts instructions.
 pub(crate) const VALGRIND: SystemTool = SystemTool {
     name: "valgrind",
@@ -41,6 +44,21 @@ pub(crate) const RENDERER: SystemTool = SystemTool {
             })
     },
 };
+
+/// What shows pages as their readers see them.
+pub(crate) const CHROMIUM: SystemTool = SystemTool {
+    name: "Chromium",
+    packages: &["chromium", "fonts-dejavu-core"],
+    checks: "the looks at pages in a browser",
+    found: || browser().is_some(),
+};
+
+/// The program of that browser; some systems name it otherwise.
+pub(crate) fn browser() -> Option<&'static str> {
+    // The driver of browsers starts it by its path, as Linux has it.
+    let paths = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+    paths.into_iter().find(|path| std::path::Path::new(path).exists())
+}
 
 impl SystemTool {
     /// Whether the system has it.
@@ -65,9 +83,9 @@ pub(crate) fn check() -> Count {
     let ours = is_ci(std::env::var("CI").ok().as_deref());
     let missing = |tool: &&SystemTool| !tool.is_here();
     if ours {
-        install([VALGRIND, RENDERER].iter().filter(missing));
+        install(ALL.iter().filter(missing));
     }
-    for tool in [VALGRIND, RENDERER] {
+    for tool in ALL {
         let here = tool.is_here();
         println!("{}", if here { format!("{}: found", tool.name) } else { tool.missing() });
         // Elsewhere the checks that need it count themselves as skipped.

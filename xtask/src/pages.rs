@@ -1,0 +1,118 @@
+//! The site and the reports as their readers see them: in Chromium, at two widths, light and dark.
+//!
+//! Pages must not be wider than the window, nor clip text, nor ask other hosts; their scripts must run without
+//! an error, their links lead somewhere, and axe must find no serious violation of accessibility.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, ensure};
+
+use crate::libtest::Count;
+use crate::tools::{self, CHROMIUM};
+use crate::{python, workspace};
+
+/// What looks at the pages, in the language whose driver of browsers is at hand.
+const LOOKER: &str = include_str!("pages.py");
+
+/// The site's pages that are looked at: one of each kind, and those with the widest contents.
+const PAGES: [&str; 28] = [
+    "index.html",
+    "start.html",
+    "tutorials/index.html",
+    "tutorials/driver.html",
+    "tutorials/own-rover.html",
+    "notebooks/heading.html",
+    "notebooks/wheel-test.html",
+    "notebooks/mujoco.html",
+    "guide/index.html",
+    "guide/first-run.html",
+    "guide/card.html",
+    "guide/forecast.html",
+    "models/index.html",
+    "models/rover.html",
+    "models/small-wheel.html",
+    "equations.html",
+    "conventions.html",
+    "glossary.html",
+    "bibliography.html",
+    "trust.html",
+    "validation.html",
+    "gallery.html",
+    "reference/index.html",
+    "reference/generated/python/grouser.heading.html",
+    "reference/generated/python/grouser.Soil.html",
+    "reference/generated/program/traverse.html",
+    "reference/generated/documents/soil.html",
+    "search.html",
+];
+
+/// What makes pages: the name of the page among those looked at, and the command, whose folder or file comes
+/// last.
+const REPORTS: [(&str, &[&str]); 3] = [
+    ("reproduce/report.html", &["reproduce", "--samples", "2", "--out", "reproduce"]),
+    (
+        "forecast.html",
+        &["forecast", "--soil", "toyoura", "--samples", "8", "--out", "forecast.html"],
+    ),
+    (
+        "card.html",
+        &["card", "--soil", "toyoura-uncertain", "--samples", "16", "--out", "card.html"],
+    ),
+];
+
+/// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a browser all
+/// count as skipped.
+pub(crate) fn check() -> Result<Count> {
+    let Some(browser) = tools::browser() else {
+        println!("{}", CHROMIUM.missing());
+        return Ok(Count::skipped());
+    };
+    let python = python::environment()?;
+    let site = workspace::target().join("site");
+    ensure!(site.join("index.html").is_file(), "there is no site: cargo xtask site");
+    let mut count = looked_at(&python, browser, &site, &PAGES)?;
+    let (folder, pages) = reports()?;
+    count += looked_at(&python, browser, &folder, &pages)?;
+    Ok(count)
+}
+
+/// Makes the reports anew; their folder, and their names in it.
+fn reports() -> Result<(PathBuf, Vec<&'static str>)> {
+    let program = workspace::build_program()?;
+    let folder = workspace::target().join("reports");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).context("old reports")?;
+    }
+    fs::create_dir_all(&folder)?;
+    for (name, arguments) in REPORTS {
+        let mut make = Command::new(&program);
+        make.args(arguments).current_dir(&folder).stdin(Stdio::null()).stdout(Stdio::null());
+        let done = make.status().with_context(|| format!("making {name}"))?.success();
+        ensure!(done, "grouser {} failed", arguments.join(" "));
+    }
+    Ok((folder, REPORTS.map(|(name, _)| name).to_vec()))
+}
+
+fn looked_at(python: &Path, browser: &str, folder: &Path, pages: &[&str]) -> Result<Count> {
+    let script = workspace::target().join("xtask/pages.py");
+    fs::create_dir_all(script.parent().context("target")?)?;
+    // A file: its worker processes read it again.
+    fs::write(&script, LOOKER)?;
+    let axe = rules_of_axe(python)?;
+    let mut look = Command::new(python);
+    look.arg(script).arg(browser).arg(axe).arg(folder).args(pages);
+    let output = look.stdin(Stdio::null()).stderr(Stdio::inherit()).output()?;
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    print!("{printed}");
+    Ok(Count::of_closing_line(&printed))
+}
+
+/// The script of axe, in the package that has it.
+fn rules_of_axe(python: &Path) -> Result<String> {
+    let ask = "import pathlib, axe_playwright_python as a; print(pathlib.Path(a.__file__).parent / 'axe.min.js')";
+    let output = Command::new(python).args(["-c", ask]).output().context("Python did not start")?;
+    ensure!(output.status.success(), "axe-playwright-python is not installed");
+    Ok(String::from_utf8(output.stdout)?.trim().to_owned())
+}
