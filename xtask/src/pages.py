@@ -101,7 +101,9 @@ def looked_at(chromium, axe, folder, width, theme, pages):
                 lambda request, to=flaws: request.url.startswith((address, "data:", "blob:"))
                 or to.append(f"asks another host: {request.url}"),
             )
-            page.goto(f"{address}/{name}", wait_until="load")
+            answer = page.goto(f"{address}/{name}", wait_until="load")
+            if not answer.ok:
+                flaws.append(f"is not there: {answer.status}")
             flaws += page.evaluate(CLIPPED)
             if (width, theme) in AXE_VIEWS:
                 page.evaluate(script)

@@ -25,7 +25,7 @@ const PAGES: [&str; 28] = [
     "tutorials/own-rover.html",
     "notebooks/heading.html",
     "notebooks/wheel-test.html",
-    "notebooks/mujoco.html",
+    "notebooks/own-environment.html",
     "guide/index.html",
     "guide/first-run.html",
     "guide/card.html",
@@ -48,13 +48,12 @@ const PAGES: [&str; 28] = [
     "search.html",
 ];
 
-/// What makes pages: the name of the page among those looked at, and the command, whose folder or file comes
-/// last.
+/// What makes reports: the name of the page, and the command, whose folder or file comes last.
 const REPORTS: [(&str, &[&str]); 3] = [
     ("reproduce/report.html", &["reproduce", "--samples", "2", "--out", "reproduce"]),
     (
-        "forecast.html",
-        &["forecast", "--soil", "toyoura", "--samples", "8", "--out", "forecast.html"],
+        "forecast/forecast.html",
+        &["forecast", "--site", "moon", "--soil", "toyoura", "--samples", "8", "--out", "forecast"],
     ),
     (
         "card.html",

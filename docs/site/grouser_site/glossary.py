@@ -30,16 +30,15 @@ class FirstMentions(SphinxTransform):
         left = dict.fromkeys(self.app.config.glossary_terms)
         for paragraph in list(self.document.findall(nodes.paragraph)):
             for text in [node for node in paragraph.children if isinstance(node, nodes.Text)]:
-                pattern = "|".join(map(re.escape, left))
-                match = re.search(rf"\b({pattern})s?\b", text, flags=re.I) if pattern else None
+                # With a capital, Grouser is the software.
+                words = "|".join(f"(?-i:{term})" if term == "grouser" else re.escape(term) for term in left)
+                match = re.search(rf"\b({words})s?\b", text, flags=re.I) if words else None
                 if match:
-                    left.pop(match[1].lower(), None)
-                    text.parent.replace(text, [nodes.Text(text[: match.start()]), _link(match, name), nodes.Text(text[match.end() :])])
+                    left.pop(match[1].lower())
+                    before, after = text[: match.start()], text[match.end() :]
+                    text.parent.replace(text, [nodes.Text(before), _link(match, name), nodes.Text(after)])
 
 
 def _link(match: re.Match[str], name: str) -> nodes.Node:
-    reference = addnodes.pending_xref(
-        "", nodes.inline("", match[0]), refdoc=name, refdomain="std", reftype="term", reftarget=match[1].lower(), refexplicit=True, refwarn=True
-    )
-    reference["classes"].append("glossary-term")
-    return reference
+    term = {"refdomain": "std", "reftype": "term", "reftarget": match[1].lower()}
+    return addnodes.pending_xref("", nodes.inline("", match[0]), refdoc=name, refexplicit=True, refwarn=True, **term)
