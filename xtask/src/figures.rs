@@ -47,7 +47,7 @@ pub(crate) fn check() -> Result<bool> {
 struct MadeFile {
     /// From the root.
     path: String,
-    should: String,
+    should: Vec<u8>,
     /// Where it is something else, for people.
     differences: Vec<String>,
 }
@@ -102,9 +102,17 @@ fn made_files(measurements: Measurements) -> Result<Vec<MadeFile>> {
                 }
             }
         }
-        files.push(MadeFile { path, should, differences });
+        files.push(MadeFile { path, should: should.into_bytes(), differences });
     }
     Ok(files)
+}
+
+/// How a picture differs from what it should be.
+fn difference(is: &[u8], should: &[u8]) -> String {
+    match (str::from_utf8(is), str::from_utf8(should)) {
+        (Ok(is), Ok(should)) => diff::between(is, should),
+        _ => format!("its {} bytes should be {} others", is.len(), should.len()),
+    }
 }
 
 /// The file of a name in a folder or in one inside it.
@@ -144,9 +152,9 @@ impl Maker {
         let name = path.file_name().context("the image link names no file")?;
         let made = file_below(&self.folder(&block.arguments)?, name)?
             .with_context(|| format!("the command writes no file {}", name.display()))?;
-        let should = fs::read_to_string(&made)?;
-        let is = fs::read_to_string(workspace::root().join(&path)).unwrap_or_default();
-        let differences = if is == should { Vec::new() } else { vec![diff::between(&is, &should)] };
+        let should = fs::read(&made)?;
+        let is = fs::read(workspace::root().join(&path)).unwrap_or_default();
+        let differences = if is == should { Vec::new() } else { vec![difference(&is, &should)] };
         let path = path.display().to_string();
         Ok(MadeFile { path, should, differences })
     }

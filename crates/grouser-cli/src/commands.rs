@@ -1,5 +1,6 @@
 //! The commands, each in a module of its own.
 
+mod animation;
 pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod campaign;

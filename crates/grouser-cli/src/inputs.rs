@@ -46,10 +46,13 @@ impl From<MeasurementError> for Failure {
 /// The scenario of a traverse.
 ///
 /// * `setting`: those of the arguments, with one model
+/// * `yaw`: as `--yaw-deg` has it
 pub(crate) fn traverse(
     args: &TraverseArgs,
     setting: &SettingArgs,
+    yaw: Option<&str>,
 ) -> Result<LoadedScenario, Failure> {
+    let yaw = yaw.map(str::to_owned);
     let source = scenario_source("traverse", args.scenario.as_deref())?;
     let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
     scenario_settings(&mut overrides, setting, &args.balance)?;
@@ -67,7 +70,7 @@ pub(crate) fn traverse(
     }
     let numbers = [
         ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
-        ("--yaw-deg", yaw_key(args.yaw_deg.as_deref()), &args.yaw_deg),
+        ("--yaw-deg", yaw_key(yaw.as_deref()), &yaw),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
         (
             "--reference-slip-ratio",
@@ -93,9 +96,9 @@ pub(crate) fn traverse(
             overrides.flag_numbers(flag, key, value, &numbers)?;
         }
     }
-    if args.yaw_deg.is_some() {
+    if yaw.is_some() {
         // One yaw stands in place of the other.
-        let other = if is_course(args.yaw_deg.as_deref()) { START_YAW } else { COURSE_YAW };
+        let other = if is_course(yaw.as_deref()) { START_YAW } else { COURSE_YAW };
         overrides.leave_out(Kind::Scenario, other);
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;

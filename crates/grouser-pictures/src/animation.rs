@@ -319,7 +319,7 @@ impl Writer {
         let rule = [[MARGIN, SCENE], [WIDTH - MARGIN, SCENE]];
         Mark::line(rule, line).draw(sheet, self.ground);
         let several = animation.rows.len() > 1;
-        let first = if several { 62.0 } else { 44.0 };
+        let first = if several { 52.0 } else { 44.0 };
         let step = (WIDTH - MARGIN - first) / COLUMNS.len() as f64;
         let at = |column: usize| first + step * (column as f64 + 1.0);
         let pace = animation.pace().map(|pace| format!(", {pace}")).unwrap_or_default();
@@ -332,7 +332,7 @@ impl Writer {
         for (place, row) in animation.rows.iter().enumerate() {
             let y = y + ROW * (place as f64 + 1.0);
             let name = if several { &row.name } else { &clock };
-            let (name, size) = fitted(name, Face::Bold, 4.8, first - MARGIN - 2.0);
+            let (name, size) = fitted(name, Face::Bold, 4.8, first - MARGIN + 4.0);
             self.bold(sheet, (&name, size), [MARGIN, y], Anchor::Start);
             for (column, number) in row.numbers[index].iter().enumerate() {
                 self.bold(sheet, (number, 4.8), [at(column), y], Anchor::End);
@@ -347,7 +347,7 @@ fn fitted(text: &str, face: Face, size: f64, most: f64) -> (String, f64) {
     if full <= most {
         return (text.to_owned(), size);
     }
-    let size = (size * most / full).max(0.7 * size);
+    let size = (size * most / full).max(0.65 * size);
     let mut cut = text.to_owned();
     while width(&format!("{cut}…"), face, size) > most && cut.pop().is_some() {}
     let cut = if cut.len() == text.len() { cut } else { format!("{}…", cut.trim_end()) };

@@ -21,13 +21,13 @@ impl Animation {
             self.title
         );
         let data = self.data().to_string().replace('<', "\\u003c");
-        let page = include_str!("player.html");
+        // A title may look like a place for something else: each place is filled in its own part.
+        let (page, program) = include_str!("player.html").split_once("{data}").unwrap_or_default();
         let page = page.replace("{light}", &variables(Ground::Light));
         let page = page.replace("{dark}", &variables(Ground::Dark));
         let page = page.replace("{description}", &markup(&description));
-        // The data last: what it holds is not looked through.
         let page = page.replace("{title}", &markup(&self.title));
-        page.replacen("{data}", &data, 1)
+        format!("{page}{data}{program}")
     }
 
     fn data(&self) -> Value {
@@ -37,7 +37,7 @@ impl Animation {
         let labels: Vec<Value> = labels
             .map(|label| {
                 let [x, y] = label.at.map(steps);
-                json!([label.text, x, y, u8::from(label.anchor == Anchor::Middle)])
+                json!([label.text, x, y, align(label.anchor)])
             })
             .collect();
         let left: Vec<Value> =
@@ -78,6 +78,14 @@ impl Animation {
             "labels": labels,
             "frames": frames.collect::<Vec<_>>(),
         })
+    }
+}
+
+fn align(anchor: Anchor) -> &'static str {
+    match anchor {
+        Anchor::Start => "left",
+        Anchor::Middle => "center",
+        Anchor::End => "right",
     }
 }
 

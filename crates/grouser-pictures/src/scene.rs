@@ -142,7 +142,7 @@ impl Scene {
         let view = view(actors, reach, times);
         let thickness = 0.3 * reach;
         let camera = Camera::over(slope);
-        let ends = extent(&camera, &view, actors, thickness);
+        let ends = extent(&camera, &view, actors, reach, thickness);
         let camera = camera.framing(&ends, area[0], area[1]);
         let painter = Painter { camera, reach };
         let force = actors
@@ -157,15 +157,24 @@ impl Scene {
             left.extend(painter.tracks(actor, times));
         }
         left.sort_by_key(|(frame, _)| *frame);
-        let frames = times.iter().map(|&time| painter.frame(actors, &view, time, per_newton));
+        let window = hull(view.patch.corners().map(|corner| camera.place(corner)).to_vec());
+        let frames = times.iter().map(|&time| {
+            let Frame { offset, marks } = painter.frame(actors, &view, time, per_newton);
+            // Shade beyond the edge falls on nothing.
+            let inside = |mark: Mark| match mark.fill {
+                Some(Role::Shade) => mark.within(&window),
+                _ => vec![mark],
+            };
+            Frame { offset, marks: marks.into_iter().flat_map(inside).collect() }
+        });
         let arrow = (force > 0.0).then(|| {
             let shown = nice(0.45 * force);
             (shown, camera.scale * per_newton * shown)
         });
         Self {
             frames: frames.collect(),
+            window: window.clone(),
             still: painter.slab(&view.patch, slope, thickness),
-            window: hull(view.patch.corners().map(|corner| camera.place(corner)).to_vec()),
             left,
             labels: painter.labels(&view.patch, slope),
             contours: steps(contour_step(&view.patch), whole.low.y, whole.high.y).collect(),
@@ -223,10 +232,11 @@ fn middle(actors: &[Actor], time: f64) -> Vec2 {
 }
 
 /// Points that have to be on the picture.
-fn extent(camera: &Camera, view: &View, actors: &[Actor], thickness: f64) -> Vec<Vec3> {
+fn extent(camera: &Camera, view: &View, actors: &[Actor], reach: f64, thickness: f64) -> Vec<Vec3> {
     let corners = view.patch.corners();
     let mut ends = corners.to_vec();
     ends.extend(corners.iter().map(|corner| based(camera, &corners, *corner, thickness)));
+    ends.extend(corners.iter().map(|corner| corner - Vec3::new(0.2 * reach, 0.0, 0.0)));
     for actor in actors {
         let high = actor.likeness.head.high.z + 0.1 * actor.likeness.reach;
         let poses = actor.motion.poses();
@@ -329,11 +339,11 @@ impl Painter {
         ([corner, corner + 1.25 * radius * self.camera.horizontal], radius)
     }
 
-    /// The arrow that points uphill, near the patch's uphill edge.
+    /// The arrow that points uphill, beside the patch.
     fn uphill(&self, patch: &Patch) -> [Vec3; 2] {
-        let x = patch.high.x - 0.3 * self.reach;
+        let x = patch.low.x - 0.2 * self.reach;
         let at = |share: f64| Vec3::new(x, patch.low.y + share * patch.size().y, 0.0);
-        [at(0.55), at(0.82)]
+        [at(0.4), at(0.75)]
     }
 
     /// Where the length that is written on the downhill edge starts, and the length [m].
@@ -354,7 +364,9 @@ impl Painter {
         let mut labels = vec![label(format!("{length} m"), [x + 6.0, y + 2.6])];
         if slope > 0.0 {
             let [_, tip] = self.uphill(patch);
-            labels.push(label("uphill".to_owned(), below(tip, -1.6)));
+            let [x, y] = self.camera.place(tip);
+            let at = [x - 2.0, y + 0.6];
+            labels.push(Label { text: "uphill".to_owned(), at, anchor: Anchor::End });
             let ([corner, _], radius) = self.angle(patch);
             let at = corner + 0.75 * radius * self.camera.horizontal;
             let degrees = (10.0 * slope.to_degrees()).round() / 10.0;

@@ -1,7 +1,9 @@
 //! Arguments of `traverse`.
 
-use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
+use std::path::PathBuf;
+
+use clap::builder::{NonEmptyStringValueParser, Resettable};
+use clap::{ArgGroup, Args};
 
 use super::{
     BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
@@ -9,6 +11,8 @@ use super::{
 
 #[derive(Debug, Args)]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
+#[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
+#[command(group(ArgGroup::new("written").args(["out", "animate"]).multiple(true)))]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
@@ -47,6 +51,13 @@ pub(crate) struct TraverseArgs {
     /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
+    /// Also draw the run: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
+    /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) animate: Option<PathBuf>,
+    /// Beside it in the picture, the same rover with another yaw, as --yaw-deg takes it.
+    #[arg(long, value_name = "DEG", requires = "animate", allow_hyphen_values = true)]
+    pub(crate) beside_yaw_deg: Option<String>,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
     #[command(flatten)]

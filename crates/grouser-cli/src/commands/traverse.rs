@@ -8,9 +8,11 @@ use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{RunBand, TraverseBand, record_times};
+use grouser_pictures::Shown;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::animation::{self, Target};
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
@@ -25,14 +27,54 @@ use crate::output::{self, Format};
 const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
-    let folder = OutputFolder::for_args(&args.output)?;
+    let mut folder = OutputFolder::for_args(&args.output)?;
+    let target = |path| Target::of(path, folder.is_some(), args.output.force);
+    let target = args.animate.as_deref().map(target).transpose()?;
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
+    if let Some(target) = target {
+        animate(args, &target, &all, folder.as_mut())?;
+    }
     match &all[..] {
         [one] => one.output(args, folder),
         all => output_all(args, folder, all),
     }
+}
+
+/// Draws the run, or one of each model, or two with different yaws beside each other.
+fn animate(
+    args: &TraverseArgs,
+    target: &Target<'_>,
+    all: &[OfModel],
+    folder: Option<&mut OutputFolder>,
+) -> Result<(), Failure> {
+    let of_yaw = |run: &Trajectory| {
+        let yaw = (100.0 * run.records[0].state.yaw.to_degrees()).round() / 100.0;
+        format!("start yaw {yaw}°")
+    };
+    let beside = match (&args.beside_yaw_deg, all) {
+        (None, _) => None,
+        (yaw, [_]) => {
+            let scenario = inputs::traverse(args, &args.setting, yaw.as_deref())?;
+            let run = Run::new(&scenario.value)?.to_end()?;
+            Some((of_yaw(&run), scenario, run))
+        }
+        _ => {
+            let text = "--beside-yaw-deg draws two runs of one model: name one with --model";
+            return Err(Failure::Usage(text.to_owned()));
+        }
+    };
+    let own = of_yaw(&all[0].run);
+    let name = |it: &OfModel| if beside.is_some() { own.as_str() } else { it.name() };
+    let mut runs: Vec<Shown<'_>> = all
+        .iter()
+        .map(|it| Shown { name: name(it), run: &it.run, scenario: &it.scenario.value })
+        .collect();
+    if let Some((name, scenario, run)) = &beside {
+        runs.push(Shown { name, run, scenario: &scenario.value });
+    }
+    target.write(&animation::title(&all[0].scenario), &runs, folder)
 }
 
 /// What a model answers.
@@ -45,7 +87,7 @@ struct OfModel {
 impl OfModel {
     /// * `setting`: with one model
     fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
-        let scenario = inputs::traverse(args, setting)?;
+        let scenario = inputs::traverse(args, setting, args.yaw_deg.as_deref())?;
         let run = Run::new(&scenario.value)?.to_end()?;
         if args.strict.strict {
             let flags = run::each_findings(&run, &scenario.value);
