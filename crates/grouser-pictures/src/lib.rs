@@ -25,7 +25,9 @@ mod mp4;
 mod rover;
 mod scene;
 pub mod style;
+mod title;
 
 pub use animation::{Animation, Shown};
 pub use form::{Form, UnknownEnding};
 pub use mp4::VideoError;
+pub use title::title_of;

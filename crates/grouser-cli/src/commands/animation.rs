@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grouser::document::{Kind, LoadedScenario, escape, preset};
+use grouser::document::escape;
 use grouser_pictures::{Animation, Form, Shown, VideoError};
 
 use crate::failure::Failure;
@@ -57,17 +57,4 @@ impl<'a> Target<'a> {
             None => file::write(self.path, &bytes),
         }
     }
-}
-
-/// What a scenario's animation is called: its rover and its soil. The slope is in the picture.
-pub(super) fn title(scenario: &LoadedScenario) -> String {
-    let named = |kind: Kind, part: &str| {
-        let name = scenario.document.text(&format!("{part}.name")).unwrap_or(part);
-        match preset(kind, name) {
-            Some(preset) => preset.title_and_source().0,
-            None => escape::line(name).to_string(),
-        }
-    };
-    let (rover, soil) = (named(Kind::Rover, "rover"), named(Kind::Soil, "soil"));
-    format!("{rover} on {soil}")
 }

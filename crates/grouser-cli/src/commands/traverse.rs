@@ -8,11 +8,11 @@ use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{RunBand, TraverseBand, record_times};
-use grouser_pictures::Shown;
+use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::animation::{self, Target};
+use super::animation::Target;
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::chart::{Chart, Series, Style};
@@ -74,7 +74,7 @@ fn animate(
     if let Some((name, scenario, run)) = &beside {
         runs.push(Shown { name, run, scenario: &scenario.value });
     }
-    target.write(&animation::title(&all[0].scenario), &runs, folder)
+    target.write(&title_of(&all[0].scenario), &runs, folder)
 }
 
 /// What a model answers.
