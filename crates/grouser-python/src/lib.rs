@@ -8,6 +8,7 @@
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
 //! library knows nothing of Python.
 
+mod animation;
 mod arrow;
 mod calibration;
 mod campaign;
@@ -31,6 +32,8 @@ mod wheels;
 /// The module `grouser._core`.
 #[pyo3::pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::animation::animation;
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]

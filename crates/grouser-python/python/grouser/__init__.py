@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _former_names, campaign
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
+from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates
 from ._descriptions import Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
@@ -70,6 +71,7 @@ __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MOON_GRAVITY",
+    "Animation",
     "Calibration",
     "CalibrationError",
     "Campaign",

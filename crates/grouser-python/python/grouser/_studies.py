@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import os
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, _tables
+from ._animations import Animation
 from ._arrays import Floats, whole_number
 from ._descriptions import Scenario, Soil, Source
 
@@ -188,6 +190,48 @@ class Trajectory(_tables.Tabular):
         axes.set_xlabel("along the contour, x [m]")
         axes.set_ylabel("uphill, y [m]")
         return axes
+
+    def animate(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        beside: Sequence[Trajectory] = (),
+        names: Sequence[str] | None = None,
+    ) -> Animation:
+        """Draws the run: the rover on its slope, with turning wheels, tracks, forces and numbers.
+
+        Parameters
+        ----------
+        path : path, optional
+            A file to write: ``.gif``, ``.mp4`` (by an installed ffmpeg), ``.html`` (with a player)
+            or ``.glb`` (glTF 2.0) for the run, ``.svg`` or ``.png`` for its end. A file that is
+            there already is replaced.
+        beside : sequence of Trajectory, optional
+            Other runs, each on a lane of its own.
+        names : sequence of str, optional
+            What the runs are called; by default their outcomes.
+
+        Returns
+        -------
+        Animation
+            In a notebook, a player.
+
+        Examples
+        --------
+        >>> import grouser as gr
+        >>> straight, turned = (
+        ...     gr.simulate(slope_deg=15.0, duration_s=1.0, start={"yaw_deg": yaw})
+        ...     for yaw in (0.0, 9.56)
+        ... )
+        >>> straight.animate(beside=[turned], names=["straight", "turned uphill"])
+        <Animation of straight, turned uphill>
+        """
+        runs = (self, *beside)
+        called = [run.outcome for run in runs] if names is None else names
+        animation = Animation([run.scenario for run in runs], called)
+        if path is not None:
+            animation.save(path)
+        return animation
 
     def __repr__(self) -> str:
         end = {name: float(getattr(self, name)[-1]) for name in ("time_s", "x_m", "y_m", "yaw_deg")}
