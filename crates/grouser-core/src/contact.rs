@@ -7,8 +7,8 @@
 //! the source paper's, [`small_wheel`] adds what small wheels need within what the ground resists
 //! ([`coulomb_cone`]), [`bekker`] is a closed form to check them against, and [`rft`] shares nothing
 //! with any of them. [`equilibrium`] finds the sinkage at which a wheel carries its load, and adds what
-//! the soil's [`discrepancy`] says of the model; [`time_step`] lends the reaction to engines of rigid bodies; [`validity`] flags results that are
-//! extrapolations.
+//! the soil's [`discrepancy`] says of the model; [`time_step`] lends the reaction to engines of rigid bodies,
+//! whose wheels a [`mechanism`] carries; [`validity`] flags results that are extrapolations.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
@@ -25,6 +25,7 @@ mod inputs;
 pub mod ishigami;
 mod kernel;
 pub mod load_sinkage;
+pub mod mechanism;
 mod mirror;
 pub mod model;
 pub mod patch;

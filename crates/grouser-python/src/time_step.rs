@@ -1,13 +1,17 @@
 //! The soil's reaction over the time steps of an engine of rigid bodies.
 
-use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
+use grouser::contact::mechanism::{Mechanism, MountedWheel, Wrench};
+use grouser::contact::time_step::{REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{Settled, SteppedWheel, SteppingWheel, Theory, TimeStep};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{SLIP_ANGLE, SLIP_RATIO};
 use grouser::soil::Soil;
+use grouser::units::Vec3;
 use grouser::wheel::Wheel;
-use nalgebra::{DMatrix, DVector};
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::ndarray::ArrayView2;
+use numpy::{
+    PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+};
 use pyo3::prelude::*;
 
 use crate::columns::{wheel_names, wheel_row};
@@ -24,8 +28,9 @@ pub(crate) struct SteppingWheels {
     rest_speed: f64,
 }
 
-/// Results of wheels, a row for each name; and how far the motion is from the forces' [m/s].
-type Answer<'py> = (Bound<'py, PyArray2<f64>>, f64);
+/// Wrenches, a row for each wheel; results of wheels, a row for each name; and how far the motion is from the
+/// forces' [m/s].
+type Answer<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64);
 
 #[pymethods]
 impl SteppingWheels {
@@ -75,59 +80,114 @@ impl SteppingWheels {
         PyArray1::from_iter(py, self.wheels.iter().map(|(wheel, ..)| wheel.shearing_radius()))
     }
 
-    /// The reaction over a step.
+    /// The reaction over a step that a preliminary step led to: a wrench on each wheel's body about its centre of
+    /// mass, in the world; results of wheels; and how far the motion is from the forces' [m/s].
     ///
-    /// * `sinkage`: at its start [m]
-    /// * `free`: velocities at its end without the soil [m/s], four for each wheel
-    /// * `inverse_mass`: the effective inverse mass J M⁻¹ Jᵀ (Delassus matrix): a row for each velocity, a column
-    ///   for each of six forces a wheel
+    /// * `poses`: hubs [m], directions of axles, centres of mass of the bodies [m], and normals of the ground, a row
+    ///   for each wheel, in the world
+    /// * `distances`: of the hubs from the ground [m]
+    /// * `jacobians`: of each hub, three rows of velocity and three of angular velocity
+    /// * `inertia`, `velocities`: of the mechanism
+    /// * `held`: force and moment on each body in the preliminary step
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-    fn reaction<'py>(
+    #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+    fn apply<'py>(
         &self,
         py: Python<'py>,
         duration_s: f64,
-        sinkage: PyReadonlyArray1<'py, f64>,
-        free: PyReadonlyArray1<'py, f64>,
-        inverse_mass: PyReadonlyArray2<'py, f64>,
+        poses: [PyReadonlyArray2<'py, f64>; 4],
+        distances: PyReadonlyArray1<'py, f64>,
+        jacobians: PyReadonlyArray3<'py, f64>,
+        inertia: PyReadonlyArray2<'py, f64>,
+        velocities: PyReadonlyArray1<'py, f64>,
+        held: PyReadonlyArray2<'py, f64>,
+        with_moments: bool,
     ) -> PyResult<Answer<'py>> {
-        let (sinkages, free, inverse_mass) =
-            (sinkage.as_slice()?, free.as_slice()?, inverse_mass.as_slice()?);
         let count = self.wheels.len();
-        let (rows, columns) = (MOTIONS * count, FORCES * count);
-        let lengths = [sinkages.len(), free.len(), inverse_mass.len()];
-        let all = sinkages.iter().chain(free).chain(inverse_mass);
-        if lengths != [count, rows, rows * columns] || !all.copied().all(f64::is_finite) {
-            let message = "the motion of the wheels is not finite, or not theirs".to_owned();
-            return Err(errors::parameter(message, "data", None, "a motion of the model"));
+        let wheels = self.mounted(&poses, &distances, &held).ok_or_else(not_finite)?;
+        let mechanism = Mechanism {
+            wheels: &wheels,
+            jacobians: jacobians.as_slice()?,
+            inertia: inertia.as_slice()?,
+            velocities: velocities.as_slice()?,
+            with_moments,
+        };
+        let (inverse_mass, free) = mechanism.response(duration_s).ok_or_else(not_finite)?;
+        let sinkages: Vec<f64> = wheels.iter().map(MountedWheel::sinkage).collect();
+        let mut all = sinkages.iter().chain(inverse_mass.iter()).chain(free.iter());
+        if !all.all(|number| number.is_finite()) {
+            return Err(not_finite());
         }
         let step = TimeStep {
             duration: duration_s,
             gravity: self.gravity,
             damping: self.damping,
             rest_speed: self.rest_speed,
-            inverse_mass: &DMatrix::from_row_slice(rows, columns, inverse_mass),
-            free: &DVector::from_column_slice(free),
+            inverse_mass: &inverse_mass,
+            free: &free,
         };
-        let wheels = self.wheels.iter().zip(sinkages);
-        let wheels = wheels.map(|(&(wheel, soil, theory), &sinkage)| SteppingWheel {
+        let stepping = self.wheels.iter().zip(sinkages);
+        let stepping = stepping.map(|(&(wheel, soil, theory), sinkage)| SteppingWheel {
             model: theory.model(),
             wheel,
             soil,
             sinkage,
         });
-        let stepped = step.reaction(&wheels.collect::<Vec<_>>());
+        let stepped = step.reaction(&stepping.collect::<Vec<_>>());
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
+        let wrenches = PyArray2::zeros(py, [count, 6], false);
         {
-            let mut cells = results.readwrite();
-            let cells = cells.as_slice_mut()?;
-            for (place, wheel) in stepped.wheels.iter().enumerate() {
+            let (mut cells, mut parts) = (results.readwrite(), wrenches.readwrite());
+            let (cells, parts) = (cells.as_slice_mut()?, parts.as_slice_mut()?);
+            for (place, (wheel, mounted)) in stepped.wheels.iter().zip(&wheels).enumerate() {
                 for (row, value) in row(wheel).into_iter().enumerate() {
                     cells[row * count + place] = value;
                 }
+                let Wrench { force, moment } = mounted.wrench(&wheel.forces, with_moments);
+                let own = &mut parts[6 * place..][..6];
+                own[..3].copy_from_slice(force.as_slice());
+                own[3..].copy_from_slice(moment.as_slice());
             }
         }
-        Ok((results, stepped.residual))
+        Ok((wrenches, results, stepped.residual))
     }
+}
+
+impl SteppingWheels {
+    /// The wheels where a preliminary step led them; nothing if arrays do not fit.
+    fn mounted(
+        &self,
+        poses: &[PyReadonlyArray2<'_, f64>; 4],
+        distances: &PyReadonlyArray1<'_, f64>,
+        held: &PyReadonlyArray2<'_, f64>,
+    ) -> Option<Vec<MountedWheel>> {
+        let [hubs, axles, centres, normals] = poses.each_ref().map(|all| all.as_array());
+        let (distances, held) = (distances.as_array(), held.as_array());
+        let count = self.wheels.len();
+        let are_rows = [hubs, axles, centres, normals].iter().all(|all| all.dim() == (count, 3));
+        if !are_rows || distances.dim() != count || held.dim() != (count, 6) {
+            return None;
+        }
+        let mounted = |(place, (wheel, ..)): (usize, &(Wheel, Soil, Theory))| {
+            let vector = |all: &ArrayView2<'_, f64>, start: usize| {
+                Vec3::new(all[[place, start]], all[[place, start + 1]], all[[place, start + 2]])
+            };
+            MountedWheel {
+                radius: wheel.shearing_radius(),
+                axle: vector(&axles, 0),
+                arm: vector(&hubs, 0) - vector(&centres, 0),
+                normal: vector(&normals, 0),
+                distance: distances[place],
+                held: Wrench { force: vector(&held, 0), moment: vector(&held, 3) },
+            }
+        };
+        Some(self.wheels.iter().enumerate().map(mounted).collect())
+    }
+}
+
+fn not_finite() -> PyErr {
+    let message = "the motion of the wheels is not finite, or not theirs".to_owned();
+    errors::parameter(message, "data", None, "a motion of the model")
 }
 
 fn row(wheel: &SteppedWheel) -> impl IntoIterator<Item = f64> {

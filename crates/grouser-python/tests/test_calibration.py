@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pickle
+import sys
+import types
 from pathlib import Path
 from typing import Any
 
@@ -250,3 +252,34 @@ def stand_files_that_cannot_be_used(tmp_path: Path, plates_file: Path) -> None:
         gr.calibrate(plates_file, "toyoura", "hakuto", fit=FIT)
     with pytest.raises(gr.ParameterError, match="plate_law"):
         gr.calibrate_plates(plates_file, "toyoura", plate_law="mohr")
+
+
+def test_arviz_gets_walkers_or_ensembles(found: gr.Calibration, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stand-in for ArviZ of either kind: what it is given are the samples, in the order of chains."""
+    given: dict[str, Any] = {}
+    old = types.SimpleNamespace(__version__="0.21.0", from_dict=lambda posterior: posterior)
+    new = types.SimpleNamespace(__version__="1.1.0", from_dict=lambda groups: groups["posterior"])
+    assert found.chains is not None and found.samples is not None and found.sampler is not None
+    for module in (old, new):
+        monkeypatch.setitem(sys.modules, "arviz", module)
+        given = found.to_arviz()
+        assert tuple(given) == found.key
+        assert np.array_equal(given[found.key[0]], found.chains[..., 0])
+        ensembles = found.to_arviz(by="ensemble")[found.key[-1]]
+        assert ensembles.shape[0] == found.sampler["ensembles"]
+        assert np.array_equal(ensembles.ravel(), found.samples[:, -1])
+    monkeypatch.setitem(sys.modules, "arviz", None)
+    with pytest.raises(ImportError, match="pip install arviz"):
+        found.to_arviz()
+    with pytest.raises(gr.ParameterError, match="by is 'chain'"):
+        found.to_arviz(by="chain")  # type: ignore[arg-type]
+
+
+def test_arviz_itself_finds_our_diagnostics(found: gr.Calibration) -> None:
+    """R-hat of the ensembles is ours; effective sizes differ by their estimators, a factor of 1.5 at most."""
+    arviz = pytest.importorskip("arviz")
+    r_hat = arviz.rhat(found.to_arviz(by="ensemble"), method="split")
+    sizes = arviz.ess(found.to_arviz(), method="mean")
+    for k, key in enumerate(found.key):
+        assert float(r_hat[key]) == pytest.approx(found.r_hat[k], abs=5e-3)
+        assert 1.0 / 1.5 < float(sizes[key]) / found.effective_samples[k] < 1.5

@@ -300,3 +300,111 @@ def test_the_baseline_holds_the_line_better_than_driving_straight_on() -> None:
     assert (level < straight).mean() > 0.8
     assert np.median(level) < 0.5 * np.median(straight)
     assert level_lost.sum() < straight_lost.sum()
+
+
+# ---- your own environment ----
+
+
+class Climb(grouser.gym.RoverEnv):
+    """Uphill is rewarded; four metres are enough."""
+
+    def reward(self, before: Any, ended: bool) -> float:
+        return self.state["y_m"] - before["y_m"] - 10.0 * ended
+
+    def is_ended(self) -> bool:
+        return self.state["y_m"] > 0.05
+
+
+class Rims(Climb):
+    """Observes the slip of its wheels, and commands each rim."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        self.observation_space = gymnasium.spaces.Box(-1.0, 1.0, (4,), dtype=np.float64)
+        self.action_space = gymnasium.spaces.Box(0.0, 0.1, (4,), dtype=np.float64)
+
+    def observation(self) -> Any:
+        return np.clip(np.nan_to_num(self.wheel["slip_ratio"]), -1.0, 1.0)
+
+    def rim_speeds(self, action: Any) -> Any:
+        return action
+
+
+def test_a_subclass_says_what_is_rewarded_and_what_ends() -> None:
+    env = Climb(slope_deg=(5.0, 6.0))
+    env.reset(seed=2, options={"yaw_deg": 60.0})
+    rewards, climbed, terminated = [], [env.state["y_m"]], False
+    while not terminated and len(rewards) < 10:
+        observation, reward, terminated, truncated, info = env.step(np.array([0.6, 0.0]))
+        rewards.append(reward)
+        climbed.append(env.state["y_m"])
+        assert observation in env.observation_space and not truncated
+    assert terminated and env.outcome is None and climbed[-1] > 0.05
+    steps = np.diff(climbed)
+    assert rewards == [*steps[:-1].tolist(), float(steps[-1]) - 10.0]
+    assert info["energy_j"] == env.energy_j > 0.0 and 5.0 <= env.slope_deg <= 6.0
+
+
+def test_a_subclass_has_its_own_spaces() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        check_env(Rims(), skip_render_check=True)
+    env = Rims()
+    env.reset(seed=1)
+    left = np.array(env._traverses.side) < 0.0
+    env.step(np.where(left, 0.02, 0.08))
+    assert env.wheel["wheel_speed_rad_s"][left].max() < env.wheel["wheel_speed_rad_s"][~left].min()
+    with pytest.raises(NotImplementedError, match="def reward"):
+        plain = grouser.gym.RoverEnv()
+        plain.reset(seed=1)
+        plain.step(np.array([0.5, 0.0]))
+
+
+def test_the_level_environment_is_what_its_hooks_say() -> None:
+    env = grouser.gym.LevelTraverseEnv()
+    env.reset(seed=3)
+    before = env.state
+    reward, ended = env.step(np.array([0.6, 0.1]))[1:3]
+    assert ended == env.is_ended() and reward == pytest.approx(env.reward(before, ended), rel=1e-12)
+
+
+def test_pictures_show_the_rover_where_it_is() -> None:
+    pytest.importorskip("matplotlib")
+    env = gymnasium.make(LEVEL, render_mode="rgb_array")
+    env.reset(seed=1)
+    first: Any = env.render()
+    assert first.shape == (400, 600, 3) and first.dtype == np.uint8 and first.std() > 0.0
+    env.step(np.array([1.0, 1.0]))
+    assert (np.asarray(env.render()) != first).any()
+    env.close()
+    assert gymnasium.make(LEVEL).unwrapped.render() is None
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        grouser.gym.LevelTraverseEnv(render_mode="rgb_array").render()
+    with pytest.raises(gr.ParameterError, match="render_mode is 'ansi'"):
+        grouser.gym.LevelTraverseEnv(render_mode="ansi")
+
+
+def test_a_window_is_drawn_after_each_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    pauses: list[float] = []
+    monkeypatch.setattr(plt, "pause", pauses.append)
+    env = grouser.gym.LevelTraverseEnv(render_mode="human")
+    env.reset(seed=1)
+    env.step(np.array([0.6, 0.0]))
+    assert len(pauses) == 2 and len(plt.get_fignums()) == 1 and env.render() is None
+    env.close()
+    assert plt.get_fignums() == []
+
+
+def test_the_learning_example_learns_to_turn() -> None:
+    path = Path(__file__).resolve().parents[1] / "examples" / "learn_level_line.py"
+    spec = importlib.util.spec_from_file_location("learn_level_line", path)
+    assert spec is not None and spec.loader is not None
+    example: Any = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(example)
+    means = example.learn(generations=2, policies=16, steps=24)
+    # Below the line it turns uphill, to the left.
+    below = np.array([-0.1]), np.array([-0.1]), np.array([0.0])
+    assert example.turns(means[-1][None], *below)[0] > example.turns(means[0][None], *below)[0] == 0.0
+    learned, straight_on = (example.judged(policy, episodes=6, steps=24) for policy in (means[-1], means[0]))
+    assert learned > straight_on

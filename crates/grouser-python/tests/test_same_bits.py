@@ -241,3 +241,10 @@ def test_folders_without_data_sets(tmp_path: Path) -> None:
         gr.validate_all(tmp_path / "none")
     with pytest.raises(gr.DocumentNotFoundError, match="no known data set"):
         gr.validate_all(tmp_path)
+
+
+def test_every_model_of_the_program(program: Program) -> None:
+    rows = program("heading", "--slope-deg", "5,12", "--model", "all")["rows"]
+    found = gr.heading(slope_deg=[5, 12], model="all").to_pandas()
+    for name in rows[0]:
+        assert same(found[name], rows, name), name

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -278,6 +279,34 @@ def test_results_are_tables_in_notebooks(result: Any) -> None:
     assert len(list(tree.iter("tr"))) >= 3
 
 
+def test_every_model_at_once() -> None:
+    from grouser import _core
+
+    assert gr.MODELS == tuple(_core.MODELS) and "bekker" in gr.MODELS
+    for study in (
+        lambda **model: gr.heading(slope_deg=[5.0, 10.0], **model),
+        lambda **model: gr.simulate(duration_s=1.0, **model),
+        lambda **model: gr.wheel_test(load_n=17, slip_ratio=[0.1, 0.4], **model),
+        lambda **model: gr.wheel_test(load_n=17, slip_ratio=[0.1, 0.4], trials=2, **model),
+    ):
+        found = study(model="all")
+        assert tuple(found) == gr.MODELS and len(found) == len(gr.MODELS)
+        table = found.to_pandas()
+        for name, alone in found.items():
+            same = study(model=name).to_pandas()
+            assert same.equals(alone.to_pandas())
+            own = table[table["model"] == name].drop(columns="model").reset_index(drop=True)
+            assert own.equals(same.astype(own.dtypes.to_dict()))
+        assert pyarrow_rows(found) == len(table) and "bekker" in repr(found)
+        labels = found.plot().get_legend_handles_labels()[1]
+        assert set(labels) == set(gr.MODELS)
+
+
+def pyarrow_rows(result: Any) -> int:
+    rows: int = result.to_arrow().num_rows
+    return rows
+
+
 def test_pictures_take_axes_and_return_them() -> None:
     import matplotlib.pyplot as plt
 
@@ -384,8 +413,24 @@ def test_a_card_has_a_side_and_a_rule() -> None:
         card = gr.card(soil="toyoura-uncertain", slope_deg=slopes, samples=16, **settings)
         return card.verdict.tolist()
 
-    # The rover is its own mirror image.
-    assert verdicts(uphill="right") == verdicts()
+    def yaws(rover: gr.Rover, uphill: Literal["left", "right"]) -> list[float]:
+        card = gr.card(rover=rover, soil="toyoura", model="ishigami", slope_deg=[10.0], samples=2, uphill=uphill)
+        return card.yaw_deg.tolist()
+
+    # A rover whose wheels on the right stand closer together than those on the left, and its mirror
+    # image.
+    hakuto = gr.Rover("hakuto")
+    mounts = [dict(mount) for mount in hakuto.mount]
+    for mount in mounts:
+        x, y, z = mount["position_m"]  # type: ignore[misc]
+        mount["position_m"] = [0.8 * x if y < 0.0 else x, y, z]
+    lame = hakuto.replace(mount=mounts)
+    for mount in mounts:
+        x, y, z = mount["position_m"]  # type: ignore[misc]
+        mount["position_m"] = [x, -y, z]
+    mirrored = hakuto.replace(mount=mounts)
+    assert yaws(lame, "left") != yaws(lame, "right")
+    assert yaws(lame, "right") == yaws(mirrored, "left")
     assert verdicts(rule={"go_slip_ratio": 0.01}) != verdicts()
     for settings in ({"uphill": "up"}, {"rule": {"slip": 1.0}}, {"rule": {"go_slip_ratio": 0.9}}):
         with pytest.raises(gr.ParameterError):

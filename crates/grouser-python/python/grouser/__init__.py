@@ -52,6 +52,7 @@ from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
 from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._rollouts import Rollout, rollout
+from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
 from ._studies import Trajectory, TraverseBand, simulate
 from ._validation import (
@@ -70,8 +71,10 @@ from .campaign import Campaign
 __all__ = [
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
+    "MODELS",
     "MOON_GRAVITY",
     "Animation",
+    "ByModel",
     "Calibration",
     "CalibrationError",
     "Campaign",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -141,8 +141,7 @@ class Calibration(_tables.Tabular):
 
         Their effective samples agree with `effective_samples`. Walkers of one ensemble depend on
         each other, ensembles do not: `r_hat` compares ensembles, whose samples are
-        ``samples.reshape(sampler["ensembles"], -1, len(key))``. ``docs/guide/python.md`` does both
-        with ArviZ.
+        ``samples.reshape(sampler["ensembles"], -1, len(key))``. `to_arviz` gives both to ArviZ.
         """
         if self.samples is None or self.sampler is None:
             return None
@@ -190,6 +189,44 @@ class Calibration(_tables.Tabular):
             ensemble = np.arange(len(self.chains)) // self.sampler["walkers"]
             data = data.assign_coords(ensemble=("chain", ensemble))
         return data.assign_attrs(self._notes())
+
+    def to_arviz(self, by: Literal["walker", "ensemble"] = "walker") -> Any:
+        """The posterior samples for ArviZ, a variable for each key.
+
+        Parameters
+        ----------
+        by : {"walker", "ensemble"}
+            What a chain is: a walker, as in `chains`, for effective sample sizes; or an ensemble,
+            for R-hat: ensembles do not depend on each other, the walkers of one do.
+
+        Returns
+        -------
+        arviz.InferenceData
+            From ArviZ 1.0 on an ``xarray.DataTree``.
+
+        Raises
+        ------
+        ParameterError
+            If there are no posterior samples.
+        ImportError
+            Without ArviZ.
+        """
+        if self.chains is None or self.samples is None or self.sampler is None:
+            raise ParameterError("a point fit has no posterior samples for ArviZ")
+        if by not in ("walker", "ensemble"):
+            known = "'walker' or 'ensemble'"
+            raise ParameterError(f"by is {by!r}, it must be {known}", "by", None, known)
+        try:
+            import arviz
+        except ImportError as error:
+            raise ImportError("to_arviz needs ArviZ: pip install arviz", name="arviz") from error
+        chains = self.chains
+        if by == "ensemble":
+            chains = self.samples.reshape(self.sampler["ensembles"], -1, len(self.key))
+        posterior = {key: chains[..., k] for k, key in enumerate(self.key)}
+        if int(arviz.__version__.split(".")[0]) < 1:
+            return arviz.from_dict(posterior=posterior)
+        return arviz.from_dict({"posterior": posterior})
 
     def _parameters(self) -> dict[str, Any]:
         return {name: getattr(self, field) for name, field in _PARAMETERS.items()}

@@ -15,6 +15,7 @@ __all__ = [
     "FAILED_STATUSES",
     "Footprints",
     "MARS_GRAVITY",
+    "MODELS",
     "MOON_GRAVITY",
     "REST_SPEED_M_S",
     "SINKAGE_DAMPING_S_M",
@@ -73,6 +74,7 @@ __all__ = [
 
 __version__: str
 FAILED_STATUSES: list[str]
+MODELS: list[str]
 EARTH_GRAVITY: float
 MOON_GRAVITY: float
 MARS_GRAVITY: float
@@ -139,9 +141,17 @@ class SteppingWheels:
     def names(self) -> list[str]: ...
     @property
     def shearing_radius_m(self) -> _Floats: ...
-    def reaction(
-        self, duration_s: float, sinkage: _Floats, free: _Floats, inverse_mass: _Floats
-    ) -> tuple[_Floats, float]: ...
+    def apply(
+        self,
+        duration_s: float,
+        poses: Sequence[_Floats],
+        distances: _Floats,
+        jacobians: _Floats,
+        inertia: _Floats,
+        velocities: _Floats,
+        held: _Floats,
+        with_moments: bool,
+    ) -> tuple[_Floats, _Floats, float]: ...
 
 @final
 class Simulators:

@@ -6,9 +6,9 @@ import html
 import os
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeVar, Union
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
-from . import _core, _former_names
+from . import _core, _former_names, _keys
 from ._arrays import whole_number
 from ._errors import ParameterError
 
@@ -27,7 +27,9 @@ class _Description:
     _items: dict[str, Any]
     _toml: str
 
-    def __init__(self, source: Source | None = None, /, **changes: Any) -> None:
+    def __init__(
+        self, source: _Description | Source | None = None, /, **changes: Any
+    ) -> None:
         self._take(self._read(source, changes))
 
     def _read(self, source: object, changes: dict[str, Any]) -> _core.Document:
@@ -131,16 +133,19 @@ class _Description:
         """The keys that it, or its soil, takes from priors because they are not stated."""
         return tuple(self._document.assumed)
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        if name not in self._items:
-            now = _former_names.key_of(self._items, name)
-            if now is None:
-                known = ", ".join(self._items)
-                raise AttributeError(f"{type(self).__name__} has no key {name!r}; it has {known}")
-            name = now
-        return _frozen(self._items[name])
+    # Type checkers see the keys of `_keys`, and so find misspelt ones.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_"):
+                raise AttributeError(name)
+            if name not in self._items:
+                now = _former_names.key_of(self._items, name)
+                if now is None:
+                    known = ", ".join(self._items)
+                    raise AttributeError(f"{type(self).__name__} has no key {name!r}; it has {known}")
+                name = now
+            return _frozen(self._items[name])
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._items})
@@ -227,7 +232,7 @@ def _html_table(items: Mapping[str, Any]) -> str:
     return f"<table>{''.join(rows)}</table>"
 
 
-class Soil(_Description):
+class Soil(_Description, _keys.SoilKeys):
     """A soil: its strength, and how stresses grow with sinkage and shear displacement.
 
     ``Soil("toyoura")`` is a preset, ``Soil("my-soil.toml")`` or ``Soil(pathlib.Path(…))`` a file,
@@ -293,7 +298,7 @@ class Soil(_Description):
         return made
 
 
-class Wheel(_Description):
+class Wheel(_Description, _keys.WheelKeys):
     """A rigid wheel with a flat rim: ``radius_m`` [m], ``width_m`` [m], and ``grousers`` with
     ``height_m`` [m] and ``count``, left out for a smooth wheel. Sources and errors are those of
     `Soil`."""
@@ -302,7 +307,7 @@ class Wheel(_Description):
     _kind = "wheel"
 
 
-class Rover(_Description):
+class Rover(_Description, _keys.RoverKeys):
     """A rover: ``body``, ``wheel_unit`` with its ``wheel``, and a ``mount`` for each wheel with its
     ``position_m`` [m] from the body's centre of mass, in the body frame (x forward, y left, z up).
     A mount may have a ``wheel``, ``mass_kg`` and ``inertia_kg_m2`` of its own, and ``steering_deg``
@@ -317,7 +322,7 @@ class Rover(_Description):
         return Wheel(self._items["wheel_unit"]["wheel"])
 
 
-class Scenario(_Description):
+class Scenario(_Description, _keys.ScenarioKeys):
     """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
     ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``,
     ``load_transfer``, ``wheel_moments``, ``simulation``, ``drive``, ``by_wheel``, ``scatter``,
@@ -333,7 +338,12 @@ class Scenario(_Description):
     _kind = "scenario"
 
     def __init__(
-        self, source: Source | None = None, /, *, site: Site | None = None, **changes: Any
+        self,
+        source: Scenario | Source | None = None,
+        /,
+        *,
+        site: Site | None = None,
+        **changes: Any,
     ) -> None:
         if site is not None:
             if not isinstance(site, Site):
@@ -362,7 +372,7 @@ class Scenario(_Description):
         return Site(self.soil, **{key: self._items[key] for key in keys})
 
 
-class Site(_Description):
+class Site(_Description, _keys.SiteKeys):
     """Where a rover drives: a plane of one soil on a slope, under a gravity.
 
     Parameters

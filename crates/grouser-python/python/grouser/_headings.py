@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +14,7 @@ from ._arrays import Floats, line, number, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
+from ._models import ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
 
 if TYPE_CHECKING:
@@ -91,16 +92,45 @@ class Headings(_tables.Tabular):
         return f"<Headings on {len(self.status)} slopes, {steepest}>"
 
 
+@overload
 def heading(
     scenario: Scenario | Source | None = None,
     /,
     *,
+    model: Literal["all"],
+    slope_deg: ArrayLike = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    **changes: Any,
+) -> ByModel[Headings]: ...
+
+
+@overload
+def heading(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    model: str | None = ...,
+    slope_deg: ArrayLike = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    **changes: Any,
+) -> Headings: ...
+
+
+def heading(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    model: str | None = None,
     slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
     **changes: Any,
-) -> Headings:
+) -> Headings | ByModel[Headings]:
     """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10).
 
     A rover that drives straight across a slope drifts downhill. With its nose turned uphill by the
@@ -111,6 +141,9 @@ def heading(
     scenario : Scenario, name, path or mapping, optional
         Its rover, soil, gravity, model, load transfer and wheel moments are used; its slope, drive
         and start are not.
+    model : str, optional
+        The wheel–soil model, or ``"all"`` for the results of each; by default that of the scenario
+        or of its soil.
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
     uncertainty : bool
@@ -126,6 +159,7 @@ def heading(
     Returns
     -------
     Headings
+        Or `ByModel` of them, for all models.
 
     Raises
     ------
@@ -142,6 +176,12 @@ def heading(
     >>> bool(level.band.yaw_deg_p2_5[0] < level.band.yaw_deg_p97_5[0])
     True
     """
+    if model == "all":
+        settings: dict[str, Any] = {
+            "slope_deg": slope_deg, "uncertainty": uncertainty, "samples": samples, "seed": seed
+        }
+        return each_model(lambda name: heading(scenario, model=name, **settings, **changes))
+    changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
     found, limit, reason, limited_by = _core.heading(run._document, slopes)
     band = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from . import _core, _tables
 from ._animations import Animation
 from ._arrays import Floats, whole_number
 from ._descriptions import Scenario, Soil, Source
+from ._models import ByModel, each_model
 
 if TYPE_CHECKING:
     import pandas
@@ -239,15 +240,42 @@ class Trajectory(_tables.Tabular):
         return f"<Trajectory {self.outcome}: {state}>"
 
 
+@overload
 def simulate(
     scenario: Scenario | Source | None = None,
     /,
     *,
+    model: Literal["all"],
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    **changes: Any,
+) -> ByModel[Trajectory]: ...
+
+
+@overload
+def simulate(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    model: str | None = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    **changes: Any,
+) -> Trajectory: ...
+
+
+def simulate(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    model: str | None = None,
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
     **changes: Any,
-) -> Trajectory:
+) -> Trajectory | ByModel[Trajectory]:
     """Simulates a rover from its start to its end.
 
     Results are reproducible bit for bit, here and in the program's ``grouser traverse``.
@@ -256,6 +284,9 @@ def simulate(
     ----------
     scenario : Scenario, name, path or mapping, optional
         The scenario; by default the source paper's traverse.
+    model : str, optional
+        The wheel–soil model, or ``"all"`` for the results of each; by default that of the scenario
+        or of its soil.
     uncertainty : bool
         Whether to sample what is uncertain, for `Trajectory.band`: the soil, where its document
         says so, and the wheel–soil model, where none is asked for by ``model``.
@@ -269,6 +300,7 @@ def simulate(
     Returns
     -------
     Trajectory
+        Or `ByModel` of them, for all models.
 
     Raises
     ------
@@ -284,6 +316,10 @@ def simulate(
     >>> run.outcome, bool(run.y_m[-1] < 0.0)
     ('completed', True)
     """
+    if model == "all":
+        settings: dict[str, Any] = {"uncertainty": uncertainty, "samples": samples, "seed": seed}
+        return each_model(lambda name: simulate(scenario, model=name, **settings, **changes))
+    changes = changes if model is None else {**changes, "model": model}
     run = scenario_of(scenario, changes)
     found = _core.simulate(run._document)
     band = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,7 @@ from . import _core, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Soil, Source, Wheel
 from ._errors import ParameterError
+from ._models import ByModel, each_model
 from ._studies import soil_of
 from ._wheels import Settled, setting, settle
 
@@ -204,6 +205,44 @@ class SimulatedWheelTest(_tables.Tabular):
 
 
 @overload
+def wheel_test(  # type: ignore[overload-overlap]
+    soil: Soil | Source = ...,
+    wheel: Wheel | Source = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: Literal["all"],
+    trials: None = ...,
+    noise_n: float = ...,
+    noise_mm: float = ...,
+    noise_nm: float = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+) -> ByModel[WheelTest]: ...
+
+
+@overload
+def wheel_test(  # type: ignore[overload-overlap]
+    soil: Soil | Source = ...,
+    wheel: Wheel | Source = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: Literal["all"],
+    trials: int,
+    noise_n: float = ...,
+    noise_mm: float = ...,
+    noise_nm: float = ...,
+    seed: int = ...,
+) -> ByModel[SimulatedWheelTest]: ...
+
+
+@overload
 def wheel_test(
     soil: Soil | Source = ...,
     wheel: Wheel | Source = ...,
@@ -257,14 +296,16 @@ def wheel_test(
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
-) -> WheelTest | SimulatedWheelTest:
+) -> WheelTest | SimulatedWheelTest | ByModel[WheelTest] | ByModel[SimulatedWheelTest]:
     """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio
     ([FourWheel], section 4 and Fig. 7).
 
     Parameters
     ----------
-    soil, wheel, gravity_m_s2, model
+    soil, wheel, gravity_m_s2
         As for `settle`; one soil.
+    model : str, optional
+        The wheel–soil model, or ``"all"`` for the results of each; by default the soil's own.
     load_n : array_like, shape (loads,)
         Loads [N], 0 to 1e5.
     slip_ratio : array_like, shape (ratios,)
@@ -288,7 +329,7 @@ def wheel_test(
     Returns
     -------
     WheelTest
-        Or `SimulatedWheelTest`, with ``trials``.
+        Or `SimulatedWheelTest`, with ``trials``; or `ByModel` of them, for all models.
 
     Raises
     ------
@@ -302,6 +343,22 @@ def wheel_test(
     >>> test.drawbar_pull_n.shape
     (2, 1, 3, 4)
     """
+    if model == "all":
+        settings: dict[str, Any] = {
+            "load_n": load_n,
+            "slip_ratio": slip_ratio,
+            "slip_angle_deg": slip_angle_deg,
+            "gravity_m_s2": gravity_m_s2,
+            "trials": trials,
+            "noise_n": noise_n,
+            "noise_mm": noise_mm,
+            "noise_nm": noise_nm,
+            "uncertainty": uncertainty,
+            "samples": samples,
+            "seed": seed,
+        }
+        found_by: Any = each_model(lambda name: wheel_test(soil, wheel, model=name, **settings))
+        return found_by  # type: ignore[no-any-return]
     loads, angles = line("load_n", load_n), line("slip_angle_deg", slip_angle_deg)
     ratios = line("slip_ratio", slip_ratio)
     if trials is not None and uncertainty:

@@ -1,7 +1,8 @@
-"""Gymnasium environments: hold the contour line on a slope of unknown soil.
+"""Gymnasium environments: rovers on slopes of unknown soil.
 
 Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that simulates all
-its rovers at once on all cores. It needs Gymnasium: ``pip install gymnasium``.
+its rovers at once on all cores. `RoverEnv` is the base class of your own environments. It needs
+Gymnasium: ``pip install gymnasium``; and matplotlib for pictures.
 
 Examples
 --------
@@ -20,6 +21,7 @@ True
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -39,9 +41,10 @@ except ImportError as error:
 from ._arrays import Floats, mask as mask_of, number, numbers, whole_number
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
+from ._rendering import Camera
 from ._runs import RunBatch
 
-__all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv"]
+__all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv", "RoverEnv"]
 
 #: The environment's name for ``gymnasium.make``.
 ENV_ID = "grouser/LevelTraverse-v0"
@@ -80,7 +83,7 @@ _WHEEL_BOUNDS = (20.0, 50.0, 100.0)
 
 
 class _Traverses:
-    """Any number of rovers that should hold their lines: the common part of both environments."""
+    """Any number of rovers that should hold their lines: the common part of all environments."""
 
     def __init__(
         self,
@@ -143,8 +146,7 @@ class _Traverses:
                 f"the action is {actions!r}, it must be two numbers for each rover, from -1 to 1",
                 "action",
             )
-        drive, turn = shares[:, :1], shares[:, 1:]
-        rims = self.fastest * np.clip(drive + turn * self.side, -1.0, 1.0)
+        rims = self.rim_speeds(shares)
         before = self.rovers.state[:, 0]
         state = self.rovers.step(rims, self.dt_s, mask=which)
         progress = (state[:, 0] - before) / (self.fastest * self.dt_s)
@@ -153,6 +155,12 @@ class _Traverses:
         ended = lost | np.array([outcome is not None for outcome in self.rovers.outcome])
         rewards = progress - offset * offset + PENALTY * ended
         return np.where(which, rewards, 0.0), ended & which
+
+    def rim_speeds(self, shares: Floats) -> Floats:
+        """Rim speeds [m/s] of drive and turn, a row for each rover."""
+        drive, turn = shares[:, :1], shares[:, 1:]
+        rims: Floats = self.fastest * np.clip(drive + turn * self.side, -1.0, 1.0)
+        return rims
 
     def observations(self) -> Floats:
         state, wheel = self.rovers.state, self.rovers.wheel
@@ -173,7 +181,218 @@ class _Traverses:
         }
 
 
-class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
+class RoverEnv(gymnasium.Env[Floats, Floats]):
+    """Base class of environments with one rover on a slope of unknown soil: a subclass says what is
+    rewarded, and may say what is observed, what ends an episode, and what an action does.
+
+    Each reset samples the slope, the yaw at the start (−10 to 10°) and the soil, from its
+    ``[uncertainty]``. A subclass defines `reward`; it may override `is_ended`, `observation` and
+    `rim_speeds`, and then sets ``observation_space`` or ``action_space`` after
+    ``super().__init__(…)``. Those methods read `state`, `wheel`, `outcome`, `energy_j` and
+    `slope_deg`. An episode ends in any case where the rover gets stuck, slides or tips over.
+
+    ``render_mode="rgb_array"`` makes `render` return a picture of the rover and its path from
+    above, ``"human"`` shows it in a window after each reset and step. Both need matplotlib.
+
+    Parameters
+    ----------
+    scenario, soil, slope_deg, max_speed_m_s, dt_s
+        As for `LevelTraverseEnv`.
+    render_mode : {"rgb_array", "human"}, optional
+        Whether there are pictures.
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `LevelTraverseEnv`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from grouser.gym import RoverEnv
+    >>> class Climb(RoverEnv):
+    ...     def reward(self, before, ended):
+    ...         return self.state["y_m"] - before["y_m"] - 10.0 * ended
+    ...
+    ...     def is_ended(self):
+    ...         return self.state["y_m"] > 2.0
+    >>> env = Climb(slope_deg=(5.0, 8.0))
+    >>> observation, info = env.reset(seed=1, options={"yaw_deg": 60.0})
+    >>> observation, reward, terminated, truncated, info = env.step(np.array([0.6, 0.0]))
+    >>> reward > 0.0, terminated
+    (True, False)
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {  # type: ignore[misc]
+        "render_modes": ["rgb_array", "human"],
+        "render_fps": 10,
+    }
+
+    def __init__(
+        self,
+        *,
+        scenario: Scenario | Source | None = None,
+        soil: Soil | Source | None = None,
+        slope_deg: Sequence[float] | None = None,
+        max_speed_m_s: float = 0.1,
+        dt_s: float = 0.5,
+        render_mode: str | None = None,
+    ) -> None:
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            known = "'rgb_array', 'human' or None"
+            raise ParameterError(
+                f"render_mode is {render_mode!r}, it must be {known}", "render_mode", None, known
+            )
+        self._traverses = _Traverses(
+            1,
+            scenario=scenario,
+            soil=soil,
+            slope_deg=slope_deg,
+            max_speed_m_s=max_speed_m_s,
+            dt_s=dt_s,
+        )
+        self.render_mode = render_mode
+        self.observation_space = self._traverses.observation_space
+        self.action_space = self._traverses.action_space
+        self._camera: Camera | None = None
+        self._path: list[tuple[float, float]] = []
+
+    # ---- what a subclass reads ----
+
+    @property
+    def state(self) -> dict[str, float]:
+        """Pose and velocities: ``x_m``, ``y_m``, ``yaw_deg``, ``forward_speed_m_s``,
+        ``lateral_speed_m_s``, ``yaw_rate_deg_s``."""
+        rovers = self._traverses.rovers
+        return dict(zip(rovers.STATE, rovers.state[0].tolist()))
+
+    @property
+    def wheel(self) -> dict[str, Floats]:
+        """Arrays of shape (wheels,) by name, as those of `grouser.Run.wheel`."""
+        return {name: values[0] for name, values in self._traverses.rovers.wheel.items()}
+
+    @property
+    def outcome(self) -> str | None:
+        """``immobilised``, ``sliding`` or ``tipped_over``; None during the run."""
+        outcome: str | None = self._traverses.rovers.outcome[0]
+        return outcome
+
+    @property
+    def energy_j(self) -> float:
+        """Work of the motors so far [J]."""
+        return float(self._traverses.rovers.energy_j[0])
+
+    @property
+    def slope_deg(self) -> float:
+        """The slope of the episode [°]."""
+        return float(self._traverses.slope_deg[0])
+
+    # ---- what a subclass says ----
+
+    @abstractmethod
+    def reward(self, before: Mapping[str, float], ended: bool) -> float:
+        """The reward of a step.
+
+        Parameters
+        ----------
+        before : mapping of str to float
+            `state` before the step.
+        ended : bool
+            Whether the step ended the episode, by `is_ended` or by the rover's `outcome`.
+        """
+        raise NotImplementedError("an environment says what is rewarded: def reward(self, before, ended)")
+
+    def is_ended(self) -> bool:
+        """Whether the episode ends here though the rover could go on; by default never."""
+        return False
+
+    def observation(self) -> Floats:
+        """What is observed; by default as by `LevelTraverseEnv`."""
+        observation: Floats = self._traverses.observations()[0]
+        return observation
+
+    def rim_speeds(self, action: Floats) -> ArrayLike:
+        """Rim speeds of the wheels that an action sets [m/s]; by default of drive and turn, as by
+        `LevelTraverseEnv`.
+
+        Parameters
+        ----------
+        action : array
+            One of ``action_space``.
+        """
+        shares = np.clip(numbers("action", action), -1.0, 1.0)
+        if shares.shape != (2,) or np.isnan(shares).any():
+            raise ParameterError(
+                f"the action is {action!r}, it must be two numbers, from -1 to 1", "action"
+            )
+        rims: Floats = self._traverses.rim_speeds(shares[None])[0]
+        return rims
+
+    # ---- Gymnasium's ----
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Floats, dict[str, Any]]:
+        """Starts an episode; the seed determines slope, yaw and soil, except for those in
+        ``options``."""
+        given = _options_of(options, _OPTIONS)
+        super().reset(seed=seed)
+        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
+        self._path = []
+        self._was_moved()
+        return self.observation(), self._traverses.info(0)
+
+    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """Applies an action for ``dt_s``."""
+        before = self.state
+        reward, ended = self._advance(action, before)
+        self._was_moved()
+        return self.observation(), reward, ended, False, self._traverses.info(0)
+
+    def _advance(self, action: Floats, before: Mapping[str, float]) -> tuple[float, bool]:
+        """The reward of an action, and whether it ended the episode."""
+        rims = numbers("rim_speeds", self.rim_speeds(action))
+        self._traverses.rovers.step(rims[None], self._traverses.dt_s)
+        ended = bool(self.is_ended()) or self.outcome is not None
+        return float(self.reward(before, ended)), ended
+
+    def render(self) -> Any:
+        """The rover from above: an array of shape (400, 600, 3) of ``uint8`` for
+        ``render_mode="rgb_array"``; None else."""
+        if self.render_mode != "rgb_array":
+            return None
+        return self._drawn().pixels()
+
+    def close(self) -> None:
+        """Closes the window of ``render_mode="human"``."""
+        if self._camera is not None:
+            self._camera.close()
+            self._camera = None
+
+    def _was_moved(self) -> None:
+        state = self.state
+        self._path.append((state["x_m"], state["y_m"]))
+        if self.render_mode == "human":
+            self._drawn().show()
+
+    def _drawn(self) -> Camera:
+        if not self._path:
+            raise gymnasium.error.ResetNeeded("reset the environment before it is rendered")
+        if self._camera is None:
+            try:
+                rover = self._traverses.rovers.scenarios[0].rover
+                self._camera = Camera(rover, str(self.render_mode))
+            except ImportError as error:
+                raise gymnasium.error.DependencyNotInstalled(
+                    "rendering needs matplotlib: pip install matplotlib"
+                ) from error
+        title = f"slope {self.slope_deg:.1f}°, {float(self._traverses.rovers.time_s[0]):.1f} s"
+        title += f", {self.outcome}" if self.outcome else ""
+        self._camera.draw(np.array(self._path), self.state["yaw_deg"], title)
+        return self._camera
+
+
+class LevelTraverseEnv(RoverEnv):
     """Hold the contour line on a slope of unknown soil, with a rover that cannot steer its wheels.
 
     The line is the contour through the start, y = 0. Each reset samples the slope, the yaw at the
@@ -221,8 +440,8 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
         The largest rim speed [m/s].
     dt_s : float
         Duration of an action [s].
-    render_mode : None
-        Rendering is not supported.
+    render_mode : {"rgb_array", "human"}, optional
+        Whether there are pictures, as of `RoverEnv`.
 
     Raises
     ------
@@ -231,46 +450,23 @@ class LevelTraverseEnv(gymnasium.Env[Floats, Floats]):
         or that is not used.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}  # type: ignore[misc]
-
-    def __init__(
-        self,
-        *,
-        scenario: Scenario | Source | None = None,
-        soil: Soil | Source | None = None,
-        slope_deg: Sequence[float] | None = None,
-        max_speed_m_s: float = 0.1,
-        dt_s: float = 0.5,
-        render_mode: None = None,
-    ) -> None:
-        self._traverses = _Traverses(
-            1,
-            scenario=scenario,
-            soil=soil,
-            slope_deg=slope_deg,
-            max_speed_m_s=max_speed_m_s,
-            dt_s=dt_s,
+    def reward(self, before: Mapping[str, float], ended: bool) -> float:
+        """As above."""
+        progress = (self.state["x_m"] - before["x_m"]) / (
+            self._traverses.fastest * self._traverses.dt_s
         )
-        self.render_mode = render_mode
-        self.observation_space = self._traverses.observation_space
-        self.action_space = self._traverses.action_space
+        offset = self.state["y_m"] / LINE_M
+        return progress - offset * offset + PENALTY * ended
 
-    def reset(
-        self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Floats, dict[str, Any]]:
-        """Starts an episode; the seed determines slope, yaw and soil, except for those in
-        ``options``."""
-        given = _options_of(options, _OPTIONS)
-        super().reset(seed=seed)
-        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
-        return self._traverses.observations()[0], self._traverses.info(0)
+    def is_ended(self) -> bool:
+        """Whether the line is lost."""
+        return abs(self.state["y_m"]) > LOST_M
 
-    def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
-        """Applies an action for ``dt_s``."""
+    def _advance(self, action: Floats, before: Mapping[str, float]) -> tuple[float, bool]:
+        # With the arithmetic of the vector form, bit for bit.
         all_of_one = np.ones(1, dtype=np.bool_)
         rewards, ended = self._traverses.step(np.asanyarray(action)[None], all_of_one)
-        observation = self._traverses.observations()[0]
-        return observation, float(rewards[0]), bool(ended[0]), False, self._traverses.info(0)
+        return float(rewards[0]), bool(ended[0])
 
 
 class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
@@ -306,7 +502,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self.num_envs = num_envs
         self.render_mode = render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
-        self.metadata = {**LevelTraverseEnv.metadata, "autoreset_mode": self.autoreset_mode}
+        self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
         self._traverses = _Traverses(num_envs, **settings)
         self._longest = max_episode_steps
         self.single_observation_space = self._traverses.observation_space

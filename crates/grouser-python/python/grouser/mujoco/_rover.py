@@ -65,7 +65,7 @@ def rover_xml(
     world = _add(root, "worldbody")
     _add(world, "light", pos=(0, 0, 5), dir=(0, 0, -1))
     _add(world, "geom", name="ground", type="plane", size=(50, 50, 0.1), rgba=(0.76, 0.66, 0.5, 1))
-    units = [{**rover.wheel_unit, **mount} for mount in rover.mount]
+    units: list[dict[str, Any]] = [{**rover.wheel_unit, **mount} for mount in rover.mount]
     radii = [_shearing_radius(unit["wheel"]) for unit in units]
     hubs = [unit["position_m"] for unit in units]
     body = _add(

@@ -1,0 +1,895 @@
+"""Keys of the documents as attributes, for type checkers. Written by ``generate_keys.py`` from the
+schemas of the documents; a description finds its keys itself."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypedDict
+
+
+class SoilPressureSinkage(TypedDict, total=False):
+    """How pressure grows with sinkage."""
+
+    law: str
+    k_c: float
+    """Cohesive modulus, k'_c [-]."""
+    k_phi: float
+    """Frictional modulus, k'_φ [-]."""
+    n: float
+    """Sinkage exponent at zero slip, n [-]."""
+    n_per_slip: float
+    """Growth of n with the slip ratio while driving [-]."""
+    n_per_skid: float
+    """Growth of n with the size of the slip ratio while skidding [-]."""
+
+
+class SoilStressPeak(TypedDict, total=False):
+    """Where along the arc the normal stress peaks."""
+
+    a0: float
+    """Share of the entry angle at zero slip, a₀ [-]."""
+    a1: float
+    """Its growth with the slip ratio, a₁ [-]."""
+
+
+class SoilShear(TypedDict, total=False):
+    """How shear stress is mobilised."""
+
+    law: str
+    longitudinal_m: float
+    """Modulus along the wheel at zero slip angle, K_x [m]."""
+    longitudinal_per_rad_m: float
+    """Its growth with the slip angle [m/rad]."""
+    lateral_m: float
+    """Modulus across the wheel at zero slip angle, K_y [m]."""
+    lateral_per_rad_m: float
+    """Its growth with the slip angle [m/rad]."""
+    bound: str
+    """Whether the soil's resistance is kept within its friction and cohesion."""
+    longitudinal_per_rad2_m: float
+    """Its growth with the square of the slip angle [m/rad²]."""
+    lateral_per_rad2_m: float
+    """Its growth with the square of the slip angle [m/rad²]."""
+    slip_angle_limit_deg: float
+    """The largest slip angle that the fits know; beyond it they stay [°]."""
+
+
+class SoilExit(TypedDict, total=False):
+    """Where the wheel leaves the soil."""
+
+    law: str
+    """The law; may be left out."""
+    ratio: float
+    """Wheel sinkage ratio, λ [-]."""
+    at_zero: float
+    """λ at zero slip [-]."""
+    per_slip: float
+    """Its growth with the slip ratio [-]."""
+    per_slip2: float
+    """Its growth with the square of the slip ratio [-]."""
+
+
+class SoilBulldozing(TypedDict, total=False):
+    """How soil pushed aside loads the side wall."""
+
+    law: str
+    """How that force depends on the slip angle."""
+
+
+class SoilSmallWheelSinkage(TypedDict, total=False):
+    """How a moving wheel sinks deeper than a plate."""
+
+    with_slip_angle: float
+    """Growth per sin β/(cos β + 0.3) [-]."""
+    with_slip: float
+    """Growth with the slip by total speed, S/(1 − bend S) [-]."""
+    bend: float
+    """How that growth bends: above 0 it speeds up with slip, below 0 it slows down [-]."""
+    locked: float
+    """Growth of a locked wheel [-]."""
+    sharpness: float
+    """How much the larger of two growths hides the smaller; at 1 they add up [-]."""
+
+
+class SoilSmallWheelExit(TypedDict, total=False):
+    """How the exit moves with the motion."""
+
+    fading: float
+    """Share of λ that a wheel spinning on the spot has lost, in proportion to the slip by total
+    speed [-]."""
+    with_slip: float
+    """Growth with the slip by total speed, while driving [-]."""
+    with_slip_angle: float
+    """Growth with |sin β| [-]."""
+
+
+class SoilSmallWheelInterface(TypedDict, total=False):
+    """Friction between wheel and soil."""
+
+    friction_angle_deg: float
+    """Friction angle of the wheel-soil interface, δ, where below the soil's own [°]."""
+    friction_share: float
+    """Without it: δ of a wheel without grousers, as a share of the soil's friction angle [-]."""
+
+
+class SoilSmallWheelSideWall(TypedDict, total=False):
+    """The soil's load on the side wall of the wheel."""
+
+    pressure_factor: float
+    """Factor on the passive pressure, for the bow wave at the wall and for its ends [-]."""
+    fading: float
+    """How fast the load fades with slip or skid: e^(−fading |S|) [-]."""
+    friction: float
+    """Coefficient of friction of the side face, μ_f [-]."""
+
+
+class SoilSmallWheelMounds(TypedDict, total=False):
+    """Soil pushed by the width of the rim."""
+
+    bow_wave: float
+    """In front of a wheel that skids [-]."""
+    rear_mound: float
+    """Behind a wheel that spins [-]."""
+
+
+class SoilSmallWheel(TypedDict, total=False):
+    """Terms of the model `small-wheel`, for one wheel on this soil; general values without it."""
+
+    sinkage: SoilSmallWheelSinkage
+    """How a moving wheel sinks deeper than a plate."""
+    exit: SoilSmallWheelExit
+    """How the exit moves with the motion."""
+    interface: SoilSmallWheelInterface
+    """Friction between wheel and soil."""
+    side_wall: SoilSmallWheelSideWall
+    """The soil's load on the side wall of the wheel."""
+    mounds: SoilSmallWheelMounds
+    """Soil pushed by the width of the rim."""
+
+
+class SoilRft(TypedDict, total=False):
+    """Constants of the model `rft`, resistive force theory; as published without it."""
+
+    scale: float
+    """Factor on the stiffness that follows from density and friction angle [-]."""
+    surface_friction_angle_deg: float
+    """Friction angle between the wheel and the soil, δ [°]; without it the soil's own."""
+
+
+class SoilDomain(TypedDict, total=False):
+    """The ranges within which the constants were measured or fitted; not stated without it."""
+
+    wheel: str
+    """The wheel of the fit, by its preset's name."""
+    load_n: tuple[float, ...]
+    """Loads on the wheel [N]."""
+    radius_m: tuple[float, ...]
+    """Radii of the rims, without grousers, r [m]."""
+    width_m: tuple[float, ...]
+    """Widths of the wheels, b [m]."""
+    sinkage_over_radius: tuple[float, ...]
+    """Sinkages, as h/r_s [-]."""
+    slip_ratio: tuple[float, ...]
+    """Slip ratios, s [-]."""
+    slip_angle_deg: tuple[float, ...]
+    """Sizes of the slip angles, |β| [°]."""
+    gravity_m_s2: tuple[float, ...]
+    """Gravities, g [m/s²]."""
+
+
+class SoilDiscrepancy(TypedDict, total=False):
+    """What the model gets wrong under one wheel, from a calibration; nothing without it."""
+
+    drawbar_pull: tuple[float, ...]
+    """Added to the drawbar pull, in shares of the load [-]."""
+    side_force: tuple[float, ...]
+    """Added to the side force, in shares of the load; it begins with 15°, since there is none at
+    0° [-]."""
+    sinkage: tuple[float, ...]
+    """Added to the logarithm of the sinkage [-]."""
+    torque: tuple[float, ...]
+    """Added to the torque, in shares of the load times the shearing radius [-]."""
+
+
+class SoilUncertaintySamples(TypedDict, total=False):
+    """Rows of numbers that belong together, such as a posterior's: each run takes one of them."""
+
+    csv: str
+    """What a CSV file would say: keys in the first line, a sample in every other."""
+
+
+class SoilUncertaintyParameter(TypedDict, total=False):
+    """A number that is not known exactly. Its distribution is cut off at the ends of the key's
+    range."""
+
+    distribution: str
+    key: str
+    """A number of this document or, in a campaign, of what is varied, with the tables it stands
+    in: `pressure_sinkage.k_phi`, `soil.cohesion_kpa`."""
+    mean: float
+    """Its mean, in the unit of the key; without it, the value that the key has."""
+    standard_deviation: float
+    """Its standard deviation, in the unit of the key."""
+    low: float
+    """The lower end, in the unit of the key."""
+    high: float
+    """The upper end, in the unit of the key."""
+    mode: float
+    """The most likely value, in the unit of the key."""
+
+
+class SoilUncertaintyCorrelation(TypedDict, total=False):
+    """How two keys go together."""
+
+    between: tuple[str, ...]
+    """Two of the uncertain keys."""
+    value: float
+    """Their correlation (of the logarithm, where a key is lognormal) [-]."""
+
+
+class SoilUncertainty(TypedDict, total=False):
+    """How well the numbers above are known; without it, as well as the priors say."""
+
+    samples: SoilUncertaintySamples
+    """Rows of numbers that belong together, such as a posterior's: each run takes one of them."""
+    parameter: tuple[SoilUncertaintyParameter, ...]
+    """The numbers that are not known exactly, each with its distribution."""
+    correlation: tuple[SoilUncertaintyCorrelation, ...]
+    """Correlations between them; pairs that are not named have none."""
+
+
+class SoilPriorsMissing(TypedDict, total=False):
+    """What is believed of a number of a soil."""
+
+    distribution: str
+    key: str
+    """A number of a soil, with the tables it stands in: `exit.ratio`."""
+    relative_to: str
+    """A number of the soil of which the numbers of this row are multiples; without it, they are in
+    the key's unit."""
+    mean: float
+    """Its mean, in the unit of the key; without it, the value that the key has."""
+    median: float
+    """Its median, in place of the mean."""
+    standard_deviation: float
+    """Its standard deviation, in the unit of the key."""
+    soils: str
+    """The soils that it is about, by their `consistency`; without it, all."""
+    unless: str
+    """A table, or a key, of the soil: the row is only for soils that do not have it."""
+    reason: str
+    """Why it is so, in a sentence; a document of its own must have it."""
+    source: str
+    """Where it was read; with `assumed` before it, what stands for a source."""
+    low: float
+    """The lower end, in the unit of the key."""
+    high: float
+    """The upper end, in the unit of the key."""
+    mode: float
+    """The most likely value, in the unit of the key."""
+
+
+class SoilPriorsKeyword(TypedDict, total=False):
+    """A keyword that a soil does not state."""
+
+    key: str
+    """A keyword of a soil, with the tables it stands in: `bulldozing.law`."""
+    word: str
+    """The keyword that stands there."""
+    reason: str
+    """Why it is so, in a sentence; a document of its own must have it."""
+    source: str
+    """Where it was read."""
+
+
+class SoilPriorsStated(TypedDict, total=False):
+    """What is believed of a number of a soil."""
+
+    distribution: str
+    key: str
+    """A number of a soil, with the tables it stands in: `exit.ratio`."""
+    relative_to: str
+    """A number of the soil of which the numbers of this row are multiples; without it, they are in
+    the key's unit."""
+    mean: float
+    """Its mean, in the unit of the key; without it, the value that the key has."""
+    median: float
+    """Its median, in place of the mean."""
+    standard_deviation: float
+    """Its standard deviation, in the unit of the key."""
+    soils: str
+    """The soils that it is about, by their `consistency`; without it, all."""
+    unless: str
+    """A table, or a key, of the soil: the row is only for soils that do not have it."""
+    reason: str
+    """Why it is so, in a sentence; a document of its own must have it."""
+    source: str
+    """Where it was read; with `assumed` before it, what stands for a source."""
+    low: float
+    """The lower end, in the unit of the key."""
+    high: float
+    """The upper end, in the unit of the key."""
+    mode: float
+    """The most likely value, in the unit of the key."""
+
+
+class SoilPriorsCorrelation(TypedDict, total=False):
+    """How two keys go together, and why."""
+
+    between: tuple[str, ...]
+    """Two of the uncertain keys."""
+    value: float
+    """Their correlation (of the logarithm, where a key is lognormal) [-]."""
+    reason: str
+    """Why it is so, in a sentence; a document of its own must have it."""
+
+
+class SoilPriors(TypedDict, total=False):
+    """What is believed of the numbers that are not stated above; without it, `general`. In a
+    resolved document, the rows that hold for this soil: a number that they call missing is the
+    prior's, not the source's."""
+
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the rows come from."""
+    notes: str
+    """Anything else worth knowing."""
+    missing: tuple[SoilPriorsMissing, ...]
+    """Numbers that a soil does not state: a single answer takes the median, a band draws."""
+    keyword: tuple[SoilPriorsKeyword, ...]
+    """Keywords that a soil does not state."""
+    stated: tuple[SoilPriorsStated, ...]
+    """How well a stated number is known, where the soil does not say: bands draw about it."""
+    correlation: tuple[SoilPriorsCorrelation, ...]
+    """Correlations between them; pairs that are not named have none."""
+
+
+class SoilKeys:
+    """Keys of a soil."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def schema(self) -> str:
+            """Kind and version of this document."""
+            ...
+
+        @property
+        def name(self) -> str:
+            """What people call it."""
+            ...
+
+        @property
+        def source(self) -> str:
+            """Where the values come from."""
+            ...
+
+        @property
+        def date(self) -> str:
+            """The day on which the soil was measured or observed to be like this, as
+            2026-11-20."""
+            ...
+
+        @property
+        def notes(self) -> str:
+            """Anything else worth knowing."""
+            ...
+
+        @property
+        def assumed(self) -> tuple[str, ...]:
+            """Values that the source does not give, each as `key: why this value`."""
+            ...
+
+        @property
+        def model(self) -> str:
+            """The wheel–soil model that the values were made for; without it, `ishigami`."""
+            ...
+
+        @property
+        def consistency(self) -> str:
+            """Whether the soil is loose or firm, for priors; without it, loose."""
+            ...
+
+        @property
+        def cohesion_kpa(self) -> float:
+            """Cohesion, c [kPa]."""
+            ...
+
+        @property
+        def friction_angle_deg(self) -> float:
+            """Angle of internal friction, φ [°]."""
+            ...
+
+        @property
+        def density_kg_m3(self) -> float:
+            """Bulk density, ρ [kg/m³]."""
+            ...
+
+        @property
+        def pressure_sinkage(self) -> SoilPressureSinkage:
+            """How pressure grows with sinkage."""
+            ...
+
+        @property
+        def stress_peak(self) -> SoilStressPeak:
+            """Where along the arc the normal stress peaks."""
+            ...
+
+        @property
+        def shear(self) -> SoilShear:
+            """How shear stress is mobilised."""
+            ...
+
+        @property
+        def exit(self) -> SoilExit:
+            """Where the wheel leaves the soil."""
+            ...
+
+        @property
+        def bulldozing(self) -> SoilBulldozing:
+            """How soil pushed aside loads the side wall."""
+            ...
+
+        @property
+        def small_wheel(self) -> SoilSmallWheel:
+            """Terms of the model `small-wheel`, for one wheel on this soil; general values without
+            it."""
+            ...
+
+        @property
+        def rft(self) -> SoilRft:
+            """Constants of the model `rft`, resistive force theory; as published without it."""
+            ...
+
+        @property
+        def domain(self) -> SoilDomain:
+            """The ranges within which the constants were measured or fitted; not stated without
+            it."""
+            ...
+
+        @property
+        def discrepancy(self) -> SoilDiscrepancy:
+            """What the model gets wrong under one wheel, from a calibration; nothing without
+            it."""
+            ...
+
+        @property
+        def uncertainty(self) -> SoilUncertainty:
+            """How well the numbers above are known; without it, as well as the priors say."""
+            ...
+
+        @property
+        def priors(self) -> SoilPriors:
+            """What is believed of the numbers that are not stated above; without it, `general`. In
+            a resolved document, the rows that hold for this soil: a number that they call missing
+            is the prior's, not the source's."""
+            ...
+
+
+class WheelGrousers(TypedDict, total=False):
+    """Bars across the rim; left out for a smooth wheel."""
+
+    height_m: float
+    """Height over the rim, h_g [m]."""
+    count: int
+    """How many there are."""
+
+
+class WheelKeys:
+    """Keys of a wheel."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def schema(self) -> str:
+            """Kind and version of this document."""
+            ...
+
+        @property
+        def name(self) -> str:
+            """What people call it."""
+            ...
+
+        @property
+        def source(self) -> str:
+            """Where the values come from."""
+            ...
+
+        @property
+        def notes(self) -> str:
+            """Anything else worth knowing."""
+            ...
+
+        @property
+        def assumed(self) -> tuple[str, ...]:
+            """Values that the source does not give, each as `key: why this value`."""
+            ...
+
+        @property
+        def radius_m(self) -> float:
+            """Radius of the rim, without grousers, r [m]."""
+            ...
+
+        @property
+        def width_m(self) -> float:
+            """Width of the rim, b [m]."""
+            ...
+
+        @property
+        def grousers(self) -> WheelGrousers:
+            """Bars across the rim; left out for a smooth wheel."""
+            ...
+
+
+class RoverBodyInertiaKgM2(TypedDict, total=False):
+    """Moments of inertia about its centre of mass [kg·m²]."""
+
+    xx: float
+    """About x, forward [kg·m²]."""
+    yy: float
+    """About y, to the left [kg·m²]."""
+    zz: float
+    """About z, up [kg·m²]."""
+
+
+class RoverBody(TypedDict, total=False):
+    """The body, without its wheels."""
+
+    mass_kg: float
+    """Mass [kg]."""
+    inertia_kg_m2: RoverBodyInertiaKgM2
+    """Moments of inertia about its centre of mass [kg·m²]."""
+
+
+class RoverWheelUnitInertiaKgM2(TypedDict, total=False):
+    """Moments of inertia about its hub [kg·m²]."""
+
+    xx: float
+    """About x, forward [kg·m²]."""
+    yy: float
+    """About y, to the left [kg·m²]."""
+    zz: float
+    """About z, up [kg·m²]."""
+
+
+class RoverWheelUnitWheelGrousers(TypedDict, total=False):
+    """Bars across the rim; left out for a smooth wheel."""
+
+    height_m: float
+    """Height over the rim, h_g [m]."""
+    count: int
+    """How many there are."""
+
+
+class RoverWheelUnitWheel(TypedDict, total=False):
+    """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
+
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the values come from."""
+    notes: str
+    """Anything else worth knowing."""
+    assumed: tuple[str, ...]
+    """Values that the source does not give, each as `key: why this value`."""
+    radius_m: float
+    """Radius of the rim, without grousers, r [m]."""
+    width_m: float
+    """Width of the rim, b [m]."""
+    grousers: RoverWheelUnitWheelGrousers
+    """Bars across the rim; left out for a smooth wheel."""
+
+
+class RoverWheelUnit(TypedDict, total=False):
+    """A wheel with its motor: that of every mount that has no other."""
+
+    mass_kg: float
+    """Mass [kg]."""
+    inertia_kg_m2: RoverWheelUnitInertiaKgM2
+    """Moments of inertia about its hub [kg·m²]."""
+    wheel: RoverWheelUnitWheel
+    """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
+
+
+class RoverMountInertiaKgM2(TypedDict, total=False):
+    """Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel
+    unit's."""
+
+    xx: float
+    """About x, forward [kg·m²]."""
+    yy: float
+    """About y, to the left [kg·m²]."""
+    zz: float
+    """About z, up [kg·m²]."""
+
+
+class RoverMountWheelGrousers(TypedDict, total=False):
+    """Bars across the rim; left out for a smooth wheel."""
+
+    height_m: float
+    """Height over the rim, h_g [m]."""
+    count: int
+    """How many there are."""
+
+
+class RoverMountWheel(TypedDict, total=False):
+    """The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this
+    document's folder, or a wheel's keys."""
+
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the values come from."""
+    notes: str
+    """Anything else worth knowing."""
+    assumed: tuple[str, ...]
+    """Values that the source does not give, each as `key: why this value`."""
+    radius_m: float
+    """Radius of the rim, without grousers, r [m]."""
+    width_m: float
+    """Width of the rim, b [m]."""
+    grousers: RoverMountWheelGrousers
+    """Bars across the rim; left out for a smooth wheel."""
+
+
+class RoverMount(TypedDict, total=False):
+    """Where a wheel sits, and what it has instead of the common wheel unit."""
+
+    name: str
+    """The wheel's name, such as `front-left`; no two alike."""
+    position_m: tuple[float, ...]
+    """The wheel's centre from the body's centre of mass: x forward, y left, z up [m]."""
+    steering_deg: float
+    """Steering angle, δ: the wheel is turned to the left by this much, for good; left out, it
+    points straight ahead [°]."""
+    mass_kg: float
+    """Mass of this wheel with its motor, instead of the wheel unit's [kg]."""
+    inertia_kg_m2: RoverMountInertiaKgM2
+    """Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel
+    unit's."""
+    wheel: RoverMountWheel
+    """The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this
+    document's folder, or a wheel's keys."""
+
+
+class RoverKeys:
+    """Keys of a rover."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def schema(self) -> str:
+            """Kind and version of this document."""
+            ...
+
+        @property
+        def name(self) -> str:
+            """What people call it."""
+            ...
+
+        @property
+        def source(self) -> str:
+            """Where the values come from."""
+            ...
+
+        @property
+        def notes(self) -> str:
+            """Anything else worth knowing."""
+            ...
+
+        @property
+        def assumed(self) -> tuple[str, ...]:
+            """Values that the source does not give, each as `key: why this value`."""
+            ...
+
+        @property
+        def body(self) -> RoverBody:
+            """The body, without its wheels."""
+            ...
+
+        @property
+        def wheel_unit(self) -> RoverWheelUnit:
+            """A wheel with its motor: that of every mount that has no other."""
+            ...
+
+        @property
+        def mount(self) -> tuple[RoverMount, ...]:
+            """Where the wheels sit: three or more, standing on one plane, not in one line."""
+            ...
+
+
+class ScenarioDrive(TypedDict, total=False):
+    """What turns the wheels."""
+
+    law: str
+    """The law; may be left out."""
+    rim_speed_m_s: float | tuple[float, ...]
+    """Speed of the rim, (r + h_g) ω [m/s]; a list gives one for each mount, in their order."""
+    yaw_deg: tuple[tuple[float, ...], ...]
+    """Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before
+    and after; without it the wheels' moments turn the rover"""
+    ground_speed_m_s: float
+    """Desired speed along the contour, v_des [m/s]."""
+    reference_slip_ratio: float
+    """Reference slip ratio, s_ref [-]."""
+
+
+class ScenarioByWheel(TypedDict, total=False):
+    """How the soil below each wheel, and its speed, differ from what is said of all."""
+
+    friction_angle_offset_deg: float | tuple[float, ...]
+    """Added to the soil's angle of internal friction, Δφ [°]."""
+    stiffness_factor: float | tuple[float, ...]
+    """Factor on the soil's stiffness: on k_c and k_phi, and on that of resistive force theory
+    [-]."""
+    speed_factor: float | tuple[float, ...]
+    """Factor on the speed that the drive tells the motor [-]."""
+
+
+class ScenarioScatter(TypedDict, total=False):
+    """How the soil scatters from place to place, and the speed from wheel to wheel."""
+
+    friction_angle_std_deg: float
+    """Standard deviation of the angle of internal friction from place to place [°]."""
+    stiffness_std: float
+    """Standard deviation of the soil's stiffness from place to place, as a share of it (of its
+    logarithm) [-]."""
+    correlation_length_m: float
+    """Distance at which the correlation of the soil has fallen to 1/e; not below a footprint's
+    length [m]."""
+    speed_std: float
+    """Standard deviation of each wheel's speed over a run, as a share of what its motor is told
+    (of its logarithm) [-]."""
+    seed: int
+    """Which realisation a single run has; the runs of a campaign have one each, by its own
+    seed."""
+
+
+class ScenarioSlopeStability(TypedDict, total=False):
+    """What is asked of the ground's own strength (infinite slope) by headings, maps and cards; a
+    run is not changed by it."""
+
+    factor_of_safety: float
+    """Least factor of safety, FS [-]."""
+    depth_m: float
+    """Depth of the layer that would slide, z, straight down; it counts where there is cohesion
+    [m]."""
+
+
+class ScenarioStart(TypedDict, total=False):
+    """How the run starts."""
+
+    yaw_deg: float
+    """Yaw, γ; above 0 with the nose uphill [°]."""
+    motion: str
+    """Whether the rover already moves."""
+
+
+class ScenarioKeys:
+    """Keys of a scenario."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def schema(self) -> str:
+            """Kind and version of this document."""
+            ...
+
+        @property
+        def name(self) -> str:
+            """What it is there to show."""
+            ...
+
+        @property
+        def source(self) -> str:
+            """Where the values come from."""
+            ...
+
+        @property
+        def notes(self) -> str:
+            """Anything else worth knowing."""
+            ...
+
+        @property
+        def assumed(self) -> tuple[str, ...]:
+            """Values that the source does not give, each as `key: why this value`."""
+            ...
+
+        @property
+        def model(self) -> str:
+            """The wheel-soil model; without it the soil's own, or else `ishigami`."""
+            ...
+
+        @property
+        def gravity_m_s2(self) -> float:
+            """Gravity, g [m/s²]."""
+            ...
+
+        @property
+        def slope_deg(self) -> float:
+            """Inclination of the plane, α [°]."""
+            ...
+
+        @property
+        def duration_s(self) -> float:
+            """How long the run lasts [s]."""
+            ...
+
+        @property
+        def sample_interval_s(self) -> float:
+            """Time between two recorded samples [s]."""
+            ...
+
+        @property
+        def load_transfer(self) -> str:
+            """Load transfer: how the weight is shared among the wheels."""
+            ...
+
+        @property
+        def wheel_moments(self) -> str:
+            """Whether the wheels' own overturning and aligning moments act on the rover; without
+            it they do where the load transfer is complete."""
+            ...
+
+        @property
+        def simulation(self) -> str:
+            """Whether velocities are integrated, or those of a steady state at every instant."""
+            ...
+
+        @property
+        def drive(self) -> ScenarioDrive:
+            """What turns the wheels."""
+            ...
+
+        @property
+        def by_wheel(self) -> ScenarioByWheel:
+            """How the soil below each wheel, and its speed, differ from what is said of all."""
+            ...
+
+        @property
+        def scatter(self) -> ScenarioScatter:
+            """How the soil scatters from place to place, and the speed from wheel to wheel."""
+            ...
+
+        @property
+        def slope_stability(self) -> ScenarioSlopeStability:
+            """What is asked of the ground's own strength (infinite slope) by headings, maps and
+            cards; a run is not changed by it."""
+            ...
+
+        @property
+        def start(self) -> ScenarioStart:
+            """How the run starts."""
+            ...
+
+
+class SiteKeys:
+    """Keys of a site."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def slope_deg(self) -> float:
+            """Inclination of the plane, α [°]."""
+            ...
+
+        @property
+        def gravity_m_s2(self) -> float:
+            """Gravity, g [m/s²]."""
+            ...
