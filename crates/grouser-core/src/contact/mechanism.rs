@@ -5,7 +5,7 @@
 //! h° = r_s √(1 − (a · n)²) − d          the lowest point of a circle that leans
 //! x = a × n / |a × n|,  y = n × x       the wheel's directions along the ground
 //! A = J_u M⁻¹ J_fᵀ                      J_u, J_f: rows of J along (x, y, n; r_s a), (…; x, n)
-//! u° = J_u (q̇ − Δt M⁻¹ Jᵀ w)            without the wrenches w that acted in the step that led here
+//! u° = J_u (v − Δt M⁻¹ Jᵀ w)            without the wrenches w that acted in the step that led here
 //! ```
 //!
 //! with axle *a*, normal of the ground *n* and the hub's distance from it *d*, in the world's axes. *M* is the inertia
@@ -54,7 +54,7 @@ pub struct Mechanism<'a> {
     pub jacobians: &'a [f64],
     /// Inertia, *M*: row by row.
     pub inertia: &'a [f64],
-    /// Generalised velocities after the preliminary step, *q̇*.
+    /// Generalised velocities after the preliminary step, *v*.
     pub velocities: &'a [f64],
     /// Whether overturning and aligning moments act.
     pub with_moments: bool,
