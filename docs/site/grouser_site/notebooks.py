@@ -19,6 +19,8 @@ def offer(app, page: str, template: str, context: dict, doctree) -> None:
         return
     reader = create_nb_reader(str(source), app.env.myst_config, app.env.mystnb_config, source.read_text("utf-8"))
     notebook = reader.read(source.read_text(encoding="utf-8"))
+    # What is not shown, such as the check of a command, is for the site alone.
+    notebook.cells = [one for one in notebook.cells if "remove-cell" not in one.metadata.get("tags", [])]
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = _LINK.sub(r"\1", cell.source)
