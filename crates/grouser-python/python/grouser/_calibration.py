@@ -233,7 +233,17 @@ class Calibration(_tables.Tabular):
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
         """Plots predictions of the fitted model over measurements, a dot for each cell; for plate
-        tests pressure over sinkage, a line for each plate."""
+        tests pressure over sinkage, a line for each plate.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity, of wheel tests.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         if self.validation is not None:
             return self.validation.plot(axes, name=name, **style)
         axes, curves = _tables.axes_or_new(axes), self.curves or {}

@@ -101,6 +101,11 @@ class _Description:
         changed value is noted among the ``assumptions``, because the source no longer applies to
         it.
 
+        Parameters
+        ----------
+        **changes
+            Keys with other values.
+
         Raises
         ------
         ParameterError
@@ -425,7 +430,15 @@ class Site(_Description, _keys.SiteKeys):
     @classmethod
     def from_toml(cls, text: str, files: Mapping[str, str] | None = None) -> Site:
         """A site from a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or from a
-        scenario's."""
+        scenario's.
+
+        Parameters
+        ----------
+        text : str
+            The document.
+        files : mapping of str to str, optional
+            The content of the files that it names, in the form of `files`.
+        """
         if "schema" not in text.split("[", 1)[0]:
             text = 'schema = "scenario/1"\n' + text
         return Scenario.from_toml(text, files).site
@@ -436,7 +449,13 @@ class Site(_Description, _keys.SiteKeys):
         return {}
 
     def replace(self, **changes: Any) -> Site:
-        """The same with another soil, slope or gravity."""
+        """The same with another soil, slope or gravity.
+
+        Parameters
+        ----------
+        **changes
+            ``soil``, ``slope_deg`` or ``gravity_m_s2``; a mapping for ``soil`` changes single keys.
+        """
         for name in changes:
             if name not in self._KEYS:
                 raise ParameterError(f"a Site has no {name}", name, None, ", ".join(self._KEYS))

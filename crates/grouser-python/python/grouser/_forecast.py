@@ -56,7 +56,17 @@ class Forecast(_tables.Tabular):
         return _tables.frame(self.columns)
 
     def plot(self, axes: Axes | None = None, *, name: str = "slip_ratio", **style: Any) -> Axes:
-        """Plots the median of a quantity over the slope, and the band of 95 % of the cases."""
+        """Plots the median of a quantity over the slope, and the band of 95 % of the cases.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity, such as ``slip_ratio`` or ``power_w``.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         low, median, high = (self.columns[f"{name}_{end}"] for end in ("p2_5", "p50", "p97_5"))
         axes.fill_between(self.slope_deg, low, high, alpha=0.25, label="95 % of the cases")

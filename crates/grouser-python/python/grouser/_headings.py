@@ -76,7 +76,15 @@ class Headings(_tables.Tabular):
         return _tables.dataset(("slope_deg",), columns, coords)
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the yaw over the slope, with its band if there is one."""
+        """Plots the yaw over the slope, with its band if there is one.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
@@ -261,7 +269,19 @@ class HeadingMap(_tables.Tabular):
     def plot(
         self, axes: Axes | None = None, *, soil: int = 0, name: str = "slip_ratio", **style: Any
     ) -> Axes:
-        """Plots a quantity over slope and course, for one of the soils by its index."""
+        """Plots a quantity over slope and course, for one of the soils by its index.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        soil : int
+            The soil's index.
+        name : str
+            The quantity.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         mesh = axes.pcolormesh(self.slope_deg, self.course_deg, getattr(self, name)[soil], **style)
         axes.figure.colorbar(mesh, ax=axes, label=_tables.label(name))

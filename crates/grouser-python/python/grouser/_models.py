@@ -56,7 +56,15 @@ class ByModel(_tables.Tabular, Mapping[str, _Result]):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots each model's result on the same axes, labelled with its name."""
+        """Plots each model's result on the same axes, labelled with its name.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of the results' own ``plot``.
+        """
         axes = _tables.axes_or_new(axes)
         for name, result in self._results.items():
             result.plot(axes, **{"label": name, **style})  # type: ignore[attr-defined]

@@ -109,7 +109,15 @@ class Rollout(_tables.Tabular):
         return data
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the final positions, seen from above, and the paths with ``trajectories=True``."""
+        """Plots the final positions, seen from above, and the paths with ``trajectories=True``.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         if self.records is not None:
             count = self.records["x_m"].shape[-1]

@@ -62,7 +62,17 @@ class Validation(_tables.Tabular):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Plots predictions of a quantity over its measurements, a dot for each cell."""
+        """Plots predictions of a quantity over its measurements, a dot for each cell.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         measured, predicted = self.cells[f"measured_{name}"], self.cells[name]
         axes.plot(measured, predicted, **{"ls": "", "marker": ".", **style})
@@ -160,7 +170,17 @@ class SlopeValidation(_tables.Tabular):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, *, name: str = "slip_ratio", **style: Any) -> Axes:
-        """Plots a quantity over the slope: measured as dots, predicted as a line."""
+        """Plots a quantity over the slope: measured as dots, predicted as a line.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity, ``slip_ratio`` or ``yaw_deg``.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         slope = self.slopes["slope_deg"]
         axes.plot(slope, self.slopes[name], **style)
@@ -260,7 +280,15 @@ class Ranking(_tables.Tabular):
         return _tables.frame(self._table())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the scores as bars, the best at the top of each part."""
+        """Plots the scores as bars, the best at the top of each part.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         rows = self.rows[::-1]
         scores = [np.nan if row["score"] is None else row["score"] for row in rows]

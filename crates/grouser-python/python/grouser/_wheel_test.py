@@ -117,7 +117,17 @@ class WheelTest(_tables.Tabular):
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
         """Plots a quantity over the slip ratio, a line for each load and slip angle, with its band
-        if there is one."""
+        if there is one.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         values = getattr(self.wheels, name)
         ends = [self._bands().get(f"{name}_{end}") for end in ("p2_5", "p97_5")]
@@ -186,7 +196,17 @@ class SimulatedWheelTest(_tables.Tabular):
         return _tables.dataset(tuple(coords), self._readings(), coords)
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
-        """Plots a reading over the slip ratio, a dot for each trial."""
+        """Plots a reading over the slip ratio, a dot for each trial.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
         axes = _tables.axes_or_new(axes)
         values = getattr(self, name)
         for i, load in enumerate(self.load_n):

@@ -334,7 +334,15 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Floats, dict[str, Any]]:
         """Starts an episode; the seed determines slope, yaw and soil, except for those in
-        ``options``."""
+        ``options``.
+
+        Parameters
+        ----------
+        seed : int, optional
+            Seed of the random values; without it they go on from those before.
+        options : dict, optional
+            ``slope_deg``, ``yaw_deg`` or ``soil_seed``, each in place of a sampled value.
+        """
         given = _options_of(options, _OPTIONS)
         super().reset(seed=seed)
         self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
@@ -343,7 +351,13 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         return self.observation(), self._traverses.info(0)
 
     def step(self, action: Floats) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
-        """Applies an action for ``dt_s``."""
+        """Applies an action for ``dt_s``.
+
+        Parameters
+        ----------
+        action : array
+            One of ``action_space``.
+        """
         before = self.state
         reward, ended = self._advance(action, before)
         self._was_moved()
@@ -451,7 +465,13 @@ class LevelTraverseEnv(RoverEnv):
     """
 
     def reward(self, before: Mapping[str, float], ended: bool) -> float:
-        """As above."""
+        """Progress along the line, less the offset's square, and a penalty at the end.
+
+        Parameters
+        ----------
+        before, ended
+            As for `RoverEnv.reward`.
+        """
         progress = (self.state["x_m"] - before["x_m"]) / (
             self._traverses.fastest * self._traverses.dt_s
         )
@@ -523,6 +543,13 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
 
         ``options["reset_mask"]``, an array of bool, selects some of them; by default all. The
         other options are those of `LevelTraverseEnv`: one value, or one for each sub-environment.
+
+        Parameters
+        ----------
+        seed : int or sequence of int or None, optional
+            Seeds of the random values.
+        options : dict, optional
+            As above.
         """
         given = _options_of(options, (*_OPTIONS, "reset_mask"))
         seeds = [seed + k for k in range(self.num_envs)] if isinstance(seed, int) else seed
@@ -550,7 +577,13 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self, actions: Floats
     ) -> tuple[Floats, Floats, NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]:
         """Applies an action to each for ``dt_s``; those whose episode has ended are reset according
-        to ``autoreset_mode``."""
+        to ``autoreset_mode``.
+
+        Parameters
+        ----------
+        actions : array
+            A row for each sub-environment.
+        """
         if not self._randoms:
             raise gymnasium.error.ResetNeeded("reset the environments before the first step")
         again = self._ended.copy()

@@ -123,6 +123,11 @@ class Results:
     def column(self, name: str) -> NDArray[Any]:
         """A column, shape (runs,): numbers with NaN where a run has none, or texts with None.
 
+        Parameters
+        ----------
+        name : str
+            One of `columns`.
+
         Raises
         ------
         ParameterError
@@ -210,6 +215,11 @@ class Results:
     def row(self, run: int) -> dict[str, Any]:
         """The stored row of a run by column, None or NaN for a missing value.
 
+        Parameters
+        ----------
+        run : int
+            The run's number, from 0.
+
         Raises
         ------
         ParameterError
@@ -227,6 +237,11 @@ class Results:
     def rerun(self, run: int) -> dict[str, Any]:
         """Computes a single run again, finished or not: its row by column, None for a missing
         value.
+
+        Parameters
+        ----------
+        run : int
+            The run's number, from 0.
 
         Raises
         ------

@@ -78,7 +78,13 @@ class Campaign(_Description):
         return tuple(name for name, _, role, _ in self._facts["columns"] if role == wanted)
 
     def runs_of(self, shard: int) -> range:
-        """The runs of a shard; empty beyond the last shard."""
+        """The runs of a shard; empty beyond the last shard.
+
+        Parameters
+        ----------
+        shard : int
+            The shard's number, from 0.
+        """
         length: int = self._items["shard_runs"]
         start = min(shard * length, self.row_count)
         return range(start, min(start + length, self.row_count))
@@ -109,6 +115,11 @@ class Campaign(_Description):
 
     def rerun(self, run: int) -> dict[str, Any]:
         """Computes a single run: its row by column, None where there is no value.
+
+        Parameters
+        ----------
+        run : int
+            The run's number, from 0.
 
         Raises
         ------

@@ -164,13 +164,26 @@ class SoilContact:
         return self._residual
 
     def step(self, data: mujoco.MjData, count: int = 1) -> None:
-        """Calls `apply` and ``mujoco.mj_step``, ``count`` times."""
+        """Calls `apply` and ``mujoco.mj_step``, ``count`` times.
+
+        Parameters
+        ----------
+        data : mujoco.MjData
+            The state of the model.
+        count : int
+            Number of steps.
+        """
         for _ in range(count):
             self.apply(data)
             mujoco.mj_step(self._model, data)
 
     def apply(self, data: mujoco.MjData) -> None:
         """Writes the forces of the soil over the coming step into ``data.xfrc_applied``.
+
+        Parameters
+        ----------
+        data : mujoco.MjData
+            The state of the model.
 
         Raises
         ------
