@@ -12,9 +12,9 @@ pub(crate) fn check() -> Result<bool> {
     let mut flaws = Vec::new();
     let mut texts = Vec::new();
     for path in workspace::files()? {
-        // Files that are no text hold no words to check.
-        if let Ok(text) = std::fs::read_to_string(workspace::root().join(&path)) {
-            texts.push((path, text));
+        // Files that are no text, such as films, hold no words to check, but links may lead to them.
+        if let Ok(bytes) = std::fs::read(workspace::root().join(&path)) {
+            texts.push((path, String::from_utf8(bytes).unwrap_or_default()));
         }
     }
     let own_host = address::of(&texts).map_or("", address::host);
