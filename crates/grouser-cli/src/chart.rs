@@ -1,21 +1,29 @@
-//! Line charts with measured points, as SVG: the one place that knows the plotting library.
+//! Figures in one style, as SVG: the one place that knows the plotting library.
+//!
+//! A curve has its name at its end, in the right margin, and no legend stands in a box. Colours stay apart for
+//! colour-blind eyes; dashes, shapes and names distinguish in grey. A drawing brings its colours for a dark screen.
+
+mod bars;
+mod grid;
+mod heat_map;
+mod names;
+mod style;
 
 use std::sync::Arc;
 
-use grouser::document::escape;
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::BarPlot;
 use kuva::plot::band::BandPlot;
 use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{ColorMap, Heatmap};
 use kuva::plot::{LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
-use kuva::render::figure::Figure;
-use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
-use crate::output::rows::four_digits;
+pub(crate) use bars::Bars;
+pub(crate) use grid::Grid;
+pub(crate) use heat_map::HeatMap;
+use style::{COLOURS, MUTED, finished, label, layout_of};
 
 /// A chart: axes and series.
 #[derive(Clone, Debug)]
@@ -26,14 +34,18 @@ pub(crate) struct Chart {
     pub(crate) x_label: String,
     /// Vertical quantity and unit.
     pub(crate) y_label: String,
-    /// Curves and points, drawn in this order.
+    /// Curves and points, drawn in this order, but for points, which lie above curves.
     pub(crate) series: Vec<Series>,
+    /// Whether the horizontal axis is logarithmic.
+    log_x: bool,
+    /// What stands at 1, 2, … on the vertical axis instead of numbers, from the bottom up.
+    y_names: Vec<String>,
 }
 
 /// A named curve or set of points.
 #[derive(Clone, Debug)]
 pub(crate) struct Series {
-    /// Its name in the legend.
+    /// Its name beside it; none stands there if it is empty.
     pub(crate) name: String,
     /// Its points; of a band those of its lower edge.
     pub(crate) points: Vec<(f64, f64)>,
@@ -43,8 +55,10 @@ pub(crate) struct Series {
     pub(crate) colour: usize,
     /// How it is drawn.
     pub(crate) style: Style,
-    /// Half the height of each point's error bar; none if empty. Lines have none.
-    pub(crate) error_bars: Vec<f64>,
+    /// Half the length of each point's error bar; none if empty. Lines have none.
+    error_bars: Vec<f64>,
+    /// Whether the error bars lie along the horizontal axis.
+    across: bool,
 }
 
 /// How a series is drawn.
@@ -56,6 +70,8 @@ pub(crate) enum Style {
     Dashed,
     /// A dotted line.
     Dotted,
+    /// A line of dashes and dots.
+    DashDot,
     /// Filled circles.
     Dots,
     /// Squares.
@@ -66,14 +82,20 @@ pub(crate) enum Style {
     Band,
 }
 
-/// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
-const COLOURS: [&str; 7] =
-    ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+impl Style {
+    /// A line that differs from those before it by its dashes too: curves that coincide all stay visible.
+    pub(crate) fn of_line(place: usize) -> Self {
+        [Self::Line, Self::Dashed, Self::Dotted, Self::DashDot][place % 4]
+    }
 
-/// The colour of what is left over.
-const REST: &str = "#bbbbbb";
+    /// Whether it is drawn as separate marks.
+    fn is_marks(self) -> bool {
+        matches!(self, Self::Dots | Self::Squares | Self::Triangles)
+    }
+}
 
-const FONTS: &str = "Helvetica, Arial, sans-serif";
+/// The place of a light colour, for a band where there is one. Others have that of their line.
+pub(crate) const BAND_COLOUR: usize = 6;
 
 impl Series {
     pub(crate) fn new(
@@ -83,13 +105,19 @@ impl Series {
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
         let (name, points) = (name.into(), points.into_iter().collect());
-        Self { name, points, upper: Vec::new(), error_bars: Vec::new(), colour, style }
+        let (upper, error_bars, across) = (Vec::new(), Vec::new(), false);
+        Self { name, points, upper, colour, style, error_bars, across }
     }
 
-    /// The same with error bars, one for each point.
+    /// The same with upright error bars, one for each point.
     pub(crate) fn with_error_bars(mut self, bars: impl IntoIterator<Item = f64>) -> Self {
         self.error_bars = bars.into_iter().collect();
         self
+    }
+
+    /// The same with error bars along the horizontal axis.
+    pub(crate) fn with_bars_across(self, bars: impl IntoIterator<Item = f64>) -> Self {
+        Self { across: true, ..self.with_error_bars(bars) }
     }
 
     /// A band from its edges, (x, low, high).
@@ -100,228 +128,147 @@ impl Series {
     ) -> Self {
         let (points, upper): (Vec<(f64, f64)>, Vec<f64>) =
             edges.into_iter().map(|(x, low, high)| ((x, low), high)).unzip();
-        Self { upper, style: Style::Band, ..Self::new(name, Style::Band, colour, points) }
+        Self { upper, ..Self::new(name, Style::Band, colour, points) }
     }
 
-    /// The area between the edges of a band.
-    fn area(&self) -> Option<Plot> {
-        let (across, lower): (Vec<f64>, Vec<f64>) = self.points.iter().copied().unzip();
-        let band = BandPlot::new(across, lower, self.upper.iter().copied())
-            .with_color(COLOURS[self.colour % COLOURS.len()])
-            .with_opacity(0.35);
-        (self.style == Style::Band).then_some(Plot::Band(band))
+    fn colour(&self) -> &'static str {
+        COLOURS[self.colour % COLOURS.len()]
     }
 
-    /// For a chart among many: thin, and without a name.
+    /// For a chart among many: thin.
     fn to_small_plot(&self) -> Plot {
-        let colour = COLOURS[self.colour % COLOURS.len()];
         let data = self.points.iter().copied();
         if self.style == Style::Line {
-            return Plot::Line(LinePlot::new().with_data(data).with_color(colour));
+            return Plot::Line(LinePlot::new().with_data(data).with_color(self.colour()));
         }
-        let plot = ScatterPlot::new().with_data(data).with_color(colour).with_size(1.2);
+        let plot = ScatterPlot::new().with_data(data).with_color(self.colour()).with_size(1.2);
         Plot::Scatter(plot.with_marker_opacity(0.5))
     }
 
     fn to_plot(&self) -> Plot {
-        let colour = COLOURS[self.colour % COLOURS.len()];
         let data = self.points.iter().copied();
         let line = |style: LineStyle| {
-            Plot::Line(
-                LinePlot::new()
-                    .with_data(data.clone())
-                    .with_color(colour)
-                    .with_stroke_width(1.8)
-                    .with_line_style(style)
-                    .with_legend(label(&self.name)),
-            )
-        };
-        let marks = |shape: MarkerShape| {
-            let plot = ScatterPlot::new()
-                .with_data(data.clone())
-                .with_color(colour)
-                .with_size(4.5)
-                .with_marker(shape)
-                .with_legend(label(&self.name));
-            Plot::Scatter(if self.error_bars.is_empty() {
-                plot
-            } else {
-                plot.with_y_err(self.error_bars.iter().copied())
-            })
+            let plot = LinePlot::new().with_data(data.clone()).with_color(self.colour());
+            Plot::Line(plot.with_stroke_width(2.0).with_line_style(style))
         };
         match self.style {
-            // The library gives a band no place in the legend: its lower edge stands for it.
-            Style::Line | Style::Band => line(LineStyle::Solid),
+            Style::Line => line(LineStyle::Solid),
             Style::Dashed => line(LineStyle::Dashed),
             Style::Dotted => line(LineStyle::Dotted),
-            Style::Dots => marks(MarkerShape::Circle),
-            Style::Squares => marks(MarkerShape::Square),
-            Style::Triangles => marks(MarkerShape::Triangle),
-        }
-    }
-}
-
-/// Horizontal bars, each of parts that are laid end to end.
-#[derive(Clone, Debug)]
-pub(crate) struct Bars {
-    /// What they show.
-    pub(crate) title: String,
-    /// Quantity and unit along them.
-    pub(crate) x_label: String,
-    /// The names of the parts, in their order.
-    pub(crate) parts: Vec<String>,
-    /// Whether the last part is what is left over: it is grey.
-    pub(crate) has_rest: bool,
-    /// From the top down: of each a name, and the length of each part.
-    pub(crate) rows: Vec<(String, Vec<f64>)>,
-}
-
-impl Bars {
-    /// The bars as a stand-alone SVG document.
-    pub(crate) fn to_svg(&self) -> String {
-        let is_rest = |place: usize| self.has_rest && place + 1 == self.parts.len();
-        let colour = |place: usize| {
-            // Black is for text.
-            if is_rest(place) { REST } else { COLOURS[1 + place % (COLOURS.len() - 1)] }
-        };
-        let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
-        // The library draws from the bottom up.
-        for (name, lengths) in self.rows.iter().rev() {
-            let pieces = lengths.iter().enumerate().map(|(place, length)| (*length, colour(place)));
-            plot = plot.with_group(label(name), pieces);
-        }
-        let names: Vec<String> = self.parts.iter().map(|name| label(name)).collect();
-        if names.len() > 1 {
-            plot = plot.with_legend(names.iter().map(String::as_str).collect());
-        }
-        let plots = vec![Plot::Bar(plot)];
-        let layout = layout_of(&plots, [&self.title, &self.x_label, ""]);
-        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
-    }
-}
-
-/// A table drawn in colours: a value for each row and column, or none, which stays grey.
-#[derive(Clone, Debug)]
-pub(crate) struct HeatMap {
-    /// What it shows, with the unit.
-    pub(crate) title: String,
-    /// Quantity and unit of the columns, and what they are.
-    pub(crate) x_label: String,
-    pub(crate) columns: Vec<f64>,
-    /// Quantity and unit of the rows, and what they are, from the bottom up.
-    pub(crate) y_label: String,
-    pub(crate) rows: Vec<f64>,
-    /// Row by row.
-    pub(crate) values: Vec<Vec<Option<f64>>>,
-}
-
-impl HeatMap {
-    /// The map as a stand-alone SVG document.
-    pub(crate) fn to_svg(&self) -> String {
-        let colours = |share: f64| {
-            if share.is_nan() { "#dddddd".to_owned() } else { ColorMap::Viridis.map(share) }
-        };
-        let numbers = |row: &Vec<Option<f64>>| {
-            row.iter().map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<f64>>()
-        };
-        let map = Heatmap::new()
-            .with_data(self.values.iter().map(numbers).collect::<Vec<Vec<f64>>>())
-            .with_color_map(ColorMap::Custom(Arc::new(colours)));
-        let places = |values: &[f64]| values.iter().map(|value| four_digits(*value)).collect();
-        let plots = vec![Plot::Heatmap(map)];
-        let layout = layout_of(&plots, [&self.title, &self.x_label, &self.y_label])
-            .with_x_categories(places(&self.columns))
-            .with_y_categories(places(&self.rows));
-        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
-    }
-}
-
-/// Small charts in rows and columns, some places empty, without legends.
-#[derive(Clone, Debug)]
-pub(crate) struct Grid {
-    /// Row by row.
-    pub(crate) cells: Vec<Vec<Option<Chart>>>,
-}
-
-impl Grid {
-    /// The charts as one stand-alone SVG document.
-    pub(crate) fn to_svg(&self) -> String {
-        /// Size of a chart [px].
-        const SIZE: f64 = 190.0;
-        let columns = self.cells.iter().map(Vec::len).max().unwrap_or(0);
-        let (mut structure, mut plots, mut layouts) = (Vec::new(), Vec::new(), Vec::new());
-        for (row, cells) in self.cells.iter().enumerate() {
-            for (column, chart) in cells.iter().enumerate() {
-                let Some(chart) = chart else { continue };
-                let own: Vec<Plot> = chart.series.iter().map(Series::to_small_plot).collect();
-                layouts.push(
-                    Layout::auto_from_plots(&own)
-                        .with_x_label(label(&chart.x_label))
-                        .with_y_label(label(&chart.y_label))
-                        .with_label_size(10)
-                        .with_tick_size(8)
-                        .with_ticks(4)
-                        .with_tick_format(TickFormat::Custom(Arc::new(four_digits)))
-                        .with_font_family(FONTS),
-                );
-                plots.push(own);
-                structure.push(vec![row * columns + column]);
+            Style::DashDot => line(LineStyle::DashDot),
+            Style::Dots => self.marks(MarkerShape::Circle),
+            Style::Squares => self.marks(MarkerShape::Square),
+            Style::Triangles => self.marks(MarkerShape::Triangle),
+            Style::Band => {
+                let (x, lower): (Vec<f64>, Vec<f64>) = data.unzip();
+                let band = BandPlot::new(x, lower, self.upper.iter().copied());
+                Plot::Band(band.with_color(self.colour()).with_opacity(0.3))
             }
         }
-        let figure = Figure::new(self.cells.len(), columns)
-            .with_structure(structure)
-            .with_plots(plots)
-            .with_layouts(layouts)
-            .with_cell_size(SIZE, SIZE)
-            .with_spacing(6.0);
-        scalable(&SvgBackend.render_scene(&figure.render()))
+    }
+
+    /// Marks with an outline, clear enough that none hides another.
+    fn marks(&self, shape: MarkerShape) -> Plot {
+        /// From as many points on, their marks are small.
+        const MANY: usize = 60;
+        let many = self.points.len() > MANY;
+        let plot = ScatterPlot::new()
+            .with_data(self.points.iter().copied())
+            .with_color(self.colour())
+            .with_size(if many { 3.0 } else { 4.5 })
+            .with_marker(shape)
+            .with_marker_stroke_width(1.2)
+            .with_marker_opacity(if many { 0.35 } else { 0.6 });
+        let bars = self.error_bars.iter().copied();
+        Plot::Scatter(match (self.error_bars.is_empty(), self.across) {
+            (true, _) => plot,
+            (false, false) => plot.with_y_err(bars),
+            (false, true) => plot.with_x_err(bars),
+        })
     }
 }
 
 impl Chart {
+    /// A chart with linear axes.
+    ///
+    /// * `axes`: quantity and unit of the horizontal and of the vertical axis
+    pub(crate) fn new(
+        title: impl Into<String>,
+        axes: (impl Into<String>, impl Into<String>),
+        series: Vec<Series>,
+    ) -> Self {
+        Self {
+            title: title.into(),
+            x_label: axes.0.into(),
+            y_label: axes.1.into(),
+            series,
+            log_x: false,
+            y_names: Vec::new(),
+        }
+    }
+
+    /// The same with a logarithmic horizontal axis, if all its numbers are above zero.
+    pub(crate) fn with_log_x(self) -> Self {
+        let log_x = self.points().all(|(x, _)| x > 0.0);
+        Self { log_x, ..self }
+    }
+
+    /// The same with names at 1, 2, … of the vertical axis, from the bottom up.
+    pub(crate) fn with_y_names(self, names: impl IntoIterator<Item = String>) -> Self {
+        Self { y_names: names.into_iter().collect(), ..self }
+    }
+
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.series.iter().flat_map(|series| series.points.iter().copied())
+    }
+
     /// The chart as a stand-alone SVG document.
     pub(crate) fn to_svg(&self) -> String {
-        let parts = |series: &Series| series.area().into_iter().chain([series.to_plot()]);
-        let plots: Vec<Plot> = self.series.iter().flat_map(parts).collect();
-        let mut layout = layout_of(&plots, [&self.title, &self.x_label, &self.y_label]);
-        let heights = || self.series.iter().flat_map(|series| &series.points).map(|point| point.1);
-        if heights().any(|y| y < 0.0) && heights().any(|y| y > 0.0) {
-            layout =
-                layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color("#888888"));
-        }
-        scalable(&SvgBackend.render_scene(&render_multiple(plots, layout)))
+        // Areas lie below lines, and lines below marks.
+        let depth = |series: &&Series| match series.style {
+            Style::Band => 0,
+            style if style.is_marks() => 2,
+            _ => 1,
+        };
+        let mut series: Vec<&Series> = self.series.iter().collect();
+        series.sort_by_key(depth);
+        let plots: Vec<Plot> = series.iter().map(|series| series.to_plot()).collect();
+        let layout = self.layout(&plots);
+        let margin = names::margin(&self.series);
+        let left = ComputedLayout::from_layout(&layout).margin_left;
+        let layout = layout.with_force_margins(left, margin);
+        let places = ComputedLayout::from_layout(&layout);
+        let mut scene = render_multiple(plots, layout);
+        names::add(&mut scene, &places, &self.series);
+        finished(SvgBackend.render_scene(&scene), &self.title)
     }
-}
 
-/// The layout of a drawing as wide as a page.
-fn layout_of(plots: &[Plot], [title, x_label, y_label]: [&str; 3]) -> Layout {
-    Layout::auto_from_plots(plots)
-        .with_title(label(title))
-        .with_x_label(label(x_label))
-        .with_y_label(label(y_label))
-        .with_width(760.0)
-        .with_height(430.0)
-        .with_title_size(15)
-        .with_label_size(13)
-        .with_tick_size(12)
-        .with_body_size(12)
-        .with_font_family(FONTS)
-}
-
-/// A text of a drawing on one line, its hidden characters written out. The library escapes what means
-/// something in XML, and would take what stands between two dollar signs for mathematics.
-fn label(text: &str) -> String {
-    escape::line(text).replace('$', "\\$")
-}
-
-/// A drawing that a page may make larger or smaller: the library names its size, but no view box.
-fn scalable(svg: &str) -> String {
-    let size = |name: &str| {
-        let rest = svg.split_once(&format!(" {name}=\""))?.1;
-        rest.split_once('"').map(|(number, _)| number)
-    };
-    let (Some(width), Some(height)) = (size("width"), size("height")) else {
-        return svg.to_owned();
-    };
-    svg.replacen("<svg ", &format!("<svg viewBox=\"0 0 {width} {height}\" "), 1)
+    fn layout(&self, plots: &[Plot]) -> Layout {
+        let mut layout = layout_of(plots, [&self.title, &self.x_label, &self.y_label]);
+        if self.log_x {
+            layout = layout.with_log_x();
+        }
+        if !self.y_names.is_empty() {
+            let names: Vec<String> = self.y_names.iter().map(|name| label(name)).collect();
+            let last = names.len() as f64;
+            let name = move |at: f64| {
+                let place = at.round();
+                let is_name = (at - place).abs() < 1e-6 && (1.0..=last).contains(&place);
+                // In range, as was just seen.
+                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+                let name = is_name.then(|| names[place as usize - 1].clone());
+                name.unwrap_or_default()
+            };
+            layout = layout
+                .with_y_axis_min(0.5)
+                .with_y_axis_max(last + 0.5)
+                .with_y_tick_step(1.0)
+                .with_y_tick_format(TickFormat::Custom(Arc::new(name)));
+        }
+        let has_zero = self.points().any(|(_, y)| y < 0.0) && self.points().any(|(_, y)| y > 0.0);
+        if has_zero {
+            layout = layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color(MUTED));
+        }
+        layout
+    }
 }

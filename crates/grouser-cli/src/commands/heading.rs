@@ -202,15 +202,14 @@ fn limit_line(limit: &Table) -> String {
 /// Yaw over slope.
 fn chart(all: &[OfModel]) -> Chart {
     let series = all.iter().enumerate().map(|(place, of_model)| {
-        let name = if all.len() > 1 { of_model.name() } else { "heading offset" };
+        let name = if all.len() > 1 { of_model.name() } else { "" };
         line(name, place + 1, &of_model.curve)
     });
-    Chart {
-        title: "Heading offset that holds the contour".into(),
-        x_label: "slope [°]".into(),
-        y_label: "yaw, positive uphill [°]".into(),
-        series: series.collect(),
-    }
+    Chart::new(
+        "Heading offset that holds the contour",
+        ("slope [°]", "yaw, positive uphill [°]"),
+        series.collect(),
+    )
 }
 
 fn line(name: &str, colour: usize, curve: &HeadingCurve) -> Series {

@@ -111,16 +111,15 @@ impl Bands {
             .map(|((slope, low), (_, high))| (slope, low, high))
             .collect();
         let medians: Vec<_> = along.points(SLOPE.name, &median).collect();
-        Chart {
-            title: format!("Heading offset that holds the contour, {} samples", self.draws()),
-            x_label: "slope [°]".into(),
-            y_label: "yaw, positive uphill [°]".into(),
-            series: vec![
+        Chart::new(
+            format!("Heading offset that holds the contour, {} samples", self.draws()),
+            ("slope [°]", "yaw, positive uphill [°]"),
+            vec![
                 Series::band("95 % of the samples", 6, edges),
                 Series::new("median", Style::Dashed, 0, medians),
                 nominal,
             ],
-        }
+        )
     }
 
     /// The probability of a contour traverse over slope.
@@ -136,14 +135,13 @@ impl Bands {
             .map(|((slope, low), (_, high))| (slope, low, high))
             .collect();
         let chances: Vec<_> = shown.points(SLOPE.name, &level).collect();
-        Chart {
-            title: format!("Probability of a contour traverse, {} samples", self.draws()),
-            x_label: "slope [°]".into(),
-            y_label: "probability".into(),
-            series: vec![
+        Chart::new(
+            format!("Probability of a contour traverse, {} samples", self.draws()),
+            ("slope [°]", "probability"),
+            vec![
                 Series::band("95 % interval", 6, edges),
                 Series::new("share of the samples", Style::Line, 1, chances),
             ],
-        }
+        )
     }
 }

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use super::animation::Target;
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
-use crate::chart::{Chart, Series, Style};
+use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
@@ -322,16 +322,8 @@ fn chart(all: &[OfModel]) -> Chart {
     for (place, of_model) in all.iter().enumerate() {
         let records = of_model.run.records.iter();
         let points = records.map(|record| (record.state.position.x, record.state.position.y));
-        let name = if all.len() > 1 { of_model.name() } else { "path" };
+        let name = if all.len() > 1 { of_model.name() } else { "" };
         series.push(Series::new(name, Style::Line, place + 1, points));
     }
-    Chart {
-        title: "Path on the slope".into(),
-        x_label: "along the contour, x [m]".into(),
-        y_label: "uphill, y [m]".into(),
-        series,
-    }
+    Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
 }
-
-/// A band's place among the colours where there is one: a light one. Others have that of their line.
-const BAND_COLOUR: usize = 6;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, StandArgs, WheelTestArgs};
-use crate::chart::{Chart, Series, Style};
+use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
@@ -188,13 +188,9 @@ fn chart(table: &Table, style: Style) -> Chart {
         let points = part.points(SLIP_RATIO.name, DRAWBAR_PULL.name);
         lines.push(Series::new(name, style, lines.len(), points));
     }
-    Chart {
-        title: "Drawbar pull".into(),
-        x_label: "slip ratio".into(),
-        y_label: "drawbar pull [N]".into(),
-        series: bands.into_iter().chain(lines).collect(),
-    }
+    Chart::new(
+        "Drawbar pull",
+        ("slip ratio", "drawbar pull [N]"),
+        bands.into_iter().chain(lines).collect(),
+    )
 }
-
-/// A band's place among the colours where there is one: a light one. Others have that of their line.
-const BAND_COLOUR: usize = 6;

@@ -189,11 +189,7 @@ pub(crate) fn drift(study: &Reproduction) -> Figure {
                   measured, beside that of a run with its nose along the contour. The paper prints no sign; all \
                   predictions are downhill."
             .into(),
-        chart: Chart {
-            title: "Drift at the measured yaw".into(),
-            x_label: "slope [°]".into(),
-            y_label: "distance from the contour [mm]".into(),
-            series: vec![
+        chart: Chart::new("Drift at the measured yaw", ("slope [°]", "distance from the contour [mm]"), vec![
                 Series::new("nose along the contour", Style::Dotted, 3, level),
                 Series::new("at the measured yaw, predicted", Style::Squares, 1, ours),
                 Series::new(
@@ -202,8 +198,7 @@ pub(crate) fn drift(study: &Reproduction) -> Figure {
                     2,
                     points(|runs| runs.measured.final_distance_error),
                 ),
-            ],
-        },
+            ]),
     }
 }
 
@@ -271,17 +266,12 @@ pub(crate) fn lost_yaw_figure(study: &Study) -> Figure {
                   even motors; the band holds 95 % of runs in which friction, stiffness and speeds scatter. With \
                   loads by the weight alone, as in the paper, nothing is lost."
             .into(),
-        chart: Chart {
-            title: "The yaw lost on the way".into(),
-            x_label: "slope [°]".into(),
-            y_label: "yaw lost [°]".into(),
-            series: vec![
+        chart: Chart::new("The yaw lost on the way", ("slope [°]", "yaw lost [°]"), vec![
                 Series::band("95 % of scattered runs", 6, edges),
                 Series::new("complete loads", Style::Line, 1, over(&|loss| loss.by_loads)),
                 Series::new("the wheels' torque in pitch alone", Style::Dashed, 3, torque),
                 Series::new("measured", Style::Dots, 2, over(&|loss| loss.measured.yaw_loss())),
-            ],
-        },
+            ]),
     }
 }
 

@@ -84,19 +84,14 @@ pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
                   sand known as well as preset toyoura-uncertain says, any of three models, complete loads; it ends \
                   where fewer than 97.5 % of the samples hold the contour."
             .into(),
-        chart: Chart {
-            title: "Heading offset that holds the contour".into(),
-            x_label: "slope [°]".into(),
-            y_label: "yaw, positive uphill [°]".into(),
-            series: vec![
+        chart: Chart::new("Heading offset that holds the contour", ("slope [°]", "yaw, positive uphill [°]"), vec![
                 heading_band(band),
                 Series::new("Grouser", Style::Line, 1, line),
                 Series::new("paper's model", Style::Squares, 0, points(|m| m.model_yaw)),
                 Series::new("measured, mean", Style::Dots, 4, points(MeasuredTraverse::mean_yaw)),
                 Series::new("measured, start", Style::Dots, 2, points(|m| m.initial_yaw)),
                 Series::new("measured, end", Style::Triangles, 3, points(|m| m.final_yaw)),
-            ],
-        },
+            ]),
     }
 }
 
@@ -141,12 +136,11 @@ pub(crate) fn traverses(study: &Reproduction) -> Figure {
                   the scales). With its nose along the contour the rover drifts downhill; started \
                   with its heading offset it stays on the contour, and pays with slip and distance."
             .into(),
-        chart: Chart {
-            title: "Traverses without and with compensation".into(),
-            x_label: "along the contour, x [m]".into(),
-            y_label: "uphill, y [mm]".into(),
+        chart: Chart::new(
+            "Traverses without and with compensation",
+            ("along the contour, x [m]", "uphill, y [mm]"),
             series,
-        },
+        ),
     }
 }
 
@@ -180,12 +174,11 @@ fn wheel_curves(study: &Reproduction) -> Figure {
             "Fig. 7 of the paper: drawbar pull of one wheel over slip at slip angle 0, where the \
              side force is zero by symmetry, for three values of K_x at slip angle 0.{verdict}"
         ),
-        chart: Chart {
-            title: "Single-wheel test".into(),
-            x_label: "slip ratio".into(),
-            y_label: "drawbar pull [N]".into(),
-            series: series.collect(),
-        },
+        chart: Chart::new(
+            "Single-wheel test",
+            ("slip ratio", "drawbar pull [N]"),
+            series.collect(),
+        ),
     }
 }
 
@@ -206,12 +199,11 @@ fn by_slip_angle(
              paper's test and with the K_x of its Table 3. Side force is positive to the left: a \
              wheel that moves to the left is pushed to the right."
         ),
-        chart: Chart {
-            title: format!("Single-wheel test: {}", title.to_lowercase()),
-            x_label: "slip ratio".into(),
-            y_label: y_label.into(),
-            series: curves(&study.by_slip_angle, key, quantity),
-        },
+        chart: Chart::new(
+            format!("Single-wheel test: {}", title.to_lowercase()),
+            ("slip ratio", y_label),
+            curves(&study.by_slip_angle, key, quantity),
+        ),
     }
 }
 
@@ -221,16 +213,15 @@ fn sinkage_by_load(study: &Reproduction) -> Figure {
         caption: "Sinkage of one wheel over slip at slip angle 0, under several loads. Measured \
                   wheels sink faster with slip than in this model."
             .into(),
-        chart: Chart {
-            title: "Single-wheel test: sinkage".into(),
-            x_label: "slip ratio".into(),
-            y_label: "sinkage [mm]".into(),
-            series: curves(
+        chart: Chart::new(
+            "Single-wheel test: sinkage",
+            ("slip ratio", "sinkage [mm]"),
+            curves(
                 &study.by_load,
                 |row| format!("load {} N", row.load),
                 |settled| SINKAGE.unit.from_si(settled.sinkage),
             ),
-        },
+        ),
     }
 }
 
@@ -287,12 +278,11 @@ fn slip_along_run(study: &Reproduction, rover: &Rover) -> Figure {
              second and stays for the rest of the run.",
             start_up_slope(study)
         ),
-        chart: Chart {
-            title: "Slip along a run from rest".into(),
-            x_label: "time [s]".into(),
-            y_label: "slip ratio".into(),
-            series: along_run(study, rover, |wheel| wheel.reaction.slip.ratio),
-        },
+        chart: Chart::new(
+            "Slip along a run from rest",
+            ("time [s]", "slip ratio"),
+            along_run(study, rover, |wheel| wheel.reaction.slip.ratio),
+        ),
     }
 }
 
@@ -302,13 +292,10 @@ fn sinkage_along_run(study: &Reproduction, rover: &Rover) -> Figure {
         caption: "Sinkage of each wheel in the same run: the downhill wheels carry more and sink \
                   deeper; in the classical model sinkage follows slip at once."
             .into(),
-        chart: Chart {
-            title: "Sinkage along a run from rest".into(),
-            x_label: "time [s]".into(),
-            y_label: "sinkage [mm]".into(),
-            series: along_run(study, rover, |wheel| {
-                SINKAGE.unit.from_si(wheel.reaction.settled.sinkage)
-            }),
-        },
+        chart: Chart::new(
+            "Sinkage along a run from rest",
+            ("time [s]", "sinkage [mm]"),
+            along_run(study, rover, |wheel| SINKAGE.unit.from_si(wheel.reaction.settled.sinkage)),
+        ),
     }
 }

@@ -101,10 +101,5 @@ fn chart(curves: &[PlateCurve], solved: &Solved) -> Chart {
         fit.sort_by(|one, other| one.0.total_cmp(&other.0));
         series.push(Series::new(format!("{width} mm, fit"), Style::Line, place, fit));
     }
-    Chart {
-        title: "Plate tests".into(),
-        x_label: "sinkage [mm]".into(),
-        y_label: "pressure [kPa]".into(),
-        series,
-    }
+    Chart::new("Plate tests", ("sinkage [mm]", "pressure [kPa]"), series)
 }

@@ -270,7 +270,7 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
     };
     page.heading("Posterior");
     page.drawing(
-        &corner(&solved.records, &shown, samples).to_svg(),
+        &corner(&solved.records, &shown, samples),
         &format!(
             "Posterior of each fitted key (histogram) and of each pair (samples). A slanted cloud is \
              a correlated pair: one key compensates for the other. A cloud that fills its bounds is a \
@@ -278,7 +278,7 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
         ),
     );
     let all: Vec<usize> = (0..solved.records.len()).collect();
-    folder.add("figures/corner.svg", corner(&solved.records, &all, samples).to_svg());
+    folder.add("figures/corner.svg", corner(&solved.records, &all, samples));
     let traces = traces(&solved.records, samples).to_svg();
     page.drawing(
         &traces,
@@ -303,8 +303,16 @@ fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
     places
 }
 
+/// Histograms of keys and clouds of their pairs, as SVG; of a single key its histogram, as wide as a page.
+///
 /// * `places`: of the keys to show
-fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> Grid {
+fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> String {
+    const TITLE: &str = "Posterior";
+    if let [only] = *places {
+        let axes = (short(&records[only]), "share of the samples");
+        let series = Series::new("", Style::Line, 1, histogram(samples, only));
+        return Chart::new(TITLE, axes, vec![series]).to_svg();
+    }
     let count = places.len();
     let pairs = (count * count.saturating_sub(1) / 2).max(1);
     let rows = samples.thinned(POINTS.min(ALL_POINTS / pairs));
@@ -317,15 +325,17 @@ fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> G
         };
         let style = if row == column { Style::Line } else { Style::Dots };
         let label = |place: usize| short(&records[places[place]]).to_owned();
-        Some(Chart {
-            title: String::new(),
-            x_label: if row + 1 == count { label(column) } else { String::new() },
-            y_label: if column == 0 && row > 0 { label(row) } else { String::new() },
-            series: vec![Series::new("", style, 1, points)],
-        })
+        Some(Chart::new(
+            String::new(),
+            (
+                if row + 1 == count { label(column) } else { String::new() },
+                if column == 0 && row > 0 { label(row) } else { String::new() },
+            ),
+            vec![Series::new("", style, 1, points)],
+        ))
     };
     let cells = (0..count).map(|row| (0..count).map(|column| cell(row, column)).collect());
-    Grid { cells: cells.collect() }
+    Grid { title: TITLE.into(), cells: cells.collect() }.to_svg()
 }
 
 /// How often a value falls into each of some bins, as a stepped outline.
@@ -360,12 +370,11 @@ fn traces(records: &[ParameterRecord], samples: &Samples) -> Chart {
         });
         Series::new(format!("ensemble {}", number + 1), Style::Line, number, points)
     });
-    Chart {
-        title: format!("Mean of the walkers: {}, the key that mixes worst", records[place].key),
-        x_label: "kept step".into(),
-        y_label: "deviations from the mean".into(),
-        series: series.collect(),
-    }
+    Chart::new(
+        format!("Mean of the walkers: {}, the key that mixes worst", records[place].key),
+        ("kept step", "deviations from the mean"),
+        series.collect(),
+    )
 }
 
 /// Correlations of the fitted keys, two digits, under numbers for names.

@@ -186,15 +186,14 @@ fn band(table: &Table, quantity: Quantity, title: &str, y_label: &str) -> Chart 
         .filter_map(|(slope, (low, high))| Some(((*slope)?, (*low)?, (*high)?)))
         .collect();
     let points = |name: &str| table.points(SLOPE.name, name).collect::<Vec<_>>();
-    Chart {
-        title: title.into(),
-        x_label: "slope [°]".into(),
-        y_label: y_label.into(),
-        series: vec![
+    Chart::new(
+        title,
+        ("slope [°]", y_label),
+        vec![
             Series::band("95 % of the cases", 6, edges),
             Series::new("median", Style::Line, 0, points(&median)),
         ],
-    }
+    )
 }
 
 fn by_choice(title: &str, curves: Vec<(String, Vec<(f64, f64)>)>) -> Chart {
@@ -202,10 +201,5 @@ fn by_choice(title: &str, curves: Vec<(String, Vec<(f64, f64)>)>) -> Chart {
     let series = curves.into_iter().enumerate().map(|(place, (name, points))| {
         Series::new(name, styles[place % styles.len()], place + 1, points)
     });
-    Chart {
-        title: title.into(),
-        x_label: "slope [°]".into(),
-        y_label: "mean slip ratio".into(),
-        series: series.collect(),
-    }
+    Chart::new(title, ("slope [°]", "mean slip ratio"), series.collect())
 }

@@ -113,12 +113,11 @@ pub(super) fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
         let (name, unit) = (quantity.label(), quantity.unit.symbol);
         Some(Figure {
             file: name.replace(' ', "-"),
-            chart: Chart {
-                title: format!("{} over slope: measured and predicted", capitalised(&name)),
-                x_label: "slope [°]".into(),
-                y_label: format!("{name} [{unit}]"),
+            chart: Chart::new(
+                format!("{} over slope: measured and predicted", capitalised(&name)),
+                ("slope [°]", format!("{name} [{unit}]")),
                 series,
-            },
+            ),
             caption: "Dots are measured. Where no heading holds a course along or up the slope, the slip counts as 1.",
         })
     };
@@ -153,12 +152,11 @@ fn over_slip(cells: &[Cell], name: &str, unit: &str) -> Chart {
         let points = Series::new(format!("measured, {angle}°"), Style::Dots, place, measured);
         series.push(points.with_error_bars(bars));
     }
-    Chart {
-        title: format!("{}: measured and predicted", capitalised(name)),
-        x_label: SLIP_LABEL.into(),
-        y_label: format!("{name} [{unit}]"),
+    Chart::new(
+        format!("{}: measured and predicted", capitalised(name)),
+        (SLIP_LABEL, format!("{name} [{unit}]")),
         series,
-    }
+    )
 }
 
 /// A line, unless several cells have the same slip, as at several loads: it would run up and down.
@@ -181,12 +179,11 @@ fn residuals(cells: &[Cell], name: &str, unit: &str) -> Chart {
             .unzip();
         Series::new(format!("{angle}°"), Style::Dots, place, points).with_error_bars(bars)
     };
-    Chart {
-        title: format!("{}: predicted minus measured", capitalised(name)),
-        x_label: SLIP_LABEL.into(),
-        y_label: format!("error of {name} [{unit}]"),
-        series: by_angle(cells).enumerate().map(of_angle).collect(),
-    }
+    Chart::new(
+        format!("{}: predicted minus measured", capitalised(name)),
+        (SLIP_LABEL, format!("error of {name} [{unit}]")),
+        by_angle(cells).enumerate().map(of_angle).collect(),
+    )
 }
 
 fn capitalised(name: &str) -> String {

@@ -40,19 +40,18 @@ fn distribution(curve: &Curve) -> Figure {
             "Cumulative distribution of {quantity} over the runs with a result. A steep curve is a \
              quantity with little uncertainty."
         ),
-        chart: Chart {
-            title: format!("{quantity}: distribution"),
-            x_label: label(curve),
-            y_label: "share of the runs below".into(),
-            series: vec![Series::new("runs", Style::Line, 1, curve.points.iter().copied())],
-        },
+        chart: Chart::new(
+            format!("{quantity}: distribution"),
+            (label(curve), "share of the runs below"),
+            vec![Series::new("", Style::Line, 1, curve.points.iter().copied())],
+        ),
     }
 }
 
 /// The median over the number of runs; none for fewer than two steps.
 fn convergence(curve: &Curve, steps: &[&ConvergenceRecord]) -> Option<Figure> {
     let known = steps.iter().filter_map(|it| {
-        let runs = (it.runs as f64).log10();
+        let runs = it.runs as f64;
         Some((runs, it.p50?, it.p50_low?, it.p50_high?))
     });
     let known: Vec<(f64, f64, f64, f64)> = known.collect();
@@ -68,51 +67,47 @@ fn convergence(curve: &Curve, steps: &[&ConvergenceRecord]) -> Option<Figure> {
             "The median of {quantity} after the first runs, with its 95 % interval: more runs narrow it \
              with the square root of their number."
         ),
-        chart: Chart {
-            title: format!("{quantity}: convergence"),
-            x_label: "runs, as a power of ten".into(),
-            y_label: label(curve),
-            series: vec![
+        chart: Chart::new(
+            format!("{quantity}: convergence"),
+            ("runs", label(curve)),
+            vec![
                 Series::band("95 % interval of the median", 6, band),
                 Series::new("median", Style::Line, 1, line),
             ],
-        },
+        )
+        .with_log_x(),
     })
 }
 
 fn sensitivity(curve: &Curve, shares: &[&SensitivityRecord]) -> Option<Figure> {
     /// How far the marks of an input stand apart.
-    const APART: f64 = 0.08;
+    const APART: f64 = 0.14;
     if shares.is_empty() {
         return None;
     }
+    // The first input stands on top.
+    let count = shares.len();
+    let places = || shares.iter().enumerate().map(|(place, it)| ((count - place) as f64, *it));
     let half = |low: f64, high: f64| (high - low) / 2.0;
-    let places = || shares.iter().enumerate().map(|(place, it)| (place as f64 + 1.0, *it));
-    let first = places().map(|(place, it)| (place - APART, it.first));
-    let total = places().map(|(place, it)| (place + APART, it.total));
-    let names: Vec<String> = shares
-        .iter()
-        .enumerate()
-        .map(|(place, it)| format!("{} {}", place + 1, it.input))
-        .collect();
+    let first = places().map(|(place, it)| (it.first, place + APART));
+    let total = places().map(|(place, it)| (it.total, place - APART));
     let quantity = &curve.quantity;
+    let chart = Chart::new(
+        format!("{quantity}: Sobol indices"),
+        ("share of the variance", ""),
+        vec![
+            Series::new("first order", Style::Dots, 1, first)
+                .with_bars_across(shares.iter().map(|it| half(it.first_low, it.first_high))),
+            Series::new("total", Style::Squares, 2, total)
+                .with_bars_across(shares.iter().map(|it| half(it.total_low, it.total_high))),
+        ],
+    );
     Some(Figure {
         file: format!("{quantity}-sensitivity"),
         caption: format!(
             "Share of the variance of {quantity} that each input causes, alone (first order) and with its \
-             interactions with others (total): {}.",
-            names.join(", ")
+             interactions with others (total)."
         ),
-        chart: Chart {
-            title: format!("{quantity}: Sobol indices"),
-            x_label: "input".into(),
-            y_label: "share of the variance".into(),
-            series: vec![
-                Series::new("first order", Style::Dots, 1, first)
-                    .with_error_bars(shares.iter().map(|it| half(it.first_low, it.first_high))),
-                Series::new("total", Style::Squares, 2, total)
-                    .with_error_bars(shares.iter().map(|it| half(it.total_low, it.total_high))),
-            ],
-        },
+        chart: chart.with_y_names(shares.iter().rev().map(|it| it.input.clone())),
     })
 }
