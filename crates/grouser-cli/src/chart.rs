@@ -222,8 +222,18 @@ impl Chart {
         self.series.iter().flat_map(|series| series.points.iter().copied())
     }
 
-    /// The chart as a stand-alone SVG document.
+    /// The chart as a stand-alone SVG document, as wide as a page.
     pub(crate) fn to_svg(&self) -> String {
+        self.drawn([760.0, 430.0])
+    }
+
+    /// The same for one chart among many: half as wide.
+    pub(crate) fn to_small_svg(&self) -> String {
+        self.drawn([460.0, 280.0])
+    }
+
+    /// * `size`: width and height [px]
+    fn drawn(&self, [width, height]: [f64; 2]) -> String {
         // Areas lie below lines, and lines below marks.
         let depth = |series: &&Series| match series.style {
             Style::Band => 0,
@@ -233,7 +243,7 @@ impl Chart {
         let mut series: Vec<&Series> = self.series.iter().collect();
         series.sort_by_key(depth);
         let plots: Vec<Plot> = series.iter().map(|series| series.to_plot()).collect();
-        let layout = self.layout(&plots);
+        let layout = self.layout(&plots).with_width(width).with_height(height);
         let margin = names::margin(&self.series);
         let left = ComputedLayout::from_layout(&layout).margin_left;
         let layout = layout.with_force_margins(left, margin);

@@ -1,5 +1,7 @@
 //! `grouser heading`: the heading offset that holds the contour on a slope.
 
+mod page;
+
 use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
 use grouser::document::columns::{LIMIT_SLOPE, MODEL, SLOPE, YAW};
@@ -18,6 +20,7 @@ use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, rounded_down};
 use crate::output::{self, Format};
+use crate::report::REPORT;
 
 /// What a model answers.
 struct OfModel {
@@ -51,7 +54,10 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
         folder.add(format!("{command}.csv"), rows.to_csv()?);
-        add_figures(&mut folder, command, &all);
+        for (name, chart) in figures(command, &all) {
+            folder.add(name, chart.to_svg());
+        }
+        folder.add(REPORT, page::html(command, args, &all, &table));
         for of_model in &all {
             let end = of_model.end(all.len());
             folder.add_document(&format!("scenario{end}.toml"), &of_model.scenario);
@@ -120,18 +126,21 @@ impl OfModel {
     }
 }
 
-/// A chart of the curves of all models, or one for the bands of each.
-fn add_figures(folder: &mut OutputFolder, command: &str, all: &[OfModel]) {
+/// A chart of the curves of all models, or those of the bands of each, with the names of their files.
+fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart)> {
     if all.iter().all(|of_model| of_model.bands.is_none()) {
-        folder.add(format!("{command}.svg"), chart(all).to_svg());
+        return vec![(format!("{command}.svg"), chart(all))];
     }
-    for of_model in all {
-        let Some(bands) = &of_model.bands else { continue };
+    let of_bands = |of_model: &OfModel| {
+        let bands = of_model.bands.as_ref()?;
         let end = of_model.end(all.len());
         let nominal = line("soil as written", 1, &of_model.curve);
-        folder.add(format!("{command}{end}.svg"), bands.chart(nominal).to_svg());
-        folder.add(format!("probability{end}.svg"), bands.chance_chart().to_svg());
-    }
+        Some([
+            (format!("{command}{end}.svg"), bands.chart(nominal)),
+            (format!("probability{end}.svg"), bands.chance_chart()),
+        ])
+    };
+    all.iter().filter_map(of_bands).flatten().collect()
 }
 
 /// The columns for reading.

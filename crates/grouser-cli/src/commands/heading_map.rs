@@ -1,5 +1,6 @@
 //! `grouser heading-map`: the heading offset over slope, course and soil.
 
+mod page;
 mod pivot;
 
 use grouser::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW, heading};
@@ -19,6 +20,7 @@ use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
+use crate::report::REPORT;
 
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
@@ -41,6 +43,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
         folder.add(format!("{command}.csv"), rows.to_csv()?);
+        let mut maps = Vec::new();
         for (place, (scenario, name)) in scenarios.iter().zip(&names).enumerate() {
             // One soil needs no number.
             let number =
@@ -48,12 +51,15 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
             let name = title(args, scenario, name);
             for (file, figure) in figures(args, &map, place, &name) {
                 folder.add(format!("{file}{number}.svg"), figure.to_svg());
+                maps.push(figure);
             }
             if let Some(figure) = slip_figure(args, &table, place, &name) {
                 folder.add(format!("slip-p97_5{number}.svg"), figure.to_svg());
+                maps.push(figure);
             }
             folder.add_document(&format!("scenario{number}.toml"), scenario);
         }
+        folder.add(REPORT, page::html(command, args, &scenarios, &map, (&maps, &table)));
         folder.finish()?;
     }
     match args.output.format {

@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 
 use grouser::document::{escape, file};
 
-use self::report::{PAPER, REPORT};
+use self::report::PAPER;
 use crate::args::ReproduceArgs;
 use crate::failure::Failure;
 use crate::output;
 use crate::output::folder::{OldFiles, OutputFolder, has_entries};
 use crate::output::text::Text;
+use crate::report::REPORT;
 use crate::report::experiment as against;
 use crate::report::page;
 use crate::report::tables::{self, Table};

@@ -3,6 +3,7 @@
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use serde_json::{Map, Value, json};
 
+use crate::args::UncertaintyArgs;
 use crate::failure::Failure;
 use crate::output;
 
@@ -41,6 +42,15 @@ pub(super) fn with_bar<T>(
     });
     bar.finish_and_clear();
     found
+}
+
+/// The flags that ask for the same samples again, after a blank; nothing where none are asked for.
+pub(super) fn flags(args: &UncertaintyArgs) -> String {
+    let UncertaintyArgs { sampling, seed } = args;
+    if !sampling.uncertainty {
+        return String::new();
+    }
+    format!(" --uncertainty --samples {} --seed {seed}", sampling.samples)
 }
 
 /// The result of a study that was not stopped.

@@ -1,5 +1,7 @@
 //! `grouser traverse`: drives a rover across a slope.
 
+mod page;
+
 use grouser::contact::validity::Flag;
 use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
 use grouser::document::columns::{MODEL, TIME, X, Y, YAW};
@@ -22,6 +24,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, four_digits};
 use crate::output::text::Text;
 use crate::output::{self, Format};
+use crate::report::REPORT;
 
 /// Lines of the table on a terminal, besides the start.
 const LINES: usize = 10;
@@ -142,7 +145,9 @@ impl OfModel {
         if let Some(mut folder) = folder {
             folder.add("traverse.json", answer.to_text());
             folder.add("traverse.csv", rows.to_csv()?);
-            folder.add("traverse.svg", chart(std::slice::from_ref(self)).to_svg());
+            let all = std::slice::from_ref(self);
+            folder.add("traverse.svg", chart(all).to_svg());
+            folder.add(REPORT, page::html(args, all));
             folder.add_document("scenario.toml", &self.scenario);
             folder.finish()?;
         }
@@ -230,6 +235,7 @@ fn output_all(
         folder.add("traverse.json", answer.to_text());
         folder.add("traverse.csv", rows.to_csv()?);
         folder.add("traverse.svg", chart(all).to_svg());
+        folder.add(REPORT, page::html(args, all));
         for of_model in all {
             let name = of_model.name();
             folder.add(format!("traverse-{name}.csv"), Rows::of_table(&of_model.rows()).to_csv()?);

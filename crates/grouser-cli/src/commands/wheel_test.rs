@@ -1,7 +1,9 @@
 //! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
 
+mod page;
+
 use grouser::document::columns::{
-    self, DRAWBAR_PULL, LOAD, MODEL, SINKAGE, SLIP_ANGLE, SLIP_RATIO,
+    self, DRAWBAR_PULL, LOAD, MODEL, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
 };
 use grouser::document::table::Table;
 use grouser::studies::measurement::PerQuantity;
@@ -18,6 +20,8 @@ use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
+use crate::report::REPORT;
+use crate::report::answer::{axis, capitalised};
 
 pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
@@ -123,8 +127,14 @@ fn output_results(
     if let Some(mut folder) = folder {
         folder.add("wheel-test.json", answer.to_text());
         folder.add("wheel-test.csv", rows.to_csv()?);
+        let dense = dense(args, stands);
         let style = if args.stand.trials.is_some() { Style::Dots } else { Style::Line };
-        folder.add("wheel-test.svg", chart(&results.rows, style).to_svg());
+        let charted =
+            Charted { rows: &results.rows, drawn: dense.as_ref().unwrap_or(&results.rows), style };
+        folder.add("wheel-test.svg", charted.chart(DRAWBAR_PULL).to_svg());
+        folder.add("sinkage.svg", charted.chart(SINKAGE).to_svg());
+        folder.add("torque.svg", charted.chart(TORQUE).to_svg());
+        folder.add(REPORT, page::html(args, stands, &charted));
         folder.add_document("soil.toml", &inputs.soil);
         folder.add_document("wheel.toml", &inputs.wheel);
         folder.finish()?;
@@ -159,38 +169,70 @@ fn brief(args: &WheelTestArgs) -> Vec<String> {
     names
 }
 
-/// Drawbar pull over slip ratio, a series for each model, load and slip angle, with its band if there is one.
-fn chart(table: &Table, style: Style) -> Chart {
-    let models = table.texts(MODEL);
-    let [loads, angles] = [LOAD, SLIP_ANGLE].map(|it| table.numbers(it.name));
-    let name = |row: usize| {
-        let [load, angle] = [loads, angles].map(|column| column[row].unwrap_or_default());
-        let model = models.get(row).and_then(Option::as_deref);
-        let model = model.map_or(String::new(), |model| format!("{model}, "));
-        format!("{model}{load} N, {angle}°")
-    };
-    let names: Vec<String> = (0..table.rows()).map(name).collect();
-    let places: Vec<usize> = (0..table.rows()).collect();
-    let [low, _, high] = DRAWBAR_PULL.quantiles();
-    let mut bands: Vec<Series> = Vec::new();
-    let mut lines: Vec<Series> = Vec::new();
-    for rows in places.chunk_by(|one, next| names[*one] == names[*next]) {
-        let (name, part) = (&names[rows[0]], table.rows_at(rows));
-        let edges = part
-            .points(SLIP_RATIO.name, &low)
-            .zip(part.points(SLIP_RATIO.name, &high))
-            .map(|((slip_ratio, low), (_, high))| (slip_ratio, low, high));
-        let edges: Vec<_> = edges.collect();
-        if !edges.is_empty() {
-            let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
-            bands.push(Series::band(format!("95 %, {name}"), colour, edges));
-        }
-        let points = part.points(SLIP_RATIO.name, DRAWBAR_PULL.name);
-        lines.push(Series::new(name, style, lines.len(), points));
+/// The same test at slip ratios so close that curves are smooth; nothing where the rows have noise or bands, or are
+/// of few slip ratios.
+fn dense(args: &WheelTestArgs, stands: &[StandInputs]) -> Option<Table> {
+    /// Points of a curve.
+    const POINTS: u32 = 120;
+    let slips = &args.slip_ratio.0;
+    let [low, high] = [f64::min, f64::max].map(|end| slips.iter().copied().fold(f64::NAN, end));
+    if slips.len() < 3 || args.stand.trials.is_some() || args.sampling.uncertainty {
+        return None;
     }
-    Chart::new(
-        "Drawbar pull",
-        ("slip ratio", "drawbar pull [N]"),
-        bands.into_iter().chain(lines).collect(),
-    )
+    let share = |point| f64::from(point) / f64::from(POINTS);
+    let between = (0..=POINTS).map(|point| low + (high - low) * share(point));
+    let slip_ratios: Vec<f64> = between.collect();
+    let mut table = Table::default();
+    for stand in stands {
+        let test = WheelTest { slip_ratios: slip_ratios.clone(), ..plan(args, stand) };
+        let of_model = columns::wheel_test::table(&test.run());
+        let every = args.setting.has_every_model();
+        table.append(if every { of_model.with_word(MODEL, stand.theory.name()) } else { of_model });
+    }
+    Some(table)
+}
+
+/// The rows of a test, and what charts draw of it.
+struct Charted<'a> {
+    rows: &'a Table,
+    /// The same, or the same test at more slip ratios.
+    drawn: &'a Table,
+    style: Style,
+}
+
+impl Charted<'_> {
+    /// A quantity over the slip ratio, a series for each model, load and slip angle, with its band if there is one.
+    fn chart(&self, quantity: Quantity) -> Chart {
+        let table = self.drawn;
+        let models = table.texts(MODEL);
+        let [loads, angles] = [LOAD, SLIP_ANGLE].map(|it| table.numbers(it.name));
+        let name = |row: usize| {
+            let [load, angle] = [loads, angles].map(|column| column[row].unwrap_or_default());
+            let model = models.get(row).and_then(Option::as_deref);
+            let model = model.map_or(String::new(), |model| format!("{model}, "));
+            format!("{model}{load} N, {angle}°")
+        };
+        let names: Vec<String> = (0..table.rows()).map(name).collect();
+        let places: Vec<usize> = (0..table.rows()).collect();
+        let [low, _, high] = quantity.quantiles();
+        let mut bands: Vec<Series> = Vec::new();
+        let mut lines: Vec<Series> = Vec::new();
+        for rows in places.chunk_by(|one, next| names[*one] == names[*next]) {
+            let (name, part) = (&names[rows[0]], table.rows_at(rows));
+            let edges = part
+                .points(SLIP_RATIO.name, &low)
+                .zip(part.points(SLIP_RATIO.name, &high))
+                .map(|((slip_ratio, low), (_, high))| (slip_ratio, low, high));
+            let edges: Vec<_> = edges.collect();
+            if !edges.is_empty() {
+                let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
+                bands.push(Series::band(format!("95 %, {name}"), colour, edges));
+            }
+            let points = part.points(SLIP_RATIO.name, quantity.name);
+            lines.push(Series::new(name, self.style, lines.len(), points));
+        }
+        let series = bands.into_iter().chain(lines).collect();
+        let title = capitalised(&quantity.label());
+        Chart::new(title, (axis(SLIP_RATIO), axis(quantity)), series)
+    }
 }

@@ -4,9 +4,12 @@ use grouser::contact::validity::{Finding, Flag};
 use std::fmt::Write as _;
 
 use grouser::document::escape;
+use grouser::document::table as results;
 
 use super::figures::Figure;
 use super::tables::Table;
+use crate::chart::Chart;
+use crate::output::rows::Rows;
 
 /// The element by which a page is known as ours.
 pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"Grouser";
@@ -46,7 +49,6 @@ impl Page {
         self.push("</ul>\n");
     }
 
-    /// Commands or documents, as they are.
     /// What is an extrapolation, each flag once.
     pub(crate) fn flags<'f>(&mut self, findings: impl IntoIterator<Item = &'f Finding>) {
         let mut flags: Vec<Flag> = findings.into_iter().map(|finding| finding.flag).collect();
@@ -61,8 +63,37 @@ impl Page {
         }
     }
 
+    /// Commands or documents, as they are.
     pub(crate) fn code(&mut self, text: &str) {
-        self.push(&format!("<pre>{}</pre>\n", escaped(text)));
+        self.push(&format!("<pre tabindex=\"0\">{}</pre>\n", escaped(text)));
+    }
+
+    /// A document that is shown when a reader asks for it.
+    pub(crate) fn document(&mut self, name: &str, text: &str) {
+        let (name, text) = (escaped(name), escaped(text));
+        self.push(&format!(
+            "<details><summary>{name}</summary><pre tabindex=\"0\">{text}</pre></details>\n"
+        ));
+    }
+
+    /// Some columns of a table of results, for reading.
+    pub(crate) fn rows(
+        &mut self,
+        caption: &str,
+        table: &results::Table,
+        names: &[impl AsRef<str>],
+    ) {
+        let header: Vec<String> = names.iter().map(|name| name.as_ref().to_owned()).collect();
+        self.grid(caption, &header, &Rows::of_table(table).cells(names));
+    }
+
+    /// Small charts, side by side where there is room.
+    pub(crate) fn charts<'c>(&mut self, charts: impl IntoIterator<Item = &'c Chart>) {
+        self.push("<div class=\"charts\">\n");
+        for chart in charts {
+            self.push(&format!("<figure>{}</figure>\n", element(&chart.to_small_svg())));
+        }
+        self.push("</div>\n");
     }
 
     /// A table.
@@ -73,15 +104,14 @@ impl Page {
     /// A table from its cells.
     pub(crate) fn grid(&mut self, caption: &str, header: &[String], cells: &[Vec<String>]) {
         let row = |tag: &str, cells: &[String]| {
-            let cells: Vec<String> =
-                cells.iter().map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell))).collect();
-            format!("<tr>{}</tr>\n", cells.concat())
+            let cell = |cell: &String| format!("<{tag}{}>{}</{tag}>", side(cell), escaped(cell));
+            format!("<tr>{}</tr>\n", cells.iter().map(cell).collect::<String>())
         };
         let head = row("th", header);
         let body: String = cells.iter().map(|cells| row("td", cells)).collect();
         let caption = escaped(caption);
         self.push(&format!(
-            "<div class=\"table\"><table><caption>{caption}</caption>\n<thead>{head}</thead>\n\
+            "<div class=\"table\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\"><table><caption>{caption}</caption>\n<thead>{head}</thead>\n\
              <tbody>{body}</tbody></table></div>\n"
         ));
     }
@@ -93,8 +123,7 @@ impl Page {
 
     /// A drawing with a caption.
     pub(crate) fn drawing(&mut self, svg: &str, caption: &str) {
-        // Only the element: a declaration has no place inside a page.
-        let element = svg.find("<svg").map_or(svg, |start| &svg[start..]);
+        let element = element(svg);
         let caption = escaped(caption);
         self.push(&format!("<figure>{element}<figcaption>{caption}</figcaption></figure>\n"));
     }
@@ -108,7 +137,7 @@ impl Page {
             "<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              {GENERATOR} {}\">\n\
-             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
+             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
             env!("CARGO_PKG_VERSION"),
             escaped(&self.title),
             include_str!("report.css"),
@@ -120,6 +149,17 @@ impl Page {
     fn push(&mut self, html: &str) {
         self.body.push_str(html);
     }
+}
+
+/// Words stand on the left, numbers and the dashes for them on the right.
+fn side(cell: &str) -> &'static str {
+    let is_word = cell.starts_with(char::is_alphabetic) || cell.split_whitespace().count() > 2;
+    if is_word { " class=\"text\"" } else { "" }
+}
+
+/// Only the element of a drawing: a declaration has no place inside a page.
+fn element(svg: &str) -> &str {
+    svg.find("<svg").map_or(svg, |start| &svg[start..])
 }
 
 /// A text from anywhere as HTML, its hidden characters written out.

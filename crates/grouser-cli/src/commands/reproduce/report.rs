@@ -11,6 +11,7 @@ use super::study::SCATTER;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, four_digits};
+use crate::report::REPORT;
 use crate::report::experiment::{self as against, Study};
 use crate::report::figures::{self, Figure};
 use crate::report::outlines;
@@ -21,9 +22,6 @@ use crate::report::tables::{self, Table};
 pub(super) const PAPER: &str = "The paper: \"Dynamical modeling and simulation of the four-wheel micro rover in sandy terrain\", Space \
                      Robotics Laboratory, Tohoku University, with the HAKUTO team, about 2017 (the copy at hand \
                      prints no authors' names).";
-
-/// The file by which a folder is known as an earlier reproduction's.
-pub(super) const REPORT: &str = "report.html";
 
 /// A page in the making, and the folder of its numbers.
 struct Report<'a> {

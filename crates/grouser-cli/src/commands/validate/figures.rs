@@ -9,6 +9,7 @@ use grouser::studies::slope_validation::SlopeValidation;
 use grouser::studies::validation::Validation;
 
 use crate::chart::{Chart, Series, Style};
+use crate::report::answer::capitalised;
 
 /// A chart with its file's name, without ending, and its caption.
 pub(crate) struct Figure {
@@ -184,10 +185,6 @@ fn residuals(cells: &[Cell], name: &str, unit: &str) -> Chart {
         (SLIP_LABEL, format!("error of {name} [{unit}]")),
         by_angle(cells).enumerate().map(of_angle).collect(),
     )
-}
-
-fn capitalised(name: &str) -> String {
-    name[..1].to_uppercase() + &name[1..]
 }
 
 /// Sorted cells, apart by slip angle.

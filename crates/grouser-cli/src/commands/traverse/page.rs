@@ -1,0 +1,148 @@
+//! The page of a traverse: where the rover ends up, its path, and every channel over time.
+
+use grouser::contact::validity::Finding;
+use grouser::document::columns::run::{self, RECORD, TIME_BAND, WHEEL_RECORD};
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{
+    Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, SLOPE, TIME, X, Y, YAW,
+};
+use grouser::document::table::Table;
+use grouser::simulation::Trajectory;
+use grouser::studies::drive::Drive;
+
+use super::{OfModel, chart, reason};
+use crate::args::{EVERY_MODEL, TraverseArgs};
+use crate::chart::{BAND_COLOUR, Chart, Series, Style};
+use crate::commands::sampling;
+use crate::output::rows::four_digits;
+use crate::report::answer::{self, Basis, axis, by_part, by_unit, capitalised, meanings};
+use crate::report::page::Page;
+
+pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
+    let mut page = Page::new("A traverse");
+    for of_model in all {
+        let name = if all.len() > 1 { format!("{}: ", of_model.name()) } else { String::new() };
+        page.answer(&format!("{name}{}", sentence(&of_model.run)));
+    }
+    page.list(what_was_run(&all[0]));
+    page.drawing(
+        &chart(all).to_svg(),
+        "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0.",
+    );
+    match all {
+        [one] => channels(&mut page, one),
+        several => of_models(&mut page, several),
+    }
+    let findings: Vec<Finding> = all
+        .iter()
+        .flat_map(|it| run::each_findings(&it.run, &it.scenario.value).into_iter().flatten())
+        .collect();
+    let mut columns = meanings(&RECORD);
+    columns.extend(meanings(&WHEEL_RECORD));
+    columns.extend(meanings(&WHEEL));
+    answer::close(page, &findings, &columns, &basis(args, all))
+}
+
+/// Where a rover ended up, and what that took.
+fn sentence(run: &Trajectory) -> String {
+    let (end, drive) = (run.last(), Drive::of(run));
+    let [x, y] = [end.state.position.x, end.state.position.y];
+    let side = if y < 0.0 { "below" } else { "above" };
+    let yaw = YAW.unit.from_si(end.state.yaw);
+    let energy = drive
+        .energy_per_metre
+        .map_or(String::new(), |it| format!(", {} J for each metre", four_digits(it)));
+    format!(
+        "{} after {} s{}: {} m along the contour and {} m {side} it, the nose at {}° (positive \
+         uphill). The motors did {} J{energy}.",
+        capitalised(run.outcome.name()).replace('_', " "),
+        four_digits(end.time),
+        reason(run),
+        four_digits(x),
+        four_digits(y.abs()),
+        four_digits(yaw),
+        four_digits(drive.energy),
+    )
+}
+
+fn what_was_run(first: &OfModel) -> Vec<String> {
+    let document = &first.scenario.document;
+    let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
+    let mut lines = vec![
+        format!("rover: {}", name("rover.name")),
+        format!("soil: {}", name("soil.name")),
+        format!(
+            "slope: {}°",
+            four_digits(SLOPE.unit.from_si(first.scenario.value.site.terrain.slope))
+        ),
+    ];
+    if let Some(band) = &first.band {
+        lines.push(format!("{} samples of soil and model", band.run.completed.trials));
+    }
+    lines
+}
+
+/// Every channel of a run over time.
+fn channels(page: &mut Page, of: &OfModel) {
+    let table = of.rows();
+    if of.band.is_some() {
+        page.heading("What the samples say");
+        page.charts(
+            &TIME_BAND[1..].iter().filter_map(|column| band(&table, column)).collect::<Vec<_>>(),
+        );
+    }
+    page.heading("The rover over time");
+    page.charts(&by_unit(&table, TIME, &RECORD));
+    page.heading("Each wheel over time");
+    let mounts = of.scenario.value.rover.mounts().iter();
+    let wheels: Vec<(String, String)> =
+        mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
+    page.charts(&by_part(&table, TIME, &wheels, &WHEEL_RECORD));
+    page.charts(&by_part(&table, TIME, &wheels, &WHEEL));
+}
+
+/// A quantity over time with its band.
+fn band<R>(table: &Table, column: &Column<R>) -> Option<Chart> {
+    let quantity = Quantity { name: column.name, unit: column.unit };
+    let [low, median, high] = quantity.quantiles();
+    let ends = table.points(TIME.name, &low).zip(table.points(TIME.name, &high));
+    let edges: Vec<_> = ends.map(|((time, low), (_, high))| (time, low, high)).collect();
+    let medians = table.points(TIME.name, &median);
+    (!edges.is_empty()).then(|| {
+        let series = vec![
+            Series::band("95 %", BAND_COLOUR, edges),
+            Series::new("median", Style::Line, 1, medians),
+        ];
+        Chart::new(capitalised(&quantity.label()), (axis(TIME), axis(quantity)), series)
+    })
+}
+
+/// The ends of all models, and some quantities of each over time.
+fn of_models(page: &mut Page, all: &[OfModel]) {
+    let mut summaries = Table::default();
+    for of_model in all {
+        summaries.append(of_model.summary());
+    }
+    let mut names = vec![MODEL.to_owned()];
+    names.extend(run::summary_brief());
+    page.rows("The end and the means, by model", &summaries, &names);
+    page.heading("Over time, by model");
+    let tables: Vec<(&str, Table)> =
+        all.iter().map(|it| (it.name(), run::brief(&it.run, it.run.records.len() - 1))).collect();
+    let of = |quantity: Quantity| {
+        let series = tables.iter().enumerate().map(|(place, (name, table))| {
+            let points = table.points(TIME.name, quantity.name);
+            Series::new(*name, Style::of_line(place), place + 1, points)
+        });
+        let axes = (axis(TIME), axis(quantity));
+        Chart::new(capitalised(&quantity.label()), axes, series.collect())
+    };
+    page.charts(&[X, Y, YAW, SLIP_RATIO, SINKAGE].map(of));
+}
+
+fn basis(args: &TraverseArgs, all: &[OfModel]) -> Basis {
+    let model = if all.len() > 1 { format!(" --model {EVERY_MODEL}") } else { String::new() };
+    let samples = sampling::flags(&args.uncertainty);
+    let repeat = format!("grouser traverse scenario.toml{model}{samples}");
+    Basis::new(repeat).with("scenario.toml", &all[0].scenario)
+}

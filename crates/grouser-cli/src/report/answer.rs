@@ -1,0 +1,156 @@
+//! What the pages of all commands have in common: the charts of every channel, what the columns are, and all
+//! that repeats the answer.
+
+use grouser::contact::validity::Finding;
+use grouser::document::Loaded;
+use grouser::document::columns::{Column, Quantity};
+use grouser::document::table::Table;
+use grouser::document::unit::ONE;
+
+use super::page::Page;
+use crate::chart::{Chart, Series, Style};
+
+/// What an answer was computed from.
+pub(crate) struct Basis {
+    /// Names of files beside the page, and their texts.
+    documents: Vec<(String, String)>,
+    assumptions: Vec<String>,
+    /// The command that gives the answer again, typed in the folder of the page.
+    repeat: String,
+}
+
+impl Basis {
+    pub(crate) fn new(repeat: String) -> Self {
+        Self { documents: Vec::new(), assumptions: Vec::new(), repeat }
+    }
+
+    /// The same with a document that lies beside the page.
+    pub(crate) fn with<V>(mut self, file: impl Into<String>, document: &Loaded<V>) -> Self {
+        self.documents.push((file.into(), document.to_toml()));
+        for assumption in &document.assumptions {
+            if !self.assumptions.contains(assumption) {
+                self.assumptions.push(assumption.clone());
+            }
+        }
+        self
+    }
+}
+
+/// Ends a page: what is an extrapolation, what was assumed, what the columns are, and how to have the answer again.
+pub(crate) fn close<'f>(
+    mut page: Page,
+    findings: impl IntoIterator<Item = &'f Finding>,
+    meanings: &[Meaning],
+    basis: &Basis,
+) -> String {
+    page.flags(findings);
+    page.heading("Assumptions in force");
+    if basis.assumptions.is_empty() {
+        page.paragraph("No number of the inputs is marked as assumed.");
+    } else {
+        page.list(&basis.assumptions);
+    }
+    page.heading("What the columns are");
+    let header = ["column", "unit", "what it is"].map(str::to_owned);
+    let cells = meanings.iter().map(|it| [&*it.name, it.unit, it.doc].map(str::to_owned).into());
+    page.grid("Columns of the tables and files", &header, &cells.collect::<Vec<_>>());
+    page.heading("To have it again");
+    page.paragraph("In the folder of this page:");
+    page.code(&basis.repeat);
+    page.paragraph(
+        "The inputs are complete in the files beside this page. The same version gives the same numbers to the last \
+         digit.",
+    );
+    for (name, text) in &basis.documents {
+        page.document(name, text);
+    }
+    page.paragraph(&format!("Made by grouser {}.", env!("CARGO_PKG_VERSION")));
+    page.to_html()
+}
+
+/// A column's name, unit and meaning, for readers.
+pub(crate) struct Meaning {
+    name: String,
+    unit: &'static str,
+    doc: &'static str,
+}
+
+/// What columns are; those of several quantiles are one each.
+pub(crate) fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
+    let each = |column: &Column<R>| {
+        let names = column.names();
+        let name = match &names[..] {
+            [one] => one.clone(),
+            several => several.join(", "),
+        };
+        Meaning { name, unit: column.unit.symbol, doc: column.doc }
+    };
+    columns.iter().map(each).collect()
+}
+
+/// A chart for each unit of some columns over another: columns of one unit share an axis.
+pub(crate) fn by_unit<R>(table: &Table, over: Quantity, columns: &[Column<R>]) -> Vec<Chart> {
+    let is_number =
+        |column: &&Column<R>| column.name != over.name && !table.numbers(column.name).is_empty();
+    let columns: Vec<&Column<R>> = columns.iter().filter(is_number).collect();
+    let mut units: Vec<&str> = columns.iter().map(|column| column.unit.symbol).collect();
+    units.dedup();
+    let chart = |unit: &&str| {
+        let of_unit: Vec<&&Column<R>> =
+            columns.iter().filter(|column| column.unit.symbol == *unit).collect();
+        let series = of_unit.iter().enumerate().map(|(place, column)| {
+            let name = if of_unit.len() > 1 { label(column) } else { String::new() };
+            let points = table.points(over.name, column.name);
+            Series::new(name, Style::of_line(place), place + 1, points)
+        });
+        let title = match &of_unit[..] {
+            [one] => label(one),
+            several => several.iter().map(|column| label(column)).collect::<Vec<_>>().join(", "),
+        };
+        Chart::new(
+            capitalised(&title),
+            (axis(over), if *unit == ONE.symbol { String::new() } else { format!("[{unit}]") }),
+            series.collect(),
+        )
+    };
+    units.iter().map(chart).collect()
+}
+
+/// A chart for each column over another, with a curve for each prefix of the column's name.
+///
+/// * `prefixes`: of names in the table, each with the name of its curve
+pub(crate) fn by_part<R>(
+    table: &Table,
+    over: Quantity,
+    prefixes: &[(String, String)],
+    columns: &[Column<R>],
+) -> Vec<Chart> {
+    let chart = |column: &Column<R>| {
+        let series = prefixes.iter().enumerate().map(|(place, (prefix, name))| {
+            let points = table.points(over.name, &format!("{prefix}{}", column.name));
+            Series::new(name, Style::of_line(place), place + 1, points)
+        });
+        let series: Vec<Series> = series.filter(|series| !series.points.is_empty()).collect();
+        let unit = column.unit.symbol;
+        let unit = if unit == ONE.symbol { String::new() } else { format!("[{unit}]") };
+        let chart = Chart::new(capitalised(&label(column)), (axis(over), unit), series);
+        (!chart.series.is_empty()).then_some(chart)
+    };
+    columns.iter().filter_map(chart).collect()
+}
+
+/// A column's name in words, without its unit.
+fn label<R>(column: &Column<R>) -> String {
+    Quantity { name: column.name, unit: column.unit }.label()
+}
+
+/// A quantity and its unit, for an axis.
+pub(crate) fn axis(quantity: Quantity) -> String {
+    let (label, unit) = (quantity.label(), quantity.unit.symbol);
+    if unit == ONE.symbol { label } else { format!("{label} [{unit}]") }
+}
+
+pub(crate) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
