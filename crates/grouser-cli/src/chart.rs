@@ -23,7 +23,7 @@ use kuva::render::render::render_multiple;
 pub(crate) use bars::Bars;
 pub(crate) use grid::Grid;
 pub(crate) use heat_map::HeatMap;
-use style::{COLOURS, MUTED, finished, label, layout_of};
+use style::{colours, faint, finished, label, layout_of};
 
 /// A chart: axes and series.
 #[derive(Clone, Debug)]
@@ -51,7 +51,7 @@ pub(crate) struct Series {
     pub(crate) points: Vec<(f64, f64)>,
     /// Heights of a band's upper edge, one for each point.
     upper: Vec<f64>,
-    /// Its colour, by its place in [`COLOURS`].
+    /// Its colour, by its place among those of series.
     pub(crate) colour: usize,
     /// How it is drawn.
     pub(crate) style: Style,
@@ -131,8 +131,9 @@ impl Series {
         Self { upper, ..Self::new(name, Style::Band, colour, points) }
     }
 
-    fn colour(&self) -> &'static str {
-        COLOURS[self.colour % COLOURS.len()]
+    fn colour(&self) -> String {
+        let colours = colours();
+        colours[self.colour % colours.len()].clone()
     }
 
     /// For a chart among many: thin.
@@ -277,7 +278,7 @@ impl Chart {
         }
         let has_zero = self.points().any(|(_, y)| y < 0.0) && self.points().any(|(_, y)| y > 0.0);
         if has_zero {
-            layout = layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color(MUTED));
+            layout = layout.with_reference_line(ReferenceLine::horizontal(0.0).with_color(faint()));
         }
         layout
     }

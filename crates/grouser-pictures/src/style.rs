@@ -7,6 +7,8 @@
 // Colours are written as style sheets write them.
 #![allow(clippy::unreadable_literal)]
 
+use std::fmt::Write as _;
+
 use grouser_page::Colour;
 
 /// What a picture is drawn on.
@@ -164,9 +166,44 @@ pub fn series(ground: Ground) -> [Colour; 7] {
     codes.map(Colour::hex)
 }
 
+/// Rules of a style sheet for a drawing on a light ground: on a dark screen each of its colours becomes its
+/// counterpart. They are for the `<style>` of an SVG whose colours are attributes.
+#[must_use]
+pub fn rules_for_dark() -> String {
+    let on = |role: Role| [role.on(Ground::Light), role.on(Ground::Dark)];
+    let lines = series(Ground::Light).into_iter().zip(series(Ground::Dark));
+    let pairs = lines.map(|(light, dark)| [light, dark]).chain(Role::ALL.map(on));
+    let mut known = Vec::new();
+    let mut rules = String::from("@media screen and (prefers-color-scheme:dark){");
+    for [light, dark] in pairs.map(|pair| pair.map(Colour::code)) {
+        // Roles of one colour on a light ground have nearly one on a dark one.
+        if known.contains(&light) || light == dark {
+            continue;
+        }
+        for attribute in ["fill", "stroke"] {
+            // Writing to a string does not fail.
+            let _ = write!(rules, "[{attribute}=\"{light}\" i]{{{attribute}:{dark}}}");
+        }
+        known.push(light);
+    }
+    rules + "}"
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_colour_that_differs_has_one_rule_for_each_attribute() {
+        let rules = rules_for_dark();
+        for role in [Role::Ink, Role::Paper, Role::Soil, Role::Force] {
+            let [light, dark] = [Ground::Light, Ground::Dark].map(|ground| role.on(ground).code());
+            for attribute in ["fill", "stroke"] {
+                let rule = format!("[{attribute}=\"{light}\" i]{{{attribute}:{dark}}}");
+                assert_eq!(rules.matches(&rule).count(), 1, "{rule}");
+            }
+        }
+    }
 
     /// Relative luminance.
     ///

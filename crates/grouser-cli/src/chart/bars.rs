@@ -5,7 +5,7 @@ use kuva::plot::BarPlot;
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
-use super::style::{COLOURS, REST, finished, label, layout_of};
+use super::style::{colours, finished, label, layout_of, rest};
 
 /// Horizontal bars, each of parts that are laid end to end.
 #[derive(Clone, Debug)]
@@ -28,7 +28,8 @@ impl Bars {
         let is_rest = |place: usize| self.has_rest && place + 1 == self.parts.len();
         let colour = |place: usize| {
             // Black is for text.
-            if is_rest(place) { REST } else { COLOURS[1 + place % (COLOURS.len() - 1)] }
+            let colours = colours();
+            if is_rest(place) { rest() } else { colours[1 + place % (colours.len() - 1)].clone() }
         };
         let mut plot = BarPlot::new().with_stacked().with_horizontal(true).with_width(0.6);
         // The library draws from the bottom up.

@@ -7,7 +7,7 @@ use kuva::plot::{ColorMap, Heatmap};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
-use super::style::{REST, finished, layout_of};
+use super::style::{finished, layout_of, rest};
 use crate::output::rows::four_digits;
 
 /// A table drawn in colours: a value for each row and column, or none, which stays grey.
@@ -29,7 +29,7 @@ impl HeatMap {
     /// The map as a stand-alone SVG document.
     pub(crate) fn to_svg(&self) -> String {
         let colours = |share: f64| {
-            if share.is_nan() { REST.to_owned() } else { ColorMap::Viridis.map(share) }
+            if share.is_nan() { rest() } else { ColorMap::Viridis.map(share) }
         };
         let numbers = |row: &Vec<Option<f64>>| {
             row.iter().map(|value| value.unwrap_or(f64::NAN)).collect::<Vec<f64>>()

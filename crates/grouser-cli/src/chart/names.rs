@@ -6,7 +6,7 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
-use super::style::{INK, LETTERS, MUTED, label};
+use super::style::{LETTERS, faint, ink, label};
 use super::{Series, Style};
 
 /// From the plot to the sample [px].
@@ -55,7 +55,7 @@ pub(super) fn add(scene: &mut Scene, places: &ComputedLayout, series: &[Series])
                 y1: *y,
                 x2: left - 2.0,
                 y2: middle,
-                stroke: Color::from(MUTED),
+                stroke: Color::from(faint()),
                 stroke_width: 0.6,
                 stroke_dasharray: None,
             });
@@ -71,7 +71,7 @@ pub(super) fn add(scene: &mut Scene, places: &ComputedLayout, series: &[Series])
                 anchor: TextAnchor::Start,
                 rotate: None,
                 bold: false,
-                color: Some(Color::from(INK)),
+                color: Some(Color::from(ink())),
             });
         }
     }

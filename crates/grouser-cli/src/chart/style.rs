@@ -1,36 +1,31 @@
 //! What all drawings have in common: colours, fonts, sizes, and how the plotting library's SVG is finished.
 
-use std::fmt::Write as _;
-
 use grouser::document::escape;
+use grouser_page::Colour;
+use grouser_pictures::style::{Ground, Role, rules_for_dark, series};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
 
-/// Colours that stay apart for colour-blind eyes and in grey: Okabe and Ito (2008), darkest first.
-pub(super) const COLOURS: [&str; 7] =
-    ["#000000", "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"];
+/// The colours of series, in their order.
+pub(super) fn colours() -> [String; 7] {
+    series(Ground::Light).map(Colour::code)
+}
 
-/// Text and the first series.
-pub(super) const INK: &str = "#000000";
+/// Text.
+pub(super) fn ink() -> String {
+    Role::Ink.on(Ground::Light).code()
+}
+
 /// Axes, leaders, the line at zero.
-pub(super) const MUTED: &str = "#767676";
-/// What is left over, and what has no value.
-pub(super) const REST: &str = "#bbbbbb";
-const GRID: &str = "#e4e4e4";
-const PAPER: &str = "#ffffff";
+pub(super) fn faint() -> String {
+    Role::Faint.on(Ground::Light).code()
+}
 
-/// What each colour becomes on a dark screen: text and lines light, blue and green lighter.
-const DARK: [(&str, &str); 8] = [
-    (INK, "#ececec"),
-    (PAPER, "#14181d"),
-    (MUTED, "#9a9a9a"),
-    (REST, "#5a5a5a"),
-    (GRID, "#333a42"),
-    ("#0072B2", "#4aa3dc"),
-    ("#D55E00", "#f0803c"),
-    ("#009E73", "#2fc79b"),
-];
+/// What is left over, and what has no value.
+pub(super) fn rest() -> String {
+    Role::Grid.on(Ground::Light).code()
+}
 
 /// Height of letters [px].
 pub(super) const LETTERS: u32 = 12;
@@ -54,15 +49,16 @@ pub(super) fn layout_of(plots: &[Plot], [title, x_label, y_label]: [&str; 3]) ->
 }
 
 pub(super) fn theme() -> Theme {
+    let paper = Role::Paper.on(Ground::Light).code();
     Theme {
-        background: PAPER.into(),
-        axis_color: MUTED.into(),
-        grid_color: GRID.into(),
-        tick_color: MUTED.into(),
-        text_color: INK.into(),
-        legend_bg: PAPER.into(),
-        legend_border: PAPER.into(),
-        colorbar_border: MUTED.into(),
+        background: paper.clone(),
+        axis_color: faint(),
+        grid_color: rest(),
+        tick_color: faint(),
+        text_color: ink(),
+        legend_bg: paper.clone(),
+        legend_border: paper,
+        colorbar_border: faint(),
         ..Theme::light()
     }
 }
@@ -89,18 +85,5 @@ pub(super) fn finished(svg: String, title: &str) -> String {
         &format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" "),
         1,
     );
-    svg.replacen('>', &format!(">\n<title>{title}</title><style>{}</style>", dark()), 1)
-}
-
-/// Rules that give each colour its counterpart on a dark screen.
-fn dark() -> String {
-    let mut rules = String::from("@media screen and (prefers-color-scheme:dark){");
-    for (light, dark) in DARK {
-        for name in ["fill", "stroke"] {
-            // Writing to a string does not fail.
-            let _ = write!(rules, "svg [{name}=\"{light}\" i]{{{name}:{dark}}}");
-        }
-    }
-    let _ = write!(rules, "svg[fill=\"{INK}\"]{{fill:{}}}}}", DARK[0].1);
-    rules
+    svg.replacen('>', &format!(">\n<title>{title}</title><style>{}</style>", rules_for_dark()), 1)
 }

@@ -19,6 +19,7 @@ use crate::inputs::{self, ForecastInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
+use crate::report::REPORT;
 use tables::Tables;
 
 impl From<ForecastError> for Failure {
@@ -110,7 +111,7 @@ fn write(
     notes: &[String],
 ) -> Result<(), Failure> {
     let figures = figures::all(forecast, tables);
-    folder.add("forecast.html", page::html(inputs, forecast, tables, (&figures, notes)));
+    folder.add(REPORT, page::html(inputs, forecast, tables, (&figures, notes)));
     for figure in figures {
         folder.add(format!("{}.svg", figure.file), figure.svg);
     }

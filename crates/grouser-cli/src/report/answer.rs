@@ -103,12 +103,9 @@ pub(crate) fn by_unit<R>(table: &Table, over: Quantity, columns: &[Column<R>]) -
             let points = table.points(over.name, column.name);
             Series::new(name, Style::of_line(place), place + 1, points)
         });
-        let title = match &of_unit[..] {
-            [one] => label(one),
-            several => several.iter().map(|column| label(column)).collect::<Vec<_>>().join(", "),
-        };
+        let labels: Vec<String> = of_unit.iter().map(|column| label(column)).collect();
         Chart::new(
-            capitalised(&title),
+            capitalised(&shared(&labels)),
             (axis(over), if *unit == ONE.symbol { String::new() } else { format!("[{unit}]") }),
             series.collect(),
         )
@@ -137,6 +134,16 @@ pub(crate) fn by_part<R>(
         (!chart.series.is_empty()).then_some(chart)
     };
     columns.iter().filter_map(chart).collect()
+}
+
+/// What names have in common: their last word, or all of them.
+fn shared(names: &[String]) -> String {
+    let last = |name: &String| name.rsplit(' ').next().unwrap_or_default().to_owned();
+    match names {
+        [only] => only.clone(),
+        [first, rest @ ..] if rest.iter().all(|name| last(name) == last(first)) => last(first),
+        _ => names.join(", "),
+    }
 }
 
 /// A column's name in words, without its unit.

@@ -93,7 +93,7 @@ fn the_folder_has_the_page_and_all_that_repeats_it() {
     ] {
         assert!(!place.read(&format!("moon/{name}")).is_empty(), "{name}");
     }
-    let page = place.read("moon/forecast.html");
+    let page = place.read("moon/report.html");
     for part in [
         "What would shrink it",
         "The slip is least known on 10°",
