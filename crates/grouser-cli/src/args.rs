@@ -3,6 +3,7 @@
 mod campaign;
 mod card;
 mod documents;
+mod draw;
 mod forecast;
 mod heading;
 mod measurements;
@@ -25,6 +26,7 @@ pub(crate) use campaign::{
 };
 pub(crate) use card::{CardArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
+pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{
@@ -77,6 +79,8 @@ pub(crate) enum Command {
     Calibrate(CalibrateArgs),
     /// Monte Carlo campaigns: sample uncertain inputs, run, summarise.
     Campaign(CampaignArgs),
+    /// Draw the theory from the numbers of a rover: a wheel in its soil, frames, slope, loads, bulldozing.
+    Draw(DrawArgs),
     /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.

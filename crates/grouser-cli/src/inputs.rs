@@ -13,8 +13,8 @@ use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastStudy, Ground};
 
 use crate::args::{
-    BalanceArgs, CardArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, SettingArgs, StandArgs,
-    TraverseArgs, WheelTestArgs,
+    BalanceArgs, CardArgs, DrawArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, SettingArgs,
+    StandArgs, TraverseArgs, WheelTestArgs,
 };
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
@@ -172,6 +172,20 @@ pub(crate) fn on_slopes(
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--slope-deg", slopes, &range)
+}
+
+/// The scenario whose rover and soil are drawn.
+pub(crate) fn draw(args: &DrawArgs) -> Result<LoadedScenario, Failure> {
+    /// Lighter wheels leave no trace to draw [N].
+    const LIGHTEST: f64 = 1e-3;
+    /// At more skid the soil is sheared without bound.
+    const DRAWN_SLIP: RangeInclusive<f64> = -0.9..=1.0;
+    check_slopes(&Numbers(vec![args.slope_deg]))?;
+    let load = Numbers(args.load_n.into_iter().collect());
+    check_numbers("--load-n", &load, &(LIGHTEST..=*document::study::LOAD_N.end()))?;
+    check_numbers("--slip-ratio", &Numbers(vec![args.slip_ratio]), &DRAWN_SLIP)?;
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
+    balanced("draw", args.scenario.as_deref(), rover, soil, &args.setting, &args.balance)
 }
 
 /// A scenario for its rover, soil and load transfer alone.

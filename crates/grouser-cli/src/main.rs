@@ -66,6 +66,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Campaign(args) => commands::campaign::run(args),
+        Command::Draw(args) => commands::draw::run(args),
         Command::Import(args) => commands::import::run(args),
         Command::Bench(args) => commands::bench::run(args),
         Command::Check(args) => commands::check::run(args),

@@ -126,8 +126,7 @@ fn id(face: Face, letter: char) -> String {
 
 /// The attributes of a fill or a stroke in a colour.
 fn ink(of: &str, colour: Colour) -> String {
-    let [red, green, blue] = colour.bytes();
-    let ink = format!(" {of}=\"rgb({red},{green},{blue})\"");
+    let ink = format!(" {of}=\"{}\"", colour.code());
     if colour.hides() < 1.0 {
         return format!("{ink} {of}-opacity=\"{}\"", short(colour.hides()));
     }

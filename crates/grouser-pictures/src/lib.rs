@@ -15,6 +15,7 @@
 
 mod animation;
 mod camera;
+pub mod drawings;
 mod form;
 mod gif;
 mod glb;

@@ -311,6 +311,18 @@ impl StressField {
         }
     }
 
+    /// Shear displacement of the soil against the rim since it entered [m], along and across, at an angle [rad]
+    /// on the rim; none outside the arc. Of a locked wheel it is infinite.
+    #[must_use]
+    pub fn shear_displacement(&self, angle: f64) -> [f64; 2] {
+        if (self.patch.exit..=self.patch.entry).contains(&angle) {
+            let (along, across) = self.displacement(&self.point(self.patch.entry - angle));
+            [along, across]
+        } else {
+            [0.0; 2]
+        }
+    }
+
     /// The shear law, ready to be asked.
     pub(super) fn shear_law(&self) -> MobilisedShear {
         self.law.shear
