@@ -20,6 +20,7 @@ mod form;
 mod gif;
 mod glb;
 mod html;
+pub mod labels;
 mod marks;
 mod motion;
 mod mp4;

@@ -31,6 +31,8 @@ use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
 use crate::output::text::Text;
 use crate::output::{self, Format, file};
+use crate::report::REPORT;
+use crate::report::page::Page;
 use picture::Picture;
 use row::CardRow;
 
@@ -337,6 +339,7 @@ impl<'a> Target<'a> {
                 folder.add(format!("card{end}.{ending}"), bytes);
             }
         }
+        folder.add(REPORT, report(answers, courses, sheets));
         let steepest = card::steepest(answers.card);
         folder.add("card.json", answers.json(&steepest, courses).to_text());
         folder.add("card.csv", Rows::of_table(&answers.rows).to_csv()?);
@@ -344,6 +347,25 @@ impl<'a> Target<'a> {
         folder.add_document("scenario.toml", &answers.inputs.scenario);
         folder.finish()
     }
+}
+
+/// The page: both sides of the card, and the numbers behind them.
+fn report(answers: &Answers<'_>, courses: &Table, sheets: &[Sheet; 2]) -> String {
+    let mut page = Page::new("The operator's card");
+    for sheet in sheets {
+        page.drawing(&sheet.to_svg(), sheet.title());
+    }
+    let brief = if answers.card.draws.is_some() { card::bands_brief() } else { card::brief() };
+    page.heading("Every slope");
+    page.rows("The rows of the card", &answers.rows, &brief);
+    let names: Vec<&String> = courses.columns.iter().map(|(name, _)| name).collect();
+    page.rows("Other courses", courses, &names);
+    page.flags(answers.card.rows.iter().flat_map(|row| &row.findings));
+    let scenario = &answers.inputs.scenario;
+    page.heading("Assumptions in force");
+    page.list(&scenario.assumptions);
+    page.document("scenario.toml", &scenario.to_toml());
+    page.to_html()
 }
 
 /// A file's name with something before its ending: `card-2.svg`.

@@ -10,6 +10,8 @@ use tempfile::TempDir;
 use crate::args::OutputArgs;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::output::terminal;
+use crate::report::REPORT;
 
 /// Start of the names of temporary folders. A killed program may leave one behind.
 const TEMPORARY: &str = ".grouser-";
@@ -83,8 +85,30 @@ impl OutputFolder {
         }
     }
 
-    /// Writes all files and moves them to their place.
+    /// Writes all files and moves them to their place; a terminal is told where they are.
     pub(crate) fn finish(self) -> Result<(), Failure> {
+        let summary = self.summary();
+        self.write_all()?;
+        if terminal::has_progress() {
+            super::message(&summary);
+        }
+        Ok(())
+    }
+
+    /// What was written, with the file to open first.
+    fn summary(&self) -> String {
+        let is_first = |name: &&str| *name == REPORT;
+        let names = || self.files.iter().map(|(name, _)| &**name);
+        let first = names().find(is_first).or(names().next()).unwrap_or_default();
+        let first = escape::path(&self.target.join(first));
+        match self.files.len() {
+            0 | 1 => format!("wrote {first}"),
+            2 => format!("wrote {first} and another file"),
+            count => format!("wrote {first} and {} more files", count - 1),
+        }
+    }
+
+    fn write_all(self) -> Result<(), Failure> {
         let _deferred = interrupt::defer_ctrl_c();
         let staging = temporary_folder(&self.base)?;
         let staged = staging.path().join(&self.missing);
@@ -214,6 +238,18 @@ mod tests {
         assert_eq!(fs::read_to_string(target.join("figures/two.svg")).unwrap(), "2\n");
         assert_eq!(fs::read_to_string(target.join("figures/three.svg")).unwrap(), "3\n");
         assert_eq!(fs::read_dir(&target).unwrap().count(), 2);
+    }
+
+    #[test]
+    fn the_summary_names_the_page_to_open() {
+        let place = tempfile::tempdir().unwrap();
+        let mut folder = OutputFolder::open(&place.path().join("out"), OldFiles::Keep).unwrap();
+        folder.add("a.csv", "1\n");
+        assert!(folder.summary().ends_with("a.csv"), "{}", folder.summary());
+        folder.add(REPORT, "<html>");
+        folder.add("b.csv", "1\n");
+        let summary = folder.summary();
+        assert!(summary.ends_with("report.html and 2 more files"), "{summary}");
     }
 
     #[test]

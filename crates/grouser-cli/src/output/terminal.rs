@@ -47,8 +47,8 @@ pub(crate) fn is_quiet() -> bool {
     settings().is_quiet
 }
 
-/// Whether progress is drawn.
-pub(super) fn has_progress() -> bool {
+/// Whether progress is drawn, and it is said what was written where.
+pub(crate) fn has_progress() -> bool {
     !is_quiet() && stderr().is_terminal()
 }
 

@@ -538,7 +538,7 @@ fn a_full_disk_spares_the_earlier_results() {
     let answer = place.shell("ulimit -f 1; grouser traverse --out run --force");
     assert_eq!(answer.code(), 1, "{}", answer.stderr);
     assert_eq!(before, place.read("run/traverse.json"));
-    assert_eq!(std::fs::read_dir(place.file("run")).expect("a folder").count(), 4);
+    assert_eq!(std::fs::read_dir(place.file("run")).expect("a folder").count(), 5);
 }
 
 // ---- Signals ----

@@ -319,6 +319,7 @@ fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
         "card.png",
         "card.svg",
         "courses.csv",
+        "report.html",
         "scenario.toml",
     ];
     assert_eq!(names, expected);

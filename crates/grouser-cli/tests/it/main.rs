@@ -14,6 +14,7 @@ mod hostile;
 mod import;
 mod models;
 mod program;
+mod reports;
 mod scrambled;
 mod simulated;
 mod terminal;

@@ -21,6 +21,8 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{aligned, csv, csv_of_nested, four_digits};
 use crate::output::text::Text;
 use crate::output::{self, Format};
+use crate::report::REPORT;
+use crate::report::page::Page;
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -81,6 +83,9 @@ fn write(
             let columns: Vec<String> = first.keys().cloned().collect();
             folder.add("slopes.csv", csv(&columns, slopes.iter())?);
         }
+        let mut page = Page::new("Models ranked on measured tests");
+        page.code(&text.to_string());
+        page.heading("The best model of each part");
         for best in ranking.rows.iter().filter(|entry| entry.rank == 1) {
             let part = slug(&format!("{} {}", best.data_set, best.case));
             let figures = match &best.found {
@@ -88,9 +93,13 @@ fn write(
                 Found::Slope(validation) => figures::of_slopes(validation),
             };
             for figure in figures {
-                folder.add(format!("figures/{part}-{}.svg", figure.file), figure.chart.to_svg());
+                let svg = figure.chart.to_svg();
+                let what = format!("{}, {}: {}", best.data_set, best.case, figure.caption);
+                page.drawing(&svg, &what);
+                folder.add(format!("figures/{part}-{}.svg", figure.file), svg);
             }
         }
+        folder.add(REPORT, page.to_html());
         folder.finish()?;
     }
     match args.output.format {

@@ -23,6 +23,8 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};
 use crate::output::text::Text;
 use crate::output::{self, Format};
+use crate::report::REPORT;
+use crate::report::page::Page;
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -65,6 +67,7 @@ pub(super) fn run(
         folder.add("validation.json", answer.to_text());
         folder.add("validation.csv", rows.to_csv()?);
         folder.add("validation.txt", text.to_string());
+        folder.add(REPORT, html(&scenario, &tests, &validation, &text));
         add_figures(&mut folder, &validation);
         folder.add_document("scenario.toml", &scenario);
         folder.finish()?;
@@ -74,6 +77,35 @@ pub(super) fn run(
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
+}
+
+/// The page: the errors, every slope, the figures.
+///
+/// * `text`: slopes and errors, as they are printed
+fn html(
+    scenario: &LoadedScenario,
+    tests: &SlopeTests,
+    validation: &SlopeValidation,
+    text: &Text,
+) -> String {
+    let mut page = Page::new("Measured and predicted on slopes");
+    page.list([
+        format!("rover: {}", scenario.document.text("rover.name").unwrap_or("unnamed")),
+        format!("soil: {}", scenario.document.text("soil.name").unwrap_or("unnamed")),
+        format!("wheel–soil model: {}", scenario.value.theory.name()),
+    ]);
+    page.list(&tests.notes);
+    page.heading("Every slope, and the errors");
+    page.code(&text.to_string());
+    page.heading("Figures");
+    for figure in figures::of_slopes(validation) {
+        page.drawing(&figure.chart.to_svg(), figure.caption);
+    }
+    page.flags(validation.points.iter().flat_map(|point| &*point.findings));
+    page.heading("Assumptions in force");
+    page.list(&scenario.assumptions);
+    page.document("scenario.toml", &scenario.to_toml());
+    page.to_html()
 }
 
 fn add_figures(folder: &mut OutputFolder, validation: &SlopeValidation) {
