@@ -8,7 +8,7 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))
 
 import grouser  # noqa: E402
-from grouser_site import equations  # noqa: E402
+from grouser_site import equations, figures  # noqa: E402
 from numpydoc import xref  # noqa: E402
 
 project = "Grouser"
@@ -48,7 +48,7 @@ nb_output_stderr = "warn"
 # MuJoCo draws without a display. Where it cannot (`cargo xtask site` finds out), its notebook is shown, not run.
 if os.environ.setdefault("MUJOCO_GL", "egl") == "disable":
     nb_execution_excludepatterns = ["notebooks/mujoco.md"]
-os.environ["MATPLOTLIBRC"] = str(HERE / "matplotlibrc")
+os.environ["MATPLOTLIBRC"] = figures.settings()
 
 # Types stand in the text of the docstrings, with shapes and units.
 autodoc_typehints = "none"

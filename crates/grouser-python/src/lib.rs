@@ -21,6 +21,7 @@ mod measurements;
 mod rollouts;
 mod simulators;
 mod studies;
+mod style;
 mod threads;
 mod time_step;
 mod validation;
@@ -59,6 +60,8 @@ mod _core {
     use super::rollouts::rollout;
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
+    #[pymodule_export]
+    use super::style::{spread_labels, style_colours};
     #[pymodule_export]
     use super::studies::{
         card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,

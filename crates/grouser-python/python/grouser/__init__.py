@@ -26,7 +26,7 @@ Examples
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _former_names, campaign
+from . import _former_names, campaign, style
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates
@@ -130,6 +130,7 @@ __all__ = [
     "rollout",
     "settle",
     "simulate",
+    "style",
     "validate",
     "validate_all",
     "validate_slopes",

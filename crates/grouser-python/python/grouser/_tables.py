@@ -145,12 +145,15 @@ def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:
 
 
 def axes_or_new(axes: Axes | None) -> Axes:
-    """The given axes, or those of a new figure."""
+    """The given axes, or those of a new figure in the package's style."""
     if axes is not None:
         return axes
     import matplotlib.pyplot as plt
 
-    return plt.subplots()[1]
+    from . import style
+
+    with style.context():
+        return plt.subplots()[1]
 
 
 def label(name: str) -> str:
