@@ -7,6 +7,7 @@ mod draw;
 mod forecast;
 mod heading;
 mod measurements;
+mod new;
 mod terminal;
 mod traverse;
 mod uncertainty;
@@ -32,6 +33,7 @@ pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
+pub(crate) use new::NewArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
@@ -85,6 +87,8 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Measure how fast and how accurately this machine computes.
     Bench(BenchArgs),
+    /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
+    New(NewArgs),
     /// Check documents: soils, wheels, rovers, scenarios, data sets, campaigns, priors.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.

@@ -13,6 +13,7 @@ pub(crate) mod heading;
 mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
+pub(crate) mod new;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
 mod sampling;

@@ -69,6 +69,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Draw(args) => commands::draw::run(args),
         Command::Import(args) => commands::import::run(args),
         Command::Bench(args) => commands::bench::run(args),
+        Command::New(args) => commands::new::run(args),
         Command::Check(args) => commands::check::run(args),
         Command::Presets(args) => commands::presets::run(args),
         Command::Schema(args) => commands::schema::run(args),

@@ -74,6 +74,11 @@ pub(crate) fn message(text: &str) {
     }
 }
 
+/// A message with its labels in colours where the standard error has them.
+pub(crate) fn in_colours(text: &str) -> String {
+    terminal::stderr_screen().words(text)
+}
+
 /// Prints the message of a failure to the standard error.
 pub(crate) fn report(failure: &Failure) {
     activity::end();

@@ -30,6 +30,31 @@ fn todays_key(kind: Kind, tree: &Node, prefix: &str, path: &str) -> Option<Strin
     (today != inside).then(|| join(prefix, &today))
 }
 
+/// That an answer to a question is what one of some schemas allows.
+///
+/// * `schemas`: of the key, one for each law that has it
+pub(crate) fn answer(
+    root: &'static Json,
+    schemas: &[&'static Json],
+    node: &Node,
+    key: &str,
+) -> Result<(), DocumentError> {
+    let checker = Checker { root, prefix: "", todays: &|_| None };
+    let mut found = Ok(());
+    for schema in schemas {
+        found = checker.value(schema, node, key, &node.origin);
+        if found.is_ok() {
+            break;
+        }
+    }
+    found
+}
+
+/// What a number may be, such as `0.1 to 50`; none of what is no number.
+pub(crate) fn range_in_words(root: &Json, schema: &Json) -> Option<String> {
+    alternatives(root, schema).into_iter().find_map(range_of)
+}
+
 /// The keys that a table of a document may have, given what it says already.
 pub(crate) fn keys_at(kind: Kind, tree: &Node, path: &[String]) -> Option<Vec<&'static str>> {
     let table = table_at(kind, tree, path.iter().map(String::as_str))?;
@@ -272,19 +297,24 @@ fn check_word(allowed: &[&str], node: &Node, path: &str) -> Result<(), DocumentE
     Err(DocumentError::at(&node.origin, problem).with_hint(hint))
 }
 
-fn check_range(schema: &Json, node: &Node, value: f64, path: &str) -> Result<(), DocumentError> {
-    let end = |name: &str| schema.get(name).and_then(Json::as_f64);
-    let (least, most) = (end("minimum"), end("maximum"));
-    let above = end("exclusiveMinimum");
-    let words = |end: Option<f64>| end.map(number);
-    let range = match (words(least), words(above), words(most)) {
+/// The range of a number, in words.
+fn range_of(schema: &Json) -> Option<String> {
+    let end = |name: &str| schema.get(name).and_then(Json::as_f64).map(number);
+    match (end("minimum"), end("exclusiveMinimum"), end("maximum")) {
         (Some(least), _, Some(most)) => Some(format!("{least} to {most}")),
         (None, Some(above), Some(most)) => Some(format!("above {above} and at most {most}")),
         (Some(least), _, None) => Some(format!("at least {least}")),
         (None, Some(above), None) => Some(format!("above {above}")),
         (None, None, Some(most)) => Some(format!("at most {most}")),
         (None, None, None) => None,
-    };
+    }
+}
+
+fn check_range(schema: &Json, node: &Node, value: f64, path: &str) -> Result<(), DocumentError> {
+    let end = |name: &str| schema.get(name).and_then(Json::as_f64);
+    let (least, most) = (end("minimum"), end("maximum"));
+    let above = end("exclusiveMinimum");
+    let range = range_of(schema);
     let key = path.to_owned();
     if !value.is_finite() {
         let range = range.map_or_else(String::new, |range| format!(", {range}"));

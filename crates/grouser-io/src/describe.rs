@@ -3,6 +3,7 @@
 mod about;
 pub(crate) mod campaign;
 pub(crate) mod data_set;
+pub(crate) mod data_sheet;
 mod differences;
 pub(crate) mod prior;
 pub(crate) mod rover;

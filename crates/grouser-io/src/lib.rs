@@ -38,6 +38,7 @@ pub mod columns;
 mod data_set;
 mod describe;
 mod document;
+pub mod draft;
 pub mod error;
 pub mod escape;
 mod field;
@@ -76,7 +77,7 @@ pub use gravity::{GRAVITIES, gravity};
 pub use kind::{DEFAULT_PRIORS, DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 pub use loaded::{Loaded, fnv_1a};
 pub use overrides::Overrides;
-pub use presets::{Preset, preset, presets};
+pub use presets::{Advice, Preset, preset, presets};
 pub use priors::{Assumed, assumed, stated_by_priors, with_priors_held, without_priors_of};
 pub use read::{
     LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source, place_of,

@@ -399,6 +399,19 @@ fn argument_with(content: String, companions: Vec<Companion>) -> Arc<Text> {
     Arc::new(Text { label, content, is_argument: true, companions, ..Text::default() })
 }
 
+/// The answer to a question of a draft; messages quote it with its key.
+///
+/// * `is_text`: whether it is a text whatever it looks like
+pub(crate) fn answer_of(key: &str, answer: &str, is_text: bool) -> Result<Node, DocumentError> {
+    let text = argument(Overrides::change_label(key, answer));
+    let start = text.content.len() - answer.len();
+    if is_text {
+        let origin = Origin { span: start..text.content.len(), text };
+        return Ok(Node { value: Value::String(answer.to_owned()), origin });
+    }
+    parse_value(&text, start)
+}
+
 /// The value that a text ends with, from a byte on.
 fn parse_value(text: &Arc<Text>, start: usize) -> Result<Node, DocumentError> {
     const KEY: &str = "value = ";

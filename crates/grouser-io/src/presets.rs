@@ -1,6 +1,10 @@
 //! The documents that come with the program: those of the crate's folder `data/`.
 
+mod advice;
+
 use super::kind::Kind;
+
+pub use advice::Advice;
 
 /// A document that comes with the program.
 #[derive(Debug, PartialEq, Eq)]

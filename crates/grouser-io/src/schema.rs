@@ -123,6 +123,26 @@ fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &
     }
 }
 
+/// The schemas under a dotted key, one for each law that has it, as they stand: with their sentences and defaults.
+///
+/// * `law`: the one of its table, if it is known
+pub(crate) fn under<'s>(root: &'s Json, path: &str, law: Option<&str>) -> Vec<&'s Json> {
+    let (tables, key) = path.rsplit_once('.').map_or((None, path), |(all, key)| (Some(all), key));
+    let tables = match tables {
+        Some(path) => properties(root, root, path),
+        None => vec![root],
+    };
+    let entries = tables.into_iter().flat_map(|table| match table.get("items") {
+        Some(items) => alternatives(root, items),
+        None => vec![table],
+    });
+    let has_law = |table: &&Json| {
+        let known = table.pointer("/properties/law").and_then(|schema| words(root, schema));
+        law.is_none_or(|law| known.is_none_or(|known| known.contains(&law)))
+    };
+    entries.filter(has_law).filter_map(|table| table.get("properties")?.get(key)).collect()
+}
+
 /// Everything that a key may be, over all laws.
 fn properties<'s>(root: &'s Json, schema: &'s Json, path: &str) -> Vec<&'s Json> {
     let (first, rest) = path.split_once('.').map_or((path, None), |(key, rest)| (key, Some(rest)));

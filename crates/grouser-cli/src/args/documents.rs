@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use clap_complete::Shell;
-use grouser::document::Kind;
+use grouser::document::{GRAVITIES, Kind};
 
 use crate::output::Format;
 
@@ -20,14 +20,28 @@ pub(crate) struct CheckArgs {
     pub(crate) flags: bool,
 }
 
+/// The worlds that presets are of.
+const WORLDS: [&str; GRAVITIES.len()] = [GRAVITIES[0].0, GRAVITIES[1].0, GRAVITIES[2].0];
+
 #[derive(Debug, Args)]
+#[command(
+    after_help = "On a terminal, and with a filter, the list has advice in place of sources: what a soil or a \
+                        rover is for, and how well it is known."
+)]
 pub(crate) struct PresetsArgs {
-    /// The preset to print as TOML; where kinds share its name, --kind says which.
+    /// The preset to print as TOML; where kinds share its name, --kind says which. The name of a kind, such as
+    /// `soils`, lists its presets.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) name: Option<String>,
     /// Only presets of this kind.
     #[arg(long, value_enum)]
     pub(crate) kind: Option<KindChoice>,
+    /// Only soils and rovers of this world; a simulant is of the Earth.
+    #[arg(long = "for", value_name = "WORLD", value_parser = PossibleValuesParser::new(WORLDS))]
+    pub(crate) world: Option<String>,
+    /// Only presets with this text in their name, title, source, notes or advice.
+    #[arg(long, value_name = "TEXT", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) search: Option<String>,
     /// Form of the list.
     #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
     pub(crate) format: Format,

@@ -42,6 +42,11 @@ impl Rows {
         Self(maps)
     }
 
+    /// Some of the rows.
+    pub(crate) fn part(&self, rows: std::ops::Range<usize>) -> Self {
+        Self(self.0[rows].to_vec())
+    }
+
     /// The rows as CSV with a header; null is an empty field.
     pub(crate) fn to_csv(&self) -> Result<String, Failure> {
         let columns: Vec<String> =

@@ -1,0 +1,145 @@
+//! The draft of a soil: like a preset in what is not known.
+
+use std::sync::Arc;
+
+use serde_json::{Map, Value as Json};
+
+use super::super::check::nearest;
+use super::super::error::{DocumentError, Problem};
+use super::super::escape;
+use super::super::kind::Kind;
+use super::super::overrides::Overrides;
+use super::super::presets::{preset, presets};
+use super::super::text;
+use super::super::tree::Text;
+use super::answers::{Answers, Usual};
+use super::lines::Lines;
+
+pub(super) const KEYS: [&str; 10] = [
+    "name",
+    "source",
+    LIKE,
+    "friction_angle_deg",
+    "cohesion_kpa",
+    "density_kg_m3",
+    "pressure_sinkage.k_c",
+    "pressure_sinkage.k_phi",
+    "pressure_sinkage.n",
+    "shear.longitudinal_m",
+];
+
+/// The preset that the soil is like.
+pub(super) const LIKE: &str = "like";
+/// Which preset, if none is named.
+const USUAL_PRESET: &str = "lunar-nominal";
+/// Tables that are of the preset's own tests, not of a soil like it.
+const NOT_KEPT: [&str; 5] = ["domain", "uncertainty", "priors", "discrepancy", "small_wheel"];
+
+/// The usual value of a question.
+pub(super) fn usual(answers: &Answers, key: &str) -> Usual {
+    answers.usual_of_soil(key)
+}
+
+impl Answers {
+    pub(super) fn usual_of_soil(&self, key: &str) -> Usual {
+        if key == LIKE {
+            return Usual::of(USUAL_PRESET, "a loose soil of the Moon");
+        }
+        let name = self.like();
+        match self.keys_of_preset().pointer(&format!("/{}", key.replace('.', "/"))) {
+            Some(value) => Usual::of(value.clone(), format!("that of the preset `{name}`")),
+            None => Usual::left_out("as the priors `general` say"),
+        }
+    }
+
+    /// The law of the table of a key, in the preset.
+    pub(super) fn law_of_soil(&self, key: &str) -> Option<String> {
+        let (table, _) = key.split_once('.')?;
+        self.keys_of_preset()[table]["law"].as_str().map(str::to_owned)
+    }
+
+    fn like(&self) -> String {
+        let given = self.given.get(LIKE).and_then(Json::as_str);
+        given.unwrap_or(USUAL_PRESET).to_owned()
+    }
+
+    /// The document of the preset that the soil is like, without what is of its own tests.
+    fn keys_of_preset(&self) -> Json {
+        let text = preset(Kind::Soil, &self.like()).map_or("", |preset| preset.text);
+        let text = Text { label: String::new(), content: text.to_owned(), ..Text::default() };
+        let mut keys = text::parse(&Arc::new(text)).map_or(Json::Null, |node| node.to_json());
+        if let Json::Object(keys) = &mut keys {
+            keys.retain(|key, _| !NOT_KEPT.contains(&key.as_str()));
+        }
+        keys
+    }
+
+    pub(super) fn soil(&self) -> String {
+        let like = self.like();
+        let mut keys = self.keys_of_preset();
+        let mut assumed: Vec<String> =
+            KEYS[3..].iter().filter_map(|key| self.reason(key, key)).collect();
+        for key in &KEYS[3..] {
+            if let Some(answer) = self.given.get(*key) {
+                set(&mut keys, key, answer.clone());
+            }
+        }
+        let Json::Object(keys) = keys else { return String::new() };
+        let is_told = |key: &str| ["schema", "name", "source", "notes", "assumed"].contains(&key);
+        let rest = keys.iter().filter(|(key, _)| !is_told(key));
+        for (key, value) in rest.clone() {
+            let inner = value.as_object().into_iter().flatten();
+            let paths = inner.map(|(inner, _)| format!("{key}.{inner}"));
+            let own = (!value.is_object()).then(|| key.clone());
+            let kept = paths.chain(own).filter(|path| !KEYS.contains(&path.as_str()));
+            assumed.extend(kept.map(|path| format!("{path}: that of the preset `{like}`")));
+        }
+
+        let mut lines =
+            Lines::new(Kind::Soil, "A soil of Grouser: `assumed` has what is taken from another.");
+        lines.plain("name", &Json::from(self.text("name")));
+        lines.plain("source", &Json::from(self.text("source")));
+        lines.texts("assumed", &assumed);
+        lines.blank();
+        let (tables, numbers): (Vec<_>, Vec<_>) = rest.partition(|(_, value)| value.is_object());
+        for (key, value) in numbers {
+            lines.key(key, Some(value), "");
+        }
+        for (table, keys) in tables {
+            lines.table(&format!("[{table}]"), table);
+            lines.law(keys["law"].as_str());
+            for (key, value) in keys.as_object().into_iter().flatten() {
+                lines.key(key, Some(value), "");
+            }
+        }
+        lines.end()
+    }
+}
+
+/// That there is such a preset.
+pub(super) fn check_preset(name: &str) -> Result<(), DocumentError> {
+    if preset(Kind::Soil, name).is_some() {
+        return Ok(());
+    }
+    let names: Vec<&str> = presets(Kind::Soil).map(|preset| preset.name).collect();
+    let hint = nearest(name, names.iter().copied()).map_or_else(
+        || format!("the soil presets are {}", names.join(", ")),
+        |meant| format!("did you mean `{meant}`?"),
+    );
+    let problem = Problem::Malformed("there is no such preset of a soil");
+    let label = Overrides::change_label(LIKE, &escape::line(name));
+    Err(DocumentError::whole(label, problem).with_hint(hint))
+}
+
+/// Sets a dotted key; tables on the way are made.
+fn set(keys: &mut Json, path: &str, value: Json) {
+    match path.split_once('.') {
+        None => keys[path] = value,
+        Some((table, rest)) => {
+            if !keys[table].is_object() {
+                keys[table] = Json::Object(Map::new());
+            }
+            set(&mut keys[table], rest, value);
+        }
+    }
+}
