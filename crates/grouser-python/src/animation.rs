@@ -38,7 +38,8 @@ pub(crate) fn animation<'py>(
             shown.map(|((name, run), scenario)| Shown { name, run, scenario }).collect();
         Ok(Animation::of(&title, &shown).to_bytes(form, &mut || ()))
     })?;
-    let bytes = found.map_err(|error| errors::of_simulation(&error))?.map_err(|error| of_video(&error))?;
+    let bytes =
+        found.map_err(|error| errors::of_simulation(&error))?.map_err(|error| of_video(&error))?;
     Ok(PyBytes::new(py, &bytes))
 }
 
