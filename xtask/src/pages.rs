@@ -49,16 +49,22 @@ const PAGES: [&str; 28] = [
 ];
 
 /// What makes reports: the name of the page, and the command, whose folder or file comes last.
-const REPORTS: [(&str, &[&str]); 3] = [
+const REPORTS: [(&str, &[&str]); 9] = [
     ("reproduce/report.html", &["reproduce", "--samples", "2", "--out", "reproduce"]),
     (
-        "forecast/forecast.html",
+        "forecast/report.html",
         &["forecast", "--site", "moon", "--soil", "toyoura", "--samples", "8", "--out", "forecast"],
     ),
+    ("traverse/report.html", &["traverse", "--slope-deg", "10", "--out", "traverse"]),
+    ("run.html", &["traverse", "--slope-deg", "10", "--duration-s", "4", "--animate", "run.html"]),
+    ("wheel/report.html", &["wheel-test", "--out", "wheel"]),
+    ("heading/report.html", &["heading", "--slope-deg", "0:20:5", "--out", "heading"]),
+    ("map/report.html", &["heading-map", "--out", "map"]),
     (
         "card.html",
         &["card", "--soil", "toyoura-uncertain", "--samples", "16", "--out", "card.html"],
     ),
+    ("card/report.html", &["card", "--soil", "toyoura", "--samples", "16", "--out", "card"]),
 ];
 
 /// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a browser all
