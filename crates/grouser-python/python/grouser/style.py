@@ -8,7 +8,7 @@ Examples
 >>> import grouser as gr
 >>> with gr.style.context():
 ...     axes = gr.heading(slope_deg=[5, 10, 15]).plot(label="Toyoura sand")
-...     gr.style.name_curves(axes)
+...     axes = gr.style.name_curves(axes)
 """
 
 from __future__ import annotations
@@ -110,7 +110,9 @@ def use(*, dark: bool = False) -> None:
     """
     import matplotlib as mpl
 
-    mpl.rcParams.update(rc_params(dark=dark))
+    # matplotlib's own types know its keys one by one.
+    settings: Any = rc_params(dark=dark)
+    mpl.rcParams.update(settings)
 
 
 def context(*, dark: bool = False) -> AbstractContextManager[None]:
@@ -128,7 +130,8 @@ def context(*, dark: bool = False) -> AbstractContextManager[None]:
     """
     import matplotlib as mpl
 
-    return mpl.rc_context(rc_params(dark=dark))
+    settings: Any = rc_params(dark=dark)
+    return mpl.rc_context(settings)
 
 
 def name_curves(axes: Axes | None = None) -> Axes:
