@@ -61,7 +61,7 @@ def rc_params(*, dark: bool = False) -> dict[str, Any]:
     Returns
     -------
     dict
-        For `matplotlib.rcParams`.
+        For ``matplotlib.rcParams``.
     """
     from cycler import cycler
 
@@ -126,7 +126,7 @@ def context(*, dark: bool = False) -> AbstractContextManager[None]:
     Returns
     -------
     context manager
-        That of `matplotlib.rc_context`.
+        That of ``matplotlib.rc_context``.
     """
     import matplotlib as mpl
 
