@@ -228,7 +228,7 @@ fn the_rover_is_drawn_as_it_is() {
         place.results(&format!("{line} {rover}.toml --out {rover}.svg"));
         let svg = place.read(&format!("{rover}.svg"));
         // Arrows have three corners, wheels four, and none of them is upright as the bars of the table are.
-        let areas = svg.lines().filter(|line| line.contains("Z\" fill=\"rgb(0,0,0)\""));
+        let areas = svg.lines().filter(|line| line.contains("Z\" fill=\"#000000\""));
         let has_four = |line: &&str| line.matches('L').count() == 3;
         let is_upright = |line: &&str| {
             let path = line.split("d=\"M").nth(1).expect("a path");
