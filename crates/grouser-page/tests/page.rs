@@ -139,7 +139,7 @@ fn colours_and_what_they_hide_are_in_every_form() {
     assert!(red == green && (127..=128).contains(&red) && blue == 255, "{red} {green} {blue}");
     assert_eq!(picture.pixels[16 * 20 + 10], [0, 0, 255]);
     let svg = sheet.to_svg();
-    assert!(svg.contains("fill=\"rgb(0,0,255)\" fill-opacity=\"0.5\""));
+    assert!(svg.contains("fill=\"#0000ff\" fill-opacity=\"0.5\""));
     assert!(svg.contains("stroke-linecap=\"round\""));
     let pdf = String::from_utf8_lossy(&sheet.to_pdf()).into_owned();
     assert!(pdf.contains("/V50") && pdf.contains("/ca 0.5"));
