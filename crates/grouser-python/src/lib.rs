@@ -61,12 +61,12 @@ mod _core {
     #[pymodule_export]
     use super::simulators::{Simulators, simulator_columns};
     #[pymodule_export]
-    use super::style::{spread_labels, style_colours};
-    #[pymodule_export]
     use super::studies::{
         card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,
         heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_test_band,
     };
+    #[pymodule_export]
+    use super::style::{spread_labels, style_colours};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]
