@@ -9,7 +9,9 @@ use grouser::vehicle::{Inertia, LoadSharing};
 
 /// Name, published mass of all [kg], number of wheels, height of the centre of mass [m], box of the body [m], soil of
 /// its world, and that world's gravity.
-const FLOWN: [(&str, f64, u32, f64, [f64; 3], &str, &str); 8] = [
+type Flown = (&'static str, f64, u32, f64, [f64; 3], &'static str, &'static str);
+
+const FLOWN: [Flown; 8] = [
     ("viper", 430.0, 4, 0.59, [1.28, 1.22, 1.0], "lunar-nominal", "moon"),
     ("rashid", 10.0, 4, 0.25, [0.26, 0.42, 0.20], "lunar-nominal", "moon"),
     ("pragyan", 26.0, 6, 0.255, [0.73, 0.68, 0.30], "lunar-nominal", "moon"),
