@@ -7,40 +7,14 @@ mod loads;
 mod pen;
 mod shear;
 mod slope;
+mod subject;
 mod wheel;
 
-use grouser_core::contact::{Contact, Settled};
-use grouser_core::vehicle::Rover;
-use grouser_core::vehicle::reaction::WheelReaction;
 use grouser_page::Sheet;
 
+pub use subject::{Crossing, WheelInSoil};
+
 use crate::style::rules_for_dark;
-
-/// A wheel in its soil, settled under its load.
-#[derive(Clone, Copy, Debug)]
-pub struct WheelInSoil<'a> {
-    /// The wheel, the soil, and how they move against each other.
-    pub contact: &'a Contact,
-    /// Sinkage and forces.
-    pub settled: &'a Settled,
-    /// Its load [N].
-    pub load: f64,
-}
-
-/// A rover that holds the contour of a slope.
-#[derive(Clone, Copy, Debug)]
-pub struct Crossing<'a> {
-    /// The rover.
-    pub rover: &'a Rover,
-    /// Inclination of the slope, *α* [rad].
-    pub slope: f64,
-    /// Yaw, *γ* [rad], positive uphill.
-    pub yaw: f64,
-    /// Gravity [m/s²].
-    pub gravity: f64,
-    /// The wheels, in the mounts' order.
-    pub wheels: &'a [WheelReaction],
-}
 
 /// A drawing.
 #[derive(Clone, Debug)]
@@ -126,7 +100,7 @@ mod tests {
     use grouser::simulation::Scenario;
     use grouser::studies::heading::HeadingStudy;
     use grouser_core::contact::stress::StressField;
-    use grouser_core::contact::{Ishigami, Slip, settle};
+    use grouser_core::contact::{Contact, Ishigami, Slip, settle};
 
     use super::*;
 

@@ -7,8 +7,8 @@ use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
+use super::series::{Series, Style};
 use super::style::{LETTERS, faint, ink, label};
-use super::{Series, Style};
 
 /// From the plot to the sample [px].
 const GAP: f64 = 14.0;

@@ -1,23 +1,24 @@
 //! `grouser traverse`: drives a rover across a slope.
 
+mod of_model;
 mod page;
 
 use grouser::contact::validity::Flag;
+use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
 use grouser::document::columns::{MODEL, TIME, X, Y, YAW};
 use grouser::document::table::{Row, Table};
-use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::traverse_band::{RunBand, TraverseBand, record_times};
+use grouser::studies::traverse_band::RunBand;
 use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::of_model::{OfModel, chart, reason};
 use super::animation::Target;
-use super::{Answer, sampling, strict};
-use crate::args::{EVERY_MODEL, SettingArgs, TraverseArgs, UncertaintyArgs};
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
+use super::{Answer, sampling};
+use crate::args::{EVERY_MODEL, TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
@@ -80,58 +81,7 @@ fn animate(
     target.write(&title_of(&all[0].scenario), &runs, folder)
 }
 
-/// What a model answers.
-struct OfModel {
-    scenario: LoadedScenario,
-    run: Trajectory,
-    band: Option<TraverseBand>,
-}
-
 impl OfModel {
-    /// * `setting`: with one model
-    fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
-        let scenario = inputs::traverse(args, setting, args.yaw_deg.as_deref())?;
-        let run = Run::new(&scenario.value)?.to_end()?;
-        if args.strict.strict {
-            let flags = run::each_findings(&run, &scenario.value);
-            let records = run::table(&run, &scenario.value);
-            strict::check(&args.strict, flags.iter().map(|it| &**it), &records, &[TIME.name])?;
-        }
-        let UncertaintyArgs { sampling, seed } = args.uncertainty;
-        if !sampling.uncertainty {
-            return Ok(Self { scenario, run, band: None });
-        }
-        inputs::refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-        let samples = sampling::draw(&BandInputs::of_scenario(&scenario), sampling.samples, seed)?;
-        let times = record_times(&run, &scenario.value);
-        let band = sampling::with_bar(samples.len(), |go_on| {
-            TraverseBand::of(&scenario.value, &samples, &times, go_on)
-        });
-        Ok(Self { scenario, run, band: Some(sampling::whole(band?)) })
-    }
-
-    fn name(&self) -> &'static str {
-        self.scenario.value.theory.name()
-    }
-
-    /// A row for each record, with the bands at its time.
-    fn rows(&self) -> Table {
-        let table = run::table(&self.run, &self.scenario.value);
-        match &self.band {
-            Some(band) => run::with_bands(table, &band.times),
-            None => table,
-        }
-    }
-
-    /// The end and the means, with their bands: one row.
-    fn summary(&self) -> Table {
-        let mut table = run::summary(&self.run, &self.scenario.value);
-        if let Some(band) = &self.band {
-            table = table.and(&RUN_BAND, &[Some(&band.run)]);
-        }
-        table.with_word(MODEL, self.name())
-    }
-
     fn output(&self, args: &TraverseArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
         let rows = Rows::of_table(&self.rows());
         let settings = settings(args, std::slice::from_ref(self));
@@ -264,11 +214,6 @@ fn tell_end(run: &Trajectory) {
     }
 }
 
-/// The reason of an outcome, after a colon, on one line.
-fn reason(run: &Trajectory) -> String {
-    run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
-}
-
 /// Some of the records with the means of their wheels, the model where nobody names one, and the outcome.
 fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     let samples = run::brief(run, LINES);
@@ -306,30 +251,4 @@ fn flag_lines(run: &Trajectory, scenario: &Scenario) -> String {
         format!("{name} since {} s: {meaning}\n", four_digits(*time))
     };
     names.zip(times).map(line).collect()
-}
-
-/// The paths, seen from above, each with its band if there is one.
-fn chart(all: &[OfModel]) -> Chart {
-    let mut series = Vec::new();
-    for (place, of_model) in all.iter().enumerate() {
-        let Some(band) = &of_model.band else { continue };
-        // The band is over one time: it is drawn where the rover is then, in the middle of the samples.
-        let edges = band.times.iter().filter_map(|at| {
-            let (x, y) = (at.x?, at.y?);
-            Some((x.median, y.low, y.high))
-        });
-        let name = if all.len() > 1 { of_model.name() } else { "the samples" };
-        series.push(Series::band(
-            format!("95 % of {name}"),
-            if all.len() > 1 { place + 1 } else { BAND_COLOUR },
-            edges,
-        ));
-    }
-    for (place, of_model) in all.iter().enumerate() {
-        let records = of_model.run.records.iter();
-        let points = records.map(|record| (record.state.position.x, record.state.position.y));
-        let name = if all.len() > 1 { of_model.name() } else { "" };
-        series.push(Series::new(name, Style::Line, place + 1, points));
-    }
-    Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
 }

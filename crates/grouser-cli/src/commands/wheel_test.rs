@@ -1,10 +1,9 @@
 //! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
 
+mod charted;
 mod page;
 
-use grouser::document::columns::{
-    self, DRAWBAR_PULL, LOAD, MODEL, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
-};
+use grouser::document::columns::{self, DRAWBAR_PULL, MODEL, SINKAGE, TORQUE};
 use grouser::document::table::Table;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
@@ -12,16 +11,16 @@ use grouser::studies::wheel_test::WheelTest;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::charted::{Charted, brief, plan};
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, StandArgs, WheelTestArgs};
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
+use crate::chart::Style;
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-use crate::report::answer::{axis, capitalised};
 
 pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
@@ -53,19 +52,6 @@ fn of_model(args: &WheelTestArgs, stand: &StandInputs) -> Result<Table, Failure>
     let samples = sampling::draw(&stand.band, args.sampling.samples, args.stand.seed)?;
     let bands = sampling::with_bar(samples.len(), |go_on| test.bands(&samples, go_on));
     Ok(columns::wheel_test::with_bands(table, &sampling::whole(bands)))
-}
-
-fn plan(args: &WheelTestArgs, stand: &StandInputs) -> WheelTest {
-    let angles = args.slip_angle_deg.0.iter().map(|angle| SLIP_ANGLE.unit.to_si(*angle));
-    WheelTest {
-        wheel: stand.wheel.value,
-        soil: stand.soil.value,
-        gravity: stand.gravity,
-        theory: stand.theory,
-        loads: args.load_n.0.clone(),
-        slip_angles: angles.collect(),
-        slip_ratios: args.slip_ratio.0.clone(),
-    }
 }
 
 /// The inputs of the answer.
@@ -154,21 +140,6 @@ fn model_line(args: &WheelTestArgs, stand: &StandInputs) -> String {
     }
 }
 
-/// The columns for reading.
-fn brief(args: &WheelTestArgs) -> Vec<String> {
-    let mut names = if args.stand.trials.is_some() {
-        columns::stand::brief()
-    } else if args.sampling.uncertainty {
-        columns::wheel_test::bands_brief()
-    } else {
-        columns::wheel_test::brief()
-    };
-    if args.setting.has_every_model() {
-        names.insert(0, MODEL.to_owned());
-    }
-    names
-}
-
 /// The same test at slip ratios so close that curves are smooth; nothing where the rows have noise or bands, or are
 /// of few slip ratios.
 fn dense(args: &WheelTestArgs, stands: &[StandInputs]) -> Option<Table> {
@@ -190,49 +161,4 @@ fn dense(args: &WheelTestArgs, stands: &[StandInputs]) -> Option<Table> {
         table.append(if every { of_model.with_word(MODEL, stand.theory.name()) } else { of_model });
     }
     Some(table)
-}
-
-/// The rows of a test, and what charts draw of it.
-struct Charted<'a> {
-    rows: &'a Table,
-    /// The same, or the same test at more slip ratios.
-    drawn: &'a Table,
-    style: Style,
-}
-
-impl Charted<'_> {
-    /// A quantity over the slip ratio, a series for each model, load and slip angle, with its band if there is one.
-    fn chart(&self, quantity: Quantity) -> Chart {
-        let table = self.drawn;
-        let models = table.texts(MODEL);
-        let [loads, angles] = [LOAD, SLIP_ANGLE].map(|it| table.numbers(it.name));
-        let name = |row: usize| {
-            let [load, angle] = [loads, angles].map(|column| column[row].unwrap_or_default());
-            let model = models.get(row).and_then(Option::as_deref);
-            let model = model.map_or(String::new(), |model| format!("{model}, "));
-            format!("{model}{load} N, {angle}°")
-        };
-        let names: Vec<String> = (0..table.rows()).map(name).collect();
-        let places: Vec<usize> = (0..table.rows()).collect();
-        let [low, _, high] = quantity.quantiles();
-        let mut bands: Vec<Series> = Vec::new();
-        let mut lines: Vec<Series> = Vec::new();
-        for rows in places.chunk_by(|one, next| names[*one] == names[*next]) {
-            let (name, part) = (&names[rows[0]], table.rows_at(rows));
-            let edges = part
-                .points(SLIP_RATIO.name, &low)
-                .zip(part.points(SLIP_RATIO.name, &high))
-                .map(|((slip_ratio, low), (_, high))| (slip_ratio, low, high));
-            let edges: Vec<_> = edges.collect();
-            if !edges.is_empty() {
-                let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
-                bands.push(Series::band(format!("95 %, {name}"), colour, edges));
-            }
-            let points = part.points(SLIP_RATIO.name, quantity.name);
-            lines.push(Series::new(name, self.style, lines.len(), points));
-        }
-        let series = bands.into_iter().chain(lines).collect();
-        let title = capitalised(&quantity.label());
-        Chart::new(title, (axis(SLIP_RATIO), axis(quantity)), series)
-    }
 }

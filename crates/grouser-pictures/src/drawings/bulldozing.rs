@@ -6,8 +6,8 @@ use grouser_core::contact::bulldozing::WallResistance;
 use grouser_core::elementary::wide;
 use grouser_page::{Anchor, Place, Sheet};
 
-use super::WheelInSoil;
 use super::pen::{Pen, degrees};
+use super::subject::WheelInSoil;
 use crate::style::Role;
 
 const SIZE: Place = [190.0, 96.0];

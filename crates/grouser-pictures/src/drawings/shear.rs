@@ -3,8 +3,8 @@
 use grouser_core::contact::stress::StressField;
 use grouser_page::{Anchor, Place, Sheet};
 
-use super::WheelInSoil;
 use super::pen::{Pen, degrees};
+use super::subject::WheelInSoil;
 use crate::style::Role;
 
 const SIZE: Place = [190.0, 92.0];

@@ -3,8 +3,8 @@
 use grouser_core::elementary::wide;
 use grouser_page::{Anchor, Place, Sheet};
 
-use super::Crossing;
 use super::pen::{Pen, circle, degrees};
+use super::subject::Crossing;
 use crate::style::Role;
 
 const SIZE: Place = [190.0, 100.0];

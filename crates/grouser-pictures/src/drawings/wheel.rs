@@ -4,8 +4,8 @@ use grouser_core::contact::stress::{RimStress, StressField};
 use grouser_core::elementary::wide;
 use grouser_page::{Anchor, Place, Sheet};
 
-use super::WheelInSoil;
 use super::pen::{Pen, arc, around, circle, degrees};
+use super::subject::WheelInSoil;
 use crate::style::Role;
 
 /// Shearing radius on paper [mm].

@@ -5,7 +5,7 @@ use grouser::document::columns::heading::{self, held};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
 
-use super::{OfModel, brief, figures};
+use super::of_model::{OfModel, brief, figures};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::commands::sampling;

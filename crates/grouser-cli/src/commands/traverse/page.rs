@@ -10,7 +10,7 @@ use grouser::document::table::Table;
 use grouser::simulation::Trajectory;
 use grouser::studies::drive::Drive;
 
-use super::{OfModel, chart, reason};
+use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;

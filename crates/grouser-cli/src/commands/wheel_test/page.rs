@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use grouser::contact::validity::Finding;
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::{DRAWBAR_PULL, Quantity, SIDE_FORCE, SINKAGE, TORQUE};
+use grouser::document::columns::{DRAWBAR_PULL, Quantity, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE};
 use grouser::studies::wheel_test::WheelTest;
 
-use super::{Charted, brief, plan};
+use super::charted::{Charted, brief, plan};
 use crate::args::{EVERY_MODEL, WheelTestArgs};
 use crate::inputs::StandInputs;
 use crate::output::rows::four_digits;
@@ -36,7 +36,7 @@ pub(super) fn html(args: &WheelTestArgs, stands: &[StandInputs], charted: &Chart
 /// The largest pull, and where.
 fn sentence(charted: &Charted<'_>) -> String {
     let rows = charted.rows;
-    let [slips, pulls] = [super::SLIP_RATIO, DRAWBAR_PULL].map(|it| rows.numbers(it.name));
+    let [slips, pulls] = [SLIP_RATIO, DRAWBAR_PULL].map(|it| rows.numbers(it.name));
     let known = slips.iter().zip(pulls).filter_map(|(slip, pull)| slip.zip(*pull));
     let largest = known.max_by(|one, other| one.1.total_cmp(&other.1));
     match largest {

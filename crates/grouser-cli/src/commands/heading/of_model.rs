@@ -1,0 +1,107 @@
+//! What a wheel–soil model answers about headings.
+
+use grouser::document::LoadedScenario;
+use grouser::document::columns::heading::{self, LIMIT_REASON};
+use grouser::document::columns::{LIMIT_SLOPE, MODEL, SLOPE, YAW};
+use grouser::document::table::Table;
+use grouser::studies::heading::HeadingCurve;
+
+use crate::args::HeadingArgs;
+use crate::chart::{Chart, Series, Style};
+use crate::commands::heading_band::Bands;
+use crate::output::rows::rounded_down;
+
+/// What a model answers.
+pub(super) struct OfModel {
+    pub(super) scenario: LoadedScenario,
+    pub(super) curve: HeadingCurve,
+    pub(super) bands: Option<Bands>,
+    /// A row for each slope.
+    pub(super) table: Table,
+    /// The steepest slope: one row.
+    pub(super) limit: Table,
+}
+
+impl OfModel {
+    pub(super) fn name(&self) -> &'static str {
+        self.scenario.value.theory.name()
+    }
+
+    /// A table of its results, with its name where there are several.
+    pub(super) fn named(&self, args: &HeadingArgs, table: &Table) -> Table {
+        let table = table.clone();
+        if args.setting.has_every_model() { table.with_word(MODEL, self.name()) } else { table }
+    }
+
+    /// The end of its files' names: nothing if it is alone.
+    pub(super) fn end(&self, count: usize) -> String {
+        if count > 1 { format!("-{}", self.name()) } else { String::new() }
+    }
+
+    /// What is said about its steepest slope.
+    pub(super) fn lines(&self, count: usize) -> String {
+        let name = if count > 1 { format!("{}: ", self.name()) } else { String::new() };
+        let band = self
+            .bands
+            .as_ref()
+            .map_or(String::new(), |bands| format!("{name}{}", bands.limit_line()));
+        format!("{name}{}{band}", limit_line(&self.limit))
+    }
+}
+
+/// A chart of the curves of all models, or those of the bands of each, with the names of their files.
+pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart)> {
+    if all.iter().all(|of_model| of_model.bands.is_none()) {
+        return vec![(format!("{command}.svg"), chart(all))];
+    }
+    let of_bands = |of_model: &OfModel| {
+        let bands = of_model.bands.as_ref()?;
+        let end = of_model.end(all.len());
+        let nominal = line("soil as written", 1, &of_model.curve);
+        Some([
+            (format!("{command}{end}.svg"), bands.chart(nominal)),
+            (format!("probability{end}.svg"), bands.chance_chart()),
+        ])
+    };
+    all.iter().filter_map(of_bands).flatten().collect()
+}
+
+/// The columns for reading.
+pub(super) fn brief(args: &HeadingArgs) -> Vec<String> {
+    let has_bands = args.uncertainty.sampling.uncertainty;
+    let mut names = if has_bands { heading::bands_brief() } else { heading::brief() };
+    if args.setting.has_every_model() {
+        names.insert(0, MODEL.to_owned());
+    }
+    names
+}
+
+fn limit_line(limit: &Table) -> String {
+    let slope = limit.numbers(LIMIT_SLOPE.name)[0];
+    let reason = limit.texts(LIMIT_REASON)[0].as_deref().unwrap_or_default();
+    match slope {
+        Some(slope) => {
+            let slope = rounded_down(slope);
+            format!("steepest slope on which a heading holds the contour: {slope}°, {reason}\n")
+        }
+        None => format!("no heading holds the contour on any slope: {reason}\n"),
+    }
+}
+
+/// Yaw over slope.
+fn chart(all: &[OfModel]) -> Chart {
+    let series = all.iter().enumerate().map(|(place, of_model)| {
+        let name = if all.len() > 1 { of_model.name() } else { "" };
+        line(name, place + 1, &of_model.curve)
+    });
+    Chart::new(
+        "Heading offset that holds the contour",
+        ("slope [°]", "yaw, positive uphill [°]"),
+        series.collect(),
+    )
+}
+
+fn line(name: &str, colour: usize, curve: &HeadingCurve) -> Series {
+    let points = heading::curve(curve);
+    Series::new(name, Style::Line, colour, points.points(SLOPE.name, YAW.name))
+}

@@ -1,0 +1,100 @@
+//! What a wheel–soil model answers about a traverse.
+
+use grouser::document::columns::MODEL;
+use grouser::document::columns::TIME;
+use grouser::document::columns::run::{self, RUN_BAND};
+use grouser::document::table::Table;
+use grouser::document::{LoadedScenario, escape};
+use grouser::simulation::{Run, Trajectory};
+use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::traverse_band::{TraverseBand, record_times};
+
+use crate::args::{SettingArgs, TraverseArgs, UncertaintyArgs};
+use crate::chart::{BAND_COLOUR, Chart, Series, Style};
+use crate::commands::{sampling, strict};
+use crate::failure::Failure;
+use crate::inputs;
+
+/// What a model answers.
+pub(super) struct OfModel {
+    pub(super) scenario: LoadedScenario,
+    pub(super) run: Trajectory,
+    pub(super) band: Option<TraverseBand>,
+}
+
+impl OfModel {
+    /// * `setting`: with one model
+    pub(super) fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
+        let scenario = inputs::traverse(args, setting, args.yaw_deg.as_deref())?;
+        let run = Run::new(&scenario.value)?.to_end()?;
+        if args.strict.strict {
+            let flags = run::each_findings(&run, &scenario.value);
+            let records = run::table(&run, &scenario.value);
+            strict::check(&args.strict, flags.iter().map(|it| &**it), &records, &[TIME.name])?;
+        }
+        let UncertaintyArgs { sampling, seed } = args.uncertainty;
+        if !sampling.uncertainty {
+            return Ok(Self { scenario, run, band: None });
+        }
+        inputs::refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        let samples = sampling::draw(&BandInputs::of_scenario(&scenario), sampling.samples, seed)?;
+        let times = record_times(&run, &scenario.value);
+        let band = sampling::with_bar(samples.len(), |go_on| {
+            TraverseBand::of(&scenario.value, &samples, &times, go_on)
+        });
+        Ok(Self { scenario, run, band: Some(sampling::whole(band?)) })
+    }
+
+    pub(super) fn name(&self) -> &'static str {
+        self.scenario.value.theory.name()
+    }
+
+    /// A row for each record, with the bands at its time.
+    pub(super) fn rows(&self) -> Table {
+        let table = run::table(&self.run, &self.scenario.value);
+        match &self.band {
+            Some(band) => run::with_bands(table, &band.times),
+            None => table,
+        }
+    }
+
+    /// The end and the means, with their bands: one row.
+    pub(super) fn summary(&self) -> Table {
+        let mut table = run::summary(&self.run, &self.scenario.value);
+        if let Some(band) = &self.band {
+            table = table.and(&RUN_BAND, &[Some(&band.run)]);
+        }
+        table.with_word(MODEL, self.name())
+    }
+}
+
+/// The paths, seen from above, each with its band if there is one.
+pub(super) fn chart(all: &[OfModel]) -> Chart {
+    let mut series = Vec::new();
+    for (place, of_model) in all.iter().enumerate() {
+        let Some(band) = &of_model.band else { continue };
+        // The band is over one time: it is drawn where the rover is then, in the middle of the samples.
+        let edges = band.times.iter().filter_map(|at| {
+            let (x, y) = (at.x?, at.y?);
+            Some((x.median, y.low, y.high))
+        });
+        let name = if all.len() > 1 { of_model.name() } else { "the samples" };
+        series.push(Series::band(
+            format!("95 % of {name}"),
+            if all.len() > 1 { place + 1 } else { BAND_COLOUR },
+            edges,
+        ));
+    }
+    for (place, of_model) in all.iter().enumerate() {
+        let records = of_model.run.records.iter();
+        let points = records.map(|record| (record.state.position.x, record.state.position.y));
+        let name = if all.len() > 1 { of_model.name() } else { "" };
+        series.push(Series::new(name, Style::Line, place + 1, points));
+    }
+    Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
+}
+
+/// The reason of an outcome, after a colon, on one line.
+pub(super) fn reason(run: &Trajectory) -> String {
+    run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
+}
