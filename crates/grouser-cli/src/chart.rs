@@ -18,6 +18,7 @@ use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
+use crate::output::rows::four_digits;
 pub(crate) use bars::Bars;
 pub(crate) use grid::Grid;
 pub(crate) use heat_map::HeatMap;
@@ -108,9 +109,9 @@ impl Chart {
 
     fn layout(&self, plots: &[Plot]) -> Layout {
         let mut layout = layout_of(plots, [&self.title, &self.x_label, &self.y_label]);
-        if self.log_x {
-            layout = layout.with_log_x();
-        }
+        let plain = || TickFormat::Custom(Arc::new(four_digits));
+        layout = layout.with_y_tick_format(plain());
+        layout = if self.log_x { layout.with_log_x() } else { layout.with_x_tick_format(plain()) };
         if !self.y_names.is_empty() {
             let names: Vec<String> = self.y_names.iter().map(|name| label(name)).collect();
             let last = names.len() as f64;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use crate::colour::{Colour, WHITE};
+use crate::colour::Colour;
 use crate::font::{Face, Step};
 use crate::markup::markup;
 use crate::sheet::{Item, Place, Shape, Sheet, Text};
@@ -28,7 +28,7 @@ fn write(sheet: &Sheet) -> String {
         let _ = writeln!(svg, "<path id=\"{}\" d=\"{outline}\"/>", id(face, character));
     }
     svg.push_str("</defs>\n");
-    let ground = if sheet.ground == WHITE { "#fff".to_owned() } else { sheet.ground.code() };
+    let ground = sheet.ground.code();
     let _ = writeln!(svg, "<path d=\"M0 0H{width}V{height}H0Z\" fill=\"{ground}\"/>");
     for item in &sheet.items {
         match item {

@@ -14,7 +14,7 @@ use grouser_page::Sheet;
 
 pub use subject::{Crossing, WheelInSoil};
 
-use crate::style::rules_for_dark;
+use crate::style::{ON_BOTH_GROUNDS, rules_for_dark};
 
 /// A drawing.
 #[derive(Clone, Debug)]
@@ -31,7 +31,8 @@ impl Drawing {
     #[must_use]
     pub fn to_svg(&self) -> String {
         let style = format!("</title>\n<style>{}</style>", rules_for_dark());
-        self.sheet.to_svg().replacen("</title>", &style, 1)
+        let svg = self.sheet.to_svg().replacen("</title>", &style, 1);
+        svg.replacen("<svg ", &format!("<svg class=\"{ON_BOTH_GROUNDS}\" "), 1)
     }
 }
 

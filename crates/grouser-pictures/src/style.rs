@@ -166,8 +166,12 @@ pub fn series(ground: Ground) -> [Colour; 7] {
     codes.map(Colour::hex)
 }
 
+/// The class of drawings that [`rules_for_dark`] are for.
+pub const ON_BOTH_GROUNDS: &str = "on-both-grounds";
+
 /// Rules of a style sheet for a drawing on a light ground: on a dark screen each of its colours becomes its
-/// counterpart. They are for the `<style>` of an SVG whose colours are attributes.
+/// counterpart. They are for the `<style>` of an SVG of the class [`ON_BOTH_GROUNDS`] whose colours are attributes;
+/// other drawings of the same page stay as they are.
 #[must_use]
 pub fn rules_for_dark() -> String {
     let on = |role: Role| [role.on(Ground::Light), role.on(Ground::Dark)];
@@ -182,7 +186,9 @@ pub fn rules_for_dark() -> String {
         }
         for attribute in ["fill", "stroke"] {
             // Writing to a string does not fail.
-            let _ = write!(rules, "[{attribute}=\"{light}\" i]{{{attribute}:{dark}}}");
+            let of = format!("[{attribute}=\"{light}\" i]");
+            let class = ON_BOTH_GROUNDS;
+            let _ = write!(rules, ".{class}{of},.{class} {of}{{{attribute}:{dark}}}");
         }
         known.push(light);
     }
@@ -199,7 +205,8 @@ mod tests {
         for role in [Role::Ink, Role::Paper, Role::Soil, Role::Force] {
             let [light, dark] = [Ground::Light, Ground::Dark].map(|ground| role.on(ground).code());
             for attribute in ["fill", "stroke"] {
-                let rule = format!("[{attribute}=\"{light}\" i]{{{attribute}:{dark}}}");
+                let rule =
+                    format!(".{ON_BOTH_GROUNDS} [{attribute}=\"{light}\" i]{{{attribute}:{dark}}}");
                 assert_eq!(rules.matches(&rule).count(), 1, "{rule}");
             }
         }

@@ -2,7 +2,7 @@
 
 use grouser::document::escape;
 use grouser_page::Colour;
-use grouser_pictures::style::{Ground, Role, rules_for_dark, series};
+use grouser_pictures::style::{Ground, ON_BOTH_GROUNDS, Role, rules_for_dark, series};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::theme::Theme;
@@ -82,7 +82,7 @@ pub(super) fn finished(svg: String, title: &str) -> String {
     let title = grouser_page::markup(&escape::line(title));
     let svg = svg.replacen(
         "<svg ",
-        &format!("<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" "),
+        &format!("<svg class=\"{ON_BOTH_GROUNDS}\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{title}\" "),
         1,
     );
     svg.replacen('>', &format!(">\n<title>{title}</title><style>{}</style>", rules_for_dark()), 1)

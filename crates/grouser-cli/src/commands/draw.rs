@@ -35,6 +35,13 @@ pub(crate) fn run(args: &DrawArgs) -> Result<(), Failure> {
     let wheel = WheelInSoil { contact: &contact, settled: &settled, load };
     let crossing = Crossing { rover, slope, yaw: heading.yaw, gravity, wheels: &heading.wheels };
     let mut page = Page::new("The theory in drawings");
+    let name = |key: &str| scenario.document.text(key).unwrap_or("unnamed").to_owned();
+    page.list([
+        format!("rover: {}", name("rover.name")),
+        format!("soil: {}", name("soil.name")),
+        format!("slope: {}°", args.slope_deg),
+        format!("the drawn wheel: load {load:.1} N, slip ratio {}", args.slip_ratio),
+    ]);
     for drawing in drawings::all(&wheel, &crossing) {
         let svg = drawing.to_svg();
         page.drawing(&svg, drawing.caption);

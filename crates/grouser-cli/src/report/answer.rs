@@ -93,8 +93,12 @@ pub(crate) fn by_unit<R>(table: &Table, over: Quantity, columns: &[Column<R>]) -
     let is_number =
         |column: &&Column<R>| column.name != over.name && !table.numbers(column.name).is_empty();
     let columns: Vec<&Column<R>> = columns.iter().filter(is_number).collect();
-    let mut units: Vec<&str> = columns.iter().map(|column| column.unit.symbol).collect();
-    units.dedup();
+    let mut units: Vec<&str> = Vec::new();
+    for column in &columns {
+        if !units.contains(&column.unit.symbol) {
+            units.push(column.unit.symbol);
+        }
+    }
     let chart = |unit: &&str| {
         let of_unit: Vec<&&Column<R>> =
             columns.iter().filter(|column| column.unit.symbol == *unit).collect();

@@ -125,7 +125,11 @@ impl Page {
     pub(crate) fn drawing(&mut self, svg: &str, caption: &str) {
         let element = element(svg);
         let caption = escaped(caption);
-        self.push(&format!("<figure>{element}<figcaption>{caption}</figcaption></figure>\n"));
+        let caption = indexed(&caption);
+        self.push(&format!(
+            "<figure><div class=\"wide\" role=\"group\" aria-label=\"drawing\" tabindex=\"0\">{element}</div>\
+             <figcaption>{caption}</figcaption></figure>\n"
+        ));
     }
 
     /// The whole page.
@@ -151,6 +155,33 @@ impl Page {
     }
 }
 
+/// A text with indices set as such: in `θ_f` a letter has an index; `yaw_deg` is a name, and stays.
+fn indexed(text: &str) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let at = |place: usize| letters.get(place).copied().unwrap_or(' ');
+    let is_index = |place: usize| {
+        let stands_alone = place < 2 || !at(place - 2).is_alphanumeric();
+        at(place) == '_'
+            && stands_alone
+            && place > 0
+            && at(place - 1).is_alphabetic()
+            && at(place + 1).is_alphabetic()
+            && !at(place + 2).is_alphanumeric()
+    };
+    let mut html = String::new();
+    for (place, letter) in letters.iter().enumerate() {
+        match (is_index(place), place > 0 && is_index(place - 1)) {
+            (true, _) => html.push_str("<sub>"),
+            (false, true) => {
+                html.push(*letter);
+                html.push_str("</sub>");
+            }
+            (false, false) => html.push(*letter),
+        }
+    }
+    html
+}
+
 /// Words stand on the left, numbers and the dashes for them on the right.
 fn side(cell: &str) -> &'static str {
     let is_word = cell.starts_with(char::is_alphabetic) || cell.split_whitespace().count() > 2;
@@ -170,6 +201,12 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_letter_with_an_index_is_set_as_one_and_a_name_is_not() {
+        assert_eq!(indexed("θ_f, X_c and yaw_deg"), "θ<sub>f</sub>, X<sub>c</sub> and yaw_deg");
+        assert_eq!(indexed("_a a_ b_cd"), "_a a_ b_cd");
+    }
 
     #[test]
     fn data_neither_begins_nor_ends_an_element() {

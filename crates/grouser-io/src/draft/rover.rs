@@ -57,7 +57,10 @@ impl Answers {
         let Sizes { wheelbase, track, wheel_radius, wheel_width } = self.sizes();
         match key {
             TOTAL_MASS => Usual::of(USUAL_MASS, "an example"),
-            AXLES => Usual::of(USUAL_AXLES, "four wheels, as most rovers of 10 kg have"),
+            AXLES => Usual::of(
+                USUAL_AXLES,
+                "four wheels, as small rovers have; six are usual above some 100 kg",
+            ),
             WHEELBASE => Usual::estimate(
                 wheelbase,
                 format!("0.24 m times the cube root of the mass in kg, {FITTED}"),

@@ -61,7 +61,7 @@ fn rim(pen: &mut Pen, wheel: &WheelInSoil<'_>) {
         }
     }
     pen.outlined(circle(HUB, inner), Role::Paper, Role::Rim);
-    pen.area(circle(HUB, 1.4), Role::Ink);
+    pen.area(circle(HUB, 0.9), Role::Ink);
     // The sense of rotation.
     let turn = [3.6, 2.65];
     pen.arc(HUB, 0.8 * inner, turn, Role::Ink);
@@ -109,7 +109,7 @@ fn angles(pen: &mut Pen, field: &StressField) {
     pen.dashed(HUB, [HUB[0], HUB[1] + RADIUS], Role::Faint);
     let beside = [patch.entry, patch.max_stress, patch.exit];
     for (symbol, angle, share) in
-        [("θ_f", beside[0], 0.66), ("θ_m", beside[1], 0.42), ("θ_r", beside[2], 0.66)]
+        [("θ_f", beside[0], 0.5), ("θ_m", beside[1], 0.32), ("θ_r", beside[2], 0.5)]
     {
         pen.dashed(HUB, around(HUB, RADIUS, angle), Role::Faint);
         pen.arc(HUB, share * RADIUS, [0.0, angle], Role::Ink);

@@ -16,7 +16,7 @@ use crate::report::page::Page;
 pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &Table) -> String {
     let mut page = Page::new("Heading offset that holds the contour");
     for of_model in all {
-        page.answer(of_model.lines(all.len()).trim_end());
+        page.answer(&capitalised(of_model.lines(all.len()).trim_end()));
     }
     page.list(what_was_asked(&all[0]));
     for (_, chart) in figures(command, all) {

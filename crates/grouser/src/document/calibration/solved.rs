@@ -150,13 +150,16 @@ impl Solved {
     /// Notes on keys whose fit ends at a bound, where their standard deviation is not known.
     #[must_use]
     pub fn bound_notes(&self) -> Vec<String> {
+        let remedy = match self.sampler {
+            None => "widen the bounds, fit fewer keys, or sample the posterior",
+            Some(_) => "widen the bounds, or fit fewer keys",
+        };
         let note = |record: &ParameterRecord| {
             let ParameterRecord { key, lower, upper, fit, fit_std, .. } = record;
             let bound = if fit - lower < upper - fit { lower } else { upper };
             fit_std.is_none().then(|| {
                 format!(
-                    "{key} ends at its bound, {bound}: its standard deviation is not known there; \
-                     widen the bounds, fit fewer keys, or sample the posterior"
+                    "{key} ends at its bound, {bound}: its standard deviation is not known there; {remedy}"
                 )
             })
         };
