@@ -103,9 +103,18 @@ impl Page {
 
     /// A table from its cells.
     pub(crate) fn grid(&mut self, caption: &str, header: &[String], cells: &[Vec<String>]) {
+        // Words stand on the left with their header, numbers and the dashes for them on the right.
+        let is_word = |cell: &String| cell.starts_with(char::is_alphabetic);
+        let has_words =
+            |column: usize| cells.iter().filter_map(|cells| cells.get(column)).any(is_word);
+        let words: Vec<bool> = (0..header.len()).map(has_words).collect();
         let row = |tag: &str, cells: &[String]| {
-            let cell = |cell: &String| format!("<{tag}{}>{}</{tag}>", side(cell), escaped(cell));
-            format!("<tr>{}</tr>\n", cells.iter().map(cell).collect::<String>())
+            let cell = |(column, cell): (usize, &String)| {
+                let is_text = words.get(column).copied().unwrap_or(false);
+                let side = if is_text { " class=\"text\"" } else { "" };
+                format!("<{tag}{side}>{}</{tag}>", escaped(cell))
+            };
+            format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
         };
         let head = row("th", header);
         let body: String = cells.iter().map(|cells| row("td", cells)).collect();
@@ -180,12 +189,6 @@ fn indexed(text: &str) -> String {
         }
     }
     html
-}
-
-/// Words stand on the left, numbers and the dashes for them on the right.
-fn side(cell: &str) -> &'static str {
-    let is_word = cell.starts_with(char::is_alphabetic) || cell.split_whitespace().count() > 2;
-    if is_word { " class=\"text\"" } else { "" }
 }
 
 /// Only the element of a drawing: a declaration has no place inside a page.

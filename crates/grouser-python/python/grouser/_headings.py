@@ -78,6 +78,9 @@ class Headings(_tables.Tabular):
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Plots the yaw over the slope, with its band if there is one.
 
+        Dots are the slopes that were asked for. The lines between them are straight: near the steepest
+        slope, where the curve rises fast, ask for more slopes.
+
         Parameters
         ----------
         axes : matplotlib axes, optional
@@ -89,7 +92,7 @@ class Headings(_tables.Tabular):
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
             axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the samples")
-        axes.plot(self.slope_deg, self.yaw_deg, **style)
+        axes.plot(self.slope_deg, self.yaw_deg, **{"marker": "o", "markersize": 4.0, **style})
         axes.set_xlabel("slope [°]")
         axes.set_ylabel("yaw, positive uphill [°]")
         return axes
