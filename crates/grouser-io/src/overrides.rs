@@ -7,6 +7,7 @@ use super::describe;
 use super::error::{DocumentError, Problem};
 use super::field::Names;
 use super::kind::Kind;
+use super::schema::range;
 use super::text::parse;
 use super::tree::Companion;
 use super::tree::{Entry, Node, Origin, Text, Value};
@@ -221,9 +222,15 @@ impl Overrides {
         let first = steps.next().unwrap_or_default();
         let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == first) else {
             let names = Kind::ALL.map(Kind::name);
-            let hint = nearest(&first, names).map_or_else(
+            // A key without its document is more likely than a misspelt document.
+            let of_kind = Kind::ALL.into_iter().find(|kind| range(*kind, key.trim()).is_some());
+            let meant = match of_kind {
+                Some(kind) => Some(format!("{kind}.{}", key.trim())),
+                None => nearest(&first, names).map(str::to_owned),
+            };
+            let hint = meant.map_or_else(
                 || format!("a key starts with its document: {}", names.join(", ")),
-                |name| format!("did you mean `{name}`?"),
+                |meant| format!("did you mean `{meant}`?"),
             );
             let problem = Problem::Malformed("the key does not start with the name of a document");
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
