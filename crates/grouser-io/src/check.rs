@@ -255,14 +255,21 @@ impl Checker<'_> {
             format!("it goes with {key} = {}", listed(&laws))
         } else if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
             format!("did you mean `{meant}`?")
-        } else if let [only] = &paths_of(self.root, &entry.key)[..]
-            && join(self.prefix, only) != path
-        {
-            format!("did you mean `{}`?", join(self.prefix, only))
         } else {
-            format!("the keys here{law} are {}", quoted(&known, '`'))
+            self.elsewhere(&entry.key, &path)
+                .unwrap_or_else(|| format!("the keys here{law} are {}", quoted(&known, '`')))
         };
         DocumentError::at(&entry.key_origin, Problem::UnknownKey { key: path }).with_hint(hint)
+    }
+
+    /// Where a key stands that does not belong here, if there are few such places.
+    fn elsewhere(&self, key: &str, path: &str) -> Option<String> {
+        const FEW: usize = 3;
+        let places = paths_of(self.root, key).into_iter().map(|place| join(self.prefix, &place));
+        let places: Vec<String> = places.filter(|place| place != path).collect();
+        let places: Vec<&str> = places.iter().map(String::as_str).collect();
+        let is_few = (1..=FEW).contains(&places.len());
+        is_few.then(|| format!("did you mean {}?", quoted(&places, '`')))
     }
 
     fn list(

@@ -7,7 +7,7 @@ use super::describe;
 use super::error::{DocumentError, Problem};
 use super::field::Names;
 use super::kind::Kind;
-use super::schema::range;
+use super::schema::{names_in, paths_of, range, root};
 use super::text::parse;
 use super::tree::Companion;
 use super::tree::{Entry, Node, Origin, Text, Value};
@@ -223,11 +223,8 @@ impl Overrides {
         let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == first) else {
             let names = Kind::ALL.map(Kind::name);
             // A key without its document is more likely than a misspelt document.
-            let of_kind = Kind::ALL.into_iter().find(|kind| range(*kind, key.trim()).is_some());
-            let meant = match of_kind {
-                Some(kind) => Some(format!("{kind}.{}", key.trim())),
-                None => nearest(&first, names).map(str::to_owned),
-            };
+            let meant =
+                with_document(key.trim()).or_else(|| nearest(&first, names).map(str::to_owned));
             let hint = meant.map_or_else(
                 || format!("a key starts with its document: {}", names.join(", ")),
                 |meant| format!("did you mean `{meant}`?"),
@@ -385,6 +382,29 @@ fn keep_entries(mut node: &mut Node, tables: &[impl AsRef<str>], is_kept: impl F
     if let Value::Table(entries) = &mut node.value {
         entries.retain(is_kept);
     }
+}
+
+/// The key with its document that was probably meant by one without: the key itself, one of its name in a table, or
+/// one that is written much like it.
+fn with_document(key: &str) -> Option<String> {
+    /// Places that a hint names.
+    const MOST: usize = 2;
+    if let Some(kind) = Kind::ALL.into_iter().find(|kind| range(*kind, key).is_some()) {
+        return Some(format!("{kind}.{key}"));
+    }
+    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let in_kinds = || [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario].into_iter();
+    let places_of = |name: &str| {
+        let places = in_kinds().map(|kind| {
+            let paths = paths_of(root(kind), name);
+            paths.into_iter().take(MOST).map(|path| format!("{kind}.{path}")).collect::<Vec<_>>()
+        });
+        places.into_iter().find(|places| !places.is_empty()).map(|places| places.join("` or `"))
+    };
+    places_of(&last(key)).or_else(|| {
+        let names: Vec<String> = in_kinds().flat_map(|kind| names_in(root(kind))).collect();
+        places_of(nearest(&last(key), names.iter().map(String::as_str))?)
+    })
 }
 
 /// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or

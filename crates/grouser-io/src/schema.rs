@@ -113,6 +113,17 @@ pub(crate) fn paths_of(root: &Json, name: &str) -> Vec<String> {
     found
 }
 
+/// The names of all keys, each once, whatever table they stand in.
+pub(crate) fn names_in(root: &Json) -> Vec<String> {
+    let mut found = Vec::new();
+    collect(root, root, "", &mut |_, key| {
+        if !found.iter().any(|other| other == key) {
+            found.push(key.to_owned());
+        }
+    });
+    found
+}
+
 fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &str)) {
     for table in alternatives(root, schema) {
         for (key, child) in keys(table) {

@@ -64,7 +64,7 @@ def main() -> None:
             lambda: gr.rollout(steady, slope_deg=slopes, yaw_deg=yaws),
         ),
         (
-            "the same, keeping all samples",
+            "the same, keeping all records",
             lambda: alone("quasi-steady", slopes, yaws),
             lambda: gr.rollout(steady, slope_deg=slopes, yaw_deg=yaws, trajectories=True),
         ),

@@ -215,7 +215,7 @@ pub(crate) fn calibrate_plate_tests<'py>(
             .map_err(Failure::Fit)?;
         let listener = Listener::new(cancelled);
         let found = problem.solve(&file, sampling, &listener)?;
-        let notes = [measured.notes, listener.notes()].concat();
+        let notes = [measured.notes, listener.notes(), found.notes()].concat();
         Ok((found, notes, problem))
     })?;
     let (found, notes, problem) = found.map_err(|failure: Failure| failure.to_python(&label))?;

@@ -1,12 +1,14 @@
 //! `grouser check FILE…`: checks documents.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use grouser::document::{self, Assumed, Checked, Source, escape};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::output::rows::four_digits;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     if args.flags {
@@ -21,7 +23,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 // Writing to a string does not fail.
                 let _ = writeln!(good, "{}: a valid {kind} document", escape::path(path));
                 for Assumed { key, prior, value } in assumed {
-                    let value = value.map_or(String::new(), |value| format!(" = {value}"));
+                    let value =
+                        value.map_or(String::new(), |value| format!(" = {}", four_digits(value)));
                     let prior = escape::line(&prior);
                     let _ = writeln!(good, "  not stated: {key}{value}, from \"{prior}\"");
                 }
@@ -30,7 +33,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
                 }
             }
             Err(error) => {
-                let failure = Failure::from(error);
+                let failure = of_table(path, Failure::from(error));
                 worst = Some(match worst {
                     None => failure,
                     Some(before) => {
@@ -47,4 +50,18 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     }
     output::print(&good)?;
     worst.map_or(Ok(()), Err)
+}
+
+/// The failure to read a table of measurements as a document, with the command that reads it.
+fn of_table(path: &Path, failure: Failure) -> Failure {
+    let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    if !is_table || !path.is_file() {
+        return failure;
+    }
+    Failure::Usage(format!(
+        "{}: a table, no document\n\
+         hint: `check` reads documents (TOML); `grouser validate --data FILE.csv` reads and checks wheel tests, and \
+         `grouser import` turns tables of others into ours",
+        escape::path(path)
+    ))
 }

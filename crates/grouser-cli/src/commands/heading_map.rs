@@ -204,7 +204,7 @@ fn figures(
             row.cells.iter().map(|cell| cell.as_ref().ok().map(value)).collect::<Vec<_>>()
         });
         HeatMap {
-            title: format!("{title}, on {name}; grey: no heading holds it"),
+            title: format!("{title}, on {name}"),
             x_label: "slope [°]".into(),
             columns: args.slope_deg.0.clone(),
             y_label: "course, positive uphill [°]".into(),

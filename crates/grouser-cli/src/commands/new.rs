@@ -97,7 +97,8 @@ fn report(kind: Kind, draft: &Draft, out: &Path, is_asked: bool) -> Result<(), F
     }
     if !unanswered.is_empty() && !is_asked {
         text.push_str(
-            "hint: --set KEY=VALUE answers a question; on a terminal, without --yes, it asks\n",
+            "hint: --set KEY=VALUE answers a question; on a terminal, without --yes, it asks (answers from a pipe \
+             are not read)\n",
         );
     }
     text.extend(["next: ", &next(kind, out), "\n"]);

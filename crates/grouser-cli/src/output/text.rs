@@ -10,10 +10,10 @@ use grouser::document::escape;
 
 /// Words and tables, in their order.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Text(pub(super) Vec<Part>);
+pub(crate) struct Text(pub(crate) Vec<Part>);
 
 #[derive(Clone, Debug)]
-pub(super) enum Part {
+pub(crate) enum Part {
     Words(String),
     Grid(Grid),
 }
@@ -21,14 +21,14 @@ pub(super) enum Part {
 /// Cells under headers.
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
-    pub(super) header: Vec<String>,
-    pub(super) rows: Vec<Vec<String>>,
+    pub(crate) header: Vec<String>,
+    pub(crate) rows: Vec<Vec<String>>,
     /// The columns whose long cells stand under the table on a terminal, once each.
     pub(super) reasons: Vec<usize>,
     /// The column of names that [`notes`](Self::notes) explain.
     pub(super) names: Option<usize>,
     /// Names and what they mean.
-    pub(super) notes: Vec<(String, String)>,
+    pub(crate) notes: Vec<(String, String)>,
 }
 
 impl Grid {

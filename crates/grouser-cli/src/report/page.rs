@@ -6,10 +6,15 @@ use std::fmt::Write as _;
 use grouser::document::escape;
 use grouser::document::table as results;
 
+use super::answer::capitalised;
 use super::figures::Figure;
 use super::tables::Table;
 use crate::chart::Chart;
 use crate::output::rows::Rows;
+use crate::output::text::{Part, Text};
+
+/// A table of more rows is shown when a reader asks for it.
+const MOST_ROWS: usize = 40;
 
 /// The element by which a page is known as ours.
 pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"Grouser";
@@ -101,7 +106,37 @@ impl Page {
         self.grid(table.caption, &table.header(), &table.cells());
     }
 
-    /// A table from its cells.
+    /// A text with its tables as tables, each under the words before it.
+    pub(crate) fn text(&mut self, text: &Text) {
+        let mut words = "";
+        for part in &text.0 {
+            match part {
+                Part::Grid(grid) => {
+                    self.grid(&capitalised(words), &grid.header, &grid.rows);
+                    self.meanings(&grid.notes);
+                    words = "";
+                }
+                Part::Words(next) => {
+                    if !words.is_empty() {
+                        self.paragraph(words);
+                    }
+                    words = next.trim();
+                }
+            }
+        }
+        if !words.is_empty() {
+            self.paragraph(words);
+        }
+    }
+
+    /// What names under a table mean.
+    fn meanings(&mut self, notes: &[(String, String)]) {
+        if !notes.is_empty() {
+            self.list(notes.iter().map(|(name, meaning)| format!("{name}: {meaning}")));
+        }
+    }
+
+    /// A table from its cells; a long one is shown when a reader asks for it.
     pub(crate) fn grid(&mut self, caption: &str, header: &[String], cells: &[Vec<String>]) {
         // Words stand on the left with their header, numbers and the dashes for them on the right.
         let is_word = |cell: &String| cell.starts_with(char::is_alphabetic);
@@ -119,10 +154,18 @@ impl Page {
         let head = row("th", header);
         let body: String = cells.iter().map(|cells| row("td", cells)).collect();
         let caption = escaped(caption);
-        self.push(&format!(
+        let table = format!(
             "<div class=\"table\" role=\"region\" aria-label=\"{caption}\" tabindex=\"0\"><table><caption>{caption}</caption>\n<thead>{head}</thead>\n\
              <tbody>{body}</tbody></table></div>\n"
-        ));
+        );
+        if cells.len() > MOST_ROWS {
+            let count = cells.len();
+            self.push(&format!(
+                "<details class=\"rows\"><summary>{caption}: {count} rows</summary>{table}</details>\n"
+            ));
+        } else {
+            self.push(&table);
+        }
     }
 
     /// A figure with its drawing in the page.

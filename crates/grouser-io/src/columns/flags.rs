@@ -42,7 +42,7 @@ fn unit(flag: Flag) -> Unit {
     }
 }
 
-/// A finding with its flag, value and range: `slip-outside: the slip ratio is 0.95, it must be -0.1 to 0.9`.
+/// A finding with its flag, value and range: `slip-outside: the slip ratio is 0.95, the domain is -0.1 to 0.9`.
 #[must_use]
 pub fn in_words(finding: &Finding) -> String {
     let Finding { flag, value, allowed } = *finding;
@@ -65,5 +65,5 @@ pub fn in_words(finding: &Finding) -> String {
         format!(" {}", unit.symbol)
     };
     let (name, quantity) = (flag.name(), flag.rule().quantity);
-    format!("{name}: the {quantity} is {}{symbol}, it must be {range}{symbol}", number(value))
+    format!("{name}: the {quantity} is {}{symbol}, the domain is {range}{symbol}", number(value))
 }

@@ -80,7 +80,7 @@ fn of_standing(scenario: &Scenario) -> Vec<String> {
         let findings = level.findings(standing.iter());
         doubts.extend(findings.iter().map(|finding| match finding.flag {
             Flag::ModulusDoubtful => modulus_question(finding),
-            _ => format!("at rest on level ground {}", in_words(finding)),
+            _ => format!("at rest on level ground, {}", in_words(finding)),
         }));
     }
     doubts

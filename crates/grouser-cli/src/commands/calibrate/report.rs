@@ -60,9 +60,9 @@ pub(super) fn add_soil(
     Ok(())
 }
 
-/// Prints notes on parameters at their bounds and on the sampling of the posterior.
-pub(super) fn tell_notes(solved: &Solved) {
-    for note in solved.bound_notes().into_iter().chain(solved.note()) {
+/// Prints notes on the data, on parameters at their bounds, and on the sampling of the posterior.
+pub(super) fn tell_notes(of_data: Vec<String>, solved: &Solved) {
+    for note in of_data.into_iter().chain(solved.bound_notes()).chain(solved.note()) {
         output::message(&format!("note: {note}"));
     }
 }
@@ -212,11 +212,21 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     let soil = problem.stand.soil.document.name();
     let wheel = problem.stand.wheel.document.name();
     let theory = problem.stand.theory.name();
-    page.answer(&format!("{}: model {theory}, from {soil}, {wheel}", problem.file));
+    page.answer(&fitted(&found.solved.records));
+    page.paragraph(&format!(
+        "Fitted to {} ({} trials in {} cells) with the model {theory}, {wheel}; keys that are not fitted are those of \
+         {soil}.",
+        problem.file,
+        problem.measured.tests.trials.len(),
+        problem.measured.tests.cells.len(),
+    ));
+    if !found.notes().is_empty() {
+        page.list(found.notes());
+    }
     page.heading("Results");
     add_parameters(&mut page, &found.solved);
     for block in judgement(found, target) {
-        page.code(&block.to_string());
+        page.text(&block);
     }
     page.heading("Measured and predicted with the fit");
     for figure in validate::figures::all(&found.validation) {
@@ -226,7 +236,7 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     }
     add_posterior(folder, &mut page, &found.solved);
     page.heading("Correlations");
-    page.code(&correlations(&found.solved).to_string());
+    page.text(&(Text::from("of each pair of fitted keys") + correlations(&found.solved)));
     page.heading("How it was made");
     page.paragraph(
         "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
@@ -249,14 +259,37 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     folder.add("report.html", page.to_html());
 }
 
+/// The fitted values in a sentence, each with the interval that holds 95 % of its posterior.
+fn fitted(records: &[ParameterRecord]) -> String {
+    let one = |it: &ParameterRecord| match (it.p50, it.p2_5, it.p97_5) {
+        (Some(middle), Some(low), Some(high)) => {
+            let [middle, low, high] = [middle, low, high].map(four_digits);
+            format!("{} = {middle} ({low} to {high})", it.key)
+        }
+        _ => match it.fit_std {
+            Some(deviation) => {
+                format!("{} = {} ± {}", it.key, four_digits(it.fit), four_digits(deviation))
+            }
+            None => format!("{} = {}, at its bound", it.key, four_digits(it.fit)),
+        },
+    };
+    let values: Vec<String> = records.iter().map(one).collect();
+    let interval = if records.iter().any(|it| it.p50.is_some()) {
+        " In brackets: 95 % of the posterior."
+    } else {
+        ""
+    };
+    format!("{}.{interval}", values.join("; "))
+}
+
 /// The fitted keys, those that the data do not determine, and the discrepancy between model and data.
 pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
-    page.code(&parameters(&solved.records).to_string());
+    page.text(&(Text::from("fitted keys") + parameters(&solved.records)));
     if !solved.unidentifiable.is_empty() {
         page.heading("What these data do not determine");
         page.list(&solved.unidentifiable);
     }
-    page.code(&discrepancies(solved).to_string());
+    page.text(&discrepancies(solved));
 }
 
 /// Corner plot and traces, if there is a posterior.

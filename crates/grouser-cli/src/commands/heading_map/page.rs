@@ -28,7 +28,7 @@ pub(super) fn html(
          shall take.",
     );
     for map in maps {
-        page.drawing(&map.to_svg(), &map.title);
+        page.drawing(&map.to_svg(), "Grey: no heading holds the course.");
     }
     page.heading("Every slope and course");
     page.rows("Heading offsets", table, &map_brief());

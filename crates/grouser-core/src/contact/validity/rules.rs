@@ -51,7 +51,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SinkageOutside,
         name: "sinkage-outside",
-        meaning: "The wheel sinks deeper than the theory holds, or than the tests behind the soil's constants went.",
+        meaning: "The wheel sinks deeper than the model holds, or than the tests behind the soil's constants went.",
         quantity: "sinkage over shearing radius",
         criterion: "h/r_s is above 1/3 (`ishigami`, `bekker`), 0.95 (`small-wheel`) or 1 (`rft`), or outside the \
                     soil's `domain.sinkage_over_radius`",

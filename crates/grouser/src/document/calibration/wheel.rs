@@ -18,7 +18,7 @@ use crate::studies::calibration::wheel_test::{Discrepancies, Setup};
 use crate::studies::calibration::{
     CalibrationError, Observer, ParameterSpace, Resolution, Sampling, WheelCalibration,
 };
-use crate::studies::measurement::Quantity;
+use crate::studies::measurement::{Quantity, WheelTests};
 use crate::studies::validation::Validation;
 use crate::wheel::Wheel;
 
@@ -59,6 +59,8 @@ pub struct WheelFound {
     pub proposals: Vec<ProposalRecord>,
     /// The soil of the fit.
     pub soil: Document,
+    /// What the data cannot show, a sentence each.
+    notes: Vec<String>,
 }
 
 /// The same as JSON.
@@ -115,6 +117,7 @@ impl WheelProblem<'_> {
             left_out: found.left_out.iter().map(LeftOutRecord::from).collect(),
             left_out_overall: found.left_out_overall.as_ref().map(LeftOutRecord::from),
             proposals: proposals.map(|it| ProposalRecord::new(it, candidates, unit)).collect(),
+            notes: data_notes(&self.measured.tests, family.parameters().len()),
             solved,
         })
     }
@@ -142,7 +145,48 @@ impl WheelProblem<'_> {
     }
 }
 
+/// What data are too few or too alike to show.
+///
+/// * `keys`: how many are fitted
+fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
+    /// Loads within this ratio are one load [-]. Source: ours.
+    const SAME_LOAD: f64 = 1.1;
+    /// Fewer cells for each fitted key are few [-]. Source: ours.
+    const CELLS_PER_KEY: usize = 3;
+    let mut notes = Vec::new();
+    let cells = tests.cells.len();
+    if cells < CELLS_PER_KEY * keys {
+        notes.push(format!(
+            "{cells} cells are few for {keys} fitted keys: fit fewer, or measure at least {} different settings of \
+             slip, slip angle and load",
+            CELLS_PER_KEY * keys
+        ));
+    }
+    if tests.trials.len() == cells {
+        notes.push(
+            "no trial is repeated: how much trials scatter is not known, and every deviation counts as the model's; \
+             repeat some trials"
+                .to_owned(),
+        );
+    }
+    let loads = || tests.trials.iter().map(|trial| trial.load);
+    let (low, high) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
+    if cells > 0 && high <= SAME_LOAD * low {
+        notes.push(format!(
+            "all trials have one load, {low:.1} to {high:.1} N: how the soil answers another load is not known from \
+             them"
+        ));
+    }
+    notes
+}
+
 impl WheelFound {
+    /// What the data cannot show, a sentence each: few cells, no repeats, one load.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
     /// The results for JSON.
     ///
     /// * `target`: the prediction that the next runs should narrow, as it was written
