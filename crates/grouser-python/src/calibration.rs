@@ -172,7 +172,8 @@ pub(crate) fn calibrate_wheel_tests<'py>(
             cross_validate,
         };
         let found = problem.solve(&listener)?;
-        Ok((found, listener.notes(), measured, family))
+        let notes = [listener.notes(), found.notes()].concat();
+        Ok((found, notes, measured, family))
     })?;
     let (found, notes, measured, family) =
         found.map_err(|failure: Failure| failure.to_python(&label))?;
@@ -215,7 +216,7 @@ pub(crate) fn calibrate_plate_tests<'py>(
             .map_err(Failure::Fit)?;
         let listener = Listener::new(cancelled);
         let found = problem.solve(&file, sampling, &listener)?;
-        let notes = [measured.notes, listener.notes(), found.notes()].concat();
+        let notes = [measured.notes, listener.notes()].concat();
         Ok((found, notes, problem))
     })?;
     let (found, notes, problem) = found.map_err(|failure: Failure| failure.to_python(&label))?;

@@ -157,8 +157,9 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
     let cells = tests.cells.len();
     if cells < CELLS_PER_KEY * keys {
         notes.push(format!(
-            "{cells} cells are few for {keys} fitted keys: fit fewer, or measure at least {} different settings of \
+            "{cells} cells are few for {keys} fitted {}: fit fewer, or measure at least {} different settings of \
              slip, slip angle and load",
+            if keys == 1 { "key" } else { "keys" },
             CELLS_PER_KEY * keys
         ));
     }
@@ -208,5 +209,31 @@ impl WheelFound {
             searches: searches.len(),
             sampler: &self.solved.sampler,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::measurements::{Choice, Limits, read_from};
+    use super::data_notes;
+
+    fn notes(rows: &[&str], keys: usize) -> Vec<String> {
+        let text =
+            ["load_n,slip_ratio,slip_angle_deg,drawbar_pull_n", &rows.join("\n"), ""].join("\n");
+        let choice = Choice { conditions: Vec::new(), wheel: None, limits: Limits::default() };
+        let measured = read_from("rows.csv", text.as_bytes(), &choice).expect("wheel tests");
+        data_notes(&measured.tests, keys)
+    }
+
+    #[test]
+    fn data_say_what_they_cannot_show() {
+        let few = notes(&["10,0.1,0,1", "10,0.3,0,2"], 1);
+        let words = ["2 cells are few for 1 fitted key:", "no trial is repeated", "one load, 10.0"];
+        assert_eq!(few.len(), words.len(), "{few:?}");
+        for (note, words) in few.iter().zip(words) {
+            assert!(note.contains(words), "{note}");
+        }
+        let rows = ["10,0.1,0,1", "10,0.1,0,1.1", "20,0.3,0,2", "10,0.5,0,3"];
+        assert_eq!(notes(&rows, 1), Vec::<String>::new());
     }
 }
