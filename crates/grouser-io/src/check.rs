@@ -9,8 +9,9 @@ use super::describe;
 use super::error::{DocumentError, Problem};
 use super::json_schema::{self, FROM_PRIOR};
 use super::kind::Kind;
-use super::schema::{alternatives, keys, paths_of, root, words};
+use super::schema::{alternatives, keys, paths_of, root, under, words};
 use super::tree::{Entry, Node, Origin, Value, number};
+use super::unit::UNITS;
 
 /// That a tree is a document of its kind.
 ///
@@ -91,6 +92,70 @@ pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Opti
         .filter(|(likeness, _)| *likeness > ALIKE)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, known)| known)
+}
+
+/// The keys that a key which a document does not have was probably meant to be, with the tables they
+/// stand in: a key of this name in another table, one at the top that is spelt alike, or one whose name has a unit
+/// after it.
+#[must_use]
+pub fn meant_keys(kind: Kind, name: &str) -> Vec<String> {
+    let root = root(kind);
+    let top: Vec<_> = keys(root).map(|(key, _)| key).collect();
+    meant(root, &Misplaced { name, table: "", value: None }, &top)
+}
+
+/// A key where a document has none of its name.
+struct Misplaced<'a> {
+    name: &'a str,
+    /// The path of the table in which it was given.
+    table: &'a str,
+    value: Option<&'a Node>,
+}
+
+/// * `beside`: the keys of its table
+fn meant(root: &Json, key: &Misplaced<'_>, beside: &[&str]) -> Vec<String> {
+    let here = join(key.table, key.name);
+    let elsewhere = |name: &str| {
+        let mut paths = places(root, name, key.value);
+        paths.retain(|path| *path != here);
+        paths
+    };
+    let same = elsewhere(key.name);
+    if !same.is_empty() {
+        return same;
+    }
+    if let Some(alike) = nearest(key.name, beside.iter().copied()) {
+        return vec![join(key.table, alike)];
+    }
+    // Spelling alone says too little of keys in all tables; a unit that was left out does.
+    let with_unit = UNITS.iter().map(|(unit, _)| elsewhere(&format!("{}{unit}", key.name)));
+    with_unit.into_iter().find(|paths| !paths.is_empty()).unwrap_or_default()
+}
+
+/// Where a key stands in a document, as paths; none if that is in many tables.
+///
+/// * `name`: the key, or the end of its path
+/// * `value`: what it is given; keys that take other types do not count, unless all do
+pub(crate) fn places(root: &Json, name: &str, value: Option<&Node>) -> Vec<String> {
+    /// As many as a hint can name. Source: ours.
+    const MOST: usize = 3;
+    let all = paths_of(root, name);
+    if all.iter().any(|path| path == name) {
+        return vec![name.to_owned()];
+    }
+    let takes = |path: &&String| {
+        let mut schemas = under(root, path, None).into_iter().flat_map(|it| alternatives(root, it));
+        value.is_none_or(|value| schemas.any(|schema| fits(schema, value)))
+    };
+    let fitting: Vec<_> = all.iter().filter(takes).cloned().collect();
+    let found = if fitting.is_empty() { all } else { fitting };
+    if found.len() > MOST { Vec::new() } else { found }
+}
+
+/// The hint that some keys were meant.
+pub(crate) fn did_you_mean(keys: &[impl AsRef<str>]) -> Option<String> {
+    let keys: Vec<_> = keys.iter().map(AsRef::as_ref).collect();
+    (!keys.is_empty()).then(|| format!("did you mean {}?", quoted(&keys, '`')))
 }
 
 /// The keys that choose among tables; a table has one of them.
@@ -251,25 +316,21 @@ impl Checker<'_> {
         let known: Vec<_> = keys(schema).map(|(key, _)| key).collect();
         let knowing = all.iter().filter(|table| keys(table).any(|(key, _)| key == entry.key));
         let laws: Vec<_> = knowing.filter_map(|table| self.laws_of(table)).flatten().collect();
-        let hint = if !laws.is_empty() {
-            format!("it goes with {key} = {}", listed(&laws))
-        } else if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
-            format!("did you mean `{meant}`?")
-        } else {
-            self.elsewhere(&entry.key, &path)
-                .unwrap_or_else(|| format!("the keys here{law} are {}", quoted(&known, '`')))
-        };
-        DocumentError::at(&entry.key_origin, Problem::UnknownKey { key: path }).with_hint(hint)
-    }
-
-    /// Where a key stands that does not belong here, if there are few such places.
-    fn elsewhere(&self, key: &str, path: &str) -> Option<String> {
-        const FEW: usize = 3;
-        let places = paths_of(self.root, key).into_iter().map(|place| join(self.prefix, &place));
-        let places: Vec<String> = places.filter(|place| place != path).collect();
-        let places: Vec<&str> = places.iter().map(String::as_str).collect();
-        let is_few = (1..=FEW).contains(&places.len());
-        is_few.then(|| format!("did you mean {}?", quoted(&places, '`')))
+        let fault = |key| DocumentError::at(&entry.key_origin, Problem::UnknownKey { key });
+        if !laws.is_empty() {
+            return fault(path).with_hint(format!("it goes with {key} = {}", listed(&laws)));
+        }
+        let parent = path.strip_suffix(&entry.key).unwrap_or_default().trim_end_matches('.');
+        let inside = parent.strip_prefix(self.prefix).unwrap_or(parent).trim_start_matches('.');
+        let misplaced = Misplaced { name: &entry.key, table: inside, value: Some(&entry.node) };
+        let meant = meant(self.root, &misplaced, &known);
+        let meant: Vec<_> = meant.iter().map(|path| join(self.prefix, path)).collect();
+        // A key of the same table needs no path.
+        let beside = |path: &str| known.iter().copied().find(|key| join(parent, key) == path);
+        let shown: Vec<_> = meant.iter().map(|path| beside(path).unwrap_or(path)).collect();
+        let hint = did_you_mean(&shown)
+            .unwrap_or_else(|| format!("the keys here{law} are {}", quoted(&known, '`')));
+        fault(path).with_hint(hint).with_meant(meant)
     }
 
     fn list(
@@ -443,7 +504,21 @@ pub(crate) fn unknown_tag(tags: &[&str], node: &Node) -> DocumentError {
 
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{Kind, meant_keys, nearest};
+
+    #[test]
+    fn a_key_is_found_in_the_tables_that_have_it_and_without_its_unit() {
+        for (kind, name, meant) in [
+            (Kind::Rover, "mass_kg", &["body.mass_kg", "wheel_unit.mass_kg"][..]),
+            (Kind::Rover, "radius", &["wheel_unit.wheel.radius_m"]),
+            (Kind::Soil, "friction_angle", &["friction_angle_deg"]),
+            (Kind::Scenario, "cohesion_kpa", &["soil.cohesion_kpa"]),
+            (Kind::Scenario, "slope_deg", &["slope_deg"]),
+            (Kind::Rover, "x", &[]),
+        ] {
+            assert_eq!(meant_keys(kind, name), meant, "{name}");
+        }
+    }
 
     #[test]
     fn a_misspelling_finds_what_was_meant_and_nothing_else() {

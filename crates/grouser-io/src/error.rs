@@ -26,6 +26,7 @@ struct Parts {
     place: Place,
     problem: Problem,
     hint: Option<String>,
+    meant: Vec<String>,
     /// Where another document names the one that is wrong.
     named_at: Option<Place>,
 }
@@ -281,13 +282,27 @@ impl DocumentError {
     }
 
     fn of(place: Place, problem: Problem) -> Self {
-        Self { parts: Box::new(Parts { place, problem, hint: None, named_at: None }) }
+        Self {
+            parts: Box::new(Parts {
+                place,
+                problem,
+                hint: None,
+                meant: Vec::new(),
+                named_at: None,
+            }),
+        }
     }
 
     /// The same with a hint.
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
         self.parts.hint = hint.into();
+        self
+    }
+
+    /// The same with the keys that an unknown one was probably meant to be.
+    pub(crate) fn with_meant(mut self, keys: Vec<String>) -> Self {
+        self.parts.meant = keys;
         self
     }
 
@@ -342,6 +357,13 @@ impl DocumentError {
     #[must_use]
     pub fn hint(&self) -> Option<&str> {
         self.parts.hint.as_deref()
+    }
+
+    /// The keys that an unknown one was probably meant to be, with the tables they stand in, as the
+    /// hint has them.
+    #[must_use]
+    pub fn meant(&self) -> &[String] {
+        &self.parts.meant
     }
 
     /// Whether the disk or its permissions failed, rather than the document or its name: a program

@@ -68,7 +68,7 @@ pub mod unit;
 mod values;
 pub mod varied;
 
-pub use check::nearest;
+pub use check::{meant_keys, nearest};
 pub use data_set::{DataSet, DataSetCase, LoadedDataSet, Tested, read_data_set};
 pub use describe::scenario::RIM_SPEED_M_S;
 pub use document::{Document, to_toml};

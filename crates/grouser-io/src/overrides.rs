@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::check::{keys_at, nearest};
+use super::check::{did_you_mean, keys_at, nearest, places};
 use super::describe;
 use super::error::{DocumentError, Problem};
 use super::field::Names;
 use super::kind::Kind;
-use super::schema::{names_in, paths_of, range, root};
+use super::schema::{names_in, root};
 use super::text::parse;
 use super::tree::Companion;
 use super::tree::{Entry, Node, Origin, Text, Value};
@@ -223,12 +223,12 @@ impl Overrides {
         let Some(kind) = Kind::ALL.into_iter().find(|kind| kind.name() == first) else {
             let names = Kind::ALL.map(Kind::name);
             // A key without its document is more likely than a misspelt document.
-            let meant =
-                with_document(key.trim()).or_else(|| nearest(&first, names).map(str::to_owned));
-            let hint = meant.map_or_else(
-                || format!("a key starts with its document: {}", names.join(", ")),
-                |meant| format!("did you mean `{meant}`?"),
-            );
+            let mut meant = with_document(key.trim(), &value);
+            if meant.is_empty() {
+                meant.extend(nearest(&first, names).map(str::to_owned));
+            }
+            let hint = did_you_mean(&meant)
+                .unwrap_or_else(|| format!("a key starts with its document: {}", names.join(", ")));
             let problem = Problem::Malformed("the key does not start with the name of a document");
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
         };
@@ -384,27 +384,23 @@ fn keep_entries(mut node: &mut Node, tables: &[impl AsRef<str>], is_kept: impl F
     }
 }
 
-/// The key with its document that was probably meant by one without: the key itself, one of its name in a table, or
-/// one that is written much like it.
-fn with_document(key: &str) -> Option<String> {
-    /// Places that a hint names.
-    const MOST: usize = 2;
-    if let Some(kind) = Kind::ALL.into_iter().find(|kind| range(*kind, key).is_some()) {
-        return Some(format!("{kind}.{key}"));
-    }
-    let last = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
-    let in_kinds = || [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario].into_iter();
+/// The keys with their document that were probably meant by one without: the key itself, one of its name in a
+/// table, or one that is written much like it.
+fn with_document(key: &str, value: &Node) -> Vec<String> {
+    let last = key.rsplit('.').next().unwrap_or_default();
     let places_of = |name: &str| {
-        let places = in_kinds().map(|kind| {
-            let paths = paths_of(root(kind), name);
-            paths.into_iter().take(MOST).map(|path| format!("{kind}.{path}")).collect::<Vec<_>>()
-        });
-        places.into_iter().find(|places| !places.is_empty()).map(|places| places.join("` or `"))
+        let in_kind = |kind: Kind| {
+            let paths = places(root(kind), name, Some(value)).into_iter();
+            paths.map(|path| format!("{kind}.{path}")).collect::<Vec<_>>()
+        };
+        Kind::ALL.into_iter().map(in_kind).find(|found| !found.is_empty())
     };
-    places_of(&last(key)).or_else(|| {
-        let names: Vec<String> = in_kinds().flat_map(|kind| names_in(root(kind))).collect();
-        places_of(nearest(&last(key), names.iter().map(String::as_str))?)
-    })
+    let alike = || {
+        let names: Vec<String> =
+            Kind::ALL.into_iter().flat_map(|kind| names_in(root(kind))).collect();
+        places_of(nearest(last, names.iter().map(String::as_str))?)
+    };
+    places_of(key).or_else(|| places_of(last)).or_else(alike).unwrap_or_default()
 }
 
 /// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or

@@ -102,11 +102,17 @@ pub(crate) fn keys(schema: &Json) -> impl Iterator<Item = (&str, &Json)> {
         .map(|(key, schema)| (key.as_str(), schema))
 }
 
-/// Tables and keys in which a key of this name exists, as paths.
+/// Where a key stands, as paths.
+///
+/// * `name`: the key, or the end of its path
 pub(crate) fn paths_of(root: &Json, name: &str) -> Vec<String> {
+    let is_end_of = |path: &str| {
+        let before = path.strip_suffix(name);
+        before.is_some_and(|tables| tables.is_empty() || tables.ends_with('.'))
+    };
     let mut found = Vec::new();
-    collect(root, root, "", &mut |path, key| {
-        if key == name && !found.iter().any(|other| other == path) {
+    collect(root, root, "", &mut |path, _| {
+        if is_end_of(path) && !found.iter().any(|other| other == path) {
             found.push(path.to_owned());
         }
     });

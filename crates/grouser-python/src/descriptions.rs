@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use grouser::document::{
     self, Companion, DocumentError, Kind, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel,
-    Overrides, Source,
+    Overrides, Problem, Source,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -203,7 +203,7 @@ pub(crate) fn find_document(
 ) -> PyResult<Document> {
     let kind = kind_of(kind)?;
     let source = Source::find(kind, name).map_err(|error| errors::of_document(&error, &[]))?;
-    changed(kind, &source, changes, vec![])
+    changed(kind, &source, changes)
 }
 
 /// A file.
@@ -214,7 +214,7 @@ pub(crate) fn read_document_file(
     path: PathBuf,
     changes: &Bound<'_, PyDict>,
 ) -> PyResult<Document> {
-    changed(kind_of(kind)?, &Source::file(path), changes, vec![])
+    changed(kind_of(kind)?, &Source::file(path), changes)
 }
 
 /// A text, under a label for messages, and the files that it names.
@@ -227,7 +227,7 @@ pub(crate) fn read_document_text(
     files: BTreeMap<String, String>,
 ) -> PyResult<Document> {
     let source = Source::text_with(label, text, companions(files));
-    changed(kind_of(kind)?, &source, changes, vec![])
+    changed(kind_of(kind)?, &source, changes)
 }
 
 fn companions(files: BTreeMap<String, String>) -> Vec<Companion> {
@@ -253,16 +253,30 @@ pub(crate) fn read_document_table(
         content.insert("schema".to_owned(), Value::String(kind.tag().to_owned()));
     }
     let source = Source::text_with(label, document::to_toml(&content), beside);
-    changed(kind, &source, changes, vec![label.to_owned()])
+    let arguments = vec![label.to_owned()];
+    read_changed(kind, &source, changes, arguments, Some(table))
 }
 
-/// Reads a document with changes; errors in those, or in the texts of `arguments`, are the
-/// caller's.
-fn changed(
+/// The keys that a name which a document of a kind does not have was probably meant to be, with the
+/// tables they stand in.
+#[pyfunction]
+pub(crate) fn meant_keys(kind: &str, name: &str) -> PyResult<Vec<String>> {
+    Ok(document::meant_keys(kind_of(kind)?, name))
+}
+
+/// Reads a document with changes; errors in those are the caller's.
+fn changed(kind: Kind, source: &Source, changes: &Bound<'_, PyDict>) -> PyResult<Document> {
+    read_changed(kind, source, changes, Vec::new(), None)
+}
+
+/// * `arguments`: labels of texts whose errors are the caller's too
+/// * `table`: the caller's keys that the document is made of
+fn read_changed(
     kind: Kind,
     source: &Source,
     changes: &Bound<'_, PyDict>,
     mut arguments: Vec<String>,
+    table: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Document> {
     let mut overrides = Overrides::none();
     for Change { key, value, companions } in values::changes(kind.name(), changes)? {
@@ -272,7 +286,49 @@ fn changed(
             .map_err(|error| errors::of_document(&error, &arguments))?;
     }
     let read = changes.py().detach(|| Read::new(kind, source, &overrides));
-    read.map(|read| Document { read }).map_err(|error| errors::of_document(&error, &arguments))
+    read.map(|read| Document { read }).map_err(|error| {
+        let given = [Some(changes), table].into_iter().flatten();
+        errors::of_document(&as_keywords(error, given), &arguments)
+    })
+}
+
+/// An error whose hint writes the keys that were meant as Python's keywords, where the unknown one was
+/// among those given.
+fn as_keywords<'py>(
+    error: DocumentError,
+    mut given: impl Iterator<Item = &'py Bound<'py, PyDict>>,
+) -> DocumentError {
+    let Problem::UnknownKey { key } = error.problem() else { return error };
+    let value = given.find_map(|keys| value_at(keys, key));
+    let (Some(value), false) = (value, error.meant().is_empty()) else { return error };
+    let written: Vec<_> = error.meant().iter().map(|path| keyword(path, &value)).collect();
+    error.with_hint(format!("did you mean {}?", written.join(" or ")))
+}
+
+/// A value under a path, as Python writes it; shortened if it is long.
+fn value_at(keys: &Bound<'_, PyDict>, path: &str) -> Option<String> {
+    /// Characters of a value that a hint repeats. Source: ours.
+    const LONGEST: usize = 40;
+    let start = keys.clone().into_any();
+    let found = path.split('.').try_fold(start, |table, step| table.get_item(step).ok())?;
+    let text = found.repr().ok()?.to_string();
+    Some(if text.chars().count() > LONGEST { "…".to_owned() } else { text })
+}
+
+/// `start={"yaw_deg": 5}` for `start.yaw_deg`; `soil=Soil(…, cohesion_kpa=1)` for a key of a part,
+/// because a mapping has to give all keys of a part that is made anew.
+fn keyword(path: &str, value: &str) -> String {
+    let Some((first, rest)) = path.split_once('.') else { return format!("{path}={value}") };
+    match first {
+        "soil" => format!("soil=Soil(…, {})", keyword(rest, value)),
+        "rover" => format!("rover=Rover(…, {})", keyword(rest, value)),
+        _ => {
+            let table = rest
+                .rsplit('.')
+                .fold(value.to_owned(), |inner, key| format!("{{\"{key}\": {inner}}}"));
+            format!("{first}={table}")
+        }
+    }
 }
 
 fn kind_of(name: &str) -> PyResult<Kind> {

@@ -162,3 +162,63 @@ def test_a_soil_put_into_a_scenario_keeps_what_it_leaves_to_priors() -> None:
         assert other.to_dict()["soil"] == own.to_dict()["soil"] and other.assumed == own.assumed
     stated = own.replace(soil={"exit": {"ratio": 0.5}})
     assert "exit.ratio" in own.assumed and "exit.ratio" not in stated.assumed
+
+
+@pytest.mark.parametrize(
+    ("make", "written"),
+    [
+        (lambda: gr.simulate(yaw_deg=5), 'did you mean start={"yaw_deg": 5}?'),
+        (lambda: gr.Run(yaw=5), 'did you mean start={"yaw_deg": 5}?'),
+        (lambda: gr.Scenario("traverse-10-deg", yaw_deg=5), 'did you mean start={"yaw_deg": 5}?'),
+        (lambda: gr.Scenario(start={"slope_deg": 5}), "did you mean slope_deg=5?"),
+        (lambda: gr.heading(cohesion_kpa=0.5), "did you mean soil=Soil(…, cohesion_kpa=0.5)?"),
+        (lambda: gr.Soil("toyoura", friction_angle=30), "did you mean friction_angle_deg=30?"),
+        (lambda: gr.Soil("toyoura").replace(n=1.1), 'did you mean pressure_sinkage={"n": 1.1}?'),
+        (
+            lambda: gr.Rover("hakuto", mass_kg=9),
+            'did you mean body={"mass_kg": 9} or wheel_unit={"mass_kg": 9}?',
+        ),
+        (
+            lambda: gr.simulate(radius_m=0.1),
+            'did you mean rover=Rover(…, wheel_unit={"wheel": {"radius_m": 0.1}})?',
+        ),
+        (lambda: gr.Scenario(yaw_deg=[[k, 1.0] for k in range(40)]), 'drive={"yaw_deg": …}'),
+    ],
+)
+def test_a_misplaced_keyword_is_answered_by_what_to_write(make: Any, written: str) -> None:
+    with pytest.raises(gr.ParameterError) as caught:
+        make()
+    assert written in str(caught.value)
+
+
+def test_what_is_to_be_written_can_be_written() -> None:
+    assert gr.Scenario(start={"yaw_deg": 5}).start["yaw_deg"] == 5.0
+    assert gr.Rover("hakuto", body={"mass_kg": 9}).body["mass_kg"] == 9.0
+    assert gr.Scenario(soil=gr.Soil("toyoura", cohesion_kpa=0.5)).soil.cohesion_kpa == 0.5
+
+
+@pytest.mark.parametrize(
+    ("owner", "name", "written"),
+    [
+        (gr.Rover("hakuto"), "mass_kg", 'rover.body["mass_kg"] or rover.wheel_unit["mass_kg"]'),
+        (gr.Rover("hakuto"), "radius_m", 'rover.wheel_unit["wheel"]["radius_m"]'),
+        (gr.Soil("toyoura"), "friction_angle", "soil.friction_angle_deg"),
+        (gr.Soil("toyoura"), "n", 'soil.pressure_sinkage["n"]'),
+        (gr.Scenario(), "yaw_deg", 'scenario.start["yaw_deg"]'),
+        (gr.Scenario(), "cohesion_kpa", "scenario.soil.cohesion_kpa"),
+        (gr.Site("toyoura"), "cohesion_kpa", "site.soil.cohesion_kpa"),
+    ],
+)
+def test_a_misplaced_attribute_is_answered_by_where_it_is(owner: Any, name: str, written: str) -> None:
+    with pytest.raises(AttributeError, match="has no key") as caught:
+        getattr(owner, name)
+    assert str(caught.value).endswith(f"; did you mean {written}?")
+    kind = type(owner).__name__.lower()
+    for one in written.split(" or "):
+        assert isinstance(eval(one, {kind: owner}), float)
+
+
+def test_an_attribute_like_no_key_is_answered_by_all_keys() -> None:
+    for owner, name in ((gr.Rover("hakuto"), "colour"), (gr.Site("toyoura"), "mass_kg")):
+        with pytest.raises(AttributeError, match=f"has no key '{name}'; it has "):
+            getattr(owner, name)

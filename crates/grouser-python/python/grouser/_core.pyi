@@ -47,6 +47,7 @@ __all__ = [
     "heading_map",
     "heading_map_band",
     "import_wheel_tests",
+    "meant_keys",
     "merge_campaign",
     "most_shard_bytes",
     "not_carried",
@@ -203,6 +204,7 @@ def import_wheel_tests(
     skip_lines: int,
     slip_definition: str,
 ) -> tuple[str, list[str], list[str]]: ...
+def meant_keys(kind: str, name: str) -> list[str]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(

@@ -147,10 +147,17 @@ class _Description:
             if name not in self._items:
                 now = _former_names.key_of(self._items, name)
                 if now is None:
-                    known = ", ".join(self._items)
-                    raise AttributeError(f"{type(self).__name__} has no key {name!r}; it has {known}")
+                    meant = " or ".join(self._meant(name))
+                    hint = f"did you mean {meant}?" if meant else f"it has {', '.join(self._items)}"
+                    raise AttributeError(f"{type(self).__name__} has no key {name!r}; {hint}")
                 name = now
             return _frozen(self._items[name])
+
+    def _meant(self, name: str) -> list[str]:
+        """The keys that an unknown name was probably meant to be, as Python gets their values."""
+        paths = _core.meant_keys(self._kind, name)
+        found = (_written(type(self).__name__.lower(), self, path.split(".")) for path in paths)
+        return [written for written in found if written is not None]
 
     def __dir__(self) -> list[str]:
         return sorted({*super().__dir__(), *self._items})
@@ -211,6 +218,19 @@ def _frozen(value: Any) -> Any:
     return value
 
 
+def _written(name: str, thing: Any, path: list[str]) -> str | None:
+    """How the value under a path is written, as in ``rover.body["mass_kg"]``; None where there is
+    no value."""
+    for step in path:
+        of_description = isinstance(thing, _Description)
+        keys = thing._items if of_description else thing
+        if not isinstance(keys, Mapping) or step not in keys:
+            return None
+        name += f".{step}" if of_description else f'["{step}"]'
+        thing = getattr(thing, step) if of_description else thing[step]
+    return name
+
+
 def _short(value: Any) -> str:
     if isinstance(value, dict):
         if "name" in value and "schema" in value:
@@ -256,6 +276,16 @@ class Soil(_Description, _keys.SoilKeys):
         For an invalid file, with line and column.
     DocumentNotFoundError
         If there is neither a preset nor a file of this name; also a ``FileNotFoundError``.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> sand = gr.Soil("toyoura")
+    >>> sand.friction_angle_deg, sand.pressure_sinkage["n"]
+    (38.0, 1.703)
+    >>> firm = sand.replace(cohesion_kpa=0.5, pressure_sinkage={"n": 1.2})
+    >>> firm.cohesion_kpa, firm == sand, gr.Soil.from_toml(firm.to_toml()) == firm
+    (0.5, False, True)
     """
 
     __slots__ = ()
@@ -306,7 +336,19 @@ class Soil(_Description, _keys.SoilKeys):
 class Wheel(_Description, _keys.WheelKeys):
     """A rigid wheel with a flat rim: ``radius_m`` [m], ``width_m`` [m], and ``grousers`` with
     ``height_m`` [m] and ``count``, left out for a smooth wheel. Sources and errors are those of
-    `Soil`."""
+    `Soil`.
+
+    Examples
+    --------
+    Do higher grousers pull more?
+
+    >>> import grouser as gr
+    >>> wheel = gr.Wheel(radius_m=0.1, width_m=0.08, grousers={"height_m": 0.005, "count": 24})
+    >>> higher = wheel.replace(grousers={"height_m": 0.01})
+    >>> low, high = (gr.settle("toyoura", it, load_n=17.0, slip_ratio=0.3) for it in (wheel, higher))
+    >>> bool(high.drawbar_pull_n > low.drawbar_pull_n)
+    True
+    """
 
     __slots__ = ()
     _kind = "wheel"
@@ -316,7 +358,19 @@ class Rover(_Description, _keys.RoverKeys):
     """A rover: ``body``, ``wheel_unit`` with its ``wheel``, and a ``mount`` for each wheel with its
     ``position_m`` [m] from the body's centre of mass, in the body frame (x forward, y left, z up).
     A mount may have a ``wheel``, ``mass_kg`` and ``inertia_kg_m2`` of its own, and ``steering_deg``
-    [°], positive to the left. Sources and errors are those of `Soil`."""
+    [°], positive to the left. Sources and errors are those of `Soil`.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> rover = gr.Rover("hakuto")
+    >>> len(rover.mount), rover.wheel.radius_m, rover.body["mass_kg"]
+    (4, 0.1, 5.24)
+    >>> heavier = rover.replace(body={"mass_kg": 2.0 * rover.body["mass_kg"]})
+    >>> usual, loaded = (gr.simulate(rover=it, duration_s=5.0) for it in (rover, heavier))
+    >>> bool((loaded.wheel["sinkage_mm"][-1] > usual.wheel["sinkage_mm"][-1]).all())
+    True
+    """
 
     __slots__ = ()
     _kind = "rover"
@@ -337,6 +391,17 @@ class Scenario(_Description, _keys.ScenarioKeys):
     gives ``soil``, ``slope_deg`` and ``gravity_m_s2`` together.
 
     Sources and errors are those of `Soil`.
+
+    Examples
+    --------
+    The rover starts with its nose 8° uphill, on the Moon:
+
+    >>> import grouser as gr
+    >>> scenario = gr.Scenario(slope_deg=12.0, gravity_m_s2=gr.MOON_GRAVITY, start={"yaw_deg": 8.0})
+    >>> scenario.start["yaw_deg"], scenario.soil.name, scenario.rover.name
+    (8.0, 'Toyoura sand', 'HAKUTO')
+    >>> gr.simulate(scenario, duration_s=2.0).outcome
+    'completed'
     """
 
     __slots__ = ()
@@ -393,6 +458,14 @@ class Site(_Description, _keys.SiteKeys):
     ------
     ParameterError
         For a value out of its range.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> crater = gr.Site("lunar-nominal", slope_deg=15.0, gravity_m_s2=gr.MOON_GRAVITY)
+    >>> run = gr.simulate(site=crater, duration_s=2.0)
+    >>> run.scenario.slope_deg, run.scenario.soil == crater.soil
+    (15.0, True)
     """
 
     __slots__ = ()

@@ -468,7 +468,13 @@ fn changes_are_set_as_flags_are_and_quoted_whole() {
 fn wrong_overrides_say_so() {
     for (setting, message) in [
         ("soil.cohesion_kpa", "not of the form document.key=value"),
-        ("sol.cohesion_kpa=1", "did you mean `soil`?"),
+        ("sol.cohesion_kpa=1", "did you mean `soil.cohesion_kpa`?"),
+        ("cohesion_kpa=1", "did you mean `soil.cohesion_kpa`?"),
+        ("body.mass_kg=1", "did you mean `rover.body.mass_kg`?"),
+        ("mass_kg=1", "did you mean `rover.body.mass_kg` or `rover.wheel_unit.mass_kg`?"),
+        // A drive's yaw is a list.
+        ("yaw_deg=5", "did you mean `scenario.start.yaw_deg`?"),
+        ("scenario.yaw=5", "did you mean `start.yaw_deg`?"),
         ("soil=1", "not set as a whole, only its keys"),
         ("scenario.soil.cohesion_kpa=200", "`soil.cohesion_kpa` is 200, it must be 0 to 100"),
         ("scenario.drive.reference_slip_ratio=0.1", "it goes with law = \"eq18-as-printed\" or"),
