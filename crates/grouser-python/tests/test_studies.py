@@ -302,6 +302,44 @@ def test_every_model_at_once() -> None:
         assert set(labels) == set(gr.MODELS)
 
 
+def test_every_model_is_a_dataset_over_models() -> None:
+    xarray = pytest.importorskip("xarray")
+    for study, dims in (
+        (lambda **model: gr.heading(slope_deg=[5.0, 10.0], **model), {"slope_deg": 2}),
+        (lambda **model: gr.wheel_test(load_n=17, slip_ratio=[0.1, 0.4], **model), {"slip_ratio": 2}),
+        (lambda **model: gr.wheel_test(load_n=17, slip_ratio=[0.1], trials=2, **model), {"trial": 2}),
+        (lambda **model: gr.simulate(duration_s=1.0, **model), {"time_s": 11, "wheel": 4}),
+    ):
+        found = study(model="all")
+        data = found.to_xarray()
+        assert data.model.values.tolist() == list(gr.MODELS)
+        assert {name: data.sizes[name] for name in dims} == dims
+        for name, alone in found.items():
+            one = alone.to_xarray()
+            own = data.sel(model=name)
+            assert list(own.data_vars) == list(one.data_vars)
+            for key in one.data_vars:
+                xarray.testing.assert_identical(
+                    own[key].drop_vars("model").reset_coords(drop=True),
+                    one[key].reset_coords(drop=True),
+                )
+
+
+def test_runs_of_models_that_end_earlier_have_no_number_after_their_end() -> None:
+    pytest.importorskip("xarray")
+    found = gr.simulate("too-steep", model="all")
+    assert len({run.time_s[-1] for run in found.values()}) > 1, "all end together"
+    data = found.to_xarray()
+    for name, run in found.items():
+        own = data.sel(model=name)
+        assert own.outcome.item() == run.outcome
+        assert own.message.item() == (run.message or "")
+        after = own.y_m.sel(time_s=own.time_s > run.time_s[-1])
+        assert np.isnan(after).all()
+        assert own.y_m.sel(time_s=run.time_s).values.tolist() == run.y_m.tolist()
+    assert data.y_m.units == "m"
+
+
 def pyarrow_rows(result: Any) -> int:
     rows: int = result.to_arrow().num_rows
     return rows

@@ -11,6 +11,7 @@ from . import _core, _tables
 
 if TYPE_CHECKING:
     import pandas
+    import xarray
     from matplotlib.axes import Axes
 
 _Result = TypeVar("_Result", bound=_tables.Tabular)
@@ -23,6 +24,18 @@ class ByModel(_tables.Tabular, Mapping[str, _Result]):
     """Results of one study by the name of the wheel–soil model: what ``model="all"`` gives.
 
     A mapping: ``found["bekker"]`` is the result of a model, ``found.items()`` are all of them.
+
+    Examples
+    --------
+    How far do the models disagree about the heading offset that holds the contour?
+
+    >>> import grouser as gr
+    >>> found = gr.heading("traverse-10-deg", slope_deg=10.0, model="all")
+    >>> tuple(found) == gr.MODELS
+    True
+    >>> yaws = [float(level.yaw_deg[0]) for level in found.values()]
+    >>> max(yaws) - min(yaws) < 10.0
+    True
     """
 
     __slots__ = ("_results",)
@@ -54,6 +67,40 @@ class ByModel(_tables.Tabular, Mapping[str, _Result]):
     def to_pandas(self) -> pandas.DataFrame:
         """The tables of all models, one below the other, with a column ``model``."""
         return _tables.frame(self._table())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The datasets of all models as one, with the dimension ``model`` before theirs.
+
+        Runs that end at different times have NaN after their ends. Attributes of the single
+        datasets, such as the ``outcome`` of a run, are coordinates over ``model``.
+
+        Examples
+        --------
+        >>> import grouser as gr
+        >>> pulls = gr.wheel_test("toyoura", load_n=17.0, slip_ratio=[0.1, 0.3], model="all").to_xarray()
+        >>> pulls.sizes["model"] == len(gr.MODELS)
+        True
+        >>> spread = pulls.drawbar_pull_n.max("model") - pulls.drawbar_pull_n.min("model")
+        >>> bool((spread > 0.0).all())
+        True
+        """
+        import xarray
+
+        each = [result.to_xarray() for result in self._results.values()]  # type: ignore[attr-defined]
+        notes = [data.attrs for data in each]
+        data: xarray.Dataset = xarray.concat(
+            each,
+            "model",
+            data_vars="all",
+            coords="minimal",
+            compat="override",
+            join="outer",
+            combine_attrs="override",
+        )
+        data.attrs = {}
+        names = dict.fromkeys(name for own in notes for name in own)
+        of_model = {name: ("model", [own.get(name, "") for own in notes]) for name in names}
+        return data.assign_coords({"model": list(self._results), **of_model})
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
         """Plots each model's result on the same axes, labelled with its name.
