@@ -384,6 +384,33 @@ def test_pictures_show_the_rover_where_it_is() -> None:
         grouser.gym.LevelTraverseEnv(render_mode="ansi")
 
 
+def test_a_vector_environment_has_the_pictures_of_single_ones() -> None:
+    pytest.importorskip("matplotlib")
+    envs: Any = gymnasium.make_vec(LEVEL, num_envs=2, render_mode="rgb_array")
+    with pytest.raises(gymnasium.error.ResetNeeded):
+        envs.render()
+    single: Any = gymnasium.make(LEVEL, render_mode="rgb_array")
+    envs.reset(seed=1)
+    single.reset(seed=2)
+    for _ in range(3):
+        envs.step(np.full((2, 2), 0.4))
+        single.step(np.full(2, 0.4))
+    pictures = envs.render()
+    assert isinstance(pictures, tuple) and [it.shape for it in pictures] == [(400, 600, 3)] * 2
+    assert (pictures[1] == single.render()).all() and (pictures[0] != pictures[1]).any()
+    # The path starts anew with an episode.
+    envs.reset(seed=1)
+    single.reset(seed=2)
+    assert (envs.render()[1] == single.render()).all()
+    envs.close()
+    single.close()
+    plain = gymnasium.make_vec(LEVEL, num_envs=2)
+    plain.reset(seed=1)
+    assert plain.render() is None
+    with pytest.raises(gr.ParameterError, match="render_mode is 'human', it must be 'rgb_array'"):
+        grouser.gym.LevelTraverseVectorEnv(2, render_mode="human")
+
+
 def test_a_window_is_drawn_after_each_step(monkeypatch: pytest.MonkeyPatch) -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
     pauses: list[float] = []

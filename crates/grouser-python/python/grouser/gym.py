@@ -181,6 +181,57 @@ class _Traverses:
         }
 
 
+#: Which rovers a single environment means: its one.
+_ONE = np.ones(1, dtype=np.bool_)
+
+
+class _Pictures:
+    """Pictures of rovers from above, with the path of each since its episode started."""
+
+    def __init__(self, traverses: _Traverses, mode: str | None) -> None:
+        self._traverses = traverses
+        self._mode = mode
+        self._camera: Camera | None = None
+        self._paths: list[list[tuple[float, float]]] = [[] for _ in range(len(traverses.rovers))]
+
+    def start(self, which: NDArray[np.bool_]) -> None:
+        """Forgets the paths of some rovers."""
+        for k in _places(which):
+            self._paths[k] = []
+
+    def add(self, which: NDArray[np.bool_]) -> None:
+        """Adds the places of some rovers to their paths, if there are pictures."""
+        if self._mode is None:
+            return
+        state = self._traverses.rovers.state
+        for k in _places(which):
+            self._paths[k].append((float(state[k, 0]), float(state[k, 1])))
+
+    def drawn(self, k: int) -> Camera:
+        """The camera, with rover k before it."""
+        if not self._paths[k]:
+            raise gymnasium.error.ResetNeeded("reset the environment before it is rendered")
+        rovers = self._traverses.rovers
+        if self._camera is None:
+            try:
+                self._camera = Camera(rovers.scenarios[0].rover, str(self._mode))
+            except ImportError as error:
+                raise gymnasium.error.DependencyNotInstalled(
+                    "rendering needs matplotlib: pip install matplotlib"
+                ) from error
+        outcome = rovers.outcome[k]
+        title = f"slope {self._traverses.slope_deg[k]:.1f}°, {rovers.time_s[k]:.1f} s"
+        title += f", {outcome}" if outcome else ""
+        yaw_deg = float(rovers.state[k, rovers.STATE.index("yaw_deg")])
+        self._camera.draw(np.array(self._paths[k]), yaw_deg, title)
+        return self._camera
+
+    def close(self) -> None:
+        if self._camera is not None:
+            self._camera.close()
+            self._camera = None
+
+
 class RoverEnv(gymnasium.Env[Floats, Floats]):
     """Base class of environments with one rover on a slope of unknown soil: a subclass says what is
     rewarded, and may say what is observed, what ends an episode, and what an action does.
@@ -238,11 +289,7 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         dt_s: float = 0.5,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, *self.metadata["render_modes"]):
-            known = "'rgb_array', 'human' or None"
-            raise ParameterError(
-                f"render_mode is {render_mode!r}, it must be {known}", "render_mode", None, known
-            )
+        _check_render_mode(render_mode, self.metadata["render_modes"])
         self._traverses = _Traverses(
             1,
             scenario=scenario,
@@ -254,8 +301,7 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         self.render_mode = render_mode
         self.observation_space = self._traverses.observation_space
         self.action_space = self._traverses.action_space
-        self._camera: Camera | None = None
-        self._path: list[tuple[float, float]] = []
+        self._pictures = _Pictures(self._traverses, render_mode)
 
     # ---- what a subclass reads ----
 
@@ -345,8 +391,8 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         """
         given = _options_of(options, _OPTIONS)
         super().reset(seed=seed)
-        self._traverses.reset(np.ones(1, dtype=np.bool_), [self.np_random], given)
-        self._path = []
+        self._traverses.reset(_ONE, [self.np_random], given)
+        self._pictures.start(_ONE)
         self._was_moved()
         return self.observation(), self._traverses.info(0)
 
@@ -375,35 +421,16 @@ class RoverEnv(gymnasium.Env[Floats, Floats]):
         ``render_mode="rgb_array"``; None else."""
         if self.render_mode != "rgb_array":
             return None
-        return self._drawn().pixels()
+        return self._pictures.drawn(0).pixels()
 
     def close(self) -> None:
         """Closes the window of ``render_mode="human"``."""
-        if self._camera is not None:
-            self._camera.close()
-            self._camera = None
+        self._pictures.close()
 
     def _was_moved(self) -> None:
-        state = self.state
-        self._path.append((state["x_m"], state["y_m"]))
+        self._pictures.add(_ONE)
         if self.render_mode == "human":
-            self._drawn().show()
-
-    def _drawn(self) -> Camera:
-        if not self._path:
-            raise gymnasium.error.ResetNeeded("reset the environment before it is rendered")
-        if self._camera is None:
-            try:
-                rover = self._traverses.rovers.scenarios[0].rover
-                self._camera = Camera(rover, str(self.render_mode))
-            except ImportError as error:
-                raise gymnasium.error.DependencyNotInstalled(
-                    "rendering needs matplotlib: pip install matplotlib"
-                ) from error
-        title = f"slope {self.slope_deg:.1f}°, {float(self._traverses.rovers.time_s[0]):.1f} s"
-        title += f", {self.outcome}" if self.outcome else ""
-        self._camera.draw(np.array(self._path), self.state["yaw_deg"], title)
-        return self._camera
+            self._pictures.drawn(0).show()
 
 
 class LevelTraverseEnv(RoverEnv):
@@ -462,6 +489,19 @@ class LevelTraverseEnv(RoverEnv):
     ParameterError, DocumentError, DocumentNotFoundError
         As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give,
         or that is not used.
+
+    Examples
+    --------
+    A rover that drives straight on drifts downhill, y < 0, and loses a little reward by it:
+
+    >>> import numpy as np
+    >>> from grouser.gym import LevelTraverseEnv
+    >>> env = LevelTraverseEnv(soil="toyoura", slope_deg=(15.0, 15.0))
+    >>> observation, info = env.reset(seed=1, options={"yaw_deg": 0.0})
+    >>> for _ in range(10):
+    ...     observation, reward, terminated, truncated, info = env.step(np.array([0.6, 0.0]))
+    >>> bool(observation[0] < 0.0), info["x_m"] > 0.0, terminated
+    (True, True, False)
     """
 
     def reward(self, before: Mapping[str, float], ended: bool) -> float:
@@ -484,8 +524,7 @@ class LevelTraverseEnv(RoverEnv):
 
     def _advance(self, action: Floats, before: Mapping[str, float]) -> tuple[float, bool]:
         # With the arithmetic of the vector form, bit for bit.
-        all_of_one = np.ones(1, dtype=np.bool_)
-        rewards, ended = self._traverses.step(np.asanyarray(action)[None], all_of_one)
+        rewards, ended = self._traverses.step(np.asanyarray(action)[None], _ONE)
         return float(rewards[0]), bool(ended[0])
 
 
@@ -506,9 +545,27 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         When a sub-environment whose episode has ended is reset: with the next step (the default,
         whose action it ignores), in the same step (the end is in ``infos["final_obs"]`` and
         ``infos["final_info"]``), or only by a call.
+    render_mode : {"rgb_array"}, optional
+        Whether `render` returns pictures. There are no windows: those are for one rover.
     **settings
-        As for `LevelTraverseEnv`.
+        As for `LevelTraverseEnv`, except for ``render_mode``.
+
+    Examples
+    --------
+    Sixteen rovers drive straight on, on slopes from 5 to 15°; how far do they drift downhill?
+
+    >>> import numpy as np
+    >>> from grouser.gym import LevelTraverseVectorEnv
+    >>> envs = LevelTraverseVectorEnv(16)
+    >>> observations, infos = envs.reset(seed=1, options={"yaw_deg": 0.0})
+    >>> straight_on = np.tile([0.6, 0.0], (16, 1))
+    >>> for _ in range(10):
+    ...     observations, rewards, terminated, truncated, infos = envs.step(straight_on)
+    >>> bool((observations[:, 0] < 0.0).all())
+    True
     """
+
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(
         self,
@@ -516,14 +573,16 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         *,
         max_episode_steps: int | None = MAX_EPISODE_STEPS,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
-        render_mode: None = None,
+        render_mode: str | None = None,
         **settings: Any,
     ) -> None:
+        _check_render_mode(render_mode, self.metadata["render_modes"])
         self.num_envs = num_envs
         self.render_mode = render_mode
         self.autoreset_mode = AutoresetMode(autoreset_mode)
-        self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
+        self.metadata = {**self.metadata, "autoreset_mode": self.autoreset_mode}
         self._traverses = _Traverses(num_envs, **settings)
+        self._pictures = _Pictures(self._traverses, render_mode)
         self._longest = max_episode_steps
         self.single_observation_space = self._traverses.observation_space
         self.single_action_space = self._traverses.action_space
@@ -572,6 +631,8 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._traverses.reset(which, self._randoms, options)
         self._steps[which] = 0
         self._ended[which] = False
+        self._pictures.start(which)
+        self._pictures.add(which)
 
     def step(
         self, actions: Floats
@@ -592,6 +653,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
                 f"environments {_places(again)} have ended: reset them"
             )
         rewards, terminated = self._traverses.step(actions, ~again)
+        self._pictures.add(~again)
         self._steps[~again] += 1
         truncated = np.zeros(self.num_envs, dtype=np.bool_)
         if self._longest is not None:
@@ -610,10 +672,35 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         infos = self._infos(infos, everyone)
         return self._traverses.observations(), rewards, terminated, truncated, infos
 
+    def render(self) -> tuple[NDArray[np.uint8], ...] | None:
+        """Each rover from above, with its path: an array as that of `LevelTraverseEnv.render` for
+        each sub-environment with ``render_mode="rgb_array"``; None else."""
+        if self.render_mode != "rgb_array":
+            return None
+        return tuple(self._pictures.drawn(k).pixels() for k in range(self.num_envs))
+
+    def close_extras(self, **kwargs: Any) -> None:
+        """Frees what drew the pictures; `close` calls it.
+
+        Parameters
+        ----------
+        **kwargs
+            Of ``close``; not used.
+        """
+        self._pictures.close()
+
     def _infos(self, infos: dict[str, Any], which: NDArray[np.bool_]) -> dict[str, Any]:
         for k in _places(which):
             infos = self._add_info(infos, self._traverses.info(k), k)
         return infos
+
+
+def _check_render_mode(mode: str | None, modes: Sequence[str]) -> None:
+    if mode not in (None, *modes):
+        known = f"{', '.join(map(repr, modes))} or None"
+        raise ParameterError(
+            f"render_mode is {mode!r}, it must be {known}", "render_mode", None, known
+        )
 
 
 def _places(which: NDArray[np.bool_]) -> list[int]:
