@@ -12,20 +12,27 @@ import pytest
 import grouser as gr
 
 
-def public() -> Iterator[tuple[str, Callable[..., Any]]]:
-    """Every public function, class and method by its name."""
-    modules: list[tuple[str, Any, list[str]]] = [("", gr, list(gr.__all__))]
-    modules.append(("campaign.", gr.campaign, list(gr.campaign.__all__)))
+def members() -> Iterator[tuple[str, Any]]:
+    """Every public function and class by its name, without exceptions."""
+    modules: list[tuple[str, Any]] = [("", gr), ("campaign.", gr.campaign), ("style.", gr.style)]
     for name in ("gym", "mujoco"):
-        module = pytest.importorskip(f"grouser.{name}")
-        modules.append((f"{name}.", module, list(module.__all__)))
-    for prefix, module, names in modules:
-        for name in names:
+        modules.append((f"{name}.", pytest.importorskip(f"grouser.{name}")))
+    for prefix, module in modules:
+        for name in module.__all__:
             thing = getattr(module, name)
             if inspect.isfunction(thing):
                 yield prefix + name, thing
             if inspect.isclass(thing) and not issubclass(thing, Exception):
-                yield from ((f"{prefix}{name}.{method}", it) for method, it in methods(thing))
+                yield prefix + name, thing
+
+
+def public() -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Every public function and method by its name."""
+    for name, thing in members():
+        if inspect.isclass(thing):
+            yield from ((f"{name}.{method}", it) for method, it in methods(thing))
+        else:
+            yield name, thing
 
 
 def methods(owner: type) -> Iterator[tuple[str, Callable[..., Any]]]:
@@ -56,3 +63,18 @@ def test_every_argument_is_documented(name: str) -> None:
     parameters = inspect.signature(function).parameters
     taken = {it for it in parameters if it not in ("self", "cls") and not it.startswith("_")}
     assert documented(doc) == taken
+
+
+MEMBERS = dict(members())
+
+
+@pytest.mark.parametrize("name", MEMBERS)
+def test_everything_has_an_example_or_names_what_makes_it(name: str) -> None:
+    doc = inspect.getdoc(MEMBERS[name]) or ""
+    assert ">>> " in doc or "\nMade by `" in doc
+
+
+@pytest.mark.parametrize("name", [name for name, it in MEMBERS.items() if inspect.isfunction(it)])
+def test_what_a_function_returns_is_documented(name: str) -> None:
+    returns = inspect.signature(MEMBERS[name]).return_annotation
+    assert returns in (None, "None") or "\nReturns\n---" in (inspect.getdoc(MEMBERS[name]) or "")

@@ -51,7 +51,18 @@ _RATIOS = ("r_hat", "effective_samples", "narrowing")
 @dataclass(frozen=True, eq=False)
 class Calibration(_tables.Tabular):
     """A soil fitted to measurements: arrays of shape (keys,) in each key's own unit. With
-    ``point_fit`` fields of the posterior are NaN or None."""
+    ``point_fit`` fields of the posterior are NaN or None.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> test = gr.wheel_test("toyoura", load_n=20, slip_ratio=[0, 0.2, 0.4, 0.6], trials=3)
+    >>> start = gr.Soil("toyoura", shear={"longitudinal_m": 0.1})
+    >>> found = gr.calibrate(test, start, "hakuto", fit=["shear.longitudinal_m"], point_fit=True)
+    >>> true_m, found_m = (soil.shear["longitudinal_m"] for soil in (gr.Soil("toyoura"), found.soil))
+    >>> abs(found_m / true_m - 1.0) < 0.2, found.best == {"soil.shear.longitudinal_m": found_m}
+    (True, True)
+    """
 
     key: tuple[str, ...]
     """The fitted keys, as ``soil.pressure_sinkage.k_phi``."""
@@ -458,6 +469,22 @@ def calibrate_plates(
     ------
     ParameterError, DocumentError, DocumentNotFoundError, CalibrationError
         As `calibrate`.
+
+    Examples
+    --------
+    Two plates were pressed into sand, with three readings each:
+
+    >>> import grouser as gr
+    >>> test = {
+    ...     "plate_width_mm": [100.0, 100.0, 100.0, 200.0, 200.0, 200.0],
+    ...     "sinkage_mm": [5.0, 10.0, 20.0, 5.0, 10.0, 20.0],
+    ...     "pressure_kpa": [3.0, 9.0, 30.0, 2.9, 8.9, 29.0],
+    ... }
+    >>> found = gr.calibrate_plates(test, "toyoura", plate_law="bekker", point_fit=True)
+    >>> list(found.best)
+    ['soil.pressure_sinkage.k_c', 'soil.pressure_sinkage.k_phi', 'soil.pressure_sinkage.n']
+    >>> found.soil.pressure_sinkage["n"] == found.best["soil.pressure_sinkage.n"]
+    True
     """
     if not isinstance(plate_law, (str, type(None))):
         given = type(plate_law).__name__

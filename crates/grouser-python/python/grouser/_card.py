@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, eq=False)
 class CardCourses(_tables.Tabular):
     """The second page of a card: other courses, a row for each course and slope that may be
-    driven along the contour."""
+    driven along the contour.
+
+    Made by `card`, which has an example.
+    """
 
     slope_deg: Floats
     """Slopes [°]."""
@@ -51,6 +54,8 @@ class Card(_tables.Tabular):
 
     The attributes are what a driver sets and reads first; `columns` has all that the program's
     table has, with bands over the samples.
+
+    Made by `card`, which has an example.
     """
 
     slope_deg: Floats

@@ -10,7 +10,10 @@ from . import _core
 
 @dataclass(frozen=True)
 class Checked:
-    """A valid document, and what it leaves open."""
+    """A valid document, and what it leaves open.
+
+    Made by `check`, which has an example.
+    """
 
     kind: str
     """``soil``, ``wheel``, ``rover``, ``scenario``, ``campaign``, ``data-set`` or ``prior``."""

@@ -28,7 +28,10 @@ _SCALINGS = ("reece", "bekker", "granular-scaling")
 class Forecast(_tables.Tabular):
     """Slip, drift, heading, power and the steepest slope under the gravity of a site, and the error
     budget: arrays of shape (slopes,), quantiles over all cases as ``…_p2_5``, ``…_p50`` and
-    ``…_p97_5``."""
+    ``…_p97_5``.
+
+    Made by `forecast`, which has an example.
+    """
 
     slope_deg: Floats
     """Slopes [°]."""

@@ -21,6 +21,13 @@ class HeadingBand(_tables.Tabular):
     sunk to the axles and with work without a bound, whose quantiles are NaN. A yaw it has not: the
     quantiles of the yaw are over the samples that hold the course, and NaN where none does. (Names
     of columns are those of version 0.1, in which samples are *draws*.)
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> band = gr.heading(slope_deg=[5, 10], uncertainty=True, samples=10).band
+    >>> bool((band.yaw_deg_p2_5 <= band.yaw_deg_p97_5).all()), band.probability_level.tolist()
+    (True, [1.0, 1.0])
     """
 
     yaw_deg_p2_5: Floats
@@ -84,7 +91,10 @@ class HeadingBand(_tables.Tabular):
 @dataclass(frozen=True, eq=False)
 class HeadingMapBand(_tables.Tabular):
     """Heading offset over samples of soil and model: arrays of shape (soils, courses, slopes), with
-    quantiles as those of a `HeadingBand`."""
+    quantiles as those of a `HeadingBand`.
+
+    Made by `heading_map`, which has an example.
+    """
 
     yaw_deg_p2_5: Floats
     """Yaw [°], positive uphill, over the samples that hold the course."""

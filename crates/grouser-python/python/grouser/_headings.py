@@ -31,7 +31,17 @@ _HELD = tuple(name for name in _HEADING if name != "power_w")
 @dataclass(frozen=True, eq=False)
 class Headings(_tables.Tabular):
     """Heading offsets that hold the contour line: arrays of shape (slopes,), NaN where none
-    does."""
+    does.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> level = gr.heading(slope_deg=[5, 10, 15])
+    >>> bool((level.yaw_deg[1:] > level.yaw_deg[:-1]).all())        # steeper: turn further uphill
+    True
+    >>> bool(level.to_pandas()["slip_ratio"].max() == level.slip_ratio[2])
+    True
+    """
 
     limit_slope_deg: float | None
     """The steepest slope on which the contour can be held [°]; None where the rover cannot move."""
@@ -215,7 +225,16 @@ def heading(
 @dataclass(frozen=True, eq=False)
 class HeadingMap(_tables.Tabular):
     """Heading offsets over soil, course and slope: arrays of shape (soils, courses, slopes), NaN
-    where no yaw holds the course."""
+    where no yaw holds the course.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> found = gr.heading_map(soil=["toyoura", "lunar-nominal"], slope_deg=[5, 10], course_deg=[0, 30])
+    >>> on_sand = found.to_xarray().slip_ratio.isel(soil=0)
+    >>> bool(on_sand.sel(slope_deg=10, course_deg=30) > on_sand.sel(slope_deg=10, course_deg=0))
+    True
+    """
 
     soil: tuple[str, ...]
     """The soils' names."""
@@ -339,6 +358,18 @@ def heading_map(
     ------
     ParameterError, DocumentError, DocumentNotFoundError
         As `heading`.
+
+    Examples
+    --------
+    On 10°, how much more slip does a course uphill cost?
+
+    >>> import grouser as gr
+    >>> found = gr.heading_map(slope_deg=[5, 10], course_deg=[-30, 0, 30])
+    >>> found.slip_ratio.shape                                      # soils, courses, slopes
+    (1, 3, 2)
+    >>> down, along, up = found.slip_ratio[0, :, 1]
+    >>> bool(down < along < up)
+    True
     """
     one = scenario_of(scenario, changes)
     several = isinstance(soil, Sequence) and not isinstance(soil, str)

@@ -78,7 +78,10 @@ def _cell(value: Any) -> str:
 @dataclass(frozen=True, eq=False)
 class ImportedWheelTests(_tables.Tabular):
     """Wheel tests of another laboratory, in Grouser's columns, units and signs: `calibrate` and
-    `validate` take it as data."""
+    `validate` take it as data.
+
+    Made by `import_wheel_tests`, which has an example.
+    """
 
     text: str
     """The table as CSV, as the program's ``import`` writes it."""

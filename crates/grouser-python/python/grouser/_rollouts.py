@@ -28,6 +28,16 @@ class Rollout(_tables.Tabular):
     """Final states of many runs: arrays of the shape to which the arguments broadcast, (runs,) for
     a sequence of scenarios; NaN where a run could not be computed. Frames are those of a
     `Trajectory`.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> ends = gr.rollout(gr.Scenario(simulation="quasi-steady"), slope_deg=[5.0, 10.0, 15.0])
+    >>> ends.shape, ends.outcome.tolist()
+    ((3,), ['completed', 'completed', 'completed'])
+    >>> uphill = ends.to_xarray(dims=["slope_deg"]).y_m
+    >>> bool(uphill.sel(slope_deg=15.0) == ends.y_m[2])
+    True
     """
 
     outcome: NDArray[np.str_]

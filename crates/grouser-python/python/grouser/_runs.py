@@ -27,7 +27,8 @@ class RunBatch:
     """Step-by-step simulation of many rovers at once, on all cores and without Python's lock.
 
     Each rover has the same results as a `Run` of its own, bit for bit, for any number of cores. A
-    rover whose run has ended stays as it is until it is reset.
+    rover whose run has ended stays as it is until it is reset. Like a `Run` it keeps the present
+    states and no records.
 
     Parameters
     ----------
@@ -275,6 +276,10 @@ class Run:
     continues as this one would, bit for bit. The scenario's duration and record interval are not
     used; its drive turns the wheels until the first step.
 
+    A run keeps its present state and no records, so that there is nothing to animate or to plot:
+    keep what each step returns, as below. `Trajectory.animate` draws what a scenario's own drive
+    does, from `simulate`.
+
     Parameters
     ----------
     scenario : Scenario, name, path or mapping, optional
@@ -309,6 +314,14 @@ class Run:
     True
     >>> rover.wheel["slip_ratio"].shape, rover.outcome
     ((4,), None)
+
+    The path of the next 5 s, a row for each state:
+
+    >>> import numpy as np
+    >>> path = np.array([rover.step(0.06, 0.1) for _ in range(50)])
+    >>> x_m, y_m = path[:, rover.STATE.index("x_m")], path[:, rover.STATE.index("y_m")]
+    >>> x_m.shape, bool(x_m[-1] > x_m[0])
+    ((50,), True)
     """
 
     STATE: ClassVar[tuple[str, ...]] = _STATE

@@ -37,6 +37,14 @@ class TraverseBand(_tables.Tabular):
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
     between the first and the last. From the time at which its run ends early a sample counts as
     slip 1, sunk to the axles, at the place where it ended.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> band = gr.simulate(duration_s=2.0, uncertainty=True, samples=10).band
+    >>> width_m = band.y_m_p97_5 - band.y_m_p2_5                    # how uncertain the drift is
+    >>> bool(width_m[-1] > width_m[0])
+    True
     """
 
     run: Mapping[str, Any]
@@ -101,6 +109,19 @@ class Trajectory(_tables.Tabular):
     ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
     rover has just tipped over or sunk.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> run = gr.simulate(slope_deg=10.0, duration_s=5.0)
+    >>> run.wheel["slip_ratio"].shape == (len(run.time_s), len(run.wheel_names))
+    True
+    >>> end = run.to_xarray().isel(time_s=-1)
+    >>> bool(end.y_m < 0.0), end.y_m.units                          # drifted downhill
+    (True, 'm')
+    >>> slip = end.wheel_slip_ratio.sel(wheel="front-left")
+    >>> bool(slip == run.wheel["slip_ratio"][-1, run.wheel_names.index("front-left")])
+    True
     """
 
     scenario: Scenario

@@ -29,6 +29,8 @@ class Validation(_tables.Tabular):
     ``torque_nm`` its ``rmse``, ``bias`` (prediction minus measurement), ``r2``, ``repeatability``,
     ``cells``, ``largest_measured``, ``rmse_share`` and ``bias_share`` of that, ``aim`` and
     ``within_aim``, or None where it was not measured.
+
+    Made by `validate`, which has an example.
     """
 
     overall: Mapping[str, Any]
@@ -123,6 +125,14 @@ def validate(
         For a file that cannot be used, with its line.
     DocumentNotFoundError, ParameterError
         As `settle`, and for a file that is not there.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> found = gr.validate("published-wheel-tests", "hit-lss1-2011", "ding-2011-smooth")
+    >>> pull = found.overall["drawbar_pull_n"]
+    >>> found.overall["trials"], pull["rmse"] < pull["aim"]
+    (6, True)
     """
     if wheel_label is None and isinstance(wheel, (str, os.PathLike)):
         wheel_label = os.fspath(wheel)
@@ -146,6 +156,8 @@ def validation_of(found: dict[str, Any]) -> Validation:
 class SlopeValidation(_tables.Tabular):
     """Errors of a wheel–soil model against a rover's measured slip or yaw on slopes, with the names
     of ``grouser validate --rover``.
+
+    Made by `validate_slopes`, which has an example.
     """
 
     overall: Mapping[str, Any]
@@ -225,6 +237,14 @@ def validate_slopes(
         For a file that cannot be used, with its line.
     DocumentNotFoundError, ParameterError
         As `heading`, and for a file that is not there.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> found = gr.validate_slopes("viper-slip-slope", "grc-1", "mgru3", gravity_m_s2=gr.MOON_GRAVITY)
+    >>> slip = found.overall["slip_ratio"]
+    >>> found.overall["cells"], slip["bias"] < 0.0                  # predicts too little slip
+    (7, True)
     """
     scenario = scenario_of(None, {"soil": soil, "rover": rover, **changes})
     conditions = [where] if isinstance(where, str) else list(where)
@@ -243,6 +263,8 @@ class Ranking(_tables.Tabular):
     measurements, averaged over the measured quantities [-]: 0 is perfect, 1 no better than a
     constant), ``unsettled_trials``, and the groups ``driven`` and ``overall`` of a `Validation`, or
     ``overall`` of a `SlopeValidation`.
+
+    Made by `validate_all`, which has an example.
     """
 
     rows: tuple[Mapping[str, Any], ...]
@@ -322,6 +344,15 @@ def validate_all(folder: str | os.PathLike[str] | None = None) -> Ranking:
         If the folder does not exist, or has no known data set.
     DocumentError
         For a document or a file of measurements that cannot be used.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> ranking = gr.validate_all().to_pandas()
+    >>> best = ranking[ranking["rank"] == 1]                        # of each part of each data set
+    >>> better_than_a_constant = best[best["score"] < 1.0]
+    >>> 0 < len(better_than_a_constant) <= len(best) < len(ranking)
+    True
     """
     place = None if folder is None else os.fspath(folder)
     found = _core.validate_all(place)

@@ -34,6 +34,13 @@ class WheelTestBand(_tables.Tabular):
     between the first and the last. Where the soil does not carry the wheel, a sample counts as sunk
     to the axle, with the load as its drag, no side force, and the torque that turns the rim against
     the whole load.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> test = gr.wheel_test("toyoura-uncertain", load_n=17, slip_ratio=[0.1, 0.4], uncertainty=True, samples=20)
+    >>> bool((test.band.drawbar_pull_n_p2_5 < test.band.drawbar_pull_n_p97_5).all())
+    True
     """
 
     sinkage_mm_p2_5: Floats
@@ -79,7 +86,18 @@ class WheelTestBand(_tables.Tabular):
 
 @dataclass(frozen=True, eq=False)
 class WheelTest(_tables.Tabular):
-    """A wheel test: every load with every slip angle and every slip ratio."""
+    """A wheel test: every load with every slip angle and every slip ratio.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> test = gr.wheel_test("toyoura", load_n=17, slip_ratio=[0.1, 0.3, 0.5], slip_angle_deg=[0, 15])
+    >>> test.wheels.drawbar_pull_n.shape                            # loads, slip angles, slip ratios
+    (1, 2, 3)
+    >>> straight = test.to_xarray().drawbar_pull_n.sel(load_n=17, slip_angle_deg=0)
+    >>> bool(straight.sel(slip_ratio=0.5) > straight.sel(slip_ratio=0.1))
+    True
+    """
 
     load_n: Floats
     """Loads [N], shape (loads,)."""
@@ -151,7 +169,17 @@ class WheelTest(_tables.Tabular):
 class SimulatedWheelTest(_tables.Tabular):
     """A wheel test with simulated measurement noise: arrays of shape (loads, angles, ratios,
     trials), NaN where the soil does not carry the wheel. Readings are rounded to a ten-thousandth
-    of their unit."""
+    of their unit.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> test = gr.wheel_test("toyoura", load_n=17, slip_ratio=[0.1, 0.4], trials=5, seed=3)
+    >>> test.drawbar_pull_n.shape                                   # loads, angles, ratios, trials
+    (1, 1, 2, 5)
+    >>> bool((test.drawbar_pull_n.std(axis=-1) > 0.0).all())        # trials differ by noise
+    True
+    """
 
     load_n: Floats
     """Loads [N], shape (loads,)."""

@@ -42,6 +42,13 @@ class WheelForces(_tables.Tabular):
     Every field is an array of the shape to which the arguments broadcast; of no dimensions if all
     were single values. Angles are from straight down, positive towards the side that enters the
     soil.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> turned = gr.wheel_forces("toyoura", "hakuto", sinkage_mm=10.0, slip_ratio=0.2, slip_angle_deg=[0, 10])
+    >>> turned.shape, bool(abs(turned.side_force_n[1]) > abs(turned.side_force_n[0]))
+    ((2,), True)
     """
 
     slip_ratio: Floats
@@ -144,7 +151,17 @@ class WheelForces(_tables.Tabular):
 @dataclass(frozen=True, eq=False, repr=False)
 class Settled(WheelForces):
     """Wheels at the sinkage at which the soil carries their load. A wheel that it cannot carry has
-    ``status`` 1 and NaN for all results; one with an input that is NaN has ``status`` 2 and NaN."""
+    ``status`` 1 and NaN for all results; one with an input that is NaN has ``status`` 2 and NaN.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> wheels = gr.settle("toyoura", "hakuto", load_n=[17.0, 1e4], slip_ratio=0.2)
+    >>> wheels.status.tolist()                                      # the second sinks to its axle
+    [0, 1]
+    >>> wheels.to_pandas()["sinkage_mm"].isna().tolist()
+    [False, True]
+    """
 
     load_n: Floats
     """Load [N], as asked."""
@@ -291,6 +308,15 @@ def wheel_forces(
     ------
     ParameterError, DocumentNotFoundError
         As `settle`.
+
+    Examples
+    --------
+    The soil carries more of a wheel that is deeper:
+
+    >>> import grouser as gr
+    >>> sunk = gr.wheel_forces("toyoura", "hakuto", sinkage_mm=[5.0, 10.0, 20.0], slip_ratio=0.2)
+    >>> bool((sunk.normal_force_n[1:] > sunk.normal_force_n[:-1]).all())
+    True
     """
     stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
     inputs = {"sinkage_mm": sinkage_mm, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}

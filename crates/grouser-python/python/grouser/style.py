@@ -62,6 +62,13 @@ def rc_params(*, dark: bool = False) -> dict[str, Any]:
     -------
     dict
         For ``matplotlib.rcParams``.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> light, dark = (gr.style.rc_params(dark=it)["figure.facecolor"] for it in (False, True))
+    >>> light != dark                                               # colours as matplotlib writes them
+    True
     """
     from cycler import cycler
 
@@ -107,6 +114,15 @@ def use(*, dark: bool = False) -> None:
     ----------
     dark : bool
         For a dark screen.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> import matplotlib as mpl
+    >>> with mpl.rc_context():                                      # only so that it ends here
+    ...     gr.style.use()
+    ...     bool(mpl.rcParams["axes.grid"])
+    True
     """
     import matplotlib as mpl
 
@@ -127,6 +143,15 @@ def context(*, dark: bool = False) -> AbstractContextManager[None]:
     -------
     context manager
         That of ``matplotlib.rc_context``.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> import matplotlib.pyplot as plt
+    >>> with gr.style.context():
+    ...     axes = plt.subplots()[1]
+    >>> gr.simulate(duration_s=1.0).plot(axes).get_xlabel()
+    'along the contour, x [m]'
     """
     import matplotlib as mpl
 

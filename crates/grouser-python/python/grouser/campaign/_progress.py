@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Progress:
-    """The progress of a campaign, reported after every shard."""
+    """The progress of a campaign, reported after every shard.
+
+    Made by `run`, for its argument ``progress``.
+    """
 
     shards_done: int
     """Number of finished shards."""

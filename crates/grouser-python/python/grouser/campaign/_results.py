@@ -36,6 +36,18 @@ class Results:
 
     The files are an ordinary Parquet data set; DuckDB, polars and pandas read
     ``DIR/runs/*.parquet`` as it is.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import grouser as gr
+    >>> study = gr.Campaign("campaign-heading", runs=8, sensitivity=False)
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> found = gr.campaign.run(study, out=folder.name)
+    >>> table = found.to_pandas()
+    >>> len(table), found.is_finished, bool(found.rerun(3)["yaw_deg"] == table["yaw_deg"][3])
+    (8, True, True)
+    >>> folder.cleanup()
     """
 
     def __init__(self, files: Files) -> None:
@@ -308,12 +320,28 @@ def results(location: Location, *, storage_options: Mapping[str, Any] | None = N
     storage_options : mapping, optional
         Options of fsspec for the URL.
 
+    Returns
+    -------
+    Results
+        Those that exist now.
+
     Raises
     ------
     CampaignNotFoundError
         If the location has no campaign.
     CampaignError
         If the manifest or the study was changed or damaged. Shards are checked when they are read.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import grouser as gr
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> study = gr.Campaign("campaign-heading", runs=8, sensitivity=False)
+    >>> _ = gr.campaign.run(study, out=folder.name)                 # perhaps elsewhere, some time ago
+    >>> gr.campaign.results(folder.name).campaign == study
+    True
+    >>> folder.cleanup()
     """
     return Results(files_of(location, storage_options))
 
@@ -329,12 +357,34 @@ def merge(out: Location, parts: Sequence[Location]) -> Results:
     parts : sequence of paths
         The parts' folders, in any order.
 
+    Returns
+    -------
+    Results
+        The results of the whole campaign.
+
     Raises
     ------
     CampaignError
         If parts are unfinished, missing, given twice, or of another study. Nothing is written then.
     CampaignNotFoundError
         If a folder has no campaign.
+
+    Examples
+    --------
+    Two jobs of an array compute a half each:
+
+    >>> import tempfile
+    >>> import grouser as gr
+    >>> study = gr.Campaign("campaign-heading", runs=8, shard_runs=4, sensitivity=False)
+    >>> folders = [tempfile.TemporaryDirectory() for _ in range(3)]
+    >>> whole, *parts = (folder.name for folder in folders)
+    >>> for job, part in enumerate(parts, start=1):
+    ...     _ = gr.campaign.run(study, out=part, part=(job, 2))
+    >>> found = gr.campaign.merge(whole, parts)
+    >>> len(found.to_pandas()), found.is_finished
+    (8, True)
+    >>> for folder in folders:
+    ...     folder.cleanup()
     """
     if not parts:
         raise ParameterError("there are no parts to merge", "parts", None, "at least one folder")

@@ -95,6 +95,32 @@ def run(
         If an engine is not installed, with the command that installs it.
     KeyboardInterrupt
         On Ctrl-C. Finished shards are kept.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> import grouser as gr
+    >>> study = gr.Campaign(
+    ...     study="heading",
+    ...     runs=32,
+    ...     scenario="traverse-10-deg",
+    ...     parameter=[
+    ...         {
+    ...             "key": "soil.friction_angle_deg",
+    ...             "distribution": "normal",
+    ...             "standard_deviation": 1.5,
+    ...         }
+    ...     ],
+    ... )
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> found = gr.campaign.run(study, out=folder.name)
+    >>> yaw = found.summarise().quantities["yaw_deg"]
+    >>> yaw.count, yaw.least < yaw.mean < yaw.most
+    (32, True)
+    >>> again = gr.campaign.run(study, out=folder.name)             # all is there: computes nothing
+    >>> again.digest == found.digest
+    True
+    >>> folder.cleanup()
     """
     campaign = study if isinstance(study, Campaign) else Campaign(study)
     _check_counts(workers=workers, threads=threads, in_flight=in_flight)

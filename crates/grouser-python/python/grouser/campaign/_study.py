@@ -18,6 +18,28 @@ class Campaign(_Description):
 
     The complete document (``to_toml``) contains samples and all documents that it names: a worker
     needs only that text.
+
+    Examples
+    --------
+    How uncertain is the heading offset, if the friction angle is known to 1.5°?
+
+    >>> import grouser as gr
+    >>> study = gr.Campaign(
+    ...     study="heading",
+    ...     runs=32,
+    ...     scenario="traverse-10-deg",
+    ...     parameter=[
+    ...         {
+    ...             "key": "soil.friction_angle_deg",
+    ...             "distribution": "normal",
+    ...             "standard_deviation": 1.5,
+    ...         }
+    ...     ],
+    ... )
+    >>> study.row_count, study.inputs, "yaw_deg" in study.outputs
+    (32, ('soil.friction_angle_deg',), True)
+    >>> study.rerun(0)["status"]                                    # one run, without a folder
+    'ok'
     """
 
     __slots__ = ("_facts",)

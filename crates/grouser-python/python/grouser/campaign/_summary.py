@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Share:
-    """The share of runs with some status or outcome, with its 95 % interval (Wilson)."""
+    """The share of runs with some status or outcome, with its 95 % interval (Wilson).
+
+    Made by `Results.summarise`, as a value of `Summary.status` and `Summary.outcome`.
+    """
 
     count: int
     """Number of independent runs with it."""
@@ -34,7 +37,10 @@ class Share:
 @dataclass(frozen=True)
 class Quantity:
     """Statistics of one result over the runs, in the unit of its name. Intervals are 95 %
-    intervals."""
+    intervals.
+
+    Made by `Results.summarise`, as a value of `Summary.quantities`.
+    """
 
     name: str
     """The column."""
@@ -67,7 +73,10 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Summary:
-    """Statistics over the runs of a campaign."""
+    """Statistics over the runs of a campaign.
+
+    Made by `Results.summarise`. `run` has an example.
+    """
 
     runs: int
     """Number of independent runs: all runs; in a campaign with ``sensitivity``, without those with
