@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
-import signal
 import os
+import signal
 import subprocess
+import sys
+from ctypes.util import find_library
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,10 @@ import pytest
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 matplotlib.use("Agg")
+
+# Without a display MuJoCo renders through EGL; it chooses once, when whichever test imports it first.
+if sys.platform == "linux" and not os.environ.get("DISPLAY"):
+    os.environ.setdefault("MUJOCO_GL", "egl" if find_library("EGL") else "disable")
 
 
 class Program:

@@ -6,7 +6,6 @@ import importlib.util
 import os
 import subprocess
 import sys
-from ctypes.util import find_library
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +14,6 @@ import pytest
 from numpy.typing import NDArray
 
 import grouser as gr
-
-# Without a display MuJoCo renders through EGL; it chooses once, when it is imported.
-if sys.platform == "linux" and not os.environ.get("DISPLAY"):
-    os.environ.setdefault("MUJOCO_GL", "egl" if find_library("EGL") else "disable")
-
 import mujoco
 from grouser.mujoco import SoilContact, rover_xml
 
