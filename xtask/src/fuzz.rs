@@ -27,7 +27,7 @@ use subjects::Subject;
 use verdict::Limits;
 
 /// Cases of a usual run: about a minute on two cores.
-const USUAL: u64 = 3_000;
+const USUAL: u64 = 2_000;
 /// Cases of a full run.
 const FULL: u64 = 60_000;
 /// Faults after which a run ends.

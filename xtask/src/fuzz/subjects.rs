@@ -105,17 +105,17 @@ const LINES: [(&str, &str, &[&str]); 28] = [
     ),
     (
         "card",
-        "card --soil uncertain.toml --samples 6 --measured yaws.csv --out card.svg",
+        "card --soil uncertain.toml --samples 2 --model ishigami --measured yaws.csv --out card.svg",
         &["uncertain.toml", "yaws.csv"],
     ),
     (
         "card, page",
-        "card --soil uncertain.toml --samples 6 --out card.html --format json",
+        "card --soil uncertain.toml --samples 2 --out card.html --format json",
         &["uncertain.toml"],
     ),
     (
         "forecast",
-        "forecast --soil soil.toml --site moon --slope-deg 5 --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
+        "forecast --soil soil.toml --site moon --slope-deg 5 --model ishigami --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
         &["soil.toml", "uncertain.toml"],
     ),
     (

@@ -1,11 +1,38 @@
 //! `card`: the operator's page, its numbers and its files.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
 use serde_json::Value;
 
 use crate::program::{Place, changed_preset, number};
 
 /// An uncertain soil, with draws enough to tell go from no-go.
 const UNCERTAIN: &str = "card --soil toyoura-uncertain --samples 40";
+
+/// Its card, made once for all tests that only read it.
+static CARD: LazyLock<Card> = LazyLock::new(|| {
+    let place = Place::new();
+    let answer = place.json(&format!("{UNCERTAIN} --out card"));
+    let files = std::fs::read_dir(place.file("card")).expect("a folder").map(|entry| {
+        let entry = entry.expect("an entry");
+        let bytes = std::fs::read(entry.path()).expect("a file");
+        (entry.file_name().to_string_lossy().into_owned(), bytes)
+    });
+    Card { answer, files: files.collect() }
+});
+
+/// The numbers of a card, and the files of its folder.
+struct Card {
+    answer: Value,
+    files: BTreeMap<String, Vec<u8>>,
+}
+
+impl Card {
+    fn text(&self, name: &str) -> String {
+        String::from_utf8(self.files[name].clone()).expect("UTF-8")
+    }
+}
 
 fn rows(answer: &Value) -> &Vec<Value> {
     answer["rows"].as_array().expect("rows")
@@ -26,11 +53,11 @@ fn texts(svg: &str) -> Vec<String> {
 #[test]
 fn numbers_are_those_of_the_attitude() {
     let place = Place::new();
-    let card = place.json(UNCERTAIN);
+    let card = &CARD.answer;
     let attitude = place
         .json("attitude --soil toyoura-uncertain --slope-deg 5,13,17 --uncertainty --samples 40");
     for expected in rows(&attitude) {
-        let row = row(&card, number(&expected["slope_deg"]));
+        let row = row(card, number(&expected["slope_deg"]));
         assert_eq!(row["yaw_deg_as_written"], expected["yaw_deg"]);
         for suffix in ["", "_p2_5", "_p50", "_p97_5"] {
             let key = format!("slip_ratio{suffix}");
@@ -54,8 +81,8 @@ fn numbers_are_those_of_the_attitude() {
 /// What a driver needs is there on every slope that may be driven, and no number is infinite.
 #[test]
 fn rows_have_what_a_driver_needs() {
-    let answer = Place::new().json(UNCERTAIN);
-    for row in rows(&answer) {
+    let answer = &CARD.answer;
+    for row in rows(answer) {
         let verdict = row["verdict"].as_str().expect("a verdict");
         assert!(row["flags"].is_array() && ["go", "caution", "no-go"].contains(&verdict));
         let is_driven = verdict != "no-go";
@@ -112,10 +139,8 @@ fn stated(soil: &str) -> String {
 /// For a slope of 12° the page has one line with the slope, the heading and the heading's band.
 #[test]
 fn the_page_says_what_it_must() {
-    let place = Place::new();
-    place.results(&format!("{UNCERTAIN} --out card.svg"));
-    let texts = texts(&place.read("card.svg"));
-    let row = row(&place.json(UNCERTAIN), 12.0).clone();
+    let texts = texts(&CARD.text("card.svg"));
+    let row = row(&CARD.answer, 12.0);
     let [heading, low, high] =
         ["yaw_deg", "yaw_deg_p2_5", "yaw_deg_p97_5"].map(|key| number(&row[key]));
     assert!(high - low > 4.0, "whole degrees are all that this band carries");
@@ -260,16 +285,16 @@ fn the_day_of_the_soil_is_on_the_page() {
 #[test]
 fn flags_change_the_verdicts_and_the_rule_on_the_page() {
     let place = Place::new();
-    let last_go = |line: &str| {
-        let answer = place.json(line);
-        let goes = rows(&answer).iter().filter(|row| row["verdict"] == "go");
+    let last_go = |answer: &Value| {
+        let goes = rows(answer).iter().filter(|row| row["verdict"] == "go");
         goes.map(|row| number(&row["slope_deg"])).fold(0.0, f64::max)
     };
-    let usual = last_go(UNCERTAIN);
-    assert!(last_go(&format!("{UNCERTAIN} --go-slip-ratio 0.15")) < usual);
-    assert!(last_go(&format!("{UNCERTAIN} --go-probability 0.8")) > usual);
+    let usual = last_go(&CARD.answer);
+    let with = |flag: &str| last_go(&place.json(&format!("{UNCERTAIN} {flag}")));
+    assert!(with("--go-slip-ratio 0.15") < usual);
+    assert!(with("--go-probability 0.8") > usual);
     let strict = "--no-go-probability 0.9 --no-go-slip-ratio 0.4";
-    place.results(&format!("{UNCERTAIN} {strict} --out card.svg"));
+    place.results(&format!("card --soil toyoura-uncertain --samples 6 {strict} --out card.svg"));
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("less than 90 % of them a heading does so with slip up to 40 %"));
 }
@@ -302,13 +327,7 @@ fn files_are_what_their_names_say_and_are_not_replaced() {
 /// A folder is enough to make the card again, with the same bytes.
 #[test]
 fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
-    let place = Place::new();
-    place.results(&format!("{UNCERTAIN} --out one"));
-    let mut names: Vec<String> = std::fs::read_dir(place.file("one"))
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
+    let names: Vec<&str> = CARD.files.keys().map(String::as_str).collect();
     let expected = [
         "card-2.png",
         "card-2.svg",
@@ -323,10 +342,12 @@ fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
         "scenario.toml",
     ];
     assert_eq!(names, expected);
-    place.results("card one/scenario.toml --samples 40 --out two");
+    let place = Place::new();
+    place.write("scenario.toml", CARD.text("scenario.toml"));
+    place.results("card scenario.toml --samples 40 --out again");
     for name in expected {
-        let bytes = |folder: &str| std::fs::read(place.file(folder).join(name)).expect("a file");
-        assert_eq!(bytes("one"), bytes("two"), "{name}");
+        let again = std::fs::read(place.file("again").join(name)).expect("a file");
+        assert!(CARD.files[name] == again, "{name}");
     }
 }
 
