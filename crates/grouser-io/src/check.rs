@@ -432,9 +432,18 @@ fn wrong_type(schemas: &[&Json], node: &Node, path: &str, key: &Json) -> Documen
         Value::String(text) if text.trim().parse::<f64>().is_ok() => {
             Some("a number is written without quotes".to_owned())
         }
+        Value::String(text) if starts_with_number(text) => {
+            Some("a number is written without its unit, which the key's name ends with".to_owned())
+        }
         _ => key.get("description").and_then(Json::as_str).map(first_line),
     };
     DocumentError::at(&node.origin, problem).with_hint(hint)
+}
+
+/// Whether a text is a number with something after it, such as its unit.
+fn starts_with_number(text: &str) -> bool {
+    let end = text.find(|letter: char| !letter.is_ascii_digit() && !"+-.".contains(letter));
+    end.is_some_and(|end| text[..end].parse::<f64>().is_ok())
 }
 
 /// Whether a value is of the schema's type. A whole number is a number, too.

@@ -1,5 +1,6 @@
 //! The source of a document: a preset, a file, or a text in memory.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -117,13 +118,33 @@ impl Source {
             }
             Self::File(path) => {
                 let label = path.display().to_string();
-                let content = read_file(path, LARGEST_FILE)
-                    .map_err(|problem| DocumentError::whole(&label, problem))?;
+                let content = read_file(path, LARGEST_FILE).map_err(|problem| {
+                    let hint = (problem == Problem::NoSuchFile).then(|| meant_file(path)).flatten();
+                    DocumentError::whole(&label, problem).with_hint(hint)
+                })?;
                 (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
             }
         };
         Ok(Arc::new(Text { label, content, folder, is_argument: false, companions: beside }))
     }
+}
+
+/// What was probably meant by a path to no file: a document of a similar name beside it. Where there is no such folder
+/// either, that is said.
+fn meant_file(path: &Path) -> Option<String> {
+    /// Entries of a folder that are looked at.
+    const MOST: usize = 1000;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let Ok(entries) = fs::read_dir(folder.unwrap_or(Path::new("."))) else {
+        let folder = escape::path(folder?);
+        return Some(format!("there is no folder `{folder}`"));
+    };
+    let names = entries.take(MOST).filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let is_toml = |name: &String| Path::new(name).extension().is_some_and(|end| end == "toml");
+    let documents: Vec<String> = names.filter(is_toml).collect();
+    let name = path.file_name()?.to_str()?;
+    let meant = nearest(name, documents.iter().map(String::as_str))?;
+    Some(format!("did you mean `{}`?", escape::path(&path.with_file_name(meant))))
 }
 
 /// The text of a file of at most `limit` bytes.

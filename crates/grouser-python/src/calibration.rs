@@ -216,7 +216,7 @@ pub(crate) fn calibrate_plate_tests<'py>(
             .map_err(Failure::Fit)?;
         let listener = Listener::new(cancelled);
         let found = problem.solve(&file, sampling, &listener)?;
-        let notes = [measured.notes, listener.notes()].concat();
+        let notes = [measured.notes, listener.notes(), found.solved.notes()].concat();
         Ok((found, notes, problem))
     })?;
     let (found, notes, problem) = found.map_err(|failure: Failure| failure.to_python(&label))?;
@@ -231,9 +231,8 @@ fn solved_to_python<'py>(
     solved: &Solved,
     soil: &document::Document,
     family: &SoilFamily,
-    mut notes: Vec<String>,
+    notes: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    notes.extend(solved.note());
     let solution = &solved.solution;
     let dict = PyDict::new(py);
     dict.set_item("parameters", columns(py, &solved.records)?)?;

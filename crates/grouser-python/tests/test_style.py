@@ -36,11 +36,36 @@ def test_names_of_curves_never_overlap_and_keep_the_order(ends):
         gr.style.name_curves(axes)
         figure.canvas.draw()
     boxes = [text.get_window_extent() for text in axes.texts]
-    assert [text.get_text() for text in axes.texts if text] != []
-    assert len(boxes) == len(ends)
+    by_end = sorted(range(len(ends)), key=lambda place: -ends[place])
+    assert [text.get_text() for text in axes.texts] == [f"curve {place}" for place in by_end]
     for above, below in zip(boxes, boxes[1:], strict=False):
         assert below.y1 <= above.y0 + 1.0
     plt.close(figure)
+
+
+def test_names_stand_beside_the_ends_of_their_curves():
+    figure, axes = plt.subplots()
+    ends = [1.0, 5.0, 9.0]
+    for end in ends:
+        axes.plot([0.0, 1.0], [0.0, end], label=str(end))
+    gr.style.name_curves(axes)
+    figure.canvas.draw()
+    for text, end in zip(axes.texts, reversed(ends), strict=True):
+        box = text.get_window_extent()
+        height = axes.transData.transform((1.0, end))[1]
+        assert box.y0 < height < box.y1, text
+    plt.close(figure)
+
+
+def test_plots_of_results_are_dark_where_the_style_in_use_is():
+    with mpl.rc_context():
+        gr.style.use(dark=True)
+        axes = gr.heading(slope_deg=[5, 10]).plot()
+        paper, ink = (gr.style.colours(dark=True)[name][0] for name in ("paper", "ink"))
+        same = mpl.colors.same_color
+        assert same(axes.get_facecolor(), paper) and same(axes.figure.get_facecolor(), paper)
+        assert same(axes.xaxis.label.get_color(), ink)
+        plt.close(axes.figure)
 
 
 def test_curves_without_a_name_or_a_point_get_none():

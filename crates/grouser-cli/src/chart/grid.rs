@@ -38,7 +38,7 @@ impl Grid {
                         .with_y_label(label(&chart.y_label))
                         .with_label_size(10)
                         .with_tick_size(8)
-                        .with_ticks(4)
+                        .with_ticks(3)
                         .with_tick_format(TickFormat::Custom(Arc::new(four_digits)))
                         .with_font_family(FONTS),
                 );

@@ -9,6 +9,7 @@ use grouser::document::unit::ONE;
 
 use super::page::Page;
 use crate::chart::{Chart, Series, Style};
+use crate::output::text::capitalised;
 
 /// What an answer was computed from.
 pub(crate) struct Basis {
@@ -145,6 +146,7 @@ fn shared(names: &[String]) -> String {
     let last = |name: &String| name.rsplit(' ').next().unwrap_or_default().to_owned();
     match names {
         [only] => only.clone(),
+        all if all.iter().all(|name| name.len() == 1) => format!("position, {}", all.join(" and ")),
         [first, rest @ ..] if rest.iter().all(|name| last(name) == last(first)) => last(first),
         _ => names.join(", "),
     }
@@ -159,9 +161,4 @@ fn label<R>(column: &Column<R>) -> String {
 pub(crate) fn axis(quantity: Quantity) -> String {
     let (label, unit) = (quantity.label(), quantity.unit.symbol);
     if unit == ONE.symbol { label } else { format!("{label} [{unit}]") }
-}
-
-pub(crate) fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }

@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 use super::figures::Figure;
 use super::tables::{Table, column, printed, row_of};
 use crate::chart::{Chart, Series, Style};
+use crate::output::rows::rounded_down;
 
 /// All that the report is made of.
 pub(crate) struct Study {
@@ -121,9 +122,10 @@ pub(crate) fn caveats(study: &Study) -> String {
     let end = study.paper.headings.limit().ok().map(|(slope, _)| SLOPE.unit.from_si(slope));
     let near = end.map_or(String::new(), |end| {
         format!(
-            " 20° lies {:.1}° before the end of our curve, {end:.2}°: there a small change of the \
+            " 20° lies {:.1}° before the end of our curve, {}°: there a small change of the \
              soil moves the heading by degrees.",
-            end - 20.0
+            end - 20.0,
+            rounded_down(end)
         )
     });
     format!(
@@ -262,16 +264,22 @@ pub(crate) fn lost_yaw_figure(study: &Study) -> Figure {
     });
     Figure {
         file: "lost-yaw",
-        caption: "Yaw lost in 20 s from the measured starts. The line is what complete loads take on even sand with \
-                  even motors; the band holds 95 % of runs in which friction, stiffness and speeds scatter. With \
-                  loads by the weight alone, as in the paper, nothing is lost."
-            .into(),
-        chart: Chart::new("The yaw lost on the way", ("slope [°]", "yaw lost [°]"), vec![
+        caption: format!(
+            "Yaw lost in 20 s from the measured starts. The line is what complete loads take on even sand with \
+                  even motors; the band holds 95 % of {} runs on each slope in which friction, stiffness and speeds \
+                  scatter. With loads by the weight alone, as in the paper, nothing is lost.",
+            study.lost.first().map_or(0, |loss| loss.below_measured.trials)
+        ),
+        chart: Chart::new(
+            "The yaw lost on the way",
+            ("slope [°]", "yaw lost [°]"),
+            vec![
                 Series::band("95 % of scattered runs", 6, edges),
                 Series::new("complete loads", Style::Line, 1, over(&|loss| loss.by_loads)),
                 Series::new("the wheels' torque in pitch alone", Style::Dashed, 3, torque),
                 Series::new("measured", Style::Dots, 2, over(&|loss| loss.measured.yaw_loss())),
-            ]),
+            ],
+        ),
     }
 }
 

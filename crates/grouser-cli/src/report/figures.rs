@@ -78,20 +78,26 @@ pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
     };
     Figure {
         file: "fig10-attitude",
-        caption: "Fig. 10 of the paper: the heading offset that holds the contour, there called \
+        caption: format!(
+            "Fig. 10 of the paper: the heading offset that holds the contour, there called \
                   attitude, over the slope. The curve ends where turning further uphill costs more thrust than it gains. The \
                   measured runs lose yaw from start to end; on 20° they were started high on purpose. The band: \
-                  sand known as well as preset toyoura-uncertain says, any of three models, complete loads; it ends \
-                  where fewer than 97.5 % of the samples hold the contour."
-            .into(),
-        chart: Chart::new("Heading offset that holds the contour", ("slope [°]", "yaw, positive uphill [°]"), vec![
+                  sand known as well as preset toyoura-uncertain says, any of three models, complete loads, {} \
+                  samples; it ends where fewer than 97.5 % of them hold the contour.",
+            band.first().map_or(0, |on| on.level.trials)
+        ),
+        chart: Chart::new(
+            "Heading offset that holds the contour",
+            ("slope [°]", "yaw, positive uphill [°]"),
+            vec![
                 heading_band(band),
                 Series::new("Grouser", Style::Line, 1, line),
                 Series::new("paper's model", Style::Squares, 0, points(|m| m.model_yaw)),
                 Series::new("measured, mean", Style::Dots, 4, points(MeasuredTraverse::mean_yaw)),
                 Series::new("measured, start", Style::Dots, 2, points(|m| m.initial_yaw)),
                 Series::new("measured, end", Style::Triangles, 3, points(|m| m.final_yaw)),
-            ]),
+            ],
+        ),
     }
 }
 

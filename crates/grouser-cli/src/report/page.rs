@@ -6,12 +6,11 @@ use std::fmt::Write as _;
 use grouser::document::escape;
 use grouser::document::table as results;
 
-use super::answer::capitalised;
 use super::figures::Figure;
 use super::tables::Table;
 use crate::chart::Chart;
 use crate::output::rows::Rows;
-use crate::output::text::{Part, Text};
+use crate::output::text::{Part, Text, capitalised};
 
 /// A table of more rows is shown when a reader asks for it.
 const MOST_ROWS: usize = 40;

@@ -108,7 +108,7 @@ fn rows_have_what_a_driver_needs() {
         assert_eq!(row["yaw_deg_ishigami"], row["yaw_deg_as_written"]);
     }
     let heading = Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13");
-    let row = row(&answer, 13.0);
+    let row = row(answer, 13.0);
     assert_eq!(row["yaw_deg_rft"], rows(&heading)[0]["yaw_deg"]);
     assert!(row["yaw_deg_small_wheel"].is_number() && row["yaw_deg_ishigami"].is_number());
 }

@@ -319,7 +319,13 @@ fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Probl
     }
     let ours = value * mapping.factor;
     let is_slip = matches!(mapping.column.meaning, Meaning::SlipRatio | Meaning::TotalSlip);
-    Ok(if is_slip { layout.slip.to_ours(ours) } else { ours }.to_string())
+    let ours = if is_slip { layout.slip.to_ours(ours) } else { ours };
+    Ok(without_noise(ours).to_string())
+}
+
+/// A number without the last digits, which a change of units makes: 1.38 cm are 13.8 mm, not 13.799999999999999.
+fn without_noise(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

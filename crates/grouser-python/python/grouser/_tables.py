@@ -152,7 +152,8 @@ def axes_or_new(axes: Axes | None) -> Axes:
 
     from . import style
 
-    with style.context():
+    paper = style.colours(dark=True)["paper"][0]
+    with style.context(dark=plt.rcParams["figure.facecolor"] == paper):
         return plt.subplots()[1]
 
 

@@ -189,6 +189,8 @@ def name_curves(axes: Axes | None = None) -> Axes:
         import matplotlib.pyplot as plt
 
         axes = plt.gca()
+    # matplotlib sets limits when somebody asks for them.
+    axes.get_xlim(), axes.get_ylim()
     to_pixels, size = axes.transData.transform, axes.get_window_extent()
     curves = []
     for line in axes.get_lines():

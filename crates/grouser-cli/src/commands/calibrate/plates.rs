@@ -43,7 +43,7 @@ pub(super) fn run(args: &CalibrateArgs, file: &Path) -> Result<(), Failure> {
         .solve(&name, sampling(args, checkpoint.as_ref()), &progress)
         .map_err(|error| progress.failure(error))?;
     let solved = &found.solved;
-    report::tell_notes(Vec::new(), solved);
+    report::tell(&solved.notes());
     let answer = Answer::new("calibrate", settings, found.results());
     let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
     let text = Text::blocks(blocks);

@@ -60,9 +60,9 @@ pub(super) fn add_soil(
     Ok(())
 }
 
-/// Prints notes on the data, on parameters at their bounds, and on the sampling of the posterior.
-pub(super) fn tell_notes(of_data: Vec<String>, solved: &Solved) {
-    for note in of_data.into_iter().chain(solved.bound_notes()).chain(solved.note()) {
+/// Prints what to know of the results.
+pub(super) fn tell(notes: &[String]) {
+    for note in notes {
         output::message(&format!("note: {note}"));
     }
 }

@@ -33,7 +33,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let checkpoint = Checkpoint::open(args, problem.settings.to_string())?;
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
-    report::tell_notes(found.notes(), solved);
+    report::tell(&found.notes());
     let answer = Answer::new("calibrate", problem.settings.clone(), found.results(&args.target));
     let text = report::text(&found, &args.target);
     if let Some(mut folder) = folder {

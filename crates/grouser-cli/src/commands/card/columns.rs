@@ -135,6 +135,11 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
         }
         sheet.draw(Shape::rectangle(corner, size, WHITE).outlined(Stroke::black(0.6)).unfilled());
         let text = strip_word(word, height);
+        let is_wide = height < LOW_STRIP && text.width() > STRIP - LEFT - 1.0;
+        if let ("CAUTION", true) = (word, is_wide) {
+            broken(sheet, ["CAU-", "TION"], [f64::midpoint(LEFT, STRIP), top + height / 2.0]);
+            continue;
+        }
         let (middle, half) = ([f64::midpoint(LEFT, STRIP), top + height / 2.0], text.width() / 2.0);
         if height >= LOW_STRIP {
             let (corner, size) =
@@ -152,6 +157,17 @@ fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
 
 /// A strip that is lower has its word along the row [mm].
 const LOW_STRIP: f64 = 14.0;
+
+/// A word on two lines about a place, on white.
+fn broken(sheet: &mut Sheet, parts: [&str; 2], [x, y]: [f64; 2]) {
+    let size = super::layout::LEAST_SIZE;
+    let texts = parts.map(|part| shown(part, size).face(Face::Bold).anchor(Anchor::Middle));
+    let half = texts.iter().map(|text| text.width() / 2.0).fold(0.0, f64::max) + 0.4;
+    sheet.draw(Shape::rectangle([x - half, y - size], [2.0 * half, 2.0 * size], WHITE));
+    let [above, below] = texts;
+    sheet.text(above, [x, y - 0.2]);
+    sheet.text(below, [x, y + size - 0.4]);
+}
 
 fn strip_word(word: &str, height: f64) -> grouser_page::Text {
     let size = if height >= LOW_STRIP {

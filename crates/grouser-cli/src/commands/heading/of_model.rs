@@ -11,6 +11,9 @@ use crate::chart::{Chart, Series, Style};
 use crate::commands::heading_band::Bands;
 use crate::output::rows::rounded_down;
 
+/// How the file of the probability of a contour traverse is called.
+pub(super) const PROBABILITY: &str = "probability";
+
 /// What a model answers.
 pub(super) struct OfModel {
     pub(super) scenario: LoadedScenario,
@@ -60,7 +63,7 @@ pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart)> {
         let nominal = line("soil as written", 1, &of_model.curve);
         Some([
             (format!("{command}{end}.svg"), bands.chart(nominal)),
-            (format!("probability{end}.svg"), bands.chance_chart()),
+            (format!("{PROBABILITY}{end}.svg"), bands.chance_chart()),
         ])
     };
     all.iter().filter_map(of_bands).flatten().collect()

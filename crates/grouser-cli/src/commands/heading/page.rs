@@ -5,22 +5,24 @@ use grouser::document::columns::heading::{self, held};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
 
-use super::of_model::{OfModel, brief, figures};
+use super::of_model::{OfModel, PROBABILITY, brief, figures};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::commands::sampling;
-use crate::report::answer::{self, Basis, axis, by_unit, capitalised, meanings};
+use crate::output::text::capitalised;
+use crate::report::answer::{self, Basis, axis, by_unit, meanings};
 use crate::report::page::Page;
 
 /// * `table`: the rows of all models
 pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &Table) -> String {
     let mut page = Page::new("Heading offset that holds the contour");
     for of_model in all {
-        page.answer(&capitalised(of_model.lines(all.len()).trim_end()));
+        page.answer(&sentences(&of_model.lines(all.len())));
     }
     page.list(what_was_asked(&all[0]));
-    for (_, chart) in figures(command, all) {
-        page.drawing(&chart.to_svg(), CAPTION);
+    for (file, chart) in figures(command, all) {
+        let is_chance = file.starts_with(PROBABILITY);
+        page.drawing(&chart.to_svg(), if is_chance { CHANCE } else { CAPTION });
     }
     page.rows("On each slope", table, &brief(args));
     page.heading("Everything over the slope");
@@ -35,6 +37,15 @@ pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &T
         .collect();
     answer::close(page, &findings, &meanings(&held()), &basis(command, args, all))
 }
+
+/// Lines as sentences of one paragraph.
+fn sentences(lines: &str) -> String {
+    let sentence = |line: &str| format!("{}.", capitalised(line.trim_end_matches('.')));
+    lines.lines().map(sentence).collect::<Vec<_>>().join(" ")
+}
+
+const CHANCE: &str = "The share of the samples in which some heading holds the contour. The band is what so many \
+                      samples leave open of that share, with 95 % confidence.";
 
 const CAPTION: &str = "The rover crosses the slope along the contour line with its nose turned uphill by this angle. \
                        Where the curve ends no heading holds the contour.";

@@ -15,7 +15,8 @@ use crate::args::{EVERY_MODEL, TraverseArgs};
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::four_digits;
-use crate::report::answer::{self, Basis, axis, by_part, by_unit, capitalised, meanings};
+use crate::output::text::capitalised;
+use crate::report::answer::{self, Basis, axis, by_part, by_unit, meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {

@@ -9,7 +9,7 @@ use grouser::studies::slope_validation::SlopeValidation;
 use grouser::studies::validation::Validation;
 
 use crate::chart::{Chart, Series, Style};
-use crate::report::answer::capitalised;
+use crate::output::text::capitalised;
 
 /// A chart with its file's name, without ending, and its caption.
 pub(crate) struct Figure {

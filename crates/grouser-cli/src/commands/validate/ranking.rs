@@ -58,6 +58,8 @@ pub(super) fn of_one(args: &ValidateArgs, data: &Path) -> Result<(), Failure> {
     let rows = measurements::Source::find(data)?;
     let is_preset = matches!(rows, measurements::Source::Preset { .. });
     if !is_document && !is_preset {
+        // What is not there is no matter of flags.
+        rows.bytes(args.read.limits())?;
         return Err(Failure::Usage(format!("--data {}: {BOTH}", data.display())));
     }
     let source = Source::find(Kind::DataSet, &data.to_string_lossy())?;

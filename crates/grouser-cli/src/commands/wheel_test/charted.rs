@@ -7,7 +7,8 @@ use grouser::studies::wheel_test::WheelTest;
 use crate::args::WheelTestArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::inputs::StandInputs;
-use crate::report::answer::{axis, capitalised};
+use crate::output::text::capitalised;
+use crate::report::answer::axis;
 
 pub(super) fn plan(args: &WheelTestArgs, stand: &StandInputs) -> WheelTest {
     let angles = args.slip_angle_deg.0.iter().map(|angle| SLIP_ANGLE.unit.to_si(*angle));

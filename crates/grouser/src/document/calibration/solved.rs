@@ -147,9 +147,14 @@ impl Solved {
         }
     }
 
-    /// Notes on keys whose fit ends at a bound, where their standard deviation is not known.
+    /// What to know of the solution, a sentence each: keys that end at a bound, a sampler that has not converged.
     #[must_use]
-    pub fn bound_notes(&self) -> Vec<String> {
+    pub fn notes(&self) -> Vec<String> {
+        self.bound_notes().into_iter().chain(self.convergence_note()).collect()
+    }
+
+    /// Notes on keys whose fit ends at a bound, where their standard deviation is not known.
+    fn bound_notes(&self) -> Vec<String> {
         let remedy = match self.sampler {
             None => "widen the bounds, fit fewer keys, or sample the posterior",
             Some(_) => "widen the bounds, or fit fewer keys",
@@ -167,15 +172,29 @@ impl Solved {
     }
 
     /// A note if the sampler has not converged.
-    #[must_use]
-    pub fn note(&self) -> Option<String> {
+    fn convergence_note(&self) -> Option<String> {
         let worst = self.sampler.as_ref()?.worst_r_hat;
         (worst > GOOD_R_HAT).then(|| {
             format!(
-                "the sampler has not converged: R-hat is {worst:.3} at worst, above {GOOD_R_HAT}; walk \
-                 more steps, or fit fewer keys"
+                "the sampler has not converged: R-hat is {worst:.3} at worst, of {}, above {GOOD_R_HAT}: quantiles \
+                 are not to be relied on; walk more steps, or fit fewer keys",
+                self.worst_mixed()
             )
         })
+    }
+
+    /// The sampled value with the largest R-hat, in words.
+    fn worst_mixed(&self) -> String {
+        let summaries = self.solution.posterior.iter().flat_map(|posterior| &posterior.summaries);
+        let worst =
+            summaries.enumerate().max_by(|one, other| one.1.r_hat.total_cmp(&other.1.r_hat));
+        let keys = self.records.iter().map(|it| it.key.clone());
+        let channels =
+            self.discrepancies.iter().map(|it| format!("the discrepancy of {}", it.channel));
+        let lengths = self.correlation_lengths.iter();
+        let lengths = lengths.map(|it| format!("the correlation length along {}", it.along));
+        let mut names = keys.chain(channels).chain(lengths);
+        worst.and_then(|(place, _)| names.nth(place)).unwrap_or_default()
     }
 }
 

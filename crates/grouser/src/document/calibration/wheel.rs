@@ -80,6 +80,7 @@ pub struct WheelResults<'a> {
     searches_that_agree: usize,
     searches: usize,
     sampler: &'a Option<SamplerRecord>,
+    notes: Vec<String>,
 }
 
 impl WheelProblem<'_> {
@@ -173,8 +174,10 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
     let loads = || tests.trials.iter().map(|trial| trial.load);
     let (low, high) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
     if cells > 0 && high <= SAME_LOAD * low {
+        let [low, high] = [low, high].map(|load| format!("{load:.1}"));
+        let loads = if low == high { low } else { format!("{low} to {high}") };
         notes.push(format!(
-            "all trials have one load, {low:.1} to {high:.1} N: how the soil answers another load is not known from \
+            "all trials have one load, {loads} N: how the soil answers another load is not known from \
              them"
         ));
     }
@@ -182,10 +185,11 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
 }
 
 impl WheelFound {
-    /// What the data cannot show, a sentence each: few cells, no repeats, one load.
+    /// What to know of the results, a sentence each: what the data cannot show (few cells, no repeats, one load),
+    /// and the notes of the [solution](Solved::notes).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        [self.notes.clone(), self.solved.notes()].concat()
     }
 
     /// The results for JSON.
@@ -208,6 +212,7 @@ impl WheelFound {
             searches_that_agree: searches.iter().filter(|search| search.agrees).count(),
             searches: searches.len(),
             sampler: &self.solved.sampler,
+            notes: self.notes(),
         }
     }
 }
