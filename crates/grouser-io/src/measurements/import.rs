@@ -317,10 +317,9 @@ fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Probl
     if value.is_nan() {
         return Ok(String::new());
     }
-    let ours = value * mapping.factor;
+    let ours = if mapping.factor == 1.0 { value } else { without_noise(value * mapping.factor) };
     let is_slip = matches!(mapping.column.meaning, Meaning::SlipRatio | Meaning::TotalSlip);
-    let ours = if is_slip { layout.slip.to_ours(ours) } else { ours };
-    Ok(without_noise(ours).to_string())
+    Ok(if is_slip { layout.slip.to_ours(ours) } else { ours }.to_string())
 }
 
 /// A number without the last digits, which a change of units makes: 1.38 cm are 13.8 mm, not 13.799999999999999.
@@ -344,6 +343,13 @@ mod tests {
         let mappings = ["drawbar_pull_n=-Fx, kN:kN", "sinkage_mm=z (m):m"];
         let ours = imported(text, &mappings, &Layout::default());
         assert_eq!(ours, "drawbar_pull_n,sinkage_mm,load_n\n-5,20,24\n");
+    }
+
+    /// In binary 1.38 times 10 is not 13.8.
+    #[test]
+    fn a_change_of_units_adds_no_digits() {
+        let ours = imported("cm\n1.38\n", &["sinkage_mm=cm:cm"], &Layout::default());
+        assert_eq!(ours, "sinkage_mm\n13.8\n");
     }
 
     #[test]

@@ -680,7 +680,7 @@ class LevelTraverseVectorEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         return tuple(self._pictures.drawn(k).pixels() for k in range(self.num_envs))
 
     def close_extras(self, **kwargs: Any) -> None:
-        """Frees what drew the pictures; `close` calls it.
+        """Frees what drew the pictures; ``close()`` calls it.
 
         Parameters
         ----------

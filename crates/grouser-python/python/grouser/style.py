@@ -183,7 +183,7 @@ def name_curves(axes: Axes | None = None) -> Axes:
     >>> for name in ("toyoura", "lunar-nominal"):
     ...     axes = gr.heading(soil=name, slope_deg=[5, 10, 15]).plot(axes, label=name)
     >>> [text.get_text() for text in gr.style.name_curves(axes).texts]
-    ['toyoura', 'lunar-nominal']
+    ['lunar-nominal', 'toyoura']
     """
     if axes is None:
         import matplotlib.pyplot as plt

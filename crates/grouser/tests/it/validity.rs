@@ -271,7 +271,7 @@ fn strictness_names_flag_row_value_and_range() {
     assert!(
         error
             .to_string()
-            .contains("row 1: slip-outside: the slip ratio is 0.95, it must be -0.1 to 0.9")
+            .contains("row 1: slip-outside: the slip ratio is 0.95, the domain is -0.1 to 0.9")
     );
     assert!(error.to_string().contains(
         "row 0: slip-angle-outside: the slip angle is 50 °, it must be at most 45 ° (and 1 more row)"
