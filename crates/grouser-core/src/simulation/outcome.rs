@@ -12,7 +12,7 @@ pub enum Outcome {
         /// What stopped it.
         because: StuckBecause,
     },
-    /// It slides downhill faster than its wheels turn.
+    /// It slides downhill faster than its wheels turn, beside what they roll downhill.
     Sliding {
         /// When that was certain [s].
         time: f64,

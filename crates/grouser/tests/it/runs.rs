@@ -715,6 +715,20 @@ fn a_long_run_with_locked_wheels_is_computed_to_its_end() {
     assert_eq!(end.outcome.name(), "immobilised");
 }
 
+/// Downhill the hubs are a little faster than the rims: braking, no slide.
+#[test]
+fn a_rover_that_drives_downhill_does_not_slide() {
+    for (slope, yaw, speed) in
+        [(8.0, -90.0, RIM_SPEED), (15.0, -60.0, RIM_SPEED), (12.0, 90.0, -RIM_SPEED)]
+    {
+        let base = traverse(deg(slope), deg(yaw));
+        let run = run(&Scenario { drive: DriveLaw::Constant(speed), duration: 10.0, ..base });
+        assert_eq!(run.outcome, Outcome::Completed, "{slope}°, {yaw}°");
+        let end = run.last().state.position;
+        assert!((0.55..0.9).contains(&-end.y.min(0.0)), "{end}");
+    }
+}
+
 /// Samples are a record; what becomes of the rover is looked at by itself.
 #[test]
 fn the_outcome_does_not_depend_on_how_often_samples_are_kept() {
