@@ -26,4 +26,4 @@ pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::{Body, Inertia, Mount, MountParts, Rover, RoverParts, WheelUnit};
-pub use state::{Acceleration, RoverState};
+pub use state::{Acceleration, RoverState, roll_and_pitch};

@@ -46,3 +46,37 @@ pub struct Acceleration {
     /// Yaw acceleration, *γ'' = d²γ/dt²* [rad/s²].
     pub yaw_acceleration: f64,
 }
+
+/// Roll and pitch of a rover on a plane slope [rad].
+///
+/// * `slope`, `yaw`: *α*, *γ* [rad]
+///
+/// ```text
+/// sin θ = sin α sin γ        tan φ = tan α cos γ
+/// ```
+#[must_use]
+pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
+    let across = wide::sin(slope) * wide::cos(yaw);
+    [wide::atan2(across, wide::cos(slope)), wide::asin(wide::sin(slope) * wide::sin(yaw))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::deg;
+
+    /// Along the contour all of the slope is roll, straight up all of it is pitch, and the upright's share is
+    /// always the slope's.
+    #[test]
+    fn roll_and_pitch_share_the_slope() {
+        for (slope, yaw) in [(10.0, 0.0), (10.0, 90.0), (25.0, 30.0), (13.0, 8.0)] {
+            let (slope, yaw) = (deg(slope), deg(yaw));
+            let [roll, pitch] = roll_and_pitch(slope, yaw);
+            assert!((roll.cos() * pitch.cos() - slope.cos()).abs() < 1e-12);
+        }
+        let [roll, pitch] = roll_and_pitch(deg(10.0), 0.0);
+        assert!((roll - deg(10.0)).abs() < 1e-12 && pitch == 0.0);
+        let [roll, pitch] = roll_and_pitch(deg(10.0), deg(90.0));
+        assert!(roll.abs() < 1e-12 && (pitch - deg(10.0)).abs() < 1e-12);
+    }
+}

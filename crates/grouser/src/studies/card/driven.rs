@@ -11,9 +11,10 @@ use super::super::ensemble::samples::{Sample, outputs_of_samples};
 use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::HeadingStudy;
 use super::slip_check::SlipCheck;
-use crate::elementary::wide::{asin, atan2, cos, sin};
+use crate::elementary::wide::sin;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::studies::random;
+use crate::vehicle::roll_and_pitch;
 
 /// The nose is set to this [rad], each heading within it being as likely, and falls by this much before it is set
 /// again: 2°. Source: ours; about what a driver reads off an instrument that shows whole degrees.
@@ -73,19 +74,6 @@ pub struct DrivenMotion {
     pub stuck: Probability,
     /// Where to stop and look at the slip.
     pub slip_check: SlipCheck,
-}
-
-/// Roll and pitch of a rover on a plane slope [rad].
-///
-/// * `slope`, `yaw`: *α*, *γ* [rad]
-///
-/// ```text
-/// sin θ = sin α sin γ        tan φ = tan α cos γ
-/// ```
-#[must_use]
-pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
-    let across = sin(slope) * cos(yaw);
-    [atan2(across, cos(slope)), asin(sin(slope) * sin(yaw))]
 }
 
 impl Driven {
@@ -210,21 +198,6 @@ fn mean_error(place: usize, samples: usize, settings: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::units::deg;
-
-    /// Along the contour all of the slope is roll, straight up all of it is pitch, and the upright's share is
-    /// always the slope's.
-    #[test]
-    fn roll_and_pitch_share_the_slope() {
-        for (slope, yaw) in [(10.0, 0.0), (10.0, 90.0), (25.0, 30.0), (13.0, 8.0)] {
-            let (slope, yaw) = (deg(slope), deg(yaw));
-            let [roll, pitch] = roll_and_pitch(slope, yaw);
-            assert!((cos(roll) * cos(pitch) - cos(slope)).abs() < 1e-12);
-        }
-        let [roll, pitch] = roll_and_pitch(deg(10.0), 0.0);
-        assert!((roll - deg(10.0)).abs() < 1e-12 && pitch == 0.0);
-        let [roll, pitch] = roll_and_pitch(deg(10.0), deg(90.0));
-        assert!(roll.abs() < 1e-12 && (pitch - deg(10.0)).abs() < 1e-12);
-    }
 
     #[test]
     fn a_way_is_rounded_down_to_what_can_be_driven() {
