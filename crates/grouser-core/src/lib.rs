@@ -9,6 +9,7 @@
 //!
 //! | layer | modules | what they are about |
 //! |---|---|---|
+//! | mission | [`mission`] | legs, and limits at which to stop |
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | contact | [`contact`] | what the soil does to one wheel |
@@ -24,6 +25,7 @@
 pub mod contact;
 pub mod elementary;
 pub mod error;
+pub mod mission;
 pub mod newton;
 mod random;
 pub mod root;

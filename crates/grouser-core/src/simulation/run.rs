@@ -15,7 +15,7 @@ use super::trajectory::Trajectory;
 use super::watch::WATCH_PERIOD;
 use super::work::Work;
 use crate::error::{ParameterError, positive};
-use crate::vehicle::DriveLaw;
+use crate::vehicle::{DriveLaw, WheelReaction};
 
 /// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
@@ -114,7 +114,7 @@ impl Run {
         let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
         // At the start the wheels turn as it says already.
         let is_asked = self.state.time > 0.0;
-        self.lead(&mut drive, duration, is_asked)?;
+        self.lead(&mut drive, [duration, duration], is_asked)?;
         Ok(self.finish())
     }
 
@@ -125,9 +125,39 @@ impl Run {
     /// [`RunError`] for commands that no wheel can follow, and where the motion cannot be computed,
     /// at which the rover stays where it last was looked at.
     pub fn advance(&mut self, controller: &mut dyn Controller, until: f64) -> Result<(), RunError> {
-        let led = self.lead(controller, until, true);
+        let led = self.lead(controller, [until, until], true);
         self.record_now();
         led
+    }
+
+    /// As [`advance`](Self::advance), without a record of where that leads.
+    ///
+    /// * `kept_until`: until when a controller that is asked once expects to keep its speeds [s]
+    pub(crate) fn go_on(
+        &mut self,
+        controller: &mut dyn Controller,
+        until: f64,
+        kept_until: f64,
+    ) -> Result<(), RunError> {
+        self.lead(controller, [until, kept_until], true)
+    }
+
+    /// Records where the run has come to.
+    pub(crate) fn look(&mut self) {
+        self.record_now();
+        self.kept = self.records.len();
+    }
+
+    /// The records since they were last taken.
+    pub(crate) fn take_records(&mut self) -> Vec<Record> {
+        self.kept = 0;
+        std::mem::take(&mut self.records)
+    }
+
+    /// The wheels now; none where they do not settle.
+    pub(crate) fn wheels(&self) -> Vec<WheelReaction> {
+        let equations = Equations::of(&self.scenario, &self.state.rim_speeds);
+        equations.reactions(&self.state.point.state).unwrap_or_default()
     }
 
     /// Turns the wheels at the given speeds for a while. At its beginning they take them at once, and
@@ -158,7 +188,7 @@ impl Run {
         }
         let until = snapped(self.state.time + span, WATCH_PERIOD);
         self.records.truncate(self.kept);
-        let done = self.go_to(is_new_command, until, Some(until));
+        let done = self.go_to(is_new_command, [until, until], Some(until));
         self.record_now();
         done
     }
@@ -206,10 +236,12 @@ impl Run {
     }
 
     /// Goes on under a controller, without a record of where that ends, unless one is due there.
+    ///
+    /// * `until`, `kept_until`: where that ends, and until when one that is asked once keeps its speeds [s]
     fn lead(
         &mut self,
         controller: &mut dyn Controller,
-        until: f64,
+        [until, kept_until]: [f64; 2],
         is_asked: bool,
     ) -> Result<(), RunError> {
         let mut is_asked = is_asked;
@@ -226,11 +258,11 @@ impl Run {
                 self.state.turn(&self.scenario, &told);
             }
             is_asked = true;
-            let next = controller.period().map_or(until, |period| {
+            let [next, kept] = controller.period().map_or([until, kept_until], |period| {
                 let periods = (self.state.time / period).round() + 1.0;
-                (periods * period).min(until)
+                [(periods * period).min(until); 2]
             });
-            led = self.go_to(is_new_command, next, None);
+            led = self.go_to(is_new_command, [next, kept], None);
             self.kept = self.records.len();
         }
         led
@@ -240,7 +272,7 @@ impl Run {
     fn go_to(
         &mut self,
         is_new_command: bool,
-        until: f64,
+        [until, kept_until]: [f64; 2],
         only_at: Option<f64>,
     ) -> Result<(), RunError> {
         let time = self.state.time;
@@ -249,7 +281,9 @@ impl Run {
         let mut is_new_command = is_new_command;
         for end in ends {
             is_new_command |= self.state.follow_yaw(&self.scenario);
-            self.leg(is_new_command, end, only_at).go_to(end)?;
+            // A prescribed yaw may turn otherwise where this stretch ends.
+            let kept_until = if end < until { end } else { kept_until };
+            self.leg(is_new_command, kept_until, only_at).go_to(end)?;
             if self.state.outcome.is_some() {
                 break;
             }

@@ -78,6 +78,12 @@ impl State {
         &self.rim_speeds
     }
 
+    /// Work of the motors so far [J].
+    #[must_use]
+    pub fn motor_work(&self) -> f64 {
+        self.point.motors
+    }
+
     /// What became of the rover, if that is known already.
     #[must_use]
     pub fn outcome(&self) -> Option<&Outcome> {

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of each layer, from the foundations up.
-const LAYERS: [&[&str]; 6] = [
+const LAYERS: [&[&str]; 7] = [
     &[
         "units",
         "error",
@@ -23,11 +23,12 @@ const LAYERS: [&[&str]; 6] = [
     &["contact"],
     &["vehicle"],
     &["simulation"],
+    &["mission"],
     &["studies"],
     &["document"],
 ];
-const STUDIES: usize = 4;
-const IO: usize = 5;
+const STUDIES: usize = 5;
+const IO: usize = 6;
 
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq)]

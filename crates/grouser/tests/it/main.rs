@@ -26,6 +26,7 @@ mod measured;
 mod measurements;
 mod messages;
 mod million;
+mod mission;
 mod mounts;
 mod paper;
 mod priors;

@@ -197,7 +197,6 @@ fn mean_error(place: usize, samples: usize, settings: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::deg;
 
     #[test]
     fn a_way_is_rounded_down_to_what_can_be_driven() {

@@ -1,0 +1,24 @@
+//! Layer 4, missions: legs that a rover drives one after the other, and limits at which it stops.
+//!
+//! A [`Mission`] is a plan: a [`Scenario`](crate::simulation::Scenario) for rover, ground and start, and [`Leg`]s, each with
+//! a [`Manoeuvre`]. A [`MissionRun`] drives it with one [`Run`](crate::simulation::Run), a `pilot` for each manoeuvre. After
+//! every control period an `odometer` says how far the rover came, and the [`Stop`]s are looked at: one that is passed ends
+//! the leg, and is a value like every other outcome.
+//!
+//! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the Mars Exploration Rovers.
+
+mod driven;
+mod look_ahead;
+mod odometer;
+mod pilot;
+mod plan;
+mod report;
+mod run;
+mod stop;
+mod turn;
+
+pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
+pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
+pub use report::{BackOut, LegOutcome, LegReport, MissionReport};
+pub use run::{MissionError, MissionRun};
+pub use stop::{Cause, Kind, Limited, Stop, Stopped, Then};

@@ -1,0 +1,136 @@
+//! How far a rover came in a leg: over the ground, and by its rims.
+
+use std::collections::VecDeque;
+
+use crate::units::Vec2;
+use crate::vehicle::RoverState;
+
+/// Ways since a leg began, and the last metres of them.
+#[derive(Clone, Debug)]
+pub(super) struct Odometer {
+    time: f64,
+    now: Mark,
+    /// Looks of the last metres, the oldest first.
+    marks: VecDeque<Mark>,
+    /// The way of the rims that is remembered [m].
+    remembered: f64,
+}
+
+/// Where a rover was.
+#[derive(Clone, Copy, Debug)]
+struct Mark {
+    place: Vec2,
+    /// Way over the ground [m].
+    ground: f64,
+    /// Way of the rims, mean of all wheels [m].
+    rims: f64,
+}
+
+impl Mark {
+    fn toward(self, later: Self, share: f64) -> Self {
+        Self {
+            place: self.place + (later.place - self.place) * share,
+            ground: self.ground + (later.ground - self.ground) * share,
+            rims: self.rims + (later.rims - self.rims) * share,
+        }
+    }
+}
+
+/// What was seen over the last metres of the rims' way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seen {
+    /// Slip ratio over it [-].
+    pub(super) slip_ratio: f64,
+    /// Way straight down the slope [m].
+    pub(super) drift: f64,
+}
+
+impl Odometer {
+    /// * `remembered`: the longest way of the rims that will be asked for [m]
+    pub(super) fn new(time: f64, state: &RoverState, remembered: f64) -> Self {
+        let now = Mark { place: state.position, ground: 0.0, rims: 0.0 };
+        Self { time, now, marks: VecDeque::from([now]), remembered }
+    }
+
+    /// Looks at a rover whose rims had the same speeds since the last look [m/s].
+    pub(super) fn look(&mut self, time: f64, state: &RoverState, rim_speeds: &[f64]) {
+        let mean =
+            rim_speeds.iter().map(|speed| speed.abs()).sum::<f64>() / rim_speeds.len() as f64;
+        let gone = (state.position - self.now.place).norm();
+        self.now = Mark {
+            place: state.position,
+            ground: self.now.ground + gone,
+            rims: self.now.rims + mean * (time - self.time),
+        };
+        self.time = time;
+        self.marks.push_back(self.now);
+        // One mark at or before the way that is remembered stays.
+        let old = self.now.rims - self.remembered;
+        while self.marks.get(1).is_some_and(|second| second.rims <= old) {
+            self.marks.pop_front();
+        }
+    }
+
+    /// Way over the ground [m].
+    pub(super) fn ground(&self) -> f64 {
+        self.now.ground
+    }
+
+    /// Way of the rims [m].
+    pub(super) fn rims(&self) -> f64 {
+        self.now.rims
+    }
+
+    /// The last metres of the rims' way; nothing before they have gone so far.
+    ///
+    /// * `over`: how many [m], at most those that are remembered
+    pub(super) fn over(&self, over: f64) -> Option<Seen> {
+        let from = self.now.rims - over;
+        if from < 0.0 {
+            return None;
+        }
+        let later = self.marks.partition_point(|mark| mark.rims <= from);
+        let before = *self.marks.get(later.checked_sub(1)?)?;
+        let start = match self.marks.get(later) {
+            Some(after) if after.rims > before.rims => {
+                before.toward(*after, (from - before.rims) / (after.rims - before.rims))
+            }
+            _ => before,
+        };
+        Some(Seen {
+            slip_ratio: 1.0 - (self.now.ground - start.ground) / over,
+            drift: start.place.y - self.now.place.y,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: f64, y: f64) -> RoverState {
+        RoverState { position: Vec2::new(x, y), ..RoverState::default() }
+    }
+
+    /// Closed form: half of the rims' way along, a tenth of it down.
+    #[test]
+    fn slip_and_drift_are_those_of_the_last_metres() {
+        let mut odometer = Odometer::new(0.0, &at(0.0, 0.0), 1.0);
+        for step in 1..=40_u32 {
+            let time = 0.7 * f64::from(step);
+            odometer.look(time, &at(0.03 * time, -0.006 * time), &[0.06, -0.06]);
+            let rims = 0.06 * time;
+            assert!((odometer.rims() - rims).abs() < 1e-12);
+            let seen = odometer.over(1.0);
+            if rims < 1.0 {
+                assert_eq!(seen, None);
+            } else {
+                let seen = seen.expect("a metre was gone");
+                let way = f64::hypot(0.5, 0.1);
+                assert!((seen.slip_ratio - (1.0 - way)).abs() < 1e-12, "{seen:?}");
+                assert!((seen.drift - 0.1).abs() < 1e-12, "{seen:?}");
+            }
+        }
+        assert!(odometer.marks.len() < 30, "what is too old is forgotten");
+    }
+}

@@ -1,0 +1,242 @@
+//! What a rover is to drive: legs and their manoeuvres.
+
+use super::stop::Stop;
+use crate::error::{ParameterError, finite, not_negative, positive};
+use crate::simulation::Scenario;
+use crate::units::Vec2;
+
+/// A rover on its ground, and the legs that it is to drive there.
+///
+/// How far does a rover come, and where does it end, that drives two metres across a slope of 10°, turns by 90° to its
+/// left on the spot and goes back a metre?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::mission::{Leg, Manoeuvre, Mission, MissionRun};
+/// use grouser_core::units::deg;
+///
+/// let legs = vec![
+///     Leg { yaw: Some(deg(5.0)), ..Leg::new(Manoeuvre::drive(2.0)) },
+///     Leg::new(Manoeuvre::Turn { angle: deg(90.0) }),
+///     Leg::new(Manoeuvre::drive(-1.0)),
+/// ];
+/// let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new() };
+/// let report = MissionRun::new(&mission)?.to_end()?;
+/// let distances: Vec<String> =
+///     report.legs.iter().map(|leg| format!("{:.2}", leg.distance)).collect();
+/// assert_eq!([&*distances[0], &*distances[2]], ["2.00", "1.00"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mission {
+    /// Rover, ground, model, and how the run is computed. Of its start, the yaw holds where the first leg has none; its
+    /// drive and its duration count for nothing.
+    pub scenario: Scenario,
+    /// The legs, in their order.
+    pub legs: Vec<Leg>,
+    /// Limits of every leg that has none of its own for the same number.
+    pub stops: Vec<Stop>,
+}
+
+/// One leg of a mission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg {
+    /// What the rover does.
+    pub manoeuvre: Manoeuvre,
+    /// Speed of the rims, *ω r_s* [m/s], above 0: which way they turn is the manoeuvre's.
+    pub speed: f64,
+    /// The yaw, *γ* [rad], before the manoeuvre: that of the start for a first leg, turned to on the spot for another.
+    pub yaw: Option<f64>,
+    /// What is held on the way.
+    pub heading: Heading,
+    /// Limits of this leg alone.
+    pub stops: Vec<Stop>,
+    /// How far ahead the way is simulated before it is driven [m]: where a limit would be passed, the rover stops before.
+    pub look_ahead: Option<f64>,
+}
+
+/// What a rover does in a leg.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Manoeuvre {
+    /// It drives for a distance.
+    Drive {
+        /// How far [m]; below 0 backward.
+        distance: f64,
+        /// What the distance is measured by.
+        by: Measure,
+    },
+    /// It turns on the spot.
+    Turn {
+        /// By how much [rad], positive to the left.
+        angle: f64,
+    },
+    /// It drives along a circle.
+    Arc {
+        /// Radius of the circle of its centre of mass [m].
+        radius: f64,
+        /// How far it turns [rad], positive to the left.
+        angle: f64,
+        /// Whether it drives backward.
+        reverse: bool,
+    },
+    /// It drives to a place.
+    Goto {
+        /// Where, in the slope frame [m].
+        place: Vec2,
+        /// How near is near enough [m].
+        within: f64,
+        /// Whether it drives backward.
+        reverse: bool,
+    },
+    /// It stands.
+    Wait {
+        /// How long [s].
+        time: f64,
+    },
+}
+
+/// What a distance is measured by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// The way of the centre of mass over the ground.
+    #[default]
+    Ground,
+    /// The way of the rims, mean of all wheels: more than that over the ground where they slip.
+    Odometry,
+}
+
+/// What a rover holds while it drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Heading {
+    /// Nothing: its wheels keep one speed.
+    #[default]
+    Free,
+    /// The yaw with which the leg began.
+    Hold,
+    /// The height on the slope at which the leg began: the nose is turned uphill as far as that needs.
+    Contour,
+    /// The nose towards a place [m], or the tail where it drives backward.
+    Toward(Vec2),
+}
+
+/// The usual speed of the rims [m/s]. Source: [FourWheel], section 5.2.
+const USUAL_SPEED: f64 = 0.06;
+
+/// The most legs of a mission. Source: ours; a day of a rover has dozens.
+const MOST_LEGS: usize = 10_000;
+
+/// A leg that no rover can drive.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("leg {leg}: {source}")]
+pub struct PlanError {
+    /// Its number, counted from 1; 0 for the mission.
+    pub leg: usize,
+    /// What is wrong.
+    pub source: ParameterError,
+}
+
+impl Manoeuvre {
+    /// A drive that is measured over the ground.
+    ///
+    /// * `distance`: how far [m]; below 0 backward
+    #[must_use]
+    pub fn drive(distance: f64) -> Self {
+        Self::Drive { distance, by: Measure::Ground }
+    }
+
+    /// Which way the wheels turn: 1 forward, -1 backward, 0 where they stand or turn against each other.
+    #[must_use]
+    pub fn direction(&self) -> f64 {
+        let backward = match self {
+            Self::Drive { distance, .. } => *distance < 0.0,
+            Self::Arc { reverse, .. } | Self::Goto { reverse, .. } => *reverse,
+            Self::Turn { .. } | Self::Wait { .. } => return 0.0,
+        };
+        if backward { -1.0 } else { 1.0 }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        match self {
+            Self::Drive { distance, .. } => finite("distance [m]", *distance),
+            Self::Turn { angle } => finite("angle of a turn [rad]", *angle),
+            Self::Arc { radius, angle, .. } => {
+                positive("radius of an arc [m]", *radius)?;
+                finite("angle of an arc [rad]", *angle)
+            }
+            Self::Goto { place, within, .. } => {
+                finite("x of a waypoint [m]", place.x)?;
+                finite("y of a waypoint [m]", place.y)?;
+                positive("nearness to a waypoint [m]", *within)
+            }
+            Self::Wait { time } => not_negative("time to wait [s]", *time),
+        }
+    }
+}
+
+impl Leg {
+    /// A leg at the usual speed of 6 cm/s, without limits of its own.
+    #[must_use]
+    pub fn new(manoeuvre: Manoeuvre) -> Self {
+        Self {
+            manoeuvre,
+            speed: USUAL_SPEED,
+            yaw: None,
+            heading: Heading::Free,
+            stops: Vec::new(),
+            look_ahead: None,
+        }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.manoeuvre.check()?;
+        positive("rim speed of a leg [m/s]", self.speed)?;
+        self.yaw.map_or(Ok(()), |yaw| finite("yaw of a leg [rad]", yaw))?;
+        self.look_ahead.map_or(Ok(()), |way| positive("way that is looked ahead [m]", way))?;
+        if let Heading::Toward(place) = self.heading {
+            finite("x of the place ahead [m]", place.x)?;
+            finite("y of the place ahead [m]", place.y)?;
+        }
+        let is_drive = matches!(self.manoeuvre, Manoeuvre::Drive { .. });
+        if self.heading != Heading::Free && !is_drive {
+            let expected =
+                "left out: it goes with a drive; turns, arcs, waypoints and waits have their own";
+            return Err(ParameterError::new("heading of a leg", 1.0, expected));
+        }
+        self.stops.iter().try_for_each(Stop::check)
+    }
+}
+
+impl Mission {
+    /// That there can be such a mission.
+    ///
+    /// # Errors
+    /// [`PlanError`] for the first leg that is wrong.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let whole = |source| PlanError { leg: 0, source };
+        if self.legs.is_empty() || self.legs.len() > MOST_LEGS {
+            let expected = "1 to 10000";
+            return Err(whole(ParameterError::new(
+                "number of legs",
+                self.legs.len() as f64,
+                expected,
+            )));
+        }
+        self.stops.iter().try_for_each(Stop::check).map_err(whole)?;
+        let mut legs = self.legs.iter().enumerate();
+        legs.try_for_each(|(place, leg)| {
+            leg.check().map_err(|source| PlanError { leg: place + 1, source })
+        })?;
+        if self.scenario.yaw.is_some() {
+            let expected = "left out: legs have headings";
+            return Err(whole(ParameterError::new("yaw over time", 1.0, expected)));
+        }
+        self.scenario.check().map_err(whole)
+    }
+
+    /// The limits of a leg: its own, and those of the mission for other numbers.
+    pub(super) fn stops_of(&self, leg: &Leg) -> Vec<Stop> {
+        let is_own = |stop: &Stop| leg.stops.iter().any(|own| own.limited == stop.limited);
+        let shared = self.stops.iter().filter(|stop| !is_own(stop));
+        leg.stops.iter().chain(shared).copied().collect()
+    }
+}

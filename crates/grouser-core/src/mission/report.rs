@@ -1,0 +1,94 @@
+//! What became of a mission and of its legs.
+
+use super::stop::Stopped;
+use crate::simulation::{Outcome, Record};
+
+/// What became of a leg.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LegOutcome {
+    /// The rover did what the leg says.
+    Completed,
+    /// It passed a limit.
+    Stopped(Stopped),
+    /// It got stuck, slid or tipped over.
+    Ended(Outcome),
+}
+
+/// A leg that was driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LegReport {
+    /// What became of it.
+    pub outcome: LegOutcome,
+    /// Way over the ground in the manoeuvre [m]; a turn to the leg's yaw before it does not count.
+    pub distance: f64,
+    /// How long it took, with the turn before it [s].
+    pub time: f64,
+    /// Work of the motors, with the turn before it [J].
+    pub energy: f64,
+    /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of drives, arcs and ways to
+    /// places alone.
+    pub slip_ratio: Option<f64>,
+    /// The way back out of it, if there was one.
+    pub back_out: Option<BackOut>,
+}
+
+/// A way back after a stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BackOut {
+    /// What ended it, if it did not reach its end.
+    pub ended: Option<Outcome>,
+    /// Way over the ground [m].
+    pub distance: f64,
+    /// How long it took [s].
+    pub time: f64,
+    /// Work of the motors [J].
+    pub energy: f64,
+}
+
+/// A mission that was driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissionReport {
+    /// The legs that were begun.
+    pub legs: Vec<LegReport>,
+    /// The rover over time; the last one is where the mission ended.
+    pub records: Vec<Record>,
+}
+
+impl LegOutcome {
+    /// One word: `completed`, `stopped`, or that of an [`Outcome`].
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Stopped(_) => "stopped",
+            Self::Ended(outcome) => outcome.name(),
+        }
+    }
+}
+
+impl MissionReport {
+    /// What became of the mission: the outcome of its last leg, and of the way back out of it.
+    #[must_use]
+    pub fn outcome(&self) -> &'static str {
+        let Some(last) = self.legs.last() else { return LegOutcome::Completed.name() };
+        let ended = last.back_out.as_ref().and_then(|back| back.ended.as_ref());
+        ended.map_or_else(|| last.outcome.name(), Outcome::name)
+    }
+
+    /// The rover where the mission ended.
+    ///
+    /// # Panics
+    /// Never: there always is a record of the start.
+    #[must_use]
+    pub fn last(&self) -> &Record {
+        self.records.last().expect("a mission has a record of its start")
+    }
+
+    /// Work of the motors in all legs [J].
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        let of_leg =
+            |leg: &LegReport| leg.energy + leg.back_out.as_ref().map_or(0.0, |back| back.energy);
+        self.legs.iter().map(of_leg).sum()
+    }
+}

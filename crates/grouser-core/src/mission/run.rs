@@ -1,0 +1,248 @@
+//! A mission on its way.
+
+use super::driven::{Driven, End, Goal};
+use super::look_ahead::Ahead;
+use super::pilot::{Path, Pilot, line_of, turned};
+use super::plan::{Leg, Manoeuvre, Measure, Mission, PlanError};
+use super::report::{BackOut, LegOutcome, LegReport, MissionReport};
+use super::stop::Then;
+use crate::simulation::{Method, Record, Run, RunError, Scenario, Start};
+use crate::vehicle::{Mount, RoverState};
+
+/// A mission, as far as it has come.
+///
+/// A clone goes on as the original would, bit for bit.
+#[derive(Clone)]
+pub struct MissionRun {
+    mission: Mission,
+    run: Run,
+    reports: Vec<LegReport>,
+    is_over: bool,
+}
+
+/// A turn on the spot to the yaw of a leg is left out below this [rad]: 0.1°. Source: ours.
+const SAME_YAW: f64 = 1.75e-3;
+/// A rover turns on the spot towards a place that is further off its nose than this [rad]: 15°. Source: ours.
+const OFF_NOSE: f64 = 0.262;
+
+/// Why a mission could not be computed. (What a rover does is an outcome, not an error.)
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MissionError {
+    /// A leg is none.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The motion could not be computed.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl MissionRun {
+    /// A mission at its start.
+    ///
+    /// # Errors
+    /// [`MissionError`] if there can be no such mission, or its start cannot be computed.
+    pub fn new(mission: &Mission) -> Result<Self, MissionError> {
+        mission.check()?;
+        let first = &mission.legs[0];
+        let start = &mission.scenario.start;
+        let start = Start { yaw: first.yaw.unwrap_or(start.yaw), ..*start };
+        let scenario = Scenario { start, ..mission.scenario.clone() };
+        let state = RoverState { yaw: start.yaw, ..RoverState::default() };
+        let mut pilot = match turn_before(first, &state, true) {
+            Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed),
+            None => Pilot::of_leg(first, &state),
+        };
+        let run = Run::with_controller(&scenario, &mut pilot)?;
+        Ok(Self { mission: mission.clone(), run, reports: Vec::new(), is_over: false })
+    }
+
+    /// Drives the mission to its end.
+    ///
+    /// # Errors
+    /// [`RunError`] where the motion cannot be computed.
+    pub fn to_end(mut self) -> Result<MissionReport, RunError> {
+        while self.next_leg()?.is_some() {}
+        Ok(self.finish())
+    }
+
+    /// Drives the next leg; none if the mission is over.
+    ///
+    /// # Errors
+    /// As [`to_end`](Self::to_end).
+    pub fn next_leg(&mut self) -> Result<Option<&LegReport>, RunError> {
+        if self.is_over {
+            return Ok(None);
+        }
+        let place = self.reports.len();
+        let leg = self.mission.legs[place].clone();
+        let report = self.drive(&leg)?;
+        let goes_on = match &report.outcome {
+            LegOutcome::Completed => true,
+            LegOutcome::Stopped(stopped) => stopped.then() == Then::NextLeg,
+            LegOutcome::Ended(_) => false,
+        };
+        self.reports.push(report);
+        self.is_over = !goes_on || self.reports.len() == self.mission.legs.len();
+        Ok(self.reports.last())
+    }
+
+    /// What became of it so far.
+    #[must_use]
+    pub fn finish(mut self) -> MissionReport {
+        self.run.look();
+        MissionReport { legs: self.reports, records: self.run.take_records() }
+    }
+
+    /// The records since they were last taken: a long mission need not keep them all.
+    pub fn take_records(&mut self) -> Vec<Record> {
+        self.run.take_records()
+    }
+
+    /// The rover now.
+    #[must_use]
+    pub fn rover(&self) -> &RoverState {
+        self.run.state().rover()
+    }
+
+    /// Time since the start [s].
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.run.state().time()
+    }
+
+    /// How the motion was computed so far.
+    #[must_use]
+    pub fn method(&self) -> &Method {
+        self.run.state().method()
+    }
+
+    fn drive(&mut self, leg: &Leg) -> Result<LegReport, RunError> {
+        let (time, energy) = (self.time(), self.energy());
+        let is_first = self.reports.is_empty();
+        let stops = self.mission.stops_of(leg);
+        let mut turned_to = End::Reached;
+        if let Some(yaw) = turn_before(leg, self.rover(), is_first) {
+            let pilot = Pilot::to_yaw(yaw, self.rover(), leg.speed);
+            let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - self.rover().yaw, leg));
+            let path = Path::of_leg(leg, self.rover());
+            let mut turn = Driven::new(&self.run, pilot, goal, path, &stops);
+            turned_to = self.drive_on(&mut turn, None)?;
+        }
+        let (mut distance, mut slip_ratio) = (0.0, None);
+        let end = match turned_to {
+            End::Reached => {
+                let pilot = Pilot::of_leg(leg, self.rover());
+                let path = Path::of_leg(leg, self.rover());
+                let mut driven = Driven::new(&self.run, pilot, self.goal(leg), path, &stops);
+                let end = self.drive_on(&mut driven, leg.look_ahead)?;
+                (distance, slip_ratio) = (driven.ground(), driven.slip_ratio());
+                end
+            }
+            other => other,
+        };
+        let (time, energy) = (self.time() - time, self.energy() - energy);
+        let outcome = match end {
+            End::Reached => LegOutcome::Completed,
+            End::Stopped(stopped) => LegOutcome::Stopped(stopped),
+            End::Ended(outcome) => LegOutcome::Ended(outcome),
+        };
+        let back_out = match &outcome {
+            LegOutcome::Stopped(stopped) => match stopped.then() {
+                Then::BackOut(way) => Some(self.back_out(leg, way)?),
+                Then::End | Then::NextLeg => None,
+            },
+            LegOutcome::Completed | LegOutcome::Ended(_) => None,
+        };
+        Ok(LegReport { outcome, distance, time, energy, slip_ratio, back_out })
+    }
+
+    /// Drives against the way of a leg.
+    fn back_out(&mut self, leg: &Leg, way: f64) -> Result<BackOut, RunError> {
+        let (time, energy) = (self.time(), self.energy());
+        let direction = match leg.manoeuvre.direction() {
+            0.0 => -1.0,
+            direction => -direction,
+        };
+        let pilot = Pilot::straight(leg.speed, direction);
+        let path = Path::of_leg(leg, self.rover());
+        let goal = (Goal::Ground(way), way / leg.speed);
+        let mut back = Driven::new(&self.run, pilot, goal, path, &[]);
+        let ended = match self.drive_on(&mut back, None)? {
+            End::Reached | End::Stopped(_) => None,
+            End::Ended(outcome) => Some(outcome),
+        };
+        let distance = back.ground();
+        Ok(BackOut { ended, distance, time: self.time() - time, energy: self.energy() - energy })
+    }
+
+    /// The end of a leg's manoeuvre from here, and how long that would take without slip [s].
+    fn goal(&self, leg: &Leg) -> (Goal, f64) {
+        let state = self.rover();
+        match leg.manoeuvre {
+            Manoeuvre::Drive { distance, by } => {
+                let way = distance.abs();
+                let goal = if by == Measure::Ground { Goal::Ground(way) } else { Goal::Rims(way) };
+                (goal, way / leg.speed)
+            }
+            Manoeuvre::Turn { angle } => {
+                (Goal::Yaw(state.yaw + angle), self.nominal_turn(angle, leg))
+            }
+            Manoeuvre::Arc { radius, angle, .. } => {
+                let way = radius * angle.abs();
+                (Goal::Ground(way), way / leg.speed)
+            }
+            Manoeuvre::Goto { place, within, .. } => {
+                let nominal = (place - state.position).norm() / leg.speed;
+                (Goal::Place { place, within, line: line_of(leg, state) }, nominal)
+            }
+            Manoeuvre::Wait { time } => (Goal::Time(self.time() + time), time),
+        }
+    }
+
+    /// Drives a manoeuvre on to its end, or to the limit or the outcome that ends it before.
+    ///
+    /// * `look_ahead`: way that is simulated before it is driven [m]
+    fn drive_on(&mut self, driven: &mut Driven, look_ahead: Option<f64>) -> Result<End, RunError> {
+        let mut ahead = look_ahead.map(Ahead::new);
+        loop {
+            if let Some(ahead) = &mut ahead
+                && let Some(stopped) = ahead.look(&self.run, driven)?
+            {
+                return Ok(End::Stopped(stopped));
+            }
+            if let Some(end) = driven.step(&mut self.run)? {
+                return Ok(end);
+            }
+        }
+    }
+
+    fn energy(&self) -> f64 {
+        self.run.state().motor_work()
+    }
+
+    /// How long a turn on the spot would take without slip [s].
+    fn nominal_turn(&self, angle: f64, leg: &Leg) -> f64 {
+        let mounts = self.run.scenario().rover.mounts().iter();
+        let reach = mounts.map(|mount: &Mount| mount.position.y.abs()).fold(0.0, f64::max);
+        reach * angle.abs() / leg.speed
+    }
+}
+
+/// The yaw to which a rover turns on the spot before a leg, if it does.
+fn turn_before(leg: &Leg, state: &RoverState, is_first: bool) -> Option<f64> {
+    let yaw = match (leg.yaw, leg.manoeuvre) {
+        // The first leg begins with its yaw.
+        (Some(_), _) if is_first => return None,
+        (Some(yaw), _) => yaw,
+        (None, Manoeuvre::Goto { .. }) => {
+            let nose = line_of(leg, state).yaw();
+            if (nose - state.yaw).abs() < OFF_NOSE {
+                return None;
+            }
+            nose
+        }
+        (None, _) => return None,
+    };
+    let angle = turned(yaw - state.yaw);
+    (angle.abs() > SAME_YAW).then_some(state.yaw + angle)
+}
