@@ -1,7 +1,8 @@
 //! A manoeuvre under way: what is left of it, how far it came, and whether a limit is passed.
 
-use super::odometer::Odometer;
+use super::odometer::{Odometer, mean_speed};
 use super::pilot::{Line, Path, Pilot};
+use super::plan::Leg;
 use super::stop::{Cause, Limited, Stop, Stopped};
 use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
@@ -54,13 +55,13 @@ pub(super) struct Driven {
 impl Driven {
     /// A manoeuvre that begins here.
     ///
-    /// * `path`: what it is meant to stay on
+    /// * `leg`: whose path it is meant to stay on
     /// * `nominal`: how long it would take without slip [s]
     pub(super) fn new(
         run: &Run,
         pilot: Pilot,
         (goal, nominal): (Goal, f64),
-        path: Path,
+        leg: &Leg,
         stops: &[Stop],
     ) -> Self {
         let mut stops = stops.to_vec();
@@ -75,7 +76,7 @@ impl Driven {
             odometer: Odometer::new(state.time(), state.rover(), remembered),
             goal,
             stops,
-            path,
+            path: Path::of_leg(leg, state.rover()),
             start_time: state.time(),
             start_work: state.motor_work(),
         }
@@ -141,11 +142,7 @@ impl Driven {
         let state = run.state().rover();
         match self.goal {
             Goal::Ground(way) => (way - self.odometer.ground(), state.velocity.norm()),
-            Goal::Rims(way) => {
-                let rims = run.state().rim_speeds();
-                let mean = rims.iter().map(|speed| speed.abs()).sum::<f64>() / rims.len() as f64;
-                (way - self.odometer.rims(), mean)
-            }
+            Goal::Rims(way) => (way - self.odometer.rims(), mean_speed(run.state().rim_speeds())),
             Goal::Yaw(yaw) => {
                 let error = yaw - state.yaw;
                 (error.abs(), error.signum() * state.yaw_rate)

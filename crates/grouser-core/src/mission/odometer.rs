@@ -54,13 +54,11 @@ impl Odometer {
 
     /// Looks at a rover whose rims had the same speeds since the last look [m/s].
     pub(super) fn look(&mut self, time: f64, state: &RoverState, rim_speeds: &[f64]) {
-        let mean =
-            rim_speeds.iter().map(|speed| speed.abs()).sum::<f64>() / rim_speeds.len() as f64;
         let gone = (state.position - self.now.place).norm();
         self.now = Mark {
             place: state.position,
             ground: self.now.ground + gone,
-            rims: self.now.rims + mean * (time - self.time),
+            rims: self.now.rims + mean_speed(rim_speeds) * (time - self.time),
         };
         self.time = time;
         self.marks.push_back(self.now);
@@ -102,6 +100,11 @@ impl Odometer {
             drift: start.place.y - self.now.place.y,
         })
     }
+}
+
+/// Mean speed of rims, whichever way they turn [m/s].
+pub(super) fn mean_speed(rim_speeds: &[f64]) -> f64 {
+    rim_speeds.iter().map(|speed| speed.abs()).sum::<f64>() / rim_speeds.len() as f64
 }
 
 #[cfg(test)]

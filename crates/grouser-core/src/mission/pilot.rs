@@ -34,6 +34,7 @@ pub const MOST_CROSS_YAW: f64 = std::f64::consts::FRAC_PI_4;
 /// The most that a side is slowed down or sped up on the way, over the speed of the rims [-]. Source: ours; wheels never
 /// turn backward in a drive.
 const MOST_STEER: f64 = 0.75;
+
 /// Turns the wheels in one manoeuvre.
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
@@ -47,7 +48,6 @@ pub(super) struct Pilot {
     /// Integrals of the errors of yaw [rad s] and of the distance to the line [m s].
     yaw_integral: f64,
     cross_integral: f64,
-    turn: Turn,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +55,7 @@ enum Law {
     /// All rims at one speed.
     Steady,
     /// On the spot.
-    Turn,
+    Turn(Turn),
     /// A yaw is held [rad].
     Hold { yaw: f64 },
     /// The nose, or the tail, is held towards a place.
@@ -125,23 +125,14 @@ impl Line {
 
 impl Pilot {
     fn new(law: Law, speed: f64, direction: f64) -> Self {
-        let turn = Turn::default();
-        Self { law, speed, direction, gone: 0.0, yaw_integral: 0.0, cross_integral: 0.0, turn }
-    }
-
-    /// * `yaw`: the one to turn to [rad]
-    fn turning(yaw: f64, state: &RoverState, speed: f64) -> Self {
-        let turn = Turn::new(yaw, state);
-        Self { turn, ..Self::new(Law::Turn, speed, 0.0) }
+        Self { law, speed, direction, gone: 0.0, yaw_integral: 0.0, cross_integral: 0.0 }
     }
 
     /// For the manoeuvre of a leg that begins here.
     pub(super) fn of_leg(leg: &Leg, state: &RoverState) -> Self {
         let (direction, yaw) = (leg.manoeuvre.direction(), state.yaw);
         let law = match (leg.manoeuvre, leg.heading) {
-            (Manoeuvre::Turn { angle }, _) => {
-                return Self::turning(yaw + angle, state, leg.speed);
-            }
+            (Manoeuvre::Turn { angle }, _) => Law::Turn(Turn::new(yaw + angle, state)),
             (Manoeuvre::Arc { radius, angle, .. }, _) => Law::Circle { yaw, radius, angle },
             (Manoeuvre::Goto { .. }, _) | (_, Heading::Contour) => Law::Follow(line_of(leg, state)),
             (_, Heading::Hold) => Law::Hold { yaw },
@@ -153,7 +144,7 @@ impl Pilot {
 
     /// For a turn on the spot to a yaw [rad].
     pub(super) fn to_yaw(yaw: f64, state: &RoverState, speed: f64) -> Self {
-        Self::turning(yaw, state, speed)
+        Self::new(Law::Turn(Turn::new(yaw, state)), speed, 0.0)
     }
 
     /// For a way straight on, with all rims at one speed.
@@ -169,20 +160,18 @@ impl Pilot {
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
     fn steer(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
         let forward = self.direction * self.speed;
-        let yaw = match self.law {
+        let (yaw, ahead) = match &mut self.law {
             Law::Steady => return (0.0, forward),
-            Law::Turn => return self.turn.steer(state, slope, [self.speed, reach]),
-            Law::Hold { yaw } => yaw,
-            Law::Toward { place } => {
-                let ahead = self.direction * (place - state.position);
-                state.yaw + turned(atan2(ahead.y, ahead.x) - state.yaw)
+            Law::Turn(turn) => return turn.steer(state, slope, [self.speed, reach]),
+            Law::Hold { yaw } => (*yaw, 0.0),
+            Law::Toward { place } => (yaw_towards(*place, state, self.direction), 0.0),
+            Law::Follow(line) => {
+                let line = *line;
+                (self.follow(&line, state), 0.0)
             }
-            Law::Follow(line) => self.follow(&line, state),
-            Law::Circle { yaw, radius, angle } => yaw + angle.signum() * self.gone / radius,
-        };
-        let ahead = match self.law {
-            Law::Circle { radius, angle, .. } => angle.signum() * self.speed / radius,
-            _ => 0.0,
+            Law::Circle { yaw, radius, angle } => {
+                (*yaw + angle.signum() * self.gone / *radius, angle.signum() * self.speed / *radius)
+            }
         };
         let most = MOST_STEER * self.speed / reach;
         let error = yaw - state.yaw;
@@ -223,8 +212,7 @@ pub(super) fn line_of(leg: &Leg, state: &RoverState) -> Line {
     let (direction, yaw) = (leg.manoeuvre.direction(), state.yaw);
     if let Manoeuvre::Goto { place, .. } = leg.manoeuvre {
         let along = (place - from).try_normalize(0.0).unwrap_or_else(Vec2::x);
-        let nose = direction * along;
-        return Line { from, along, yaw: yaw + turned(atan2(nose.y, nose.x) - yaw) };
+        return Line { from, along, yaw: yaw_towards(place, state, direction) };
     }
     let (sin, cos) = wide::sin_cos(yaw);
     let ahead = if direction < 0.0 { -Vec2::new(cos, sin) } else { Vec2::new(cos, sin) };
@@ -235,8 +223,14 @@ pub(super) fn line_of(leg: &Leg, state: &RoverState) -> Line {
     Line { from, along, yaw }
 }
 
+/// The yaw, less than half a turn away, at which the nose points to a place, or the tail where the direction is -1 [rad].
+fn yaw_towards(place: Vec2, state: &RoverState, direction: f64) -> f64 {
+    let ahead = direction * (place - state.position);
+    state.yaw + turned(atan2(ahead.y, ahead.x) - state.yaw)
+}
+
 /// The outermost wheel's distance from the middle [m].
-fn reach(mounts: &[Mount]) -> f64 {
+pub(super) fn reach(mounts: &[Mount]) -> f64 {
     mounts.iter().map(|mount| mount.position.y.abs()).fold(f64::MIN_POSITIVE, f64::max)
 }
 

@@ -2,12 +2,12 @@
 
 use super::driven::{Driven, End, Goal};
 use super::look_ahead::Ahead;
-use super::pilot::{Path, Pilot, line_of, turned};
+use super::pilot::{Pilot, line_of, reach, turned};
 use super::plan::{Leg, Manoeuvre, Measure, Mission, PlanError};
 use super::report::{BackOut, LegOutcome, LegReport, MissionReport};
 use super::stop::Then;
 use crate::simulation::{Method, Record, Run, RunError, Scenario, Start};
-use crate::vehicle::{Mount, RoverState};
+use crate::vehicle::RoverState;
 
 /// A mission, as far as it has come.
 ///
@@ -124,16 +124,14 @@ impl MissionRun {
         if let Some(yaw) = turn_before(leg, self.rover(), is_first) {
             let pilot = Pilot::to_yaw(yaw, self.rover(), leg.speed);
             let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - self.rover().yaw, leg));
-            let path = Path::of_leg(leg, self.rover());
-            let mut turn = Driven::new(&self.run, pilot, goal, path, &stops);
+            let mut turn = Driven::new(&self.run, pilot, goal, leg, &stops);
             turned_to = self.drive_on(&mut turn, None)?;
         }
         let (mut distance, mut slip_ratio) = (0.0, None);
         let end = match turned_to {
             End::Reached => {
                 let pilot = Pilot::of_leg(leg, self.rover());
-                let path = Path::of_leg(leg, self.rover());
-                let mut driven = Driven::new(&self.run, pilot, self.goal(leg), path, &stops);
+                let mut driven = Driven::new(&self.run, pilot, self.goal(leg), leg, &stops);
                 let end = self.drive_on(&mut driven, leg.look_ahead)?;
                 (distance, slip_ratio) = (driven.ground(), driven.slip_ratio());
                 end
@@ -164,9 +162,8 @@ impl MissionRun {
             direction => -direction,
         };
         let pilot = Pilot::straight(leg.speed, direction);
-        let path = Path::of_leg(leg, self.rover());
         let goal = (Goal::Ground(way), way / leg.speed);
-        let mut back = Driven::new(&self.run, pilot, goal, path, &[]);
+        let mut back = Driven::new(&self.run, pilot, goal, leg, &[]);
         let ended = match self.drive_on(&mut back, None)? {
             End::Reached | End::Stopped(_) => None,
             End::Ended(outcome) => Some(outcome),
@@ -222,9 +219,7 @@ impl MissionRun {
 
     /// How long a turn on the spot would take without slip [s].
     fn nominal_turn(&self, angle: f64, leg: &Leg) -> f64 {
-        let mounts = self.run.scenario().rover.mounts().iter();
-        let reach = mounts.map(|mount: &Mount| mount.position.y.abs()).fold(0.0, f64::max);
-        reach * angle.abs() / leg.speed
+        reach(self.run.scenario().rover.mounts()) * angle.abs() / leg.speed
     }
 }
 

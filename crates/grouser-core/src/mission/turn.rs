@@ -29,7 +29,7 @@ const EXPECTED_DRIFT: f64 = 1.0;
 const EXPECTED_COUNTS: f64 = 0.05;
 
 /// A turn under way.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     /// The yaw at its end [rad].
     yaw: f64,
@@ -38,8 +38,6 @@ pub(super) struct Turn {
     shift: f64,
     /// Place and yaw at the last look.
     last: (Vec2, f64),
-    /// Sine of the slope, as an inclinometer has it [-].
-    steepness: f64,
     /// Sums of cos γ times the drift across [m], and of cos² γ |dγ| [rad], while it turned.
     drift: f64,
     judged: f64,
@@ -48,12 +46,12 @@ pub(super) struct Turn {
 impl Turn {
     pub(super) fn new(yaw: f64, state: &RoverState) -> Self {
         let (place, last) = (state.position, (state.position, state.yaw));
-        Self { yaw, place, last, ..Self::default() }
+        Self { yaw, place, shift: 0.0, last, drift: 0.0, judged: 0.0 }
     }
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
     ///
-    /// * `slope`: *α* [rad]
+    /// * `slope`: *α* [rad], as an inclinometer has it
     /// * `speed`: of the rims [m/s]
     /// * `reach`: the outermost wheel's distance from the middle [m]
     pub(super) fn steer(
@@ -62,9 +60,8 @@ impl Turn {
         slope: f64,
         [speed, reach]: [f64; 2],
     ) -> (f64, f64) {
-        self.steepness = wide::sin(slope);
         self.look(state);
-        let way = self.way_to_shift(state);
+        let way = self.way_to_shift(state, wide::sin(slope));
         if self.shift == 0.0 && way.abs() > TRIGGER {
             self.shift = way.signum();
         }
@@ -91,14 +88,16 @@ impl Turn {
     }
 
     /// The way along the nose that leads to the better place [m].
-    fn way_to_shift(&self, state: &RoverState) -> f64 {
+    ///
+    /// * `steepness`: sine of the slope [-]
+    fn way_to_shift(&self, state: &RoverState, steepness: f64) -> f64 {
         let (sin, cos) = wide::sin_cos(state.yaw);
         let along = Vec2::new(cos, sin);
         let (end_sin, end_cos) = wide::sin_cos(self.yaw);
         let across_at_end = Vec2::new(-end_sin, end_cos);
         let off = state.position - self.place;
         let share = across_at_end.dot(&along);
-        let there = across_at_end.dot(&(off + self.drift_to_come(state.yaw)));
+        let there = across_at_end.dot(&(off + self.drift_to_come(state.yaw, steepness)));
         let best = -(share * there + NOW * along.dot(&off)) / (share * share + NOW);
         // Within the circle around the place, as far as the nose leads into it.
         let (foot, aside) = (-along.dot(&off), along.perp(&off));
@@ -107,14 +106,14 @@ impl Turn {
     }
 
     /// Drift from a yaw [rad] to the end of the turn [m].
-    fn drift_to_come(&self, yaw: f64) -> Vec2 {
+    fn drift_to_come(&self, yaw: f64, steepness: f64) -> Vec2 {
         // ∫ sin γ cos γ dγ and ∫ cos² γ dγ
         let integrals = |yaw: f64| {
             let (sin, cos) = wide::sin_cos(yaw);
             Vec2::new(0.5 * sin * sin, -0.5 * (yaw + sin * cos))
         };
         let sense = (self.yaw - yaw).signum();
-        let expected = EXPECTED_COUNTS * EXPECTED_DRIFT * self.steepness;
+        let expected = EXPECTED_COUNTS * EXPECTED_DRIFT * steepness;
         let drift = (self.drift + expected) / (self.judged + EXPECTED_COUNTS);
         sense * drift * (integrals(self.yaw) - integrals(yaw))
     }

@@ -19,7 +19,7 @@ use super::power;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use crate::contact::WheelForces;
 use crate::units::Vec2;
-use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::kinematics::{rolling_velocity, wheel_slips};
 use crate::vehicle::state::rotation;
 use crate::vehicle::{Mount, WheelReaction};
 
@@ -386,10 +386,9 @@ pub(super) fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
 ///
 /// * `mean`: of the hubs [m]
 fn rolling_steered(mounts: &[Mount], rims: &[f64], mean: Vec2) -> Vector3<f64> {
-    let count = rims.len() as f64;
     let rolled = |mount: &Mount, rim: f64| mount.body_from_wheel(Vec2::new(rim, 0.0));
     let velocities = mounts.iter().zip(rims).map(|(mount, rim)| rolled(mount, *rim));
-    let mean_velocity = velocities.clone().sum::<Vec2>() / count;
+    let mean_velocity = rolling_velocity(mounts, rims);
     let (mut turning, mut spread) = (0.0, 0.0);
     for (mount, velocity) in mounts.iter().zip(velocities) {
         let arm = mount.position.xy() - mean;

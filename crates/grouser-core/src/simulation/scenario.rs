@@ -7,10 +7,8 @@ use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::soil::SlopeStability;
-use crate::units::Vec2;
-use crate::vehicle::{
-    ByWheel, Differences, DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState,
-};
+use crate::vehicle::kinematics::rolling_velocity;
+use crate::vehicle::{ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Rover, RoverState};
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
 ///
@@ -208,11 +206,7 @@ impl Scenario {
         match self.start.motion {
             Motion::Rest => at_rest,
             Motion::Rolling => {
-                let count = rim_speeds.len() as f64;
-                let along =
-                    |(mount, rim): (&Mount, &f64)| mount.body_from_wheel(Vec2::new(*rim, 0.0));
-                let sum: Vec2 = self.rover.mounts().iter().zip(rim_speeds).map(along).sum();
-                let velocity = ROLLING_SHARE * (sum / count);
+                let velocity = ROLLING_SHARE * rolling_velocity(self.rover.mounts(), rim_speeds);
                 RoverState { velocity, ..at_rest }
             }
         }

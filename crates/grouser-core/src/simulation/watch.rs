@@ -2,9 +2,8 @@
 
 use super::outcome::{Outcome, StuckBecause};
 use super::scenario::Scenario;
-use crate::units::Vec2;
-use crate::vehicle::kinematics::wheel_velocity;
-use crate::vehicle::{Mount, RoverState};
+use crate::vehicle::RoverState;
+use crate::vehicle::kinematics::{rolling_velocity, wheel_velocity};
 
 /// Time between two looks at what becomes of the rover [s]: however rarely samples are recorded, a
 /// finding is found. Source: ours, a tenth of [`CERTAIN_AFTER`].
@@ -43,8 +42,9 @@ impl Watch {
     ) -> Option<Outcome> {
         let rim_sum: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
         let fastest_rim = rim_speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
-        let rolled = rolled_downhill(scenario, state, rim_speeds);
-        let slid = -state.velocity_slope().y - rolled.max(0.0);
+        let rolled = rolling_velocity(scenario.rover.mounts(), rim_speeds);
+        let rolled_downhill = -(state.slope_from_body() * rolled).y;
+        let slid = -state.velocity_slope().y - rolled_downhill.max(0.0);
         let sliding = slid > fastest_rim.max(SLIDING_SPEED);
 
         let turning = rim_speeds.iter().zip(slip_ratios).filter(|(rim, _)| **rim != 0.0);
@@ -78,13 +78,4 @@ impl Watch {
             None
         }
     }
-}
-
-/// Speed straight down the slope of wheels that roll without slip, mean of all [m/s].
-fn rolled_downhill(scenario: &Scenario, state: &RoverState, rim_speeds: &[f64]) -> f64 {
-    let mounts = scenario.rover.mounts();
-    let along = |(mount, rim): (&Mount, &f64)| mount.body_from_wheel(Vec2::new(*rim, 0.0));
-    let sum: Vec2 = mounts.iter().zip(rim_speeds).map(along).sum();
-    let mean = sum / mounts.len() as f64;
-    -(state.slope_from_body() * mean).y
 }

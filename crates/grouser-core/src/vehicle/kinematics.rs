@@ -19,6 +19,16 @@ pub fn wheel_velocity(state: &RoverState, mount: &Mount) -> Vec2 {
     mount.wheel_from_body(hub_velocity(state, mount.position.xy()))
 }
 
+/// Mean velocity of wheels that roll without slip, in the body frame [m/s].
+///
+/// * `rim_speeds`: ω r_s of each wheel [m/s]
+#[must_use]
+pub fn rolling_velocity(mounts: &[Mount], rim_speeds: &[f64]) -> Vec2 {
+    let each = mounts.iter().zip(rim_speeds);
+    let along = |(mount, rim): (&Mount, &f64)| mount.body_from_wheel(Vec2::new(*rim, 0.0));
+    each.map(along).sum::<Vec2>() / mounts.len() as f64
+}
+
 /// The slip of every wheel.
 ///
 /// * `rim_speeds`: ω r_s of each wheel [m/s]
