@@ -43,7 +43,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
         folder.add(format!("{command}.json"), answer.to_text());
         folder.add(format!("{command}.csv"), rows.to_csv()?);
-        for (name, chart) in figures(command, &all) {
+        for (name, chart, _) in figures(command, &all) {
             folder.add(name, chart.to_svg());
         }
         folder.add(REPORT, page::html(command, args, &all, &table));

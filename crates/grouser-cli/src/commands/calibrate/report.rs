@@ -220,8 +220,9 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
         problem.measured.tests.trials.len(),
         problem.measured.tests.cells.len(),
     ));
-    if !found.notes().is_empty() {
-        page.list(found.notes());
+    let notes = found.notes();
+    if !notes.is_empty() {
+        page.list(notes);
     }
     page.heading("Results");
     add_parameters(&mut page, &found.solved);

@@ -11,9 +11,6 @@ use crate::chart::{Chart, Series, Style};
 use crate::commands::heading_band::Bands;
 use crate::output::rows::rounded_down;
 
-/// How the file of the probability of a contour traverse is called.
-pub(super) const PROBABILITY: &str = "probability";
-
 /// What a model answers.
 pub(super) struct OfModel {
     pub(super) scenario: LoadedScenario,
@@ -52,18 +49,23 @@ impl OfModel {
     }
 }
 
-/// A chart of the curves of all models, or those of the bands of each, with the names of their files.
-pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart)> {
+const CURVE: &str = "The rover crosses the slope along the contour line with its nose turned uphill by this angle. \
+                     Where the curve ends no heading holds the contour.";
+const CHANCE: &str = "The share of the samples in which some heading holds the contour. The band is what so many \
+                      samples leave open of that share, with 95 % confidence.";
+
+/// A chart of the curves of all models, or those of the bands of each, with the names of their files and captions.
+pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart, &'static str)> {
     if all.iter().all(|of_model| of_model.bands.is_none()) {
-        return vec![(format!("{command}.svg"), chart(all))];
+        return vec![(format!("{command}.svg"), chart(all), CURVE)];
     }
     let of_bands = |of_model: &OfModel| {
         let bands = of_model.bands.as_ref()?;
         let end = of_model.end(all.len());
         let nominal = line("soil as written", 1, &of_model.curve);
         Some([
-            (format!("{command}{end}.svg"), bands.chart(nominal)),
-            (format!("{PROBABILITY}{end}.svg"), bands.chance_chart()),
+            (format!("{command}{end}.svg"), bands.chart(nominal), CURVE),
+            (format!("probability{end}.svg"), bands.chance_chart(), CHANCE),
         ])
     };
     all.iter().filter_map(of_bands).flatten().collect()

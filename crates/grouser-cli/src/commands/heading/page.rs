@@ -5,7 +5,7 @@ use grouser::document::columns::heading::{self, held};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
 
-use super::of_model::{OfModel, PROBABILITY, brief, figures};
+use super::of_model::{OfModel, brief, figures};
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
 use crate::commands::sampling;
@@ -20,9 +20,8 @@ pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &T
         page.answer(&sentences(&of_model.lines(all.len())));
     }
     page.list(what_was_asked(&all[0]));
-    for (file, chart) in figures(command, all) {
-        let is_chance = file.starts_with(PROBABILITY);
-        page.drawing(&chart.to_svg(), if is_chance { CHANCE } else { CAPTION });
+    for (_, chart, caption) in figures(command, all) {
+        page.drawing(&chart.to_svg(), caption);
     }
     page.rows("On each slope", table, &brief(args));
     page.heading("Everything over the slope");
@@ -43,12 +42,6 @@ fn sentences(lines: &str) -> String {
     let sentence = |line: &str| format!("{}.", capitalised(line.trim_end_matches('.')));
     lines.lines().map(sentence).collect::<Vec<_>>().join(" ")
 }
-
-const CHANCE: &str = "The share of the samples in which some heading holds the contour. The band is what so many \
-                      samples leave open of that share, with 95 % confidence.";
-
-const CAPTION: &str = "The rover crosses the slope along the contour line with its nose turned uphill by this angle. \
-                       Where the curve ends no heading holds the contour.";
 
 fn what_was_asked(first: &OfModel) -> Vec<String> {
     let document = &first.scenario.document;
