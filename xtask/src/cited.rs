@@ -74,13 +74,18 @@ fn unlisted(texts: &[(String, String)]) -> Vec<Flaw> {
 fn works(line: &str) -> impl Iterator<Item = &str> {
     line.split('[').skip(1).filter_map(|rest| {
         let name = rest.split_once(']')?.0;
-        let author = name.trim_end_matches(|c: char| c.is_ascii_digit());
-        let has_year = name.len() == author.len() + 4
-            && author.len() > 2
-            && author.starts_with(|c: char| c.is_ascii_uppercase())
-            && author.chars().all(|c| c.is_ascii_alphabetic());
-        (has_year || WITHOUT_YEAR.contains(&name)).then_some(name)
+        is_work(name).then_some(name)
     })
+}
+
+/// Whether a name is one by which works are cited.
+pub(crate) fn is_work(name: &str) -> bool {
+    let author = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let has_year = name.len() == author.len() + 4
+        && author.len() > 2
+        && author.starts_with(|c: char| c.is_ascii_uppercase())
+        && author.chars().all(|c| c.is_ascii_alphabetic());
+    has_year || WITHOUT_YEAR.contains(&name)
 }
 
 /// Whether a path such as `crate::contact::slip::slip_ratio` or `crate::soil::Soil::check` names

@@ -8,25 +8,11 @@ use std::process::Stdio;
 
 use anyhow::{Context, Result};
 
+use crate::cited::is_work;
 use crate::workspace;
 
-/// What may stand in brackets without being a link: units, and names of sources.
-const NO_LINKS: [&str; 14] = [
-    "BiesiadeckiMaimone2006",
-    "FourWheel",
-    "J",
-    "K",
-    "N",
-    "Pa",
-    "W",
-    "bytes",
-    "kPa",
-    "kg",
-    "m",
-    "mm",
-    "rad",
-    "s",
-];
+/// Units, which may stand in brackets without being a link; works that are cited may, too.
+const UNITS: [&str; 12] = ["J", "K", "N", "Pa", "W", "bytes", "kPa", "kg", "m", "mm", "rad", "s"];
 
 /// Whether the documentation of all crates builds without a warning; prints those it has.
 pub(crate) fn check() -> Result<bool> {
@@ -62,7 +48,7 @@ fn without_mistaken_links(report: &str) -> Vec<&str> {
         .filter(|report| {
             let link = report.split("unresolved link to `").nth(1);
             let target = link.and_then(|rest| rest.split('`').next());
-            !target.is_some_and(|target| NO_LINKS.contains(&target))
+            !target.is_some_and(|target| UNITS.contains(&target) || is_work(target))
         })
         .collect()
 }
