@@ -7,6 +7,7 @@ pub(crate) mod data_sheet;
 mod differences;
 pub(crate) mod prior;
 pub(crate) mod rover;
+pub(crate) mod run;
 pub(crate) mod scenario;
 pub(crate) mod soil;
 pub(crate) mod uncertainty;

@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 
 use super::campaign::{Settings, Stand};
 use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
-use super::describe::scenario::{ROVER_OF_PARTS, SCENARIO};
+use super::describe::run::ROVER_OF_PARTS;
+use super::describe::scenario::SCENARIO;
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
 use super::describe::wheel::WHEEL;
 use super::describe::{rover, scenario, soil, wheel};

@@ -4,23 +4,20 @@
 use std::ops::RangeInclusive;
 
 use super::super::field::{
-    At, DEG, Field, Fill, Form, Inner, Law, Laws, M, M_S, ONE, S, Table, number, numbers, pairs,
-    part, positive, table, word, words,
+    At, DEG, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Table, number, numbers, pairs, positive,
+    table,
 };
-use super::super::kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
-use super::about::{assumed, gravity, model, notes, purpose, schema, source};
-use super::differences::{BY_WHEEL, SCATTER};
-use super::rover::{self, ROVER};
-use super::soil::{self, SOIL};
+use super::about::{assumed, notes, purpose, schema, source};
+use super::rover;
+use super::run::Run;
+use super::soil;
 use grouser_core::contact::Theory;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
-use grouser_core::simulation::{
-    Approach, Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start,
-};
+use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
 use grouser_core::vehicle::drive::SlipTarget;
-use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover, RoverParts};
+use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover};
 
 /// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(crate) const FASTEST: f64 = 10.0;
@@ -32,16 +29,10 @@ pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 const PAPERS_SPEED: f64 = 0.06;
 /// Source: [FourWheel], section 3: s_ref is chosen at 0.2 [-].
 const PAPERS_SLIP: f64 = 0.2;
-/// The slope on which the source's Table 4 is best met [°].
-const PAPERS_SLOPE: f64 = 10.0;
 /// About the length of the source's runs, which is not printed [s].
 const PAPERS_DURATION: f64 = 20.0;
 
 const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
-
-/// A rover by its parts.
-pub(crate) static ROVER_OF_PARTS: At<Rover, RoverParts> =
-    At { inner: &ROVER, at: Rover::parts_mut };
 
 /// A scenario before its numbers are put in.
 pub(crate) fn blank() -> Scenario {
@@ -70,128 +61,34 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
         source().optional(),
         notes(),
         assumed(),
-        part(
-            "rover",
-            Kind::Rover,
-            "The rover: a preset's name, a path from this document's folder, or a rover's keys.",
-            &At {
-                inner: &ROVER_OF_PARTS as &dyn Inner<Rover>,
-                at: |run: &mut Scenario| &mut run.rover,
-            },
-        )
-        .otherwise(Fill::Keyword(DEFAULT_ROVER)),
-        part(
-            "soil",
-            Kind::Soil,
-            "The soil: a preset's name, a path from this document's folder, or a soil's keys.",
-            &At { inner: &SOIL, at: |run: &mut Scenario| &mut run.site.terrain.soil },
-        )
-        .otherwise(Fill::Keyword(DEFAULT_SOIL)),
-        model("The wheel-soil model; without it the soil's own, or else `ishigami`."),
-        gravity("Gravity, g", |run| Some(&mut run.site.gravity)),
-        number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |run: &mut Scenario| {
-            Some(&mut run.site.terrain.slope)
-        })
-        .or(PAPERS_SLOPE),
+        Run::ROVER,
+        Run::SOIL,
+        Run::MODEL,
+        Run::GRAVITY,
+        Run::SLOPE,
         positive("duration_s", S, LONGEST_DURATION, "How long the run lasts", |run: &mut Scenario| {
             Some(&mut run.duration)
         })
         .or(PAPERS_DURATION),
-        number("sample_interval_s", S, 1e-3..=3600.0, "Time between two recorded samples", |run: &mut Scenario| {
-            Some(&mut run.numerics.sample_interval)
-        })
-        .or(Numerics::DEFAULT.sample_interval),
-        words(
-            "load_transfer",
-            "Load transfer: how the weight is shared among the wheels.",
-            &[
-                word(
-                    "complete",
-                    "The wheels' torque in pitch, their overturning moments in roll, and their aligning moments in yaw.",
-                    |run: &mut Scenario| run.sharing = LoadSharing::Complete,
-                ),
-                word(
-                    "quasi-static",
-                    "The weight's pull along the slope, in pitch and roll: the source paper's.",
-                    |run: &mut Scenario| run.sharing = LoadSharing::QuasiStatic,
-                ),
-                word(
-                    "quasi-static-torque",
-                    "The same, with the wheels' torque in pitch.",
-                    |run: &mut Scenario| run.sharing = LoadSharing::QuasiStaticTorque,
-                ),
-                word("uniform", "Equal loads.", |run: &mut Scenario| run.sharing = LoadSharing::Uniform),
-            ],
-        )
-        .otherwise(Fill::Keyword("complete"))
-        .formerly("loads"),
-        words(
-            "wheel_moments",
-            "Whether the wheels' own overturning and aligning moments act on the rover; without it they do where the load transfer is complete.",
-            &[
-                word("neglected", "They are reported only.", |run: &mut Scenario| {
-                    run.own_moments = OwnMoments::Neglected;
-                }),
-                word("included", "They act on the rover.", |run: &mut Scenario| {
-                    run.own_moments = OwnMoments::Included;
-                }),
-            ],
-        )
-        .following(
-            "load_transfer",
-            &[
-                ("complete", "included"),
-                ("quasi-static", "neglected"),
-                ("quasi-static-torque", "neglected"),
-                ("uniform", "neglected"),
-            ],
-        )
-        .formerly("moments"),
-        words(
-            "simulation",
-            "Whether velocities are integrated, or those of a steady state at every instant.",
-            &[
-                word("dynamic", "They are integrated with the pose.", |run: &mut Scenario| {
-                    run.numerics.approach = Approach::Dynamic;
-                }),
-                word(
-                    "quasi-steady",
-                    "They are those at which nothing accelerates: fast; where that is not valid, dynamic.",
-                    |run: &mut Scenario| run.numerics.approach = Approach::QuasiSteady,
-                ),
-            ],
-        )
-        .otherwise(Fill::Keyword("dynamic")),
+        Run::SAMPLE_INTERVAL,
+        Run::LOAD_TRANSFER,
+        Run::WHEEL_MOMENTS,
+        Run::SIMULATION,
         table(
             "drive",
             "What turns the wheels.",
             &DRIVE,
         )
         .otherwise(Fill::Keys(&[])),
-        table(
-            "by_wheel",
-            "How the soil below each wheel, and its speed, differ from what is said of all.",
-            &At { inner: &BY_WHEEL, at: |run: &mut Scenario| &mut run.by_wheel },
-        )
-        .otherwise(Fill::Keys(&[])),
-        table(
-            "scatter",
-            "How the soil scatters from place to place, and the speed from wheel to wheel.",
-            &At { inner: &SCATTER, at: |run: &mut Scenario| &mut run.scatter },
-        )
-        .otherwise(Fill::Keys(&[])),
+        Run::BY_WHEEL,
+        Run::SCATTER,
         table(
             "slope_stability",
             "What is asked of the ground's own strength (infinite slope) by headings, maps and cards; a run is not changed by it.",
             &At { inner: &SLOPE_STABILITY, at: |run: &mut Scenario| &mut run.stability },
         )
         .otherwise(Fill::Keys(&[])),
-        table(
-            "start",
-            "How the run starts.",
-            &At { inner: &START, at: |run: &mut Scenario| &mut run.start },
-        )
-        .otherwise(Fill::Keys(&[])),
+        Run::START,
     ],
 };
 
@@ -315,34 +212,5 @@ static SLOPE_STABILITY: Table<SlopeStability> = Table {
             |asked: &mut SlopeStability| Some(&mut asked.depth),
         )
         .or(SlopeStability::USUAL.depth),
-    ],
-};
-
-static START: Table<Start> = Table {
-    doc: "How the run starts.",
-    fields: &[
-        number(
-            "yaw_deg",
-            DEG,
-            -180.0..=180.0,
-            "Yaw, γ; above 0 with the nose uphill",
-            |start: &mut Start| Some(&mut start.yaw),
-        )
-        .or(0.0),
-        words(
-            "motion",
-            "Whether the rover already moves.",
-            &[
-                word(
-                    "rolling",
-                    "The hubs move at 0.95 of the rim speed along the body's x axis.",
-                    |start: &mut Start| start.motion = Motion::Rolling,
-                ),
-                word("rest", "Nothing moves but the wheels.", |start: &mut Start| {
-                    start.motion = Motion::Rest;
-                }),
-            ],
-        )
-        .otherwise(Fill::Keyword("rolling")),
     ],
 };
