@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 
 use crate::animation::Animation;
 use crate::motion::Pose;
-use crate::rover::{Block, PlacedWheel};
+use crate::rover::{Bar, Block, PlacedWheel, bars_of};
 use crate::scene::Actor;
 use crate::style::{Ground, Role};
 
@@ -187,11 +187,9 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
             "rotation": [0.0, 0.0, sin, cos],
             "children": [spinning],
         }));
-        let height =
-            |pose: &Pose| mount.shearing_radius() - pose.wheels[index].sinkage - pose.centre.z;
         let places = poses.iter().flat_map(|pose| {
-            let [x, y] = [mount.position.x, mount.position.y];
-            [x, y, height(pose)]
+            let hub = pose.hub_in_body(mount, index);
+            [hub.x, hub.y, hub.z]
         });
         let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
         file.channel(steered, "translation", [input, output], "LINEAR");
@@ -285,7 +283,7 @@ fn wheel_solids(wheel: &Wheel) -> [Solid; 2] {
         rim.face(&disc, Vec3::new(0.0, y.signum(), 0.0));
     }
     let mut bars = Solid::default();
-    let mut bar = |angle: f64, [inner, outer]: [f64; 2], half_thick: f64, half_wide: f64| {
+    for Bar { angle, inner, outer, half_thick, half_wide, .. } in bars_of(wheel) {
         let (along, across) = (out(angle), out(angle + 0.25 * TAU));
         let corner = |r: f64, t: f64, y: f64| r * along + t * across + Vec3::new(0.0, y, 0.0);
         let (t, w) = (half_thick, half_wide);
@@ -298,19 +296,6 @@ fn wheel_solids(wheel: &Wheel) -> [Solid; 2] {
         ];
         for (corners, normal) in faces {
             bars.outward(&corners.map(|(r, t, y)| corner(r, t, y)), normal);
-        }
-    };
-    const SPOKES: u32 = 5;
-    for spoke in 0..SPOKES {
-        let angle = TAU * f64::from(spoke) / f64::from(SPOKES);
-        bar(angle, [0.0, 0.85 * radius], 0.06 * radius, 1.03 * side);
-    }
-    if let Some(grousers) = wheel.grousers {
-        for k in 0..grousers.count {
-            let angle = TAU * f64::from(k) / f64::from(grousers.count);
-            let thick =
-                (0.15 * grousers.height).min(0.1 * radius * TAU / f64::from(grousers.count));
-            bar(angle, [radius, wheel.shearing_radius()], thick, side);
         }
     }
     [rim, bars]

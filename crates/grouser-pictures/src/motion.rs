@@ -1,33 +1,92 @@
 //! Where rover and wheels are at every time of a run, from its records.
+//!
+//! ```
+//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::simulation::Run;
+//! use grouser_pictures::motion::Follower;
+//!
+//! let scenario = hakuto::traverse()?;
+//! let mut follower = Follower::new(&scenario.rover);
+//! let run = Run::new(&scenario)?.to_end()?;
+//! let poses = run.records.iter().map(|record| follower.pose(&scenario.rover, record));
+//! let turned = poses.last().expect("a record").wheels[0].turned;
+//! assert_eq!(format!("{:.1} turns", turned / std::f64::consts::TAU), "1.7 turns");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use grouser_core::simulation::{Record, Scenario, Trajectory};
 use grouser_core::units::{Vec2, Vec3};
-use grouser_core::vehicle::RoverState;
+use grouser_core::vehicle::{Mount, Rover, RoverState};
 
 /// A rover at one time.
 #[derive(Clone, Debug)]
-pub(crate) struct Pose {
+pub struct Pose {
     /// Time since the start [s].
-    pub(crate) time: f64,
+    pub time: f64,
     /// The body's centre of mass, in the slope frame [m]; z is over the undisturbed surface.
-    pub(crate) centre: Vec3,
+    pub centre: Vec3,
     /// Yaw [rad].
-    pub(crate) yaw: f64,
+    pub yaw: f64,
     /// The wheels, in the mounts' order.
-    pub(crate) wheels: Vec<WheelPose>,
+    pub wheels: Vec<WheelPose>,
 }
 
 /// A wheel at one time.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct WheelPose {
+pub struct WheelPose {
     /// How far it has turned since the start [rad], positive forward.
-    pub(crate) turned: f64,
+    pub turned: f64,
     /// Depth of its grouser tips [m].
-    pub(crate) sinkage: f64,
+    pub sinkage: f64,
     /// Slip ratio [-].
-    pub(crate) slip_ratio: f64,
+    pub slip_ratio: f64,
     /// The soil's force on it, in the wheel frame [N].
-    pub(crate) force: Vec3,
+    pub force: Vec3,
+}
+
+/// Follows a run record by record, and says where rover and wheels are.
+#[derive(Clone, Debug, Default)]
+pub struct Follower {
+    wheels: Vec<WheelPose>,
+    /// Angular speeds in the last record [rad/s].
+    speeds: Vec<f64>,
+    /// Time of the last record [s].
+    time: Option<f64>,
+}
+
+impl Follower {
+    /// Before the first record of a run.
+    #[must_use]
+    pub fn new(rover: &Rover) -> Self {
+        let count = rover.wheel_count();
+        Self { wheels: vec![WheelPose::default(); count], speeds: vec![0.0; count], time: None }
+    }
+
+    /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the last.
+    ///
+    /// * `rover`: the same for all records
+    pub fn pose(&mut self, rover: &Rover, record: &Record) -> Pose {
+        let step = self.time.map_or(0.0, |time| record.time - time);
+        self.time = Some(record.time);
+        // The record in which a rover tips over has no wheels: they stay as they were.
+        let wheels = self.wheels.iter_mut().zip(&mut self.speeds);
+        for ((pose, speed), wheel) in wheels.zip(&record.wheels) {
+            let forces = &wheel.reaction.settled.forces;
+            *pose = WheelPose {
+                turned: pose.turned + step * 0.5 * (*speed + wheel.wheel_speed),
+                sinkage: wheel.reaction.settled.sinkage,
+                slip_ratio: wheel.reaction.slip.ratio,
+                force: Vec3::new(forces.drawbar_pull, forces.side_force, forces.normal_force),
+            };
+            *speed = wheel.wheel_speed;
+        }
+        if record.wheels.is_empty() {
+            for wheel in &mut self.wheels {
+                wheel.force = Vec3::zeros();
+            }
+        }
+        pose_of(record, rover, self.wheels.clone())
+    }
 }
 
 /// A run as poses at the times of its records.
@@ -38,34 +97,9 @@ pub(crate) struct Motion {
 
 impl Motion {
     pub(crate) fn of(trajectory: &Trajectory, scenario: &Scenario) -> Self {
-        let mut poses: Vec<Pose> = Vec::with_capacity(trajectory.records.len());
-        let mut speeds = vec![0.0; scenario.rover.wheel_count()];
-        for record in &trajectory.records {
-            let before = poses.last();
-            let mut wheels = before.map_or_else(
-                || vec![WheelPose::default(); speeds.len()],
-                |pose| pose.wheels.clone(),
-            );
-            let step = before.map_or(0.0, |pose| record.time - pose.time);
-            // The record in which a rover tips over has no wheels: they stay as they were.
-            for ((pose, speed), wheel) in wheels.iter_mut().zip(&mut speeds).zip(&record.wheels) {
-                let forces = &wheel.reaction.settled.forces;
-                *pose = WheelPose {
-                    turned: pose.turned + step * 0.5 * (*speed + wheel.wheel_speed),
-                    sinkage: wheel.reaction.settled.sinkage,
-                    slip_ratio: wheel.reaction.slip.ratio,
-                    force: Vec3::new(forces.drawbar_pull, forces.side_force, forces.normal_force),
-                };
-                *speed = wheel.wheel_speed;
-            }
-            if record.wheels.is_empty() {
-                for wheel in &mut wheels {
-                    wheel.force = Vec3::zeros();
-                }
-            }
-            poses.push(pose_of(record, scenario, wheels));
-        }
-        Self { poses }
+        let mut follower = Follower::new(&scenario.rover);
+        let pose = |record| follower.pose(&scenario.rover, record);
+        Self { poses: trajectory.records.iter().map(pose).collect() }
     }
 
     pub(crate) fn start(&self) -> &Pose {
@@ -88,26 +122,13 @@ impl Motion {
         let Some(last) = after.checked_sub(1).map(|before| &self.poses[before]) else {
             return next.clone();
         };
-        let share = (time - last.time) / (next.time - last.time);
-        let between = |a: f64, b: f64| a + share * (b - a);
-        let wheels = last.wheels.iter().zip(&next.wheels).map(|(a, b)| WheelPose {
-            turned: between(a.turned, b.turned),
-            sinkage: between(a.sinkage, b.sinkage),
-            slip_ratio: between(a.slip_ratio, b.slip_ratio),
-            force: a.force + share * (b.force - a.force),
-        });
-        Pose {
-            time,
-            centre: last.centre + share * (next.centre - last.centre),
-            yaw: between(last.yaw, next.yaw),
-            wheels: wheels.collect(),
-        }
+        last.between(next, time)
     }
 }
 
 /// The body stays parallel to the slope, as in the model; its height is the mean of what its wheels leave.
-fn pose_of(record: &Record, scenario: &Scenario, wheels: Vec<WheelPose>) -> Pose {
-    let mounts = scenario.rover.mounts();
+fn pose_of(record: &Record, rover: &Rover, wheels: Vec<WheelPose>) -> Pose {
+    let mounts = rover.mounts();
     let heights = mounts.iter().zip(&wheels);
     let sum: f64 = heights
         .map(|(mount, wheel)| mount.shearing_radius() - wheel.sinkage - mount.position.z)
@@ -118,6 +139,34 @@ fn pose_of(record: &Record, scenario: &Scenario, wheels: Vec<WheelPose>) -> Pose
 }
 
 impl Pose {
+    /// The pose at a time [s] between this one and a later one: between the two all goes evenly.
+    #[must_use]
+    pub fn between(&self, next: &Self, time: f64) -> Self {
+        let share = (time - self.time) / (next.time - self.time);
+        let between = |a: f64, b: f64| a + share * (b - a);
+        let wheels = self.wheels.iter().zip(&next.wheels).map(|(a, b)| WheelPose {
+            turned: between(a.turned, b.turned),
+            sinkage: between(a.sinkage, b.sinkage),
+            slip_ratio: between(a.slip_ratio, b.slip_ratio),
+            force: a.force + share * (b.force - a.force),
+        });
+        Self {
+            time,
+            centre: self.centre + share * (next.centre - self.centre),
+            yaw: between(self.yaw, next.yaw),
+            wheels: wheels.collect(),
+        }
+    }
+
+    /// A wheel's hub, in the body frame [m]: its mount has its place, its sinkage the height.
+    ///
+    /// * `index`: of the mount
+    #[must_use]
+    pub fn hub_in_body(&self, mount: &Mount, index: usize) -> Vec3 {
+        let height = mount.shearing_radius() - self.wheels[index].sinkage - self.centre.z;
+        Vec3::new(mount.position.x, mount.position.y, height)
+    }
+
     /// The mean of a quantity over the wheels.
     pub(crate) fn mean(&self, of: impl Fn(&WheelPose) -> f64) -> f64 {
         self.wheels.iter().map(of).sum::<f64>() / self.wheels.len() as f64

@@ -1,15 +1,20 @@
 //! What a rover looks like: its wheels are those of its document, its body is a likeness.
 
+use std::f64::consts::TAU;
+
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::{Mount, Rover};
+use grouser_core::wheel::Wheel;
 
 use crate::motion::{Pose, WheelPose};
 
 /// A box, parallel to the axes of the body frame [m].
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block {
-    pub(crate) low: Vec3,
-    pub(crate) high: Vec3,
+pub struct Block {
+    /// The corner with the least coordinates.
+    pub low: Vec3,
+    /// The corner with the largest.
+    pub high: Vec3,
 }
 
 impl Block {
@@ -18,7 +23,8 @@ impl Block {
     }
 
     /// A corner: each of `of` chooses the low end or the high one.
-    pub(crate) fn corner(&self, of: [bool; 3]) -> Vec3 {
+    #[must_use]
+    pub fn corner(&self, of: [bool; 3]) -> Vec3 {
         let at = |k: usize| if of[k] { self.high[k] } else { self.low[k] };
         Vec3::new(at(0), at(1), at(2))
     }
@@ -26,20 +32,24 @@ impl Block {
 
 /// The parts of a rover's likeness, in the body frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Likeness {
-    pub(crate) body: Block,
-    pub(crate) mast: Block,
-    pub(crate) head: Block,
+pub struct Likeness {
+    /// The body.
+    pub body: Block,
+    /// What carries the head.
+    pub mast: Block,
+    /// A camera, towards the front.
+    pub head: Block,
     /// For each wheel, where on the body its leg begins.
-    pub(crate) legs: Vec<Vec3>,
+    pub legs: Vec<Vec3>,
     /// How far the rover reaches from its centre, seen from above [m].
-    pub(crate) reach: f64,
+    pub reach: f64,
 }
 
 impl Likeness {
     /// The body is the block of even density with the inertia of the rover's, held within the wheels. It
     /// has a camera on a mast, so that front and back differ.
-    pub(crate) fn of(rover: &Rover) -> Self {
+    #[must_use]
+    pub fn of(rover: &Rover) -> Self {
         let mounts = rover.mounts();
         let most = |of: &dyn Fn(&Mount) -> f64| mounts.iter().map(of).fold(0.0, f64::max);
         let wheel_radius = most(&Mount::shearing_radius);
@@ -89,17 +99,19 @@ impl Likeness {
 
 /// Where a wheel is, in the slope frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlacedWheel {
-    pub(crate) hub: Vec3,
+pub struct PlacedWheel {
+    /// Its hub.
+    pub hub: Vec3,
     /// Forward along the wheel; level.
-    pub(crate) forward: Vec3,
+    pub forward: Vec3,
     /// To its left, along the axle.
-    pub(crate) left: Vec3,
+    pub left: Vec3,
 }
 
 impl PlacedWheel {
     /// * `lane`: where the run's origin is [m]
-    pub(crate) fn of(mount: &Mount, wheel: &WheelPose, pose: &Pose, lane: Vec3) -> Self {
+    #[must_use]
+    pub fn of(mount: &Mount, wheel: &WheelPose, pose: &Pose, lane: Vec3) -> Self {
         let level = |vector: Vec2| {
             let turned = pose.slope_from_body(mount.body_from_wheel(vector));
             Vec3::new(turned.x, turned.y, 0.0)
@@ -111,12 +123,57 @@ impl PlacedWheel {
     }
 
     /// A vector of the wheel frame, in the slope frame.
-    pub(crate) fn slope_from_wheel(&self, vector: Vec3) -> Vec3 {
+    #[must_use]
+    pub fn slope_from_wheel(&self, vector: Vec3) -> Vec3 {
         self.forward * vector.x + self.left * vector.y + Vec3::new(0.0, 0.0, vector.z)
     }
 
     /// The point under the hub on the surface.
-    pub(crate) fn foot(&self) -> Vec3 {
+    #[must_use]
+    pub fn foot(&self) -> Vec3 {
         Vec3::new(self.hub.x, self.hub.y, 0.0)
     }
+}
+
+/// What shows that a wheel turns: a spoke or a grouser, a block that turns with it.
+#[derive(Clone, Copy, Debug)]
+pub struct Bar {
+    /// Where it is around the axle, from straight up towards the front [rad].
+    pub angle: f64,
+    /// Its ends' distances from the axle [m].
+    pub inner: f64,
+    /// The other end's [m].
+    pub outer: f64,
+    /// Half of its size around the axle [m].
+    pub half_thick: f64,
+    /// Half of its size along the axle [m].
+    pub half_wide: f64,
+}
+
+/// The spokes and grousers of a wheel. Height and number of the grousers are those of its document; their
+/// thickness and the spokes are a likeness.
+#[must_use]
+pub fn bars_of(wheel: &Wheel) -> Vec<Bar> {
+    const SPOKES: u32 = 5;
+    let (radius, side) = (wheel.radius, 0.5 * wheel.width);
+    let around = |place: u32, count: u32| TAU * f64::from(place) / f64::from(count);
+    let spoke = |place: u32| Bar {
+        angle: around(place, SPOKES),
+        inner: 0.0,
+        outer: 0.85 * radius,
+        half_thick: 0.06 * radius,
+        half_wide: 1.03 * side,
+    };
+    let mut bars: Vec<Bar> = (0..SPOKES).map(spoke).collect();
+    if let Some(grousers) = wheel.grousers {
+        let thickest = 0.1 * radius * TAU / f64::from(grousers.count);
+        bars.extend((0..grousers.count).map(|place| Bar {
+            angle: around(place, grousers.count),
+            inner: radius,
+            outer: wheel.shearing_radius(),
+            half_thick: (0.15 * grousers.height).min(thickest),
+            half_wide: side,
+        }));
+    }
+    bars
 }
