@@ -42,6 +42,13 @@ const LOOKING: [&str; 2] = ["playwright>=1.45,<2", "axe-playwright-python>=0.1.4
 /// own settings to say.
 const BUILDING: &str = "maturin>=1.16,<2";
 const TESTING: [&str; 2] = ["pytest>=8", "hypothesis>=6"];
+/// What reads the program's logs: the container, Foxglove's schemas, and Rerun, which is large (100 MB).
+const LOGS: [&str; 4] = [
+    "mcap>=1.2,<2",
+    "mcap-protobuf-support>=0.5,<1",
+    "foxglove-sdk>=0.30,<1",
+    "rerun-sdk>=0.41,<1",
+];
 const TYPES: &str = "mypy>=1.10";
 /// What reads the workflows.
 const YAML: &str = "pyyaml>=6";
@@ -135,6 +142,7 @@ fn make_environment() -> Result<PathBuf> {
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
     needed.extend([BUILDING, TYPES, YAML, CITATION].map(String::from));
     needed.extend(TESTING.map(String::from));
+    needed.extend(LOGS.map(String::from));
     needed.extend(SITE.map(String::from));
     needed.extend(LOOKING.map(String::from));
     install(&python, &needed)?;

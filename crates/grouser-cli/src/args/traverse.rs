@@ -12,7 +12,7 @@ use super::{
 #[derive(Debug, Args)]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
-#[command(group(ArgGroup::new("written").args(["out", "animate"]).multiple(true)))]
+#[command(group(ArgGroup::new("written").args(["out", "animate", "mcap"]).multiple(true)))]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
@@ -55,6 +55,10 @@ pub(crate) struct TraverseArgs {
     /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
+    /// Also log the run: an MCAP file for Foxglove and Rerun, with transforms, scene, model of the rover
+    /// and every number over time. With --out, a name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mcap: Option<PathBuf>,
     /// Beside it in the picture, the same rover with another yaw, as --yaw-deg takes it.
     #[arg(long, value_name = "DEG", requires = "animate", allow_hyphen_values = true)]
     pub(crate) beside_yaw_deg: Option<String>,

@@ -5,17 +5,15 @@ use std::path::Path;
 use grouser::document::escape;
 use grouser_pictures::{Animation, Form, Shown, VideoError};
 
+use super::place::Place;
 use crate::failure::Failure;
 use crate::output;
-use crate::output::file;
 use crate::output::folder::OutputFolder;
 
 /// Where an animation goes, and as what.
 pub(super) struct Target<'a> {
-    path: &'a Path,
+    place: Place<'a>,
     form: Form,
-    /// Whether it goes into the folder of the other results, as a name alone does.
-    is_in_folder: bool,
 }
 
 impl<'a> Target<'a> {
@@ -26,11 +24,7 @@ impl<'a> Target<'a> {
         let form = Form::of_path(path).map_err(|error| {
             Failure::Usage(format!("--animate {}: {error}", escape::path(path)))
         })?;
-        let is_in_folder = has_folder && path.parent() == Some(Path::new(""));
-        if !is_in_folder {
-            file::check_new(path, may_replace)?;
-        }
-        Ok(Self { path, form, is_in_folder })
+        Ok(Self { place: Place::of(path, has_folder, may_replace)?, form })
     }
 
     /// Draws runs and writes them, or adds them to the folder.
@@ -49,12 +43,6 @@ impl<'a> Target<'a> {
             VideoError::NoProgram => Failure::Usage(error.to_string()),
             other => Failure::Run(other.to_string()),
         })?;
-        match folder.filter(|_| self.is_in_folder) {
-            Some(folder) => {
-                folder.add(self.path.to_string_lossy(), bytes);
-                Ok(())
-            }
-            None => file::write(self.path, &bytes),
-        }
+        self.place.write(folder, |out| out.write_all(&bytes).map_err(self.place.failed()))
     }
 }

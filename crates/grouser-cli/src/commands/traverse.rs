@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use self::of_model::{OfModel, chart, reason};
 use super::animation::Target;
-use super::{Answer, sampling};
+use super::{Answer, log, sampling};
 use crate::args::{EVERY_MODEL, TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -34,11 +34,20 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
     let target = |path| Target::of(path, folder.is_some(), args.output.force);
     let target = args.animate.as_deref().map(target).transpose()?;
+    let log = |path| log::Target::of(path, folder.is_some(), args.output.force);
+    let log = args.mcap.as_deref().map(log).transpose()?;
+    if log.is_some() && args.setting.each_model().len() > 1 {
+        let text = "--mcap logs one run: name one model with --model";
+        return Err(Failure::Usage(text.to_owned()));
+    }
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
     if let Some(target) = target {
         animate(args, &target, &all, folder.as_mut())?;
+    }
+    if let Some(log) = log {
+        log.write(&all[0].scenario, &all[0].run, folder.as_mut())?;
     }
     match &all[..] {
         [one] => one.output(args, folder),

@@ -2,7 +2,7 @@
 
 #[cfg(unix)]
 use std::fs::Permissions;
-use std::io::Write as _;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use grouser::document::{self, escape};
@@ -24,6 +24,13 @@ pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
         )));
     }
     check_ordinary(out)?;
+    let folder = folder_of(out);
+    if !folder.is_dir() {
+        let (out, folder) = (escape::path(out), escape::path(folder));
+        return Err(Failure::Usage(format!(
+            "cannot write {out}: {folder} is no folder; make it, or choose another name"
+        )));
+    }
     if out.exists() && !may_replace {
         let out = escape::path(out);
         return Err(Failure::Usage(format!(
@@ -44,20 +51,36 @@ pub(super) fn check_ordinary(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The folder that a file is in, or is to be in.
+fn folder_of(out: &Path) -> &Path {
+    match out.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Writes a file of bytes that are all there, as [`write_by`] does.
+pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
+    write_by(out, |file| file.write_all(content).map_err(Failure::at("cannot write", out)))
+}
+
 /// Writes beside and renames, so that the file is whole or not there. It has the permissions of the
 /// file that it replaces, or those of any new file.
-pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
+///
+/// * `content`: writes it
+pub(crate) fn write_by(
+    out: &Path,
+    content: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let _deferred = interrupt::defer_ctrl_c();
     // A link stays one, and leads to the new file.
     let behind_link = out.is_symlink().then(|| out.canonicalize()).and_then(Result::ok);
     let out = behind_link.as_deref().unwrap_or(out);
-    let folder = match out.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
     let failed = || Failure::at("cannot write", out);
-    let mut file = new_file(folder).map_err(failed())?;
-    file.write_all(content).map_err(failed())?;
+    let file = new_file(folder_of(out)).map_err(failed())?;
+    let mut buffer = BufWriter::new(file);
+    content(&mut buffer)?;
+    let file = buffer.into_inner().map_err(|error| failed()(error.into_error()))?;
     if let Ok(replaced) = out.metadata() {
         file.as_file().set_permissions(replaced.permissions()).map_err(failed())?;
     }

@@ -12,6 +12,7 @@ mod forecast;
 mod former_names;
 mod hostile;
 mod import;
+mod logs;
 mod models;
 mod new;
 mod program;

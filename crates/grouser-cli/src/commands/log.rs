@@ -1,0 +1,63 @@
+//! Logs of runs: where they go, and what they have.
+
+use std::io::Write;
+use std::path::Path;
+
+use grouser::document::{LoadedScenario, escape};
+use grouser::simulation::Trajectory;
+use grouser_log::{Log, LogError};
+use grouser_pictures::title_of;
+
+use super::place::Place;
+use crate::failure::Failure;
+use crate::output::folder::OutputFolder;
+
+/// How the names of logs end.
+const ENDING: &str = "mcap";
+
+/// Where a log goes.
+pub(super) struct Target<'a> {
+    place: Place<'a>,
+}
+
+impl<'a> Target<'a> {
+    /// What would fail once the run is done fails now.
+    ///
+    /// * `has_folder`: whether other results go into a folder
+    pub(super) fn of(path: &'a Path, has_folder: bool, may_replace: bool) -> Result<Self, Failure> {
+        if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case(ENDING)) {
+            let shown = escape::path(path);
+            return Err(Failure::Usage(format!(
+                "--mcap {shown}: the name of a log ends with `.{ENDING}`, by which Foxglove and Rerun know it"
+            )));
+        }
+        Ok(Self { place: Place::of(path, has_folder, may_replace)? })
+    }
+
+    /// Writes the log of a run, or adds it to the folder.
+    pub(super) fn write(
+        &self,
+        scenario: &LoadedScenario,
+        run: &Trajectory,
+        folder: Option<&mut OutputFolder>,
+    ) -> Result<(), Failure> {
+        let content = |out: &mut dyn Write| {
+            write(scenario, run, out).map_err(|error| match error {
+                LogError::Write(error) => self.place.failed()(error),
+                other => Failure::Run(other.to_string()),
+            })
+        };
+        self.place.write(folder, content)
+    }
+}
+
+fn write(scenario: &LoadedScenario, run: &Trajectory, out: &mut dyn Write) -> Result<(), LogError> {
+    let mut log = Log::begin(out, &title_of(scenario), &scenario.value)?;
+    log.append(&run.records)?;
+    log.outcome(run.last().time, &run.outcome)?;
+    log.attach("scenario.toml", "application/toml", scenario.to_toml().as_bytes())?;
+    for companion in &scenario.companions {
+        log.attach(&companion.name, "text/plain", companion.content.as_bytes())?;
+    }
+    log.finish().map(drop)
+}

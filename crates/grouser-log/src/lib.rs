@@ -1,0 +1,58 @@
+//! Logs of runs and missions, as robots record them: MCAP files with Foxglove's messages, for Foxglove and Rerun.
+//!
+//! A log holds recorded results; it computes no force. Records are appended as they come, and what was appended is
+//! written soon after: memory does not grow with a mission. It has
+//!
+//! | topic | messages | when |
+//! |---|---|---|
+//! | `/tf_static`, `/tf` | `foxglove.FrameTransforms`: `world` → `slope` → `body` → each wheel → its rim | once; each record |
+//! | `/rover`, `/wheels/NAME` | `grouser.Rover`, `grouser.Wheel`: a field for each column of results, its unit in its name | each record |
+//! | `/scene/rover`, `/scene/ground`, `/scene/path` | `foxglove.SceneUpdate`: likeness of the rover, plane with grid, path so far | once; as they grow |
+//! | `/scene/forces` | `foxglove.SceneUpdate`: the soil's force on each wheel, an arrow | each record |
+//! | `/events` | `foxglove.Log`: flags of validity as they are first raised, and what the caller says | then |
+//! | `/robot_description` | `std_msgs/msg/String`: the rover as URDF | once |
+//!
+//! Times count from the run's start, which is 0 ns. Transforms and scenes are in SI units, numbers in the units of
+//! their columns. The same records make the same bytes.
+//!
+//! How does a mission become a log, leg by leg?
+//!
+//! ```
+//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::mission::{Leg, Manoeuvre, Mission, MissionRun};
+//! use grouser_core::units::deg;
+//! use grouser_log::Log;
+//!
+//! let legs = vec![
+//!     Leg::new(Manoeuvre::drive(0.5)),
+//!     Leg::new(Manoeuvre::Turn { angle: deg(45.0) }),
+//! ];
+//! let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new() };
+//! let mut run = MissionRun::new(&mission)?;
+//! let mut log = Log::begin(Vec::new(), "HAKUTO on sand", &mission.scenario)?;
+//! for (place, what) in ["drive 0.5 m", "turn by 45°"].iter().enumerate() {
+//!     log.leg_began(run.time(), place, what)?;
+//!     let report = run.next_leg()?.cloned();
+//!     log.append(&run.take_records())?;
+//!     if let Some(report) = report {
+//!         log.leg_ended(run.time(), place, &report)?;
+//!     }
+//! }
+//! let file = log.finish()?;
+//! assert!(file.starts_with(b"\x89MCAP0\r\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod container;
+mod error;
+mod foxglove;
+mod frames;
+mod log;
+mod numbers;
+mod protobuf;
+mod scene;
+mod urdf;
+
+pub use error::LogError;
+pub use foxglove::Level;
+pub use log::Log;

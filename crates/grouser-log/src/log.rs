@@ -1,0 +1,360 @@
+//! A log on its way: what is written when.
+
+use std::io::{self, Write};
+
+use grouser::studies::validity::RoverOnSlope;
+use grouser_core::contact::validity::Flag;
+use grouser_core::mission::{Cause, LegOutcome, LegReport, Stopped};
+use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
+use grouser_pictures::motion::{Follower, Pose};
+
+use crate::LogError;
+use crate::container::{ChannelId, Container, SchemaOf};
+use crate::error::LONGEST;
+use crate::foxglove::{self, FrameTransforms, Level, SceneUpdate, Timestamp};
+use crate::frames::{self, WheelName};
+use crate::numbers::{self, Numbers};
+use crate::protobuf::{Message, Types};
+use crate::scene::{self, Forces, Ground, Path};
+use crate::urdf;
+
+/// How far a wheel may turn between two transforms [rad]: what turns by half a circle could turn back as well.
+const TURN: f64 = 1.0;
+/// Transforms at most between two records.
+const BETWEEN: f64 = 1000.0;
+
+/// What is written where.
+#[derive(Debug)]
+struct Channels {
+    transforms: ChannelId,
+    ground: ChannelId,
+    path: ChannelId,
+    forces: ChannelId,
+    rover: ChannelId,
+    wheels: Vec<ChannelId>,
+    events: ChannelId,
+}
+
+/// A log on its way; [the crate](crate) says what it has.
+///
+/// It is whole once it is [finished](Self::finish).
+#[derive(Debug)]
+pub struct Log<W> {
+    out: Container<W>,
+    to: Channels,
+    scenario: Scenario,
+    names: Vec<WheelName>,
+    rover: Numbers<Record>,
+    wheel: Numbers<WheelRecord>,
+    follower: Follower,
+    /// The last record's.
+    pose: Option<Pose>,
+    ground: Ground,
+    path: Path,
+    forces: Forces,
+    raised: Vec<Flag>,
+}
+
+impl<W: Write> Log<W> {
+    /// A log with what does not change: the rover and the slope.
+    ///
+    /// * `title`: what was driven, a line
+    /// * `scenario`: that of the run, or of the mission
+    ///
+    /// # Errors
+    /// [`LogError`] if it cannot be written to.
+    pub fn begin(out: W, title: &str, scenario: &Scenario) -> Result<Self, LogError> {
+        let library = concat!("grouser ", env!("CARGO_PKG_VERSION"));
+        let mut out = Container::begin(out, library)?;
+        let about = [
+            ("title", title),
+            ("model", scenario.theory.name()),
+            ("time", "since the start of the run, which is 0 ns"),
+        ];
+        let about = about.map(|(key, value)| (key.to_owned(), value.to_owned()));
+        out.metadata("grouser", &about)?;
+        let rover = &scenario.rover;
+        let names = WheelName::all(rover.mounts());
+        let mut fixed = |topic, schema: &SchemaOf<'_>, message: &[u8]| -> io::Result<()> {
+            let to = out.channel(topic, schema, &[]);
+            out.message(to, 0, message)
+        };
+        let slope = frames::slope_in_world(scenario.site.terrain.slope);
+        let transforms = FrameTransforms { transforms: vec![slope] };
+        fixed("/tf_static", &schema::<FrameTransforms>(), &transforms.to_bytes())?;
+        let text = urdf::of(title, rover, &names);
+        let string = SchemaOf {
+            name: "std_msgs/msg/String",
+            encoding: "ros2msg",
+            data: b"string data".into(),
+            messages: "cdr",
+        };
+        fixed("/robot_description", &string, &cdr(&text))?;
+        let likeness = scene::of_rover(rover, &names);
+        fixed("/scene/rover", &schema::<SceneUpdate>(), &likeness.to_bytes())?;
+        let (of_rover, of_wheel) = (numbers::of_rover(), numbers::of_wheel());
+        let scene =
+            |out: &mut Container<W>, topic| out.channel(topic, &schema::<SceneUpdate>(), &[]);
+        let wheel = |name: &WheelName| {
+            let mut about = of_wheel.described();
+            about.push(("wheel".into(), name.own.clone()));
+            out.channel(&format!("/wheels/{}", name.frame), &of_wheel.schema(), &about)
+        };
+        let wheels = names.iter().map(wheel).collect();
+        let to = Channels {
+            wheels,
+            transforms: out.channel("/tf", &schema::<FrameTransforms>(), &[]),
+            ground: scene(&mut out, "/scene/ground"),
+            path: scene(&mut out, "/scene/path"),
+            forces: scene(&mut out, "/scene/forces"),
+            rover: out.channel("/rover", &of_rover.schema(), &of_rover.described()),
+            events: out.channel("/events", &schema::<foxglove::Log>(), &[]),
+        };
+        Ok(Self {
+            out,
+            to,
+            names,
+            rover: of_rover,
+            wheel: of_wheel,
+            follower: Follower::new(rover),
+            pose: None,
+            ground: Ground::of(rover),
+            path: Path::of(rover),
+            forces: Forces::of(scenario),
+            raised: Vec::new(),
+            scenario: scenario.clone(),
+        })
+    }
+
+    /// Adds records, which follow those that were added before.
+    ///
+    /// # Errors
+    /// [`LogError`] if they do not, if a number is not finite, or if the log cannot be written to.
+    pub fn append(&mut self, records: &[Record]) -> Result<(), LogError> {
+        records.iter().try_for_each(|record| self.add(record))
+    }
+
+    /// Adds a message in words.
+    ///
+    /// * `time`: since the start of the run [s]
+    /// * `from`: what it comes from, such as `leg 2`
+    ///
+    /// # Errors
+    /// [`LogError`] if there is no such time, or if the log cannot be written to.
+    pub fn event(
+        &mut self,
+        time: f64,
+        level: Level,
+        from: &str,
+        text: &str,
+    ) -> Result<(), LogError> {
+        let time = nanoseconds(time)?;
+        let message = foxglove::Log {
+            timestamp: Timestamp::of(time),
+            level,
+            message: text.to_owned(),
+            name: from.to_owned(),
+            ..foxglove::Log::default()
+        };
+        Ok(self.out.message(self.to.events, time, &message.to_bytes())?)
+    }
+
+    /// Says what became of a run.
+    ///
+    /// * `time`: its end [s]
+    ///
+    /// # Errors
+    /// As [`event`](Self::event).
+    pub fn outcome(&mut self, time: f64, outcome: &Outcome) -> Result<(), LogError> {
+        self.event(time, level_of(outcome), "run", &words(outcome))
+    }
+
+    /// Says that a leg of a mission begins.
+    ///
+    /// * `time`: [s]
+    /// * `place`: of the leg in the mission, 0 for the first
+    /// * `what`: it is to do
+    ///
+    /// # Errors
+    /// As [`event`](Self::event).
+    pub fn leg_began(&mut self, time: f64, place: usize, what: &str) -> Result<(), LogError> {
+        self.event(time, Level::Info, &leg(place), &format!("began: {what}"))
+    }
+
+    /// Says what became of a leg.
+    ///
+    /// * `time`: its end, with the way back out of it [s]
+    /// * `place`: of the leg in the mission, 0 for the first
+    ///
+    /// # Errors
+    /// As [`event`](Self::event).
+    pub fn leg_ended(
+        &mut self,
+        time: f64,
+        place: usize,
+        report: &LegReport,
+    ) -> Result<(), LogError> {
+        let (level, became) = match &report.outcome {
+            LegOutcome::Completed => (Level::Info, report.outcome.name().to_owned()),
+            LegOutcome::Stopped(stopped) => (Level::Warning, reason(stopped)),
+            LegOutcome::Ended(outcome) => (Level::Error, words(outcome)),
+        };
+        let way =
+            format!("{:.3} m in {:.1} s with {:.1} J", report.distance, report.time, report.energy);
+        self.event(time, level, &leg(place), &format!("{became}; {way}"))?;
+        let Some(back) = &report.back_out else { return Ok(()) };
+        let way = format!("backed out by {:.3} m in {:.1} s", back.distance, back.time);
+        match &back.ended {
+            None => self.event(time, Level::Info, &leg(place), &way),
+            Some(outcome) => {
+                self.event(time, Level::Error, &leg(place), &format!("{way}; {}", words(outcome)))
+            }
+        }
+    }
+
+    /// Puts a file into the log, such as the document that determined the run.
+    ///
+    /// * `media_type`: what it is, such as `application/toml`
+    ///
+    /// # Errors
+    /// [`LogError`] if the log cannot be written to.
+    pub fn attach(&mut self, name: &str, media_type: &str, content: &[u8]) -> Result<(), LogError> {
+        Ok(self.out.attach(name, media_type, content)?)
+    }
+
+    /// Writes the rest, and the index by which readers find all; what it was written to comes back.
+    ///
+    /// # Errors
+    /// [`LogError`] if the log cannot be written to.
+    pub fn finish(self) -> Result<W, LogError> {
+        Ok(self.out.finish()?)
+    }
+
+    fn add(&mut self, record: &Record) -> Result<(), LogError> {
+        let last = self.pose.as_ref().map_or(0.0, |pose| pose.time);
+        if record.time < last {
+            return Err(LogError::OutOfOrder { time: record.time, last });
+        }
+        // With these, all that follows is finite.
+        let message = self.rover.message(record, "the rover", record.time)?;
+        let time = nanoseconds(record.time)?;
+        self.out.message(self.to.rover, time, &message)?;
+        for ((wheel, name), to) in record.wheels.iter().zip(&self.names).zip(&self.to.wheels) {
+            let message = self.wheel.message(wheel, &name.own, record.time)?;
+            self.out.message(*to, time, &message)?;
+        }
+        let pose = self.follower.pose(&self.scenario.rover, record);
+        self.add_transforms(&pose)?;
+        self.add_scene(time, &pose)?;
+        self.add_flags(record)?;
+        self.pose = Some(pose);
+        Ok(())
+    }
+
+    /// The transforms of a record, and of times before it, as many as the wheels' turning needs.
+    fn add_transforms(&mut self, pose: &Pose) -> Result<(), LogError> {
+        let mut poses = Vec::new();
+        if let Some(last) = &self.pose {
+            let turned = last.wheels.iter().zip(&pose.wheels);
+            let turned = turned.map(|(a, b)| (b.turned - a.turned).abs()).fold(0.0, f64::max);
+            let steps = (turned / TURN).ceil().min(BETWEEN);
+            let between = |step: f64| last.time + (pose.time - last.time) * step / steps;
+            let times = (1..).map(f64::from).take_while(|step| *step < steps).map(between);
+            poses.extend(times.map(|time| last.between(pose, time)));
+        }
+        for pose in poses.iter().chain([pose]) {
+            let time = nanoseconds(pose.time)?;
+            let mounts = self.scenario.rover.mounts();
+            let transforms = frames::of_rover(time, pose, mounts, &self.names);
+            let message = FrameTransforms { transforms }.to_bytes();
+            self.out.message(self.to.transforms, time, &message)?;
+        }
+        Ok(())
+    }
+
+    fn add_scene(&mut self, time: u64, pose: &Pose) -> Result<(), LogError> {
+        if self.ground.grow(pose.centre.xy()) {
+            self.out.message(self.to.ground, time, &self.ground.scene(time).to_bytes())?;
+        }
+        if self.path.grow(pose.centre.xy()) {
+            self.out.message(self.to.path, time, &self.path.scene(time).to_bytes())?;
+        }
+        let mounts = self.scenario.rover.mounts();
+        let forces = self.forces.scene(time, pose, mounts, &self.names);
+        Ok(self.out.message(self.to.forces, time, &forces.to_bytes())?)
+    }
+
+    /// The flags that no record before has raised.
+    fn add_flags(&mut self, record: &Record) -> Result<(), LogError> {
+        for finding in RoverOnSlope::of(&self.scenario).at(record) {
+            if !self.raised.contains(&finding.flag) {
+                self.raised.push(finding.flag);
+                let text = format!("{}: {}", finding.flag.name(), finding.flag.rule().meaning);
+                self.event(record.time, Level::Warning, "validity", &text)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn schema<M: Message>() -> SchemaOf<'static> {
+    let data = Types::of::<M>();
+    SchemaOf { name: M::NAME, encoding: "protobuf", data, messages: "protobuf" }
+}
+
+/// A text as ROS 2 encodes a message that holds nothing else: the byte order, and the count with a final zero.
+fn cdr(text: &str) -> Vec<u8> {
+    let count = u32::try_from(text.len() + 1).unwrap_or(u32::MAX);
+    let mut out = vec![0, 1, 0, 0];
+    out.extend(count.to_le_bytes());
+    out.extend(text.as_bytes());
+    out.push(0);
+    out
+}
+
+/// * `time`: [s]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+fn nanoseconds(time: f64) -> Result<u64, LogError> {
+    if (0.0..=LONGEST).contains(&time) {
+        Ok((time * foxglove::NANO as f64).round() as u64)
+    } else {
+        Err(LogError::NoTime { time })
+    }
+}
+
+fn leg(place: usize) -> String {
+    format!("leg {}", place + 1)
+}
+
+fn level_of(outcome: &Outcome) -> Level {
+    if *outcome == Outcome::Completed { Level::Info } else { Level::Error }
+}
+
+/// An outcome with its reason.
+fn words(outcome: &Outcome) -> String {
+    let name = outcome.name().replace('_', " ");
+    outcome.reason().map_or(name.clone(), |reason| format!("{name}: {reason}"))
+}
+
+/// Why a rover stopped.
+fn reason(stopped: &Stopped) -> String {
+    match &stopped.cause {
+        Cause::Limit { stop, value } => {
+            let name = spaced(&format!("{:?}", stop.limited));
+            format!("stopped: {name}, {value:.4}, is above {:.4} (SI units)", stop.above)
+        }
+        Cause::Outcome(outcome) => format!("stopped before it would be {}", words(outcome)),
+    }
+}
+
+/// A name of Rust as words: `slip ratio` for `SlipRatio`.
+fn spaced(name: &str) -> String {
+    let mut words = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !words.is_empty() {
+            words.push(' ');
+        }
+        words.extend(letter.to_lowercase());
+    }
+    words
+}

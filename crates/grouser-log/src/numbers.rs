@@ -1,0 +1,91 @@
+//! The numbers of a rover and of its wheels as messages: a field for each column of results.
+
+use std::fmt;
+
+use grouser::document::columns::Column;
+use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::wheel::WHEEL;
+use grouser_core::contact::Settled;
+use grouser_core::simulation::{Record, WheelRecord};
+
+use crate::LogError;
+use crate::container::SchemaOf;
+use crate::protobuf::{self, Types};
+
+/// A column, wherever its number comes from.
+struct Entry<R> {
+    name: &'static str,
+    symbol: &'static str,
+    doc: &'static str,
+    number: Box<dyn Fn(&R) -> f64>,
+}
+
+/// The columns of a type of rows as a type of messages.
+pub(crate) struct Numbers<R> {
+    schema: &'static str,
+    entries: Vec<Entry<R>>,
+}
+
+fn entries<R: 'static, S: 'static>(
+    columns: &'static [Column<S>],
+    of: fn(&R) -> &S,
+) -> impl Iterator<Item = Entry<R>> {
+    columns.iter().map(move |column| Entry {
+        name: column.name,
+        symbol: column.unit.symbol,
+        doc: column.doc,
+        number: Box::new(move |row| column.number(of(row))),
+    })
+}
+
+/// The rover's.
+pub(crate) fn of_rover() -> Numbers<Record> {
+    static COLUMNS: &[Column<Record>] = &RECORD;
+    Numbers { schema: "grouser.Rover", entries: entries(COLUMNS, |it| it).collect() }
+}
+
+/// A wheel's.
+pub(crate) fn of_wheel() -> Numbers<WheelRecord> {
+    static MOTION: &[Column<WheelRecord>] = &WHEEL_RECORD;
+    static SETTLED: &[Column<Settled>] = &WHEEL;
+    let settled = entries(SETTLED, |it: &WheelRecord| &it.reaction.settled);
+    Numbers { schema: "grouser.Wheel", entries: entries(MOTION, |it| it).chain(settled).collect() }
+}
+
+impl<R> fmt::Debug for Numbers<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = self.entries.iter().map(|it| it.name);
+        f.debug_struct(self.schema).field("names", &names.collect::<Vec<_>>()).finish()
+    }
+}
+
+impl<R> Numbers<R> {
+    /// The type of the messages.
+    pub(crate) fn schema(&self) -> SchemaOf<'static> {
+        let data = Types::of_numbers(self.schema, self.entries.iter().map(|it| it.name));
+        SchemaOf { name: self.schema, encoding: "protobuf", data, messages: "protobuf" }
+    }
+
+    /// What each field is, with its unit.
+    pub(crate) fn described(&self) -> Vec<(String, String)> {
+        let described = |it: &Entry<R>| (it.name.to_owned(), format!("{} [{}]", it.doc, it.symbol));
+        self.entries.iter().map(described).collect()
+    }
+
+    /// A row as a message.
+    ///
+    /// * `whose`: the wheel, or the rover
+    /// * `time`: [s]
+    pub(crate) fn message(&self, row: &R, whose: &str, time: f64) -> Result<Vec<u8>, LogError> {
+        let mut out = Vec::with_capacity(10 * self.entries.len());
+        for (number, entry) in (1..).zip(&self.entries) {
+            let value = (entry.number)(row);
+            if !value.is_finite() {
+                let (name, whose) = (entry.name, whose.to_owned());
+                return Err(LogError::NotFinite { name, whose, time, value });
+            }
+            protobuf::put_double(value, number, &mut out);
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,430 @@
+//! Logs, read back. The readers of others are asked in `crates/grouser-python/tests/test_logs.py`; the one below
+//! reads just enough.
+
+mod hakuto {
+    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs"));
+}
+
+use std::collections::BTreeMap;
+use std::error::Error;
+use std::f64::consts::PI;
+use std::io::{self, Write};
+
+use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, MissionRun, Stop};
+use grouser_core::simulation::{Outcome, Record, Run, Scenario, Trajectory};
+use grouser_core::units::{Vec3, deg};
+use grouser_core::vehicle::{Mount, Rover};
+use grouser_log::{Level, Log, LogError};
+use grouser_pictures::motion::Follower;
+use grouser_pictures::rover::PlacedWheel;
+use reader::{Message, Summary};
+
+mod reader;
+
+type Outcomes = Result<(), Box<dyn Error>>;
+
+fn run_of(scenario: &Scenario) -> Trajectory {
+    Run::new(scenario).and_then(Run::to_end).expect("a run")
+}
+
+fn short() -> Scenario {
+    Scenario { duration: 2.0, ..hakuto::traverse().expect("a scenario") }
+}
+
+fn log_of(scenario: &Scenario, records: &[Record]) -> Result<Vec<u8>, LogError> {
+    let mut log = Log::begin(Vec::new(), "a run", scenario)?;
+    log.append(records)?;
+    log.finish()
+}
+
+/// A field of a message: a number of eight bytes, or what is counted, such as a message.
+#[derive(Clone, Debug)]
+enum Value {
+    Double(f64),
+    Bytes(Vec<u8>),
+    Whole,
+}
+
+/// A message as the format has it: its fields by number.
+fn fields(bytes: &[u8]) -> BTreeMap<u64, Vec<Value>> {
+    let mut all: BTreeMap<u64, Vec<Value>> = BTreeMap::new();
+    let mut at = 0;
+    let varint = |at: &mut usize| {
+        let mut value = 0;
+        for shift in (0..).step_by(7) {
+            let byte = bytes[*at];
+            *at += 1;
+            value |= u64::from(byte & 0x7f) << shift;
+            if byte < 0x80 {
+                break;
+            }
+        }
+        value
+    };
+    while at < bytes.len() {
+        let tag = varint(&mut at);
+        let value = match tag & 7 {
+            0 => {
+                varint(&mut at);
+                Value::Whole
+            }
+            1 => {
+                at += 8;
+                Value::Double(f64::from_le_bytes(bytes[at - 8..at].try_into().expect("eight")))
+            }
+            2 => {
+                let size = usize::try_from(varint(&mut at)).expect("a size");
+                at += size;
+                Value::Bytes(bytes[at - size..at].into())
+            }
+            other => panic!("there is no number of the kind {other} in these messages"),
+        };
+        all.entry(tag >> 3).or_default().push(value);
+    }
+    all
+}
+
+fn inner(bytes: &[u8], number: u64) -> Vec<Vec<u8>> {
+    let found = fields(bytes).remove(&number).unwrap_or_default();
+    let bytes = |value: Value| if let Value::Bytes(bytes) = value { bytes } else { Vec::new() };
+    found.into_iter().map(bytes).collect()
+}
+
+fn text(bytes: &[u8], number: u64) -> String {
+    String::from_utf8(inner(bytes, number).concat()).expect("a text")
+}
+
+fn doubles(bytes: &[u8]) -> Vec<f64> {
+    let double = |value| if let Value::Double(number) = value { Some(number) } else { None };
+    fields(bytes).into_values().flatten().filter_map(double).collect()
+}
+
+/// The messages of a topic with their times [ns].
+fn messages(file: &[u8], topic: &str) -> Vec<(u64, Vec<u8>)> {
+    let all = reader::messages(file).into_iter().filter(|it| it.topic == topic);
+    all.map(|it| (it.time, it.data)).collect()
+}
+
+fn counts(file: &[u8]) -> BTreeMap<String, usize> {
+    let mut counts = BTreeMap::new();
+    for Message { topic, .. } in reader::messages(file) {
+        *counts.entry(topic).or_insert(0) += 1;
+    }
+    counts
+}
+
+#[test]
+fn every_record_is_a_message_of_rover_wheels_and_transforms() -> Outcomes {
+    let scenario = short();
+    let run = run_of(&scenario);
+    let file = log_of(&scenario, &run.records)?;
+    let counts = counts(&file);
+    let count = run.records.len();
+    assert_eq!(count, 21);
+    for topic in ["/rover", "/tf", "/scene/forces"] {
+        assert_eq!(counts[topic], count, "{topic}");
+    }
+    for mount in scenario.rover.mounts() {
+        assert_eq!(counts[&format!("/wheels/{}", mount.name)], count);
+    }
+    for topic in ["/tf_static", "/robot_description", "/scene/rover"] {
+        assert_eq!(counts[topic], 1, "{topic}");
+    }
+    for ((time, message), record) in messages(&file, "/rover").iter().zip(&run.records) {
+        let numbers = doubles(message);
+        assert_eq!(numbers[..3], [record.time, record.state.position.x, record.state.position.y]);
+        assert_eq!(numbers[3], record.state.yaw.to_degrees());
+        assert!((*time as f64 - 1e9 * record.time).abs() <= 0.5);
+    }
+    for (place, mount) in scenario.rover.mounts().iter().enumerate() {
+        let topic = format!("/wheels/{}", mount.name);
+        for ((_, message), record) in messages(&file, &topic).iter().zip(&run.records) {
+            let numbers = doubles(message);
+            let wheel = &record.wheels[place];
+            assert_eq!(numbers[..2], [wheel.wheel_speed, wheel.reaction.slip.ratio]);
+            assert_eq!(numbers[5], 1e3 * wheel.reaction.settled.sinkage);
+        }
+    }
+    let summary = Summary::of(&file);
+    assert_eq!(summary.messages, counts.values().sum::<usize>() as u64);
+    assert_eq!(summary.times, [0, 2_000_000_000]);
+    let wheel = summary.channels.iter().find(|it| it.topic == "/wheels/front-left").expect("it");
+    assert_eq!(wheel.metadata["sinkage_mm"], "Sinkage of the grouser tips [mm]");
+    assert_eq!(wheel.metadata["wheel"], "front-left");
+    Ok(())
+}
+
+/// Each frame in its parent, in the order of the message: place and quaternion (x, y, z, w).
+fn transforms(message: &[u8]) -> Vec<([String; 2], Vec3, [f64; 4])> {
+    let of = |it: &Vec<u8>| {
+        let place = doubles(&inner(it, 4).concat());
+        let turn = doubles(&inner(it, 5).concat());
+        let turn = [turn[0], turn[1], turn[2], turn[3]];
+        ([text(it, 2), text(it, 3)], Vec3::new(place[0], place[1], place[2]), turn)
+    };
+    inner(message, 1).iter().map(of).collect()
+}
+
+/// v' = v + 2 w (u × v) + 2 u × (u × v), with q = (u, w).
+fn turned([x, y, z, w]: [f64; 4], v: Vec3) -> Vec3 {
+    let u = Vec3::new(x, y, z);
+    let across = u.cross(&v);
+    v + 2.0 * w * across + 2.0 * u.cross(&across)
+}
+
+/// Six wheels, four of them steered; names that readers could take for something else.
+fn six() -> Rover {
+    let four = hakuto::rover().expect("a rover");
+    let unit = four.mounts()[0].unit;
+    let names = ["body", "a b", "a/b", "räder<&>", "front-left", "front-left_rim"];
+    let mounts = names.iter().enumerate().map(|(place, name)| {
+        let (row, side) = (place / 2, if place % 2 == 0 { 1.0 } else { -1.0 });
+        let x = 0.25 * (1.0 - row as f64);
+        let steering = side * deg(10.0) * (1.0 - row as f64);
+        Mount { name: (*name).into(), position: Vec3::new(x, 0.24 * side, -0.06), unit, steering }
+    });
+    Rover::new(*four.body(), mounts.collect()).expect("a rover")
+}
+
+/// The way from the slope to each hub by transforms, and by what the pictures draw.
+#[test]
+fn transforms_lead_to_the_wheels_of_the_pictures() -> Outcomes {
+    let scenario = Scenario { rover: six(), ..short() };
+    let run = run_of(&scenario);
+    let file = log_of(&scenario, &run.records)?;
+    let all = messages(&file, "/tf");
+    assert_eq!(all.len(), run.records.len());
+    let mut follower = Follower::new(&scenario.rover);
+    for ((_, message), record) in all.iter().zip(&run.records) {
+        let pose = follower.pose(&scenario.rover, record);
+        let transforms = transforms(message);
+        assert_eq!(transforms.len(), 13);
+        let ([parent, child], centre, yaw) = &transforms[0];
+        assert_eq!([parent.as_str(), child], ["slope", "body"]);
+        for (place, mount) in scenario.rover.mounts().iter().enumerate() {
+            let placed = PlacedWheel::of(mount, &pose.wheels[place], &pose, Vec3::zeros());
+            let ([parent, frame], hub, steering) = &transforms[1 + 2 * place];
+            let ([in_frame, _], none, rolling) = &transforms[2 + 2 * place];
+            assert_eq!((parent.as_str(), in_frame), ("body", frame));
+            let hub = centre + turned(*yaw, *hub);
+            assert!((hub - placed.hub).norm() < 1e-12, "{hub} {}", placed.hub);
+            let forward = turned(*yaw, turned(*steering, Vec3::x()));
+            assert!((forward - placed.forward).norm() < 1e-12);
+            assert_eq!(*none, Vec3::zeros());
+            // What was on top has gone forward.
+            let top = turned(*rolling, Vec3::z());
+            let angle = pose.wheels[place].turned;
+            assert!((top - Vec3::new(angle.sin(), 0.0, angle.cos())).norm() < 1e-12);
+        }
+    }
+    let last = transforms(&all[all.len() - 1].1);
+    assert!(last[2].2[1] > 0.1, "the wheels have turned");
+    Ok(())
+}
+
+#[test]
+fn names_of_frames_are_plain_and_differ_and_the_model_has_them() -> Outcomes {
+    let scenario = Scenario { rover: six(), ..short() };
+    let file = log_of(&scenario, &run_of(&scenario).records)?;
+    let transforms = transforms(&messages(&file, "/tf")[0].1);
+    let mut frames: Vec<String> = transforms.iter().map(|it| it.0[1].clone()).collect();
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+    assert!(frames.iter().all(|frame| frame.chars().all(plain)), "{frames:?}");
+    let (_, model) = &messages(&file, "/robot_description")[0];
+    assert_eq!(model[..4], [0, 1, 0, 0]);
+    let size = u32::from_le_bytes(model[4..8].try_into()?) as usize;
+    assert_eq!((model.len(), model.last()), (8 + size, Some(&0)));
+    let model = String::from_utf8(model[8..model.len() - 1].into())?;
+    let model = roxmltree::Document::parse(&model)?;
+    let links = model.descendants().filter(|node| node.has_tag_name("link"));
+    let links: Vec<&str> = links.filter_map(|node| node.attribute("name")).collect();
+    assert_eq!(links, frames);
+    frames.sort();
+    frames.dedup();
+    assert_eq!(frames.len(), 13);
+    // The wheels' own names are kept.
+    let summary = Summary::of(&file);
+    let own: Vec<&str> = summary
+        .channels
+        .iter()
+        .filter_map(|it| it.metadata.get("wheel"))
+        .map(String::as_str)
+        .collect();
+    assert!(scenario.rover.mounts().iter().all(|mount| own.contains(&mount.name.as_str())));
+    Ok(())
+}
+
+/// What is appended record by record is written as if it came at once, in chunks that a reader finds.
+#[test]
+fn a_long_log_is_written_in_pieces() -> Outcomes {
+    let scenario = short();
+    let run = run_of(&scenario);
+    let mut records = run.records.clone();
+    for round in 1..60 {
+        let later = |record: &Record| {
+            let time = record.time + f64::from(round) * 2.1;
+            Record { time, ..record.clone() }
+        };
+        records.extend(run.records.iter().map(later));
+    }
+    let file = log_of(&scenario, &records)?;
+    let mut log = Log::begin(Vec::new(), "a run", &scenario)?;
+    for batch in records.chunks(7) {
+        log.append(batch)?;
+    }
+    assert!(log.finish()? == file, "batches make no difference");
+    assert_eq!(counts(&file)["/rover"], records.len());
+    let summary = Summary::of(&file);
+    assert!(summary.chunks.len() > 2, "{}", summary.chunks.len());
+    // The index leads to a chunk, and the chunk's to its messages.
+    let last = summary.chunks.last().expect("a chunk");
+    let found = last.messages(&file);
+    assert!(found.len() > 10, "{}", found.len());
+    let ends = [found.iter().map(|it| it.time).min(), found.iter().map(|it| it.time).max()];
+    assert_eq!(ends, last.times.map(Some));
+    Ok(())
+}
+
+/// No wheel turns by more than a radian between two transforms, however far apart records are.
+#[test]
+fn fast_wheels_have_transforms_between_records() -> Outcomes {
+    let scenario = short();
+    let mut records: Vec<Record> = run_of(&scenario).records.into_iter().step_by(10).collect();
+    for record in &mut records {
+        record.wheels.iter_mut().for_each(|wheel| wheel.wheel_speed = 8.0);
+    }
+    let file = log_of(&scenario, &records)?;
+    let angles: Vec<f64> = messages(&file, "/tf")
+        .iter()
+        .map(|(_, message)| {
+            let [_, y, _, w] = transforms(message)[2].2;
+            2.0 * y.atan2(w)
+        })
+        .collect();
+    assert!(angles.len() > 2 * records.len());
+    for pair in angles.windows(2) {
+        let step = (pair[1] - pair[0] + PI).rem_euclid(2.0 * PI) - PI;
+        assert!((0.0..1.0 + 1e-9).contains(&step.abs()), "{step}");
+    }
+    assert_eq!(counts(&file)["/rover"], records.len());
+    Ok(())
+}
+
+#[test]
+fn a_rover_that_tips_over_has_no_wheels_in_its_last_record() -> Outcomes {
+    let scenario = short();
+    let mut records = run_of(&scenario).records;
+    records.last_mut().expect("a record").wheels.clear();
+    let file = log_of(&scenario, &records)?;
+    let counts = counts(&file);
+    assert_eq!(counts["/wheels/front-left"], records.len() - 1);
+    assert_eq!(counts["/tf"], records.len());
+    let forces = messages(&file, "/scene/forces");
+    let arrows =
+        |message: &[u8]| inner(message, 2).iter().map(|it| inner(it, 7).len()).sum::<usize>();
+    assert_eq!([arrows(&forces[0].1), arrows(&forces[forces.len() - 1].1)], [4, 0]);
+    Ok(())
+}
+
+/// One record, and none at all.
+#[test]
+fn the_shortest_logs_can_be_read() -> Outcomes {
+    let scenario = short();
+    let records = run_of(&scenario).records;
+    assert_eq!(counts(&log_of(&scenario, &records[..1])?)["/tf"], 1);
+    assert_eq!(counts(&log_of(&scenario, &[])?)["/tf_static"], 1);
+    Ok(())
+}
+
+#[test]
+fn what_a_log_cannot_have_is_an_error() {
+    let scenario = short();
+    let records = run_of(&scenario).records;
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut broken = records.clone();
+        broken[3].wheels[1].reaction.settled.sinkage = value;
+        let error = log_of(&scenario, &broken).expect_err("no number").to_string();
+        let expected = format!("sinkage_mm of rear-left is {value} at 0.3");
+        assert!(error.starts_with(&expected), "{error}");
+        broken = records.clone();
+        broken[3].time = value;
+        assert!(matches!(
+            log_of(&scenario, &broken),
+            Err(LogError::NotFinite { name: "time_s", .. })
+        ));
+    }
+    let mut turned_round = records;
+    turned_round.reverse();
+    assert!(matches!(log_of(&scenario, &turned_round), Err(LogError::OutOfOrder { .. })));
+    let mut log = Log::begin(Vec::new(), "", &scenario).expect("a log");
+    for time in [-1.0, f64::NAN, 1e11] {
+        assert!(matches!(log.event(time, Level::Info, "", ""), Err(LogError::NoTime { .. })));
+    }
+}
+
+/// A disk that is full after some bytes.
+#[derive(Debug)]
+struct Full(usize);
+
+impl Write for Full {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error() -> Outcomes {
+    let scenario = short();
+    let mut log = Log::begin(Full(10_000), "a run", &scenario)?;
+    log.append(&run_of(&scenario).records)?;
+    assert!(matches!(log.finish(), Err(LogError::Write(_))));
+    Ok(())
+}
+
+#[test]
+fn a_mission_says_what_becomes_of_its_legs() -> Outcomes {
+    let limit = Stop::above(Limited::Time, 2.0);
+    let legs = vec![
+        Leg::new(Manoeuvre::drive(0.1)),
+        Leg { stops: vec![limit], ..Leg::new(Manoeuvre::Turn { angle: deg(90.0) }) },
+    ];
+    let mission = Mission { scenario: short(), legs, stops: Vec::new() };
+    let mut run = MissionRun::new(&mission)?;
+    let mut log = Log::begin(Vec::new(), "a mission", &mission.scenario)?;
+    let mut records = 0;
+    for (place, what) in ["drive 0.1 m", "turn by 90°"].iter().enumerate() {
+        log.leg_began(run.time(), place, what)?;
+        let report = run.next_leg()?.cloned().expect("a leg");
+        let batch = run.take_records();
+        records += batch.len();
+        log.append(&batch)?;
+        log.leg_ended(run.time(), place, &report)?;
+    }
+    log.outcome(run.time(), &Outcome::Sliding { time: run.time() })?;
+    let file = log.finish()?;
+    assert_eq!(counts(&file)["/rover"], records);
+    let events: Vec<(String, String)> =
+        messages(&file, "/events").iter().map(|(_, it)| (text(it, 4), text(it, 3))).collect();
+    let (flags, events): (Vec<_>, Vec<_>) =
+        events.into_iter().partition(|(name, _)| name == "validity");
+    let mut names: Vec<&str> = flags.iter().filter_map(|it| it.1.split(':').next()).collect();
+    names.sort_unstable();
+    names.dedup();
+    // Each flag is raised once.
+    assert!(names.len() == flags.len() && names.contains(&"slip-outside"), "{flags:?}");
+    let begins = |place: usize, from: &str, words: &str| {
+        let (name, text) = &events[place];
+        assert!(name == from && text.starts_with(words), "{name}: {text}");
+    };
+    begins(0, "leg 1", "began: drive 0.1 m");
+    begins(1, "leg 1", "completed; 0.1");
+    begins(2, "leg 2", "began: turn by 90°");
+    begins(3, "leg 2", "stopped: time, 2");
+    begins(4, "run", "sliding: it slides downhill");
+    Ok(())
+}
