@@ -81,6 +81,8 @@ pub const KG: Unit = Unit::si("kg");
 pub const KG_M2: Unit = Unit::si("kg·m²");
 /// Metres.
 pub const M: Unit = Unit::si("m");
+/// One over metres.
+pub const PER_M: Unit = Unit::si("1/m");
 /// Metres per metre.
 pub const M_PER_M: Unit = Unit::si("m/m");
 /// Metres per radian.
@@ -116,10 +118,11 @@ pub const OF_KEY: Unit = Unit::si("");
 
 /// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
 /// Python package asks this table; a test compares it with that of `docs/conventions.md`.
-pub const UNITS: [(&str, Unit); 25] = [
+pub const UNITS: [(&str, Unit); 26] = [
     ("_m_per_m", M_PER_M),
     ("_deg_per_m", DEG_PER_M),
     ("_j_per_m", J_PER_M),
+    ("_per_m", PER_M),
     ("_per_rad2_m", M_PER_RAD2),
     ("_per_rad_m", M_PER_RAD),
     ("_kg_m2.xx", KG_M2),

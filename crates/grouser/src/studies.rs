@@ -6,6 +6,7 @@
 //! | [`wheel_test_band`] | the same where soil and model are uncertain |
 //! | [`heading`] | the heading offset that holds the contour on a slope |
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
+//! | [`wheel_speeds`] | contour traverses with wheels at speeds of their own |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
@@ -34,6 +35,7 @@ pub mod slope_validation;
 pub mod traverse_band;
 pub mod validation;
 pub mod validity;
+pub mod wheel_speeds;
 pub mod wheel_test;
 pub mod wheel_test_band;
 

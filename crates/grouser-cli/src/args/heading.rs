@@ -2,6 +2,7 @@
 
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
+use grouser::studies::wheel_speeds::USUAL_RATIO;
 
 use super::{
     BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
@@ -20,6 +21,13 @@ pub(crate) struct HeadingArgs {
     /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
     pub(crate) slope_deg: Numbers,
+    /// Also let wheels turn at speeds of their own: those of each side, or of each wheel, that hold the contour with
+    /// the yaw moment balanced and the least work, and the steepest slopes.
+    #[arg(long, conflicts_with = "uncertainty")]
+    pub(crate) wheel_speeds: bool,
+    /// With `--wheel-speeds`: the fastest wheel's speed over the mean of all, at most; above 1.
+    #[arg(long, value_name = "RATIO", default_value_t = USUAL_RATIO, requires = "wheel_speeds")]
+    pub(crate) most_speed_ratio: f64,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
     #[command(flatten)]

@@ -3,11 +3,14 @@
 mod of_model;
 mod page;
 
+use grouser::document::LoadedScenario;
 use grouser::document::columns::SLOPE;
 use grouser::document::columns::heading::{self};
+use grouser::document::columns::wheel_speeds;
 use grouser::document::table::{Row, Table};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
+use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -31,10 +34,11 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let (mut table, mut limits) = (Table::default(), Table::default());
     for of_model in &all {
         table.append(of_model.named(args, &of_model.table));
-        limits.append(of_model.named(args, &of_model.limit));
+        let limit = of_model.own_speeds.as_ref().unwrap_or(&of_model.limit);
+        limits.append(of_model.named(args, limit));
     }
     let rows = Rows::of_table(&table);
-    let limit = if args.setting.has_every_model() {
+    let limit = if args.setting.has_every_model() || args.wheel_speeds {
         Limits::Each { limits: &limits }
     } else {
         Limits::One(limits.row(0))
@@ -57,7 +61,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         Format::Table => {
             let lines = all.iter().map(|of_model| of_model.lines(all.len())).collect::<String>();
             let model = inputs::model_line(&all[0].scenario.document, "soil");
-            output::show(rows.to_table(&brief(args)) + lines + model)
+            output::show(rows.to_table(&brief(args, &all[0])) + lines + model)
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
@@ -81,11 +85,30 @@ fn of_model(args: &HeadingArgs, setting: &SettingArgs, charted: bool) -> Result<
         strict::check(&args.strict, flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
     }
     let mut limit = heading::steepest(&curve);
+    let own_speeds = own_speeds(args, &scenario, &curve)?;
+    if let Some(own) = &own_speeds {
+        table = wheel_speeds::table(own, &slopes);
+    }
+    let own_speeds = own_speeds.map(|own| wheel_speeds::limits(&own));
     if let Some(bands) = &bands {
         table = heading::with_bands(table, &bands.asked);
         limit.columns.extend(bands.limit.columns.clone());
     }
-    Ok(OfModel { scenario, curve, bands, table, limit })
+    Ok(OfModel { scenario, curve, bands, own_speeds, table, limit })
+}
+
+/// Wheels at speeds of their own, where they are asked for.
+fn own_speeds(
+    args: &HeadingArgs,
+    scenario: &LoadedScenario,
+    curve: &HeadingCurve,
+) -> Result<Option<WheelSpeeds>, Failure> {
+    if !args.wheel_speeds {
+        return Ok(None);
+    }
+    let heading = HeadingStudy::of(&scenario.value);
+    let study = WheelSpeedStudy { heading, most_ratio: args.most_speed_ratio };
+    Ok(Some(WheelSpeeds::from(study, curve.clone())?))
 }
 
 /// The inputs of the answer.
@@ -101,6 +124,9 @@ fn settings(args: &HeadingArgs, first: &OfModel) -> Value {
         "moments": document.get("moments"),
         "slope_deg": args.slope_deg.0,
     });
+    if args.wheel_speeds {
+        settings["most_speed_ratio"] = args.most_speed_ratio.into();
+    }
     let UncertaintyArgs { sampling, seed } = args.uncertainty;
     if sampling.uncertainty {
         settings["samples"] = sampling.samples.into();
@@ -125,7 +151,7 @@ struct Results<'a> {
 #[serde(untagged)]
 enum Limits<'a> {
     One(Row<'a>),
-    /// A row for each model.
+    /// A row for each model, and for each freedom of the wheels' speeds.
     Each {
         limits: &'a Table,
     },

@@ -119,6 +119,7 @@ fn heading_as_a_table() {
     check_conversation("heading", "heading");
     check_conversation("heading-on-too-steep-a-slope", "heading --slope-deg 0,10,25");
     check_conversation("heading-of-a-scenario", "heading moon-10-deg --slope-deg 10");
+    check_conversation("heading-wheel-speeds", "heading --wheel-speeds --slope-deg 10,25");
 }
 
 #[test]
@@ -126,6 +127,8 @@ fn heading_for_programs() {
     let line = "heading --slope-deg 10,25";
     check_rounded("heading-json", &format!("{line} --format json"), rounded_json);
     check_rounded("heading-csv", &format!("{line} --format csv"), rounded_csv);
+    let line = format!("{line} --wheel-speeds --format csv");
+    check_rounded("heading-wheel-speeds-csv", &line, rounded_csv);
 }
 
 #[test]

@@ -9,6 +9,7 @@ pub mod heading;
 pub mod run;
 pub mod slope;
 pub mod stand;
+pub mod wheel_speeds;
 pub mod wheel_test;
 
 pub use grouser_io::columns::*;

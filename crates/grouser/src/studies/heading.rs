@@ -80,12 +80,22 @@ impl HeadingOffset {
         self.wheels.iter().map(|wheel| wheel.settled.forces.torque).sum()
     }
 
+    /// Rim speed of every wheel over the rover's speed along its course, cos c / (1 − s) [-], and with 1 + s
+    /// instead of the divisor for wheels that brake; c = γ − χ.
+    #[must_use]
+    pub fn speed_ratio(&self) -> f64 {
+        wide::cos(self.yaw - self.course) * self.rim_over_hub()
+    }
+
+    fn rim_over_hub(&self) -> f64 {
+        let s = self.slip_ratio;
+        if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s }
+    }
+
     /// Work of the wheels per metre of way, ΣT cos c / [(1 − s) r_s] [J/m], and with 1 + s instead
     /// of the divisor for wheels that brake; c = γ − χ.
     #[must_use]
     pub fn energy_per_metre(&self, rover: &Rover) -> f64 {
-        let s = self.slip_ratio;
-        let rim_over_hub = if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s };
         let crab = self.yaw - self.course;
         let thrust = || {
             let each = self.each_torque(rover);
@@ -93,7 +103,7 @@ impl HeadingOffset {
         };
         let thrust: f64 =
             rover.common_radius().map_or_else(thrust, |radius| self.torque() / radius);
-        thrust * wide::cos(crab) * rim_over_hub
+        thrust * wide::cos(crab) * self.rim_over_hub()
     }
 
     /// Drift per metre travelled, −sin χ [m/m]: positive downhill, 0 on a contour traverse.

@@ -42,3 +42,4 @@ mod uncertain_documents;
 mod uncertainty;
 mod units;
 mod validity;
+mod wheel_speeds;

@@ -2,7 +2,8 @@
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{self, LIMIT_REASON};
-use grouser::document::columns::{LIMIT_SLOPE, MODEL, SLOPE, YAW};
+use grouser::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
+use grouser::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, MODEL, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::studies::heading::HeadingCurve;
 
@@ -16,6 +17,8 @@ pub(super) struct OfModel {
     pub(super) scenario: LoadedScenario,
     pub(super) curve: HeadingCurve,
     pub(super) bands: Option<Bands>,
+    /// With wheels at speeds of their own: the steepest slopes, a row for each freedom.
+    pub(super) own_speeds: Option<Table>,
     /// A row for each slope.
     pub(super) table: Table,
     /// The steepest slope: one row.
@@ -45,7 +48,8 @@ impl OfModel {
             .bands
             .as_ref()
             .map_or(String::new(), |bands| format!("{name}{}", bands.limit_line()));
-        format!("{name}{}{band}", limit_line(&self.limit))
+        let own = self.own_speeds.as_ref().map_or(String::new(), |limits| own_lines(&name, limits));
+        format!("{name}{}{band}{own}", limit_line(&self.limit))
     }
 }
 
@@ -72,9 +76,12 @@ pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart, &'s
 }
 
 /// The columns for reading.
-pub(super) fn brief(args: &HeadingArgs) -> Vec<String> {
-    let has_bands = args.uncertainty.sampling.uncertainty;
-    let mut names = if has_bands { heading::bands_brief() } else { heading::brief() };
+pub(super) fn brief(args: &HeadingArgs, first: &OfModel) -> Vec<String> {
+    let mut names = match first {
+        OfModel { bands: Some(_), .. } => heading::bands_brief(),
+        OfModel { own_speeds: Some(_), .. } => wheel_speeds::brief(&first.scenario.value.rover),
+        _ => heading::brief(),
+    };
     if args.setting.has_every_model() {
         names.insert(0, MODEL.to_owned());
     }
@@ -91,6 +98,25 @@ fn limit_line(limit: &Table) -> String {
         }
         None => format!("no heading holds the contour on any slope: {reason}\n"),
     }
+}
+
+/// What wheels at speeds of their own hold at the most.
+fn own_lines(name: &str, limits: &Table) -> String {
+    let rows = limits.texts(WHEELS).iter().zip(limits.numbers(LIMIT_SLOPE.name));
+    let energies = limits.numbers(ENERGY_PER_METRE.name);
+    let lines = rows.zip(energies).skip(1).map(|((wheels, slope), energy)| {
+        let wheels = wheels.as_deref().unwrap_or_default();
+        match (slope, energy) {
+            (Some(slope), Some(energy)) => {
+                format!(
+                    "{name}with wheels {wheels}: {}°, with {energy:.1} J/m\n",
+                    rounded_down(*slope)
+                )
+            }
+            _ => format!("{name}with wheels {wheels}: {NONE_FOUND}\n"),
+        }
+    });
+    lines.collect()
 }
 
 /// Yaw over slope.

@@ -23,7 +23,7 @@ pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &T
     for (_, chart, caption) in figures(command, all) {
         page.drawing(&chart.to_svg(), caption);
     }
-    page.rows("On each slope", table, &brief(args));
+    page.rows("On each slope", table, &brief(args, &all[0]));
     page.heading("Everything over the slope");
     match all {
         [one] => page.charts(&by_unit(&dense(one), SLOPE, &held())),
@@ -73,7 +73,11 @@ fn of_models(all: &[OfModel]) -> Vec<Chart> {
 
 fn basis(command: &str, args: &HeadingArgs, all: &[OfModel]) -> Basis {
     let slopes: Vec<String> = args.slope_deg.0.iter().map(ToString::to_string).collect();
-    let samples = sampling::flags(&args.uncertainty);
+    let samples = if args.wheel_speeds {
+        format!(" --wheel-speeds --most-speed-ratio {}", args.most_speed_ratio)
+    } else {
+        sampling::flags(&args.uncertainty)
+    };
     let file = |it: &OfModel| format!("scenario{}.toml", it.end(all.len()));
     let line =
         |it| format!("grouser {command} {} --slope-deg {}{samples}", file(it), slopes.join(","));

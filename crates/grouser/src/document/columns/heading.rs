@@ -5,8 +5,8 @@ use super::super::table::Table;
 use super::super::unit::NM;
 use super::flags::{self, FLAGS};
 use super::{
-    COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, SINKAGE,
-    SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, number, text, whole,
+    COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE,
+    SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
 use crate::contact::validity::Finding;
 use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
@@ -39,14 +39,14 @@ pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
         ENERGY_PER_METRE.number("Work of the wheels per metre along the course", |it| {
             it.heading.energy_per_metre(it.rover)
         }),
-        number(
-            "yaw_moment_nm",
-            NM,
-            "Yaw moment left over; negative turns the nose downhill",
-            |it| it.heading.yaw_moment,
-        ),
+        YAW_MOMENT.number("Yaw moment left over; negative turns the nose downhill", |it| {
+            it.heading.yaw_moment
+        }),
     ]
 }
+
+/// Yaw moment that is left over.
+pub const YAW_MOMENT: Quantity = quantity("yaw_moment_nm", NM);
 
 /// A slope of some soil and course, and the heading offset there.
 #[derive(Clone, Copy, Debug)]

@@ -98,7 +98,7 @@ impl HeadingStudy {
     }
 
     /// What decides the soil's reaction on the rover there.
-    pub(super) fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
+    pub(in crate::studies) fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
         Ground {
             rover: &self.rover,
             site,
