@@ -1,5 +1,6 @@
 //! What became of a mission and of its legs.
 
+use super::driven::End;
 use super::stop::Stopped;
 use crate::simulation::{Outcome, Record};
 
@@ -35,8 +36,8 @@ pub struct LegReport {
 /// A way back after a stop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BackOut {
-    /// What ended it, if it did not reach its end.
-    pub ended: Option<Outcome>,
+    /// What became of it: it is stopped by nothing but a limit of time.
+    pub outcome: LegOutcome,
     /// Way over the ground [m].
     pub distance: f64,
     /// How long it took [s].
@@ -52,6 +53,16 @@ pub struct MissionReport {
     pub legs: Vec<LegReport>,
     /// The rover over time; the last one is where the mission ended.
     pub records: Vec<Record>,
+}
+
+impl From<End> for LegOutcome {
+    fn from(end: End) -> Self {
+        match end {
+            End::Reached => Self::Completed,
+            End::Stopped(stopped) => Self::Stopped(stopped),
+            End::Ended(outcome) => Self::Ended(outcome),
+        }
+    }
 }
 
 impl LegOutcome {
@@ -71,8 +82,9 @@ impl MissionReport {
     #[must_use]
     pub fn outcome(&self) -> &'static str {
         let Some(last) = self.legs.last() else { return LegOutcome::Completed.name() };
-        let ended = last.back_out.as_ref().and_then(|back| back.ended.as_ref());
-        ended.map_or_else(|| last.outcome.name(), Outcome::name)
+        let back = last.back_out.as_ref().map(|back| &back.outcome);
+        let failed = back.filter(|outcome| **outcome != LegOutcome::Completed);
+        failed.unwrap_or(&last.outcome).name()
     }
 
     /// The rover where the mission ended.

@@ -17,6 +17,8 @@ pub struct MissionRun {
     mission: Mission,
     run: Run,
     reports: Vec<LegReport>,
+    /// How it was first computed otherwise than asked for.
+    fell_back: Option<Method>,
     is_over: bool,
 }
 
@@ -53,7 +55,8 @@ impl MissionRun {
             None => Pilot::of_leg(first, &state),
         };
         let run = Run::with_controller(&scenario, &mut pilot)?;
-        Ok(Self { mission: mission.clone(), run, reports: Vec::new(), is_over: false })
+        let mission = mission.clone();
+        Ok(Self { mission, run, reports: Vec::new(), fell_back: None, is_over: false })
     }
 
     /// Drives the mission to its end.
@@ -110,10 +113,11 @@ impl MissionRun {
         self.run.state().time()
     }
 
-    /// How the motion was computed so far.
+    /// How the motion was computed so far: where no steady motion was found in one manoeuvre, the next one seeks it again,
+    /// and this says why it was not found first.
     #[must_use]
     pub fn method(&self) -> &Method {
-        self.run.state().method()
+        self.fell_back.as_ref().unwrap_or_else(|| self.run.state().method())
     }
 
     fn drive(&mut self, leg: &Leg) -> Result<LegReport, RunError> {
@@ -139,11 +143,7 @@ impl MissionRun {
             other => other,
         };
         let (time, energy) = (self.time() - time, self.energy() - energy);
-        let outcome = match end {
-            End::Reached => LegOutcome::Completed,
-            End::Stopped(stopped) => LegOutcome::Stopped(stopped),
-            End::Ended(outcome) => LegOutcome::Ended(outcome),
-        };
+        let outcome = LegOutcome::from(end);
         let back_out = match &outcome {
             LegOutcome::Stopped(stopped) => match stopped.then() {
                 Then::BackOut(way) => Some(self.back_out(leg, way)?),
@@ -164,12 +164,9 @@ impl MissionRun {
         let pilot = Pilot::straight(leg.speed, direction);
         let goal = (Goal::Ground(way), way / leg.speed);
         let mut back = Driven::new(&self.run, pilot, goal, leg, &[]);
-        let ended = match self.drive_on(&mut back, None)? {
-            End::Reached | End::Stopped(_) => None,
-            End::Ended(outcome) => Some(outcome),
-        };
+        let outcome = self.drive_on(&mut back, None)?.into();
         let distance = back.ground();
-        Ok(BackOut { ended, distance, time: self.time() - time, energy: self.energy() - energy })
+        Ok(BackOut { outcome, distance, time: self.time() - time, energy: self.energy() - energy })
     }
 
     /// The end of a leg's manoeuvre from here, and how long that would take without slip [s].
@@ -200,6 +197,9 @@ impl MissionRun {
     ///
     /// * `look_ahead`: way that is simulated before it is driven [m]
     fn drive_on(&mut self, driven: &mut Driven, look_ahead: Option<f64>) -> Result<End, RunError> {
+        if let Some(method) = self.run.try_steady_again() {
+            self.fell_back.get_or_insert(method);
+        }
         let mut ahead = look_ahead.map(Ahead::new);
         loop {
             if let Some(ahead) = &mut ahead

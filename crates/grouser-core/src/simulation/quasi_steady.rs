@@ -41,6 +41,9 @@ const AMPLE: f64 = 1.25;
 /// Parabolas through three steady states must meet those between them to this, over the fastest rim's
 /// speed [-]. The polynomial through all five is nearer by a hundred times where motion is smooth.
 const RESOLVED: f64 = 1e-5;
+/// Velocities that differ by more than this from those of rolling wheels are of another motion, over the fastest rim's
+/// speed [-]. Source: ours; a slip ratio of 1 is this far from rolling.
+const ANOTHER_MOTION: f64 = 1.0;
 /// A step in time turns the rover by at most this share of a stretch [-].
 const STEP_SHARE: f64 = 0.1;
 
@@ -88,7 +91,11 @@ impl<'a> QuasiSteady<'a> {
         let yaw = point.state.yaw;
         let guess = match carried.stretch {
             Some(stretch) if !rims_changed => return Ok(Self { equations, solver, stretch }),
-            Some(stretch) => stretch.velocities(yaw),
+            Some(stretch) => {
+                let (before, rolling) = (stretch.velocities(yaw), rolling(equations));
+                // Rims that turn the other way leave nothing of how it moved.
+                if solver.size(&(before - rolling)) > ANOTHER_MOTION { rolling } else { before }
+            }
             None => rolling(equations),
         };
         let here = solver.find(yaw, &guess)?;

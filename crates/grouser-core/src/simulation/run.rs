@@ -6,6 +6,7 @@ use super::controller::{Controller, Observation};
 use super::equations::Equations;
 use super::error::RunError;
 use super::leg::Leg;
+use super::method::Method;
 use super::outcome::Outcome;
 use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Scenario};
@@ -140,6 +141,12 @@ impl Run {
         kept_until: f64,
     ) -> Result<(), RunError> {
         self.lead(controller, [until, kept_until], true)
+    }
+
+    /// Seeks steady motions again where none was found before; how it was computed until then, if it was not by them.
+    pub(crate) fn try_steady_again(&mut self) -> Option<Method> {
+        let fell_back = matches!(self.state.method, Method::FallbackToDynamic { .. });
+        fell_back.then(|| std::mem::replace(&mut self.state.method, Method::QuasiSteady))
     }
 
     /// Records where the run has come to.
