@@ -7,6 +7,7 @@ mod draw;
 mod forecast;
 mod heading;
 mod measurements;
+mod mission;
 mod new;
 mod terminal;
 mod traverse;
@@ -33,6 +34,7 @@ pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
+pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
@@ -59,6 +61,8 @@ pub(crate) enum Command {
     Reproduce(ReproduceArgs),
     /// Drive a rover across a slope and report where it ends up.
     Traverse(TraverseArgs),
+    /// Drive a rover through legs: drives, turns, arcs, waypoints, with limits at which it stops.
+    Mission(MissionArgs),
     /// Forces, torque and sinkage of one wheel over load, slip ratio and slip angle.
     WheelTest(WheelTestArgs),
     /// The heading offset that holds the contour line on a slope, and the steepest slope on which one does.
@@ -89,7 +93,7 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
     New(NewArgs),
-    /// Check documents: soils, wheels, rovers, scenarios, data sets, campaigns, priors.
+    /// Check documents: soils, wheels, rovers, scenarios, missions, data sets, campaigns, priors.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),

@@ -14,6 +14,7 @@ mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
 mod log;
+pub(crate) mod mission;
 pub(crate) mod new;
 mod place;
 pub(crate) mod presets;

@@ -1,5 +1,7 @@
 //! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
+pub(crate) mod mission;
+
 use std::ops::RangeInclusive;
 
 use grouser::contact::Theory;
@@ -55,7 +57,7 @@ pub(crate) fn traverse(
     let yaw = yaw.map(str::to_owned);
     let source = scenario_source("traverse", args.scenario.as_deref())?;
     let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
-    scenario_settings(&mut overrides, setting, &args.balance)?;
+    scenario_settings(&mut overrides, Kind::Scenario, setting, &args.balance)?;
     let texts = [
         ("--rover", "scenario.rover", &args.parts.rover),
         ("--soil", "scenario.soil", &args.parts.soil),
@@ -209,7 +211,7 @@ fn balanced(
             "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
         },
     )?;
-    scenario_settings(&mut overrides, setting, balance)?;
+    scenario_settings(&mut overrides, Kind::Scenario, setting, balance)?;
     for (flag, key, value) in
         [("--rover", "scenario.rover", rover), ("--soil", "scenario.soil", soil)]
     {
@@ -435,6 +437,7 @@ pub(crate) fn soil(
     let mut scenario = Overrides::none();
     scenario_settings(
         &mut scenario,
+        Kind::Scenario,
         setting,
         &BalanceArgs { load_transfer: None, wheel_moments: None },
     )?;
@@ -466,6 +469,7 @@ pub(crate) fn stand(
     let mut scenario = Overrides::none();
     scenario_settings(
         &mut scenario,
+        Kind::Scenario,
         setting,
         &BalanceArgs { load_transfer: None, wheel_moments: None },
     )?;
@@ -491,24 +495,27 @@ pub(crate) fn model_line(document: &Document, soil: &str) -> String {
     format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
 }
 
+/// * `kind`: of the document whose keys they are: a scenario, or one with the same keys
 fn scenario_settings(
     overrides: &mut Overrides,
+    kind: Kind,
     setting: &SettingArgs,
     balance: &BalanceArgs,
 ) -> Result<(), Failure> {
     let words = [
-        ("--model", "scenario.model", &setting.model),
-        ("--load-transfer", "scenario.load_transfer", &balance.load_transfer),
-        ("--wheel-moments", "scenario.wheel_moments", &balance.wheel_moments),
+        ("--model", "model", &setting.model),
+        ("--load-transfer", "load_transfer", &balance.load_transfer),
+        ("--wheel-moments", "wheel_moments", &balance.wheel_moments),
     ];
     for (flag, key, value) in words {
         if let Some(value) = value {
-            overrides.flag_text(flag, key, value)?;
+            overrides.flag_text(flag, &format!("{kind}.{key}"), value)?;
         }
     }
     if let Some(gravity) = &setting.gravity {
         let value = gravity_value("--gravity-m-s2", gravity)?;
-        overrides.flag_numbers("--gravity-m-s2", "scenario.gravity_m_s2", gravity, &[value])?;
+        let key = format!("{kind}.gravity_m_s2");
+        overrides.flag_numbers("--gravity-m-s2", &key, gravity, &[value])?;
     }
     Ok(())
 }

@@ -56,6 +56,7 @@ fn run(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Reproduce(args) => commands::reproduce::run(args),
         Command::Traverse(args) => commands::traverse::run(args),
+        Command::Mission(args) => commands::mission::run(args),
         Command::WheelTest(args) => commands::wheel_test::run(args),
         Command::Heading(args) => commands::heading::run("heading", args),
         Command::HeadingMap(args) => commands::heading_map::run("heading-map", args),

@@ -5,6 +5,7 @@ pub(crate) mod campaign;
 pub(crate) mod data_set;
 pub(crate) mod data_sheet;
 mod differences;
+pub(crate) mod mission;
 pub(crate) mod prior;
 pub(crate) mod rover;
 pub(crate) mod run;
@@ -25,6 +26,7 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::Wheel => &wheel::WHEEL,
         Kind::Rover => &rover::ROVER,
         Kind::Scenario => &scenario::SCENARIO,
+        Kind::Mission => &mission::MISSION,
         Kind::DataSet => &data_set::DATA_SET,
         Kind::Campaign => &campaign::CAMPAIGN,
         Kind::Prior => &prior::PRIORS,

@@ -106,7 +106,7 @@ impl Draft {
             Kind::Wheel => wheel::usual,
             Kind::Soil => soil::usual,
             Kind::Scenario => scenario::usual,
-            Kind::DataSet | Kind::Campaign | Kind::Prior => return None,
+            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => return None,
         };
         Some(Self { answers: Answers { kind, given: Map::new(), usual } })
     }
@@ -119,7 +119,7 @@ impl Draft {
             Kind::Wheel => &wheel::KEYS,
             Kind::Soil => &soil::KEYS,
             Kind::Scenario => &scenario::KEYS,
-            Kind::DataSet | Kind::Campaign | Kind::Prior => &[],
+            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => &[],
         }
     }
 
@@ -220,7 +220,7 @@ impl Draft {
             Kind::Wheel => Ok(self.answers.wheel()),
             Kind::Soil => Ok(self.answers.soil()),
             Kind::Scenario => Ok(self.answers.scenario()),
-            Kind::DataSet | Kind::Campaign | Kind::Prior => Ok(String::new()),
+            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => Ok(String::new()),
         }
     }
 

@@ -224,6 +224,17 @@ pub enum Problem {
         /// The key.
         key: String,
     },
+    /// A leg of a mission that no rover can drive.
+    #[error("leg {number} {what}")]
+    Leg {
+        /// Its number, counted from 1.
+        number: usize,
+        /// What is wrong with it, as the rest of a sentence.
+        what: String,
+    },
+    /// A file of legs that is none.
+    #[error("not a file of legs: {0}")]
+    NoLegs(String),
     /// Parts of a document that do not go together.
     #[error("{0}")]
     Conflict(&'static str),
@@ -297,6 +308,13 @@ impl DocumentError {
     #[must_use]
     pub fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
         self.parts.hint = hint.into();
+        self
+    }
+
+    /// The same with another sentence after its hint.
+    pub(crate) fn also(mut self, hint: &str) -> Self {
+        let own = self.parts.hint.take().map_or(String::new(), |own| format!("{own} "));
+        self.parts.hint = Some(own + hint);
         self
     }
 

@@ -23,6 +23,8 @@ pub enum Kind {
     Rover,
     /// A run, `scenario/1`.
     Scenario,
+    /// Legs that a rover drives one after the other, `mission/1`.
+    Mission,
     /// A file of measurements, `data-set/1`.
     DataSet,
     /// Many runs over what is not known exactly, `campaign/1`.
@@ -33,11 +35,12 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Soil,
         Self::Wheel,
         Self::Rover,
         Self::Scenario,
+        Self::Mission,
         Self::DataSet,
         Self::Campaign,
         Self::Prior,
@@ -51,6 +54,7 @@ impl Kind {
             Self::Wheel => "wheel",
             Self::Rover => "rover",
             Self::Scenario => "scenario",
+            Self::Mission => "mission",
             Self::DataSet => "data-set",
             Self::Campaign => "campaign",
             Self::Prior => "prior",
@@ -65,9 +69,19 @@ impl Kind {
             Self::Wheel => "wheel/1",
             Self::Rover => "rover/1",
             Self::Scenario => "scenario/1",
+            Self::Mission => "mission/1",
             Self::DataSet => "data-set/1",
             Self::Campaign => "campaign/1",
             Self::Prior => "prior/1",
+        }
+    }
+
+    /// The key of its soil, as a kind that is about one: nothing where it is a soil itself.
+    pub(crate) const fn soil_key(self) -> Option<&'static str> {
+        match self {
+            Self::Soil => Some(""),
+            Self::Scenario | Self::Mission => Some("soil"),
+            Self::Wheel | Self::Rover | Self::DataSet | Self::Campaign | Self::Prior => None,
         }
     }
 
@@ -83,7 +97,7 @@ impl Kind {
                 Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
                 Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
             ],
-            Self::Scenario => &[
+            Self::Scenario | Self::Mission => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
             ],
@@ -102,9 +116,9 @@ impl fmt::Display for Kind {
     }
 }
 
-/// The rover of a scenario that names none.
+/// The rover of a scenario or mission that names none.
 pub const DEFAULT_ROVER: &str = "hakuto";
-/// The soil of a scenario that names none.
+/// The soil of a scenario or mission that names none.
 pub const DEFAULT_SOIL: &str = "toyoura";
 
 /// The key of a soil under which its priors stand.

@@ -1,7 +1,7 @@
 //! Documents of Grouser: soils, wheels, rovers, runs and measurements with units in their names, and what they mean
 //! in SI.
 //!
-//! A soil, a wheel, a rover, a scenario, a data set and a [`campaign`] each have a TOML document. It is read in these
+//! A soil, a wheel, a rover, a scenario, a mission, a data set and a [`campaign`] each have a TOML document. It is read in these
 //! steps:
 //!
 //! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
@@ -46,8 +46,10 @@ pub mod file;
 mod gravity;
 mod json_schema;
 mod kind;
+mod legs_file;
 mod loaded;
 pub mod measurements;
+mod mission;
 mod notes;
 mod overrides;
 mod presets;
@@ -76,12 +78,13 @@ pub use error::{DocumentError, Place, Problem, Spot};
 pub use gravity::{GRAVITIES, gravity};
 pub use kind::{DEFAULT_PRIORS, DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 pub use loaded::{Loaded, fnv_1a};
+pub use mission::{Plan, limited_quantity};
 pub use overrides::Overrides;
 pub use presets::{Advice, Preset, preset, presets};
 pub use priors::{Assumed, assumed, stated_by_priors, with_priors_held, without_priors_of};
 pub use read::{
-    LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source, place_of,
-    read_priors, read_rover, read_scenario, read_soil, read_wheel, written,
+    LoadedMission, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source,
+    place_of, read_mission, read_priors, read_rover, read_scenario, read_soil, read_wheel, written,
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};

@@ -133,6 +133,7 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "eq18-corrected"),
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
+    preset!(Mission, "missions", "there-and-back"),
     preset!(DataSet, "measurements", "cmu-single-wheel", "cmu_single_wheel.csv"),
     preset!(DataSet, "measurements", "published-wheel-tests", "published_wheel_tests.csv"),
     preset!(DataSet, "measurements", "viper-slip-slope", "viper_slip_slope.csv"),

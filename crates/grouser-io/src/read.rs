@@ -11,7 +11,9 @@ use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
 use super::field::Names;
 use super::kind::{EACH, Kind, PRIORS_KEY, Part};
+use super::legs_file;
 use super::loaded::Loaded;
+use super::mission::Plan;
 use super::notes;
 use super::overrides::Overrides;
 use super::presets::Preset;
@@ -30,6 +32,9 @@ pub type LoadedWheel = Loaded<Wheel>;
 pub type LoadedRover = Loaded<Rover>;
 /// A scenario that was read.
 pub type LoadedScenario = Loaded<Scenario>;
+/// A mission that was read.
+pub type LoadedMission = Loaded<Plan>;
+
 /// Reads a soil.
 ///
 /// # Errors
@@ -65,6 +70,29 @@ pub fn read_scenario(
     read(Kind::Scenario, source, overrides)
 }
 
+/// Reads a mission with its rover, its soil and its legs.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first; where it is in a leg, it says in which.
+pub fn read_mission(
+    source: &Source,
+    overrides: &Overrides,
+) -> Result<LoadedMission, DocumentError> {
+    read(Kind::Mission, source, overrides).map_err(numbered)
+}
+
+/// A fault in a leg with the number that results give the leg: keys count from 0.
+fn numbered(error: DocumentError) -> DocumentError {
+    let problem = error.problem().to_string();
+    let after = |key: &str| Some(problem.split_once(key)?.1);
+    let place = after("`leg.").or_else(|| after(".leg."));
+    let digits = place.and_then(|place| place.split('.').next());
+    match digits.and_then(|digits| digits.parse::<usize>().ok()) {
+        Some(place) => error.also(&format!("Keys count from 0: this is leg {}.", place + 1)),
+        None => error,
+    }
+}
+
 /// Checks a document of priors.
 ///
 /// # Errors
@@ -97,22 +125,19 @@ fn read<V: Described>(
     overrides: &Overrides,
 ) -> Result<Loaded<V>, DocumentError> {
     let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
-    let assumed = match kind {
-        Kind::Soil => priors::assumed(&document),
-        Kind::Scenario => {
-            document.part(Kind::Soil, "soil").as_ref().map_or_else(Vec::new, priors::assumed)
-        }
-        _ => Vec::new(),
-    };
+    let soil = kind.soil_key().and_then(|key| match key {
+        "" => Some(document.clone()),
+        key => document.part(Kind::Soil, key),
+    });
+    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
     let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
     let mut companions = Vec::new();
-    let uncertain = match kind {
-        Kind::Soil => uncertain_soil::read(&mut document, "", &tree, &mut companions)?,
-        Kind::Scenario => {
-            let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
-            uncertain_soil::read(&mut document, "soil", soil, &mut companions)?
+    let uncertain = match kind.soil_key() {
+        Some(key) => {
+            let soil = tree.entry(key).map_or(&tree, |entry| &entry.node);
+            uncertain_soil::read(&mut document, key, soil, &mut companions)?
         }
-        _ => None,
+        None => None,
     };
     Ok(Loaded { document, value, uncertain, assumptions, assumed, companions })
 }
@@ -186,6 +211,9 @@ fn complete(
     overrides.apply(kind, tree)?;
     // What was set may be a keyword, or a table, of an earlier version.
     describe::rows(kind).rename(tree, Names::Today);
+    if kind == Kind::Mission {
+        legs_file::put_in(tree)?;
+    }
     let has = |key: &str| tree.entry(key).map(|entry| &entry.node.value);
     let has_rows = matches!(has(PRIORS_KEY), Some(Value::Table(_)));
     for part in kind.parts() {

@@ -178,11 +178,11 @@ impl SampleTable {
 }
 
 /// What some programs begin a text with.
-const BYTE_ORDER_MARK: char = '\u{feff}';
+pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// The cells of a line without the blanks and quotes around them, each with its place in bytes.
 /// Keys and numbers have no commas and no quotes in them.
-fn cells(line: &str) -> impl Iterator<Item = (usize, &str)> {
+pub(crate) fn cells(line: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut start = 0;
     line.split(',').map(move |field| {
         let around = |c: char| c.is_whitespace() || c == '"' || c == BYTE_ORDER_MARK;

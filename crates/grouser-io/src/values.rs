@@ -37,13 +37,17 @@ pub struct Misfit {
 }
 
 impl Misfit {
-    fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
+    pub(crate) fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
         Self { part: "", path: path.into(), problem: Box::new(problem.into()), hint: None }
     }
 
     /// For `map_err` of a check of what stands at a key.
     fn at(path: &'static str) -> impl Fn(ParameterError) -> Self {
         move |error| Self::new(path, error)
+    }
+
+    pub(crate) fn with_hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(hint.into()), ..self }
     }
 
     fn within(self, part: &'static str) -> Self {

@@ -14,7 +14,7 @@ use grouser_page::Sheet;
 
 pub use subject::{Crossing, WheelInSoil};
 
-use crate::style::{ON_BOTH_GROUNDS, rules_for_dark};
+use crate::style::on_both_grounds;
 
 /// A drawing.
 #[derive(Clone, Debug)]
@@ -30,9 +30,7 @@ impl Drawing {
     /// The drawing as SVG: its letters are outlines, and on a dark screen its colours are dark ones.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        let style = format!("</title>\n<style>{}</style>", rules_for_dark());
-        let svg = self.sheet.to_svg().replacen("</title>", &style, 1);
-        svg.replacen("<svg ", &format!("<svg class=\"{ON_BOTH_GROUNDS}\" "), 1)
+        on_both_grounds(&self.sheet)
     }
 }
 

@@ -9,7 +9,7 @@
 
 use std::fmt::Write as _;
 
-use grouser_page::Colour;
+use grouser_page::{Colour, Sheet};
 
 /// What a picture is drawn on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -193,6 +193,15 @@ pub fn rules_for_dark() -> String {
         known.push(light);
     }
     rules + "}"
+}
+
+/// A drawing in the colours of a light ground as SVG: its letters are outlines, and on a dark screen its colours are
+/// dark ones.
+#[must_use]
+pub fn on_both_grounds(sheet: &Sheet) -> String {
+    let style = format!("</title>\n<style>{}</style>", rules_for_dark());
+    let svg = sheet.to_svg().replacen("</title>", &style, 1);
+    svg.replacen("<svg ", &format!("<svg class=\"{ON_BOTH_GROUNDS}\" "), 1)
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! What a picture of a scenario is called.
 
-use grouser_io::{Kind, LoadedScenario, escape, preset};
+use grouser_io::{Kind, Loaded, escape, preset};
 
-/// The rover and the soil of a scenario, by their titles where they are presets. The slope is in the picture.
+/// The rover and the soil of a scenario or a mission, by their titles where they are presets. The slope is in the picture.
 #[must_use]
-pub fn title_of(scenario: &LoadedScenario) -> String {
+pub fn title_of<V>(scenario: &Loaded<V>) -> String {
     let named = |kind: Kind, part: &str| {
         let name = scenario.document.text(&format!("{part}.name")).unwrap_or(part);
         match preset(kind, name) {

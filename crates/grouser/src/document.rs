@@ -50,6 +50,7 @@ pub fn checked(source: &Source) -> Result<Checked, DocumentError> {
     let assumed = match kind {
         Kind::Soil => read_soil(source, &overrides)?.assumed,
         Kind::Scenario => read_scenario(source, &overrides)?.assumed,
+        Kind::Mission => read_mission(source, &overrides)?.assumed,
         Kind::Wheel => read_wheel(source, &overrides)?.assumed,
         Kind::Rover => read_rover(source, &overrides)?.assumed,
         Kind::DataSet => read_data_set(source, &overrides)?.assumed,

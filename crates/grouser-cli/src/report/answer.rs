@@ -3,9 +3,12 @@
 
 use grouser::contact::validity::Finding;
 use grouser::document::Loaded;
-use grouser::document::columns::{Column, Quantity};
+use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{Column, Quantity, TIME};
 use grouser::document::table::Table;
 use grouser::document::unit::ONE;
+use grouser::vehicle::Rover;
 
 use super::page::Page;
 use crate::chart::{Chart, Series, Style};
@@ -87,6 +90,20 @@ pub(crate) fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
         Meaning { name, unit: column.unit.symbol, doc: column.doc }
     };
     columns.iter().map(each).collect()
+}
+
+/// Every channel of a run over time.
+///
+/// * `table`: a row for each record
+pub(crate) fn over_time(page: &mut Page, table: &Table, rover: &Rover) {
+    page.heading("The rover over time");
+    page.charts(&by_unit(table, TIME, &RECORD));
+    page.heading("Each wheel over time");
+    let mounts = rover.mounts().iter();
+    let wheels: Vec<(String, String)> =
+        mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
+    page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));
+    page.charts(&by_part(table, TIME, &wheels, &WHEEL));
 }
 
 /// A chart for each unit of some columns over another: columns of one unit share an axis.

@@ -1,10 +1,11 @@
 //! The rover from above along its paths, to scale: Fig. 9 as one would see it.
 
-use grouser::simulation::{Record, Trajectory};
+use grouser::simulation::Trajectory;
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::units::Vec2;
 use grouser::vehicle::Rover;
-use grouser_page::{Place, Shape, Sheet, Stroke, Text, WHITE};
+use grouser_page::{Place, Shape, Sheet, Stroke, Text};
+use grouser_pictures::{draw_outline, reach};
 
 /// Name of the drawing's file, without ending.
 pub(crate) const FILE: &str = "fig9-outlines";
@@ -35,14 +36,6 @@ pub(crate) fn drawing(study: &Reproduction, rover: &Rover) -> Sheet {
         top += height;
     }
     sheet
-}
-
-/// Half the room that a rover needs across its way [m].
-fn reach(rover: &Rover) -> f64 {
-    let corner = |mount: &grouser::vehicle::Mount| {
-        mount.position.xy().norm() + mount.shearing_radius() + 0.5 * mount.unit.wheel.width
-    };
-    rover.mounts().iter().map(corner).fold(0.0, f64::max)
 }
 
 /// Height of a slope's panel [mm].
@@ -77,33 +70,6 @@ fn draw_run(
     sheet.draw(Shape::line(path, Stroke { width: 0.6, ..stroke }));
     let last = run.records.len() - 1;
     for index in [0, last] {
-        draw_rover(sheet, &run.records[index], rover, at, stroke);
-    }
-}
-
-/// A rover's wheels, and the rectangle that their hubs span.
-fn draw_rover(
-    sheet: &mut Sheet,
-    record: &Record,
-    rover: &Rover,
-    at: &dyn Fn(Vec2) -> Place,
-    stroke: Stroke,
-) {
-    let turned = record.state.slope_from_body();
-    let place = |of_body: Vec2| at(record.state.position + turned * of_body);
-    let half = rover.mounts().iter().fold(Vec2::zeros(), |most: Vec2, mount| {
-        Vec2::new(most.x.max(mount.position.x.abs()), most.y.max(mount.position.y.abs()))
-    });
-    let body = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)];
-    let body = body.map(|(x, y)| place(Vec2::new(x * half.x, y * half.y)));
-    sheet.draw(Shape::area(body, WHITE).unfilled().outlined(stroke));
-    for mount in rover.mounts() {
-        let half = Vec2::new(mount.shearing_radius(), 0.5 * mount.unit.wheel.width);
-        let corner = |(x, y): (f64, f64)| {
-            let of_wheel = mount.body_from_wheel(Vec2::new(x * half.x, y * half.y));
-            place(mount.position.xy() + of_wheel)
-        };
-        let corners = [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)].map(corner);
-        sheet.draw(Shape::area(corners, stroke.colour));
+        draw_outline(sheet, &run.records[index].state, rover, at, stroke);
     }
 }

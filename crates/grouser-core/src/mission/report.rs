@@ -2,7 +2,8 @@
 
 use super::driven::End;
 use super::stop::Stopped;
-use crate::simulation::{Outcome, Record};
+use crate::simulation::{Outcome, Record, Trajectory};
+use crate::vehicle::RoverState;
 
 /// What became of a leg.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +30,8 @@ pub struct LegReport {
     /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of drives, arcs and ways to
     /// places alone.
     pub slip_ratio: Option<f64>,
+    /// The rover where it ended, before a way back out of it.
+    pub end: RoverState,
     /// The way back out of it, if there was one.
     pub back_out: Option<BackOut>,
 }
@@ -51,8 +54,9 @@ pub struct BackOut {
 pub struct MissionReport {
     /// The legs that were begun.
     pub legs: Vec<LegReport>,
-    /// The rover over time; the last one is where the mission ended.
-    pub records: Vec<Record>,
+    /// The rover over time: its last record is where the mission ended. A rover that was stopped has no outcome of its own,
+    /// and counts as completed there.
+    pub trajectory: Trajectory,
 }
 
 impl From<End> for LegOutcome {
@@ -90,10 +94,10 @@ impl MissionReport {
     /// The rover where the mission ended.
     ///
     /// # Panics
-    /// Never: there always is a record of the start.
+    /// Never: there always is a record of the end.
     #[must_use]
     pub fn last(&self) -> &Record {
-        self.records.last().expect("a mission has a record of its start")
+        self.trajectory.last()
     }
 
     /// Work of the motors in all legs [J].

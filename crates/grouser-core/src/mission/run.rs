@@ -27,6 +27,12 @@ const SAME_YAW: f64 = 1.75e-3;
 /// A rover turns on the spot towards a place that is further off its nose than this [rad]: 15°. Source: ours.
 const OFF_NOSE: f64 = 0.262;
 
+/// So many records are looked at together. Source: ours; some megabytes.
+const BATCH: usize = 1024;
+
+/// Who looks at records, and whether they took them.
+type Watch<'w> = &'w mut dyn FnMut(&[Record]) -> bool;
+
 /// Why a mission could not be computed. (What a rover does is an outcome, not an error.)
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MissionError {
@@ -73,12 +79,23 @@ impl MissionRun {
     /// # Errors
     /// As [`to_end`](Self::to_end).
     pub fn next_leg(&mut self) -> Result<Option<&LegReport>, RunError> {
+        self.next_leg_watched(&mut |_| false)
+    }
+
+    /// The same, with someone who looks at the records as they come: if they say that they have taken them, they are not
+    /// kept, so that a mission of weeks needs no more memory than one of minutes.
+    ///
+    /// * `watch`: gets the records since it last took them, some at a time
+    ///
+    /// # Errors
+    /// As [`to_end`](Self::to_end).
+    pub fn next_leg_watched(&mut self, watch: Watch<'_>) -> Result<Option<&LegReport>, RunError> {
         if self.is_over {
             return Ok(None);
         }
         let place = self.reports.len();
         let leg = self.mission.legs[place].clone();
-        let report = self.drive(&leg)?;
+        let report = self.drive(&leg, watch)?;
         let goes_on = match &report.outcome {
             LegOutcome::Completed => true,
             LegOutcome::Stopped(stopped) => stopped.then() == Then::NextLeg,
@@ -93,12 +110,9 @@ impl MissionRun {
     #[must_use]
     pub fn finish(mut self) -> MissionReport {
         self.run.look();
-        MissionReport { legs: self.reports, records: self.run.take_records() }
-    }
-
-    /// The records since they were last taken: a long mission need not keep them all.
-    pub fn take_records(&mut self) -> Vec<Record> {
-        self.run.take_records()
+        let mut trajectory = self.run.finish();
+        trajectory.method = self.fell_back.unwrap_or(trajectory.method);
+        MissionReport { legs: self.reports, trajectory }
     }
 
     /// The rover now.
@@ -120,7 +134,7 @@ impl MissionRun {
         self.fell_back.as_ref().unwrap_or_else(|| self.run.state().method())
     }
 
-    fn drive(&mut self, leg: &Leg) -> Result<LegReport, RunError> {
+    fn drive(&mut self, leg: &Leg, watch: Watch<'_>) -> Result<LegReport, RunError> {
         let (time, energy) = (self.time(), self.energy());
         let is_first = self.reports.is_empty();
         let stops = self.mission.stops_of(leg);
@@ -129,14 +143,14 @@ impl MissionRun {
             let pilot = Pilot::to_yaw(yaw, self.rover(), leg.speed);
             let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - self.rover().yaw, leg));
             let mut turn = Driven::new(&self.run, pilot, goal, leg, &stops);
-            turned_to = self.drive_on(&mut turn, None)?;
+            turned_to = self.drive_on(&mut turn, None, watch)?;
         }
         let (mut distance, mut slip_ratio) = (0.0, None);
         let end = match turned_to {
             End::Reached => {
                 let pilot = Pilot::of_leg(leg, self.rover());
                 let mut driven = Driven::new(&self.run, pilot, self.goal(leg), leg, &stops);
-                let end = self.drive_on(&mut driven, leg.look_ahead)?;
+                let end = self.drive_on(&mut driven, leg.look_ahead, watch)?;
                 (distance, slip_ratio) = (driven.ground(), driven.slip_ratio());
                 end
             }
@@ -144,18 +158,19 @@ impl MissionRun {
         };
         let (time, energy) = (self.time() - time, self.energy() - energy);
         let outcome = LegOutcome::from(end);
+        let end = *self.rover();
         let back_out = match &outcome {
             LegOutcome::Stopped(stopped) => match stopped.then() {
-                Then::BackOut(way) => Some(self.back_out(leg, way)?),
+                Then::BackOut(way) => Some(self.back_out(leg, way, watch)?),
                 Then::End | Then::NextLeg => None,
             },
             LegOutcome::Completed | LegOutcome::Ended(_) => None,
         };
-        Ok(LegReport { outcome, distance, time, energy, slip_ratio, back_out })
+        Ok(LegReport { outcome, distance, time, energy, slip_ratio, end, back_out })
     }
 
     /// Drives against the way of a leg.
-    fn back_out(&mut self, leg: &Leg, way: f64) -> Result<BackOut, RunError> {
+    fn back_out(&mut self, leg: &Leg, way: f64, watch: Watch<'_>) -> Result<BackOut, RunError> {
         let (time, energy) = (self.time(), self.energy());
         let direction = match leg.manoeuvre.direction() {
             0.0 => -1.0,
@@ -164,7 +179,7 @@ impl MissionRun {
         let pilot = Pilot::straight(leg.speed, direction);
         let goal = (Goal::Ground(way), way / leg.speed);
         let mut back = Driven::new(&self.run, pilot, goal, leg, &[]);
-        let outcome = self.drive_on(&mut back, None)?.into();
+        let outcome = self.drive_on(&mut back, None, watch)?.into();
         let distance = back.ground();
         Ok(BackOut { outcome, distance, time: self.time() - time, energy: self.energy() - energy })
     }
@@ -196,7 +211,12 @@ impl MissionRun {
     /// Drives a manoeuvre on to its end, or to the limit or the outcome that ends it before.
     ///
     /// * `look_ahead`: way that is simulated before it is driven [m]
-    fn drive_on(&mut self, driven: &mut Driven, look_ahead: Option<f64>) -> Result<End, RunError> {
+    fn drive_on(
+        &mut self,
+        driven: &mut Driven,
+        look_ahead: Option<f64>,
+        watch: Watch<'_>,
+    ) -> Result<End, RunError> {
         if let Some(method) = self.run.try_steady_again() {
             self.fell_back.get_or_insert(method);
         }
@@ -207,7 +227,12 @@ impl MissionRun {
             {
                 return Ok(End::Stopped(stopped));
             }
-            if let Some(end) = driven.step(&mut self.run)? {
+            let end = driven.step(&mut self.run)?;
+            let records = self.run.records();
+            if (records.len() >= BATCH || end.is_some()) && watch(records) {
+                self.run.take_records();
+            }
+            if let Some(end) = end {
                 return Ok(end);
             }
         }
@@ -229,6 +254,12 @@ fn turn_before(leg: &Leg, state: &RoverState, is_first: bool) -> Option<f64> {
         // The first leg begins with its yaw.
         (Some(_), _) if is_first => return None,
         (Some(yaw), _) => yaw,
+        // Where it already is, no direction leads there.
+        (None, Manoeuvre::Goto { place, within, .. })
+            if (place - state.position).norm() <= within =>
+        {
+            return None;
+        }
         (None, Manoeuvre::Goto { .. }) => {
             let nose = line_of(leg, state).yaw();
             if (nose - state.yaw).abs() < OFF_NOSE {

@@ -2,7 +2,7 @@
 
 use super::columns::flags::in_words;
 use super::{
-    DEFAULT_SOIL, DocumentError, Kind, Overrides, Source, kind_of_source, read_rover,
+    DEFAULT_SOIL, DocumentError, Kind, Overrides, Source, kind_of_source, read_mission, read_rover,
     read_scenario, read_soil,
 };
 use crate::contact::validity::{Finding, Flag, Situation};
@@ -50,6 +50,7 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
             of_standing(&scenario).into_iter().map(on_soil).collect()
         }
         Kind::Scenario => of_standing(&read_scenario(source, &none)?.value),
+        Kind::Mission => of_standing(&read_mission(source, &none)?.value.scenario),
         Kind::Wheel | Kind::DataSet | Kind::Campaign | Kind::Prior => Vec::new(),
     })
 }

@@ -4,7 +4,7 @@ use grouser::mission::{
     Cause, Heading, Kind, Leg, LegOutcome, LegReport, Limited, Manoeuvre, Measure, Mission,
     MissionError, MissionReport, MissionRun, Stop, Stopped, Then,
 };
-use grouser::simulation::{Approach, CONTROL_PERIOD, Method, Numerics, Outcome, Scenario};
+use grouser::simulation::{Approach, CONTROL_PERIOD, Method, Numerics, Outcome, Record, Scenario};
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::{LoadSharing, OwnMoments};
 
@@ -104,7 +104,7 @@ fn a_turn_on_the_spot_ends_at_its_angle_and_place() {
         assert_eq!(report.outcome(), "completed", "{slope}°: {:?}", report.legs);
         let end = report.last().state;
         assert!((end.yaw - deg(start + angle)).abs() < 1e-6, "{slope}°: {}°", end.yaw.to_degrees());
-        let farthest = report.records.iter().map(|it| it.state.position.norm());
+        let farthest = report.trajectory.records.iter().map(|it| it.state.position.norm());
         let farthest = farthest.fold(0.0, f64::max);
         assert!(
             end.position.norm() < 0.1,
@@ -321,12 +321,32 @@ fn a_mission_is_determined() {
     let whole = driven(&plan);
     let mut run = MissionRun::new(&plan).expect("a mission");
     let mut records = Vec::new();
-    while run.next_leg().expect("a leg").is_some() {
-        records.extend(run.take_records());
-    }
+    let mut take = |some: &[Record]| {
+        records.extend_from_slice(some);
+        true
+    };
+    while run.next_leg_watched(&mut take).expect("a leg").is_some() {}
     let end = run.finish();
-    records.extend(end.records);
-    assert!(records == whole.records && end.legs == whole.legs);
+    records.extend(end.trajectory.records);
+    assert!(records == whole.trajectory.records && end.legs == whole.legs);
+}
+
+/// A day of driving in one leg: who takes the records sees a few at a time, and none are kept.
+#[test]
+fn memory_does_not_grow_with_a_mission() {
+    let hold = Leg { heading: Heading::Hold, ..Leg::new(Manoeuvre::drive(600.0)) };
+    let mut plan =
+        quasi_steady(mission(3.0, vec![hold, Leg::new(Manoeuvre::Wait { time: 7200.0 })]));
+    plan.scenario.numerics.sample_interval = 1.0;
+    let (mut count, mut most) = (0, 0);
+    let mut run = MissionRun::new(&plan).expect("a mission");
+    let mut take = |some: &[Record]| {
+        (count, most) = (count + some.len(), most.max(some.len()));
+        true
+    };
+    while run.next_leg_watched(&mut take).expect("a leg").is_some() {}
+    assert!(count > 15_000 && most < 1100, "{count} records, {most} at once");
+    assert!(run.finish().trajectory.records.len() <= 1);
 }
 
 /// The path of an arc is its circle: a rover that follows it is nowhere far off.

@@ -16,7 +16,7 @@ use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::four_digits;
 use crate::output::text::capitalised;
-use crate::report::answer::{self, Basis, axis, by_part, by_unit, meanings};
+use crate::report::answer::{self, Basis, axis, meanings, over_time};
 use crate::report::page::Page;
 
 pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
@@ -92,14 +92,7 @@ fn channels(page: &mut Page, of: &OfModel) {
             &TIME_BAND[1..].iter().filter_map(|column| band(&table, column)).collect::<Vec<_>>(),
         );
     }
-    page.heading("The rover over time");
-    page.charts(&by_unit(&table, TIME, &RECORD));
-    page.heading("Each wheel over time");
-    let mounts = of.scenario.value.rover.mounts().iter();
-    let wheels: Vec<(String, String)> =
-        mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
-    page.charts(&by_part(&table, TIME, &wheels, &WHEEL_RECORD));
-    page.charts(&by_part(&table, TIME, &wheels, &WHEEL));
+    over_time(page, &table, &of.scenario.value.rover);
 }
 
 /// A quantity over time with its band.

@@ -69,6 +69,9 @@ const RUN: [Column<Trajectory>; 6] = [
     ENERGY_ERROR.number("Error of the energy balance", Trajectory::energy_error),
 ];
 
+/// How a run was computed.
+pub(super) const METHOD: &[Column<Trajectory>] = RUN.split_at(4).0.split_at(2).1;
+
 /// Drift over the way.
 pub const DRIFT: Quantity = quantity("drift_m_per_m", M_PER_M);
 

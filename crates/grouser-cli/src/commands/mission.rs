@@ -1,0 +1,189 @@
+//! `grouser mission`: drives a rover through legs, with limits at which it stops.
+
+mod page;
+
+use grouser::document::columns::mission::{MISSION, MissionObject, legs_brief};
+use grouser::document::columns::run;
+use grouser::document::columns::{TIME, YAW};
+use grouser::document::table::Table;
+use grouser::document::{LoadedMission, escape};
+use grouser::mission::MissionError;
+use grouser::studies::mission::{DrivenLeg, DrivenMission};
+use grouser_pictures::{Shown, path_of, title_of};
+use serde::Serialize;
+use serde_json::json;
+
+use super::animation::Target;
+use super::{Answer, strict};
+use crate::args::{MissionArgs, StrictArgs};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::{Rows, four_digits};
+use crate::output::text::{Text, capitalised};
+use crate::output::{self, Format};
+use crate::report::REPORT;
+
+/// A document of a mission, and what was driven: one mission, or all alternatives.
+struct Answered {
+    document: LoadedMission,
+    ways: Vec<DrivenMission>,
+}
+
+pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
+    let mut folder = OutputFolder::for_args(&args.output)?;
+    let target = |path| Target::of(path, folder.is_some(), args.output.force);
+    let target = args.animate.as_deref().map(target).transpose()?;
+    let document = inputs::mission::read(args)?;
+    let ways = DrivenMission::all(&document.value.missions()).map_err(failed)?;
+    let answered = Answered { document, ways };
+    answered.check(&args.strict)?;
+    if let Some(target) = target {
+        target.write(&title_of(&answered.document), &answered.shown(), folder.as_mut())?;
+    }
+    answered.output(args, folder)
+}
+
+/// The results: of one mission, or of each alternative.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Results<'a> {
+    One(MissionObject<'a>),
+    Several { alternatives: Vec<MissionObject<'a>> },
+}
+
+impl Answered {
+    /// That nothing is extrapolated, where that is asked for.
+    fn check(&self, strict: &StrictArgs) -> Result<(), Failure> {
+        if !strict.strict {
+            return Ok(());
+        }
+        let scenario = &self.document.value.scenario;
+        self.ways.iter().try_for_each(|way| {
+            let run = &way.report.trajectory;
+            let flags = run::each_findings(run, scenario);
+            let records = run::table(run, scenario);
+            strict::check(strict, flags.iter().map(|it| &**it), &records, &[TIME.name])
+        })
+    }
+
+    /// For a picture.
+    fn shown(&self) -> Vec<Shown<'_>> {
+        let (title, scenario) = (self.document.document.name(), &self.document.value.scenario);
+        let mut all = Vec::new();
+        for way in &self.ways {
+            let name = if way.name.is_empty() { title } else { &way.name };
+            all.push(Shown { name, run: &way.report.trajectory, scenario });
+        }
+        all
+    }
+
+    fn output(&self, args: &MissionArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
+        let rows = Rows::of_table(&self.table());
+        let object = |mission| MissionObject { mission };
+        let results = match &self.ways[..] {
+            [one] => Results::One(object(one)),
+            ways => Results::Several { alternatives: ways.iter().map(object).collect() },
+        };
+        let inputs = json!({ "mission": self.document.document });
+        let answer = Answer::new("mission", inputs, results);
+        if let Some(mut folder) = folder {
+            folder.add("mission.json", answer.to_text());
+            folder.add("mission.csv", rows.to_csv()?);
+            for (place, way) in self.ways.iter().enumerate() {
+                let end = self.ending(place);
+                let legs = Rows::of_table(&way.table()).to_csv()?;
+                folder.add(format!("legs{end}.csv"), legs);
+                let records = Rows::of_table(&self.records(way)).to_csv()?;
+                folder.add(format!("records{end}.csv"), records);
+                folder.add(format!("path{end}.svg"), self.path(way));
+            }
+            folder.add(REPORT, page::html(self));
+            folder.add_document("mission.toml", &self.document);
+            folder.finish()?;
+        }
+        match args.output.format {
+            Format::Table => output::show(self.text()),
+            Format::Csv => output::print(&rows.to_csv()?),
+            Format::Json => output::print_json(&answer),
+        }
+    }
+
+    /// The end of the names of a way's files: its number, where there are several.
+    fn ending(&self, place: usize) -> String {
+        if self.ways.len() > 1 { format!("-{}", place + 1) } else { String::new() }
+    }
+
+    /// A row for each leg that was begun, or for each alternative.
+    fn table(&self) -> Table {
+        match &self.ways[..] {
+            [one] => one.table(),
+            ways => Table::of(&MISSION, ways),
+        }
+    }
+
+    /// A row for each record.
+    fn records(&self, way: &DrivenMission) -> Table {
+        run::table(&way.report.trajectory, &self.document.value.scenario)
+    }
+
+    /// The path from above.
+    fn path(&self, way: &DrivenMission) -> String {
+        path_of("Path on the slope", &self.document.value.scenario.rover, &way.report)
+    }
+
+    fn text(&self) -> Text {
+        let blocks = self.ways.iter().map(|way| {
+            let name = if way.name.is_empty() { String::new() } else { format!("{}\n", way.name) };
+            let legs = Rows::of_table(&way.table()).to_table(&legs_brief());
+            let sentences = reasons(way) + &sentence(way) + "\n";
+            Text::from(name) + legs + Text::from(sentences)
+        });
+        let blocks = Text::blocks(blocks);
+        if self.ways.len() == 1 {
+            return blocks;
+        }
+        let names: Vec<&str> = MISSION.iter().map(|column| column.name).collect();
+        blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&names)
+    }
+}
+
+/// A line for each leg that did not end as it says.
+fn reasons(way: &DrivenMission) -> String {
+    let line = |leg: &DrivenLeg| {
+        let back =
+            leg.report.back_out.as_ref().map_or(String::new(), |back| {
+                format!("; backed out {} m", four_digits(back.distance))
+            });
+        let reason = escape::line(&leg.reason()?).into_owned();
+        Some(format!("leg {}: {}: {reason}{back}\n", leg.number, leg.report.outcome.name()))
+    };
+    way.legs.iter().filter_map(line).collect()
+}
+
+/// What became of a mission.
+fn sentence(way: &DrivenMission) -> String {
+    let (begun, all, end) = (way.legs.len(), way.planned, way.report.last());
+    let legs = match (begun < all, all) {
+        (true, _) => format!("in leg {begun} of {all}"),
+        (false, 1) => "one leg".to_owned(),
+        (false, all) => format!("{all} legs"),
+    };
+    format!(
+        "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J",
+        capitalised(way.report.outcome()).replace('_', " "),
+        four_digits(end.time),
+        four_digits(end.state.position.x),
+        four_digits(end.state.position.y),
+        four_digits(YAW.unit.from_si(end.state.yaw)),
+        four_digits(way.report.energy()),
+    )
+}
+
+/// A plan that is none was seen when it was read: what is left is the motion.
+fn failed(error: MissionError) -> Failure {
+    match error {
+        MissionError::Plan(error) => Failure::Usage(error.to_string()),
+        MissionError::Run(error) => error.into(),
+    }
+}

@@ -1,0 +1,92 @@
+//! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
+
+use grouser::document::columns::mission::{LEG, MISSION, legs_brief};
+use grouser::document::columns::run::{self, RECORD, WHEEL_RECORD};
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{ENERGY, SLOPE};
+
+use grouser::studies::mission::{DrivenLeg, DrivenMission};
+
+use super::{Answered, reasons, sentence};
+use crate::chart::Bars;
+use crate::output::rows::four_digits;
+use crate::report::answer::{self, Basis, axis, meanings, over_time};
+use crate::report::page::Page;
+
+pub(super) fn html(answered: &Answered) -> String {
+    let mut page = Page::new(&format!("Mission: {}", answered.document.document.name()));
+    for way in &answered.ways {
+        let name = if way.name.is_empty() { String::new() } else { format!("{}: ", way.name) };
+        page.answer(&format!("{name}{}.", sentence(way)));
+    }
+    page.list(what_was_driven(answered));
+    if answered.ways.len() > 1 {
+        let names: Vec<&str> = MISSION.iter().map(|column| column.name).collect();
+        page.rows("The alternatives, each from the same start", &answered.table(), &names);
+    }
+    for way in &answered.ways {
+        of_way(&mut page, answered, way);
+    }
+    let scenario = &answered.document.value.scenario;
+    let findings: Vec<_> = answered
+        .ways
+        .iter()
+        .flat_map(|way| run::each_findings(&way.report.trajectory, scenario).into_iter().flatten())
+        .collect();
+    let mut columns = meanings(&LEG);
+    if answered.ways.len() > 1 {
+        columns.extend(meanings(&MISSION));
+    }
+    columns.extend(meanings(&RECORD));
+    columns.extend(meanings(&WHEEL_RECORD));
+    columns.extend(meanings(&WHEEL));
+    let basis = Basis::new("grouser mission mission.toml".to_owned());
+    let basis = basis.with("mission.toml", &answered.document);
+    answer::close(page, &findings, &columns, &basis)
+}
+
+/// The path of a mission, its legs, and every channel.
+fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
+    if !way.name.is_empty() {
+        page.heading(&way.name);
+    }
+    page.drawing(
+        &answered.path(way),
+        "The path on the slope from above, to scale, uphill at the top, a colour for each leg. The rover is drawn at \
+         the start, in grey, and where each leg ended, with its number; a cross marks a leg that did not end as it says.",
+    );
+    page.rows("What became of each leg", &way.table(), &legs_brief());
+    let reasons = reasons(way);
+    if !reasons.is_empty() {
+        page.list(reasons.lines());
+    }
+    page.drawing(&energy(way), "Work of the motors in each leg, with the turn before it.");
+    over_time(page, &answered.records(way), &answered.document.value.scenario.rover);
+}
+
+fn what_was_driven(answered: &Answered) -> Vec<String> {
+    let document = &answered.document.document;
+    let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
+    let slope = answered.document.value.scenario.site.terrain.slope;
+    let mut lines = vec![
+        format!("rover: {}", name("rover.name")),
+        format!("soil: {}", name("soil.name")),
+        format!("slope: {}°", four_digits(SLOPE.unit.from_si(slope))),
+    ];
+    lines.extend(document.text("notes").map(str::to_owned));
+    lines
+}
+
+fn energy(way: &DrivenMission) -> String {
+    let row = |leg: &DrivenLeg| {
+        (format!("leg {}", leg.number), vec![ENERGY.unit.from_si(leg.report.energy)])
+    };
+    let bars = Bars {
+        title: "Energy by leg".to_owned(),
+        x_label: axis(ENERGY),
+        parts: vec!["energy".to_owned()],
+        has_rest: false,
+        rows: way.legs.iter().map(row).collect(),
+    };
+    bars.to_svg()
+}

@@ -1,0 +1,391 @@
+//! `mission/1`: legs that a rover drives one after the other, and limits at which it stops.
+
+use super::super::field::{
+    At, DEG, Each, Field, Fill, M, M_S, S, Table, flag, list, note, number, positive, table, text,
+    word, words,
+};
+use super::super::legs_file::LEGS_FROM;
+use super::super::mission::{Alternative, Arc, Held, LegKeys, Plan, Waypoint, limited_quantity};
+use super::about::{assumed, notes, purpose, schema, source};
+use super::run::{OfScenario, Run};
+use super::scenario::FASTEST;
+use grouser_core::mission::{Limited, Measure, Stop, Then};
+use grouser_core::simulation::Scenario;
+use grouser_core::simulation::scenario::LONGEST_DURATION;
+
+/// The longest way [m]. Source: ours; no rover has driven further in its life.
+const LONGEST_WAY: f64 = 1e5;
+/// The most that a turn may be [°]: ten turns.
+const LARGEST_TURN: f64 = 3600.0;
+
+impl OfScenario for Plan {
+    fn scenario(&mut self) -> &mut Scenario {
+        &mut self.scenario
+    }
+}
+
+pub(crate) static MISSION: Table<Plan> = Table {
+    doc: "Legs that a rover drives one after the other over a plane of soil, and limits at which it stops.",
+    fields: &[
+        schema("mission/1"),
+        purpose(),
+        source().optional(),
+        notes(),
+        assumed(),
+        Run::ROVER,
+        Run::SOIL,
+        Run::MODEL,
+        Run::GRAVITY,
+        Run::SLOPE,
+        Run::SAMPLE_INTERVAL,
+        Run::LOAD_TRANSFER,
+        Run::WHEEL_MOMENTS,
+        Run::SIMULATION,
+        Run::BY_WHEEL,
+        Run::SCATTER,
+        Run::START,
+        table(
+            "stop",
+            "Limits at which the rover stops in every leg that has none of its own for the same number.",
+            &At { inner: &STOPS, at: |plan: &mut Plan| &mut plan.stops },
+        )
+        .otherwise(Fill::Keys(&[])),
+        note(
+            LEGS_FROM,
+            "A file with legs, which come before those of the document: CSV with keys of a leg in its first line, or GeoJSON with places in metres.",
+        )
+        .optional(),
+        list(
+            "leg",
+            "What the rover does, leg after leg.",
+            &Each { inner: &LEG, list: |plan: &mut Plan| &mut plan.legs, blank: LegKeys::default },
+            0,
+        )
+        .optional(),
+        list(
+            "alternative",
+            "In place of legs: several ways from the same start, to be compared.",
+            &Each {
+                inner: &ALTERNATIVE,
+                list: |plan: &mut Plan| &mut plan.alternatives,
+                blank: Alternative::default,
+            },
+            0,
+        )
+        .optional(),
+    ],
+};
+
+static ALTERNATIVE: Table<Alternative> = Table {
+    doc: "One of several ways to drive a mission.",
+    fields: &[
+        text("name", 1, "What the way is called; no two alike.", |way: &mut Alternative, name| {
+            name.clone_into(&mut way.name);
+        }),
+        list(
+            "leg",
+            "What the rover does on this way, leg after leg.",
+            &Each {
+                inner: &LEG,
+                list: |way: &mut Alternative| &mut way.legs,
+                blank: LegKeys::default,
+            },
+            1,
+        ),
+    ],
+};
+
+static LEG: Table<LegKeys> = Table {
+    doc: "One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is driven.",
+    fields: &[
+        number(
+            "drive_m",
+            M,
+            -LONGEST_WAY..=LONGEST_WAY,
+            "It drives so far; below 0 backward",
+            |leg: &mut LegKeys| Some(leg.drive.get_or_insert(0.0)),
+        )
+        .optional(),
+        words(
+            "by",
+            "What measures `drive_m`; without it `ground`.",
+            &[
+                word("ground", "The way of the centre of mass over the ground.", |leg: &mut LegKeys| {
+                    leg.by = Some(Measure::Ground);
+                }),
+                word(
+                    "odometry",
+                    "The way of the rims, mean of all wheels: where they slip, less ground is gone.",
+                    |leg: &mut LegKeys| leg.by = Some(Measure::Odometry),
+                ),
+            ],
+        )
+        .optional(),
+        number(
+            "turn_deg",
+            DEG,
+            -LARGEST_TURN..=LARGEST_TURN,
+            "It turns on the spot by this much, above 0 to its left, and keeps its place",
+            |leg: &mut LegKeys| Some(leg.turn.get_or_insert(0.0)),
+        )
+        .optional(),
+        table(
+            "arc",
+            "It drives along a circle.",
+            &At { inner: &ARC, at: |leg: &mut LegKeys| leg.arc.get_or_insert_default() },
+        )
+        .optional(),
+        table(
+            "goto",
+            "It drives along a straight line to a place, towards which it turns on the spot first where that is not ahead.",
+            &At { inner: &WAYPOINT, at: |leg: &mut LegKeys| leg.goto.get_or_insert_default() },
+        )
+        .optional(),
+        number("wait_s", S, 0.0..=LONGEST_DURATION, "It stands so long", |leg: &mut LegKeys| {
+            Some(leg.wait.get_or_insert(0.0))
+        })
+        .optional(),
+        flag("reverse", "Whether an arc, or the way to a place, is driven backward.", |leg: &mut LegKeys, yes| {
+            leg.reverse = yes;
+        })
+        .optional(),
+        positive(
+            "speed_m_s",
+            M_S,
+            FASTEST,
+            "Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06",
+            |leg: &mut LegKeys| Some(leg.speed.get_or_insert(0.0)),
+        )
+        .optional(),
+        number(
+            "yaw_deg",
+            DEG,
+            -LARGEST_TURN..=LARGEST_TURN,
+            "Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot; held only where `heading` says so",
+            |leg: &mut LegKeys| Some(leg.yaw.get_or_insert(0.0)),
+        )
+        .optional(),
+        words(
+            "heading",
+            "What `drive_m` holds on its way; without it nothing: the wheels keep one speed.",
+            &[
+                word("hold", "The yaw with which the leg begins.", |leg: &mut LegKeys| {
+                    leg.held = Some(Held::Hold);
+                }),
+                word(
+                    "contour",
+                    "The height on the slope: the nose is turned uphill as far as that needs.",
+                    |leg: &mut LegKeys| leg.held = Some(Held::Contour),
+                ),
+                word(
+                    "toward",
+                    "The nose, backward the tail, towards the place under `toward`.",
+                    |leg: &mut LegKeys| leg.held = Some(Held::Toward),
+                ),
+            ],
+        )
+        .optional(),
+        table(
+            "toward",
+            "The place towards which the nose is held.",
+            &At { inner: &PLACE, at: |leg: &mut LegKeys| leg.toward.get_or_insert_default() },
+        )
+        .optional(),
+        positive(
+            "look_ahead_m",
+            M,
+            1000.0,
+            "How far ahead the way is simulated before it is driven: where a limit would be passed, the rover stops before",
+            |leg: &mut LegKeys| Some(leg.look_ahead.get_or_insert(0.0)),
+        )
+        .optional(),
+        table(
+            "stop",
+            "Limits of this leg, in place of the mission's for the same numbers.",
+            &At { inner: &STOPS, at: |leg: &mut LegKeys| &mut leg.stops },
+        )
+        .optional(),
+    ],
+};
+
+static ARC: Table<Arc> = Table {
+    doc: "A way along a circle.",
+    fields: &[
+        positive(
+            "radius_m",
+            M,
+            LONGEST_WAY,
+            "Radius of the circle of the centre of mass",
+            |arc: &mut Arc| Some(&mut arc.radius),
+        ),
+        number(
+            "angle_deg",
+            DEG,
+            -LARGEST_TURN..=LARGEST_TURN,
+            "How far the rover turns on it, above 0 to its left",
+            |arc: &mut Arc| Some(&mut arc.angle),
+        ),
+    ],
+};
+
+/// How near to a waypoint is near enough [m]. Source: ours; a third of a small rover's length.
+const NEAR: f64 = 0.1;
+
+static WAYPOINT: Table<Waypoint> = Table {
+    doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the mission starts.",
+    fields: &[
+        place("x_m", "Along the contour", |to| Some(&mut to.place.x)),
+        place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y)),
+        positive("within_m", M, 100.0, "How near is near enough", |to: &mut Waypoint| {
+            Some(&mut to.within)
+        })
+        .or(NEAR),
+    ],
+};
+
+static PLACE: Table<Waypoint> = Table {
+    doc: "A place in the slope frame: x along the contour, y uphill, from where the mission starts.",
+    fields: &[
+        place("x_m", "Along the contour", |to| Some(&mut to.place.x)),
+        place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y)),
+    ],
+};
+
+const fn place(
+    key: &'static str,
+    doc: &'static str,
+    reach: fn(&mut Waypoint) -> Option<&mut f64>,
+) -> Field<Waypoint> {
+    number(key, M, -LONGEST_WAY..=LONGEST_WAY, doc, reach)
+}
+
+/// The limits, one under the name of each number.
+static STOPS: Table<Vec<Stop>> = Table {
+    doc: "Limits, each under the name of its number: `slip_ratio = { above = 0.4, over_m = 1.0 }`.",
+    fields: &[
+        limit(
+            Limited::SlipRatio,
+            "Slip ratio over a way: 1 less what the ground saw of the rims' way.",
+            &SLIP_RATIO,
+        ),
+        limit(Limited::Drift, "Way straight down the slope over a way.", &DRIFT),
+        limit(Limited::Sinkage, "Largest sinkage of a wheel over its shearing radius.", &SINKAGE),
+        limit(Limited::Roll, "Roll to either side.", &ROLL),
+        limit(Limited::Pitch, "Pitch, nose up or down.", &PITCH),
+        limit(Limited::Torque, "Largest torque of a wheel's motor.", &TORQUE),
+        limit(Limited::Time, "Time since the leg began.", &TIME),
+        limit(Limited::Energy, "Work of the motors since the leg began.", &ENERGY),
+        limit(
+            Limited::OffPath,
+            "Distance from the straight line, or the circle, of the leg.",
+            &OFF_PATH,
+        ),
+    ],
+};
+
+/// A limit, in the list of all: a new one where there is none of this number yet.
+const fn limit(
+    limited: Limited,
+    doc: &'static str,
+    inner: &'static At<Vec<Stop>, Stop>,
+) -> Field<Vec<Stop>> {
+    table(limited_quantity(limited).name, doc, inner).optional()
+}
+
+fn of(stops: &mut Vec<Stop>, limited: Limited) -> &mut Stop {
+    let place = stops.iter().position(|stop| stop.limited == limited).unwrap_or_else(|| {
+        stops.push(Stop::above(limited, 0.0));
+        stops.len() - 1
+    });
+    &mut stops[place]
+}
+
+static SLIP_RATIO: At<Vec<Stop>, Stop> = At {
+    inner: &Table {
+        doc: LIMIT_OVER,
+        fields: &[above(Limited::SlipRatio, 1.0), OVER, THEN, BACK_OUT],
+    },
+    at: |stops| of(stops, Limited::SlipRatio),
+};
+static DRIFT: At<Vec<Stop>, Stop> = At {
+    inner: &Table {
+        doc: LIMIT_OVER,
+        fields: &[above(Limited::Drift, 100.0), OVER, THEN, BACK_OUT],
+    },
+    at: |stops| of(stops, Limited::Drift),
+};
+static SINKAGE: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Sinkage, 2.0), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Sinkage),
+};
+static ROLL: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Roll, 90.0), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Roll),
+};
+static PITCH: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Pitch, 90.0), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Pitch),
+};
+static TORQUE: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Torque, 1e5), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Torque),
+};
+static TIME: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Time, LONGEST_DURATION), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Time),
+};
+static ENERGY: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Energy, 1e9), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Energy),
+};
+static OFF_PATH: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::OffPath, LONGEST_WAY), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::OffPath),
+};
+
+const LIMIT: &str = "A limit: above which number, and what the rover does then.";
+const LIMIT_OVER: &str =
+    "A limit: above which number, over which way of the rims, and what the rover does then.";
+
+const fn above(limited: Limited, most: f64) -> Field<Stop> {
+    let unit = limited_quantity(limited).unit;
+    number("above", unit, 0.0..=most, "The rover stops above this", |stop: &mut Stop| {
+        Some(&mut stop.above)
+    })
+}
+
+const OVER: Field<Stop> = positive(
+    "over_m",
+    M,
+    1000.0,
+    "Way of the rims over which it is taken; before they have gone so far, nothing is limited",
+    |stop: &mut Stop| Some(&mut stop.over),
+)
+.or(1.0);
+
+const THEN: Field<Stop> = words(
+    "then",
+    "What the rover does once it has stopped.",
+    &[
+        word("end", "The mission ends.", |stop: &mut Stop| stop.then = Then::End),
+        word("next-leg", "The next leg begins.", |stop: &mut Stop| stop.then = Then::NextLeg),
+        word(
+            "back-out",
+            "It drives `back_out_m` against the way of the leg, and the mission ends.",
+            |stop: &mut Stop| stop.then = Then::BackOut(0.0),
+        ),
+    ],
+)
+.otherwise(Fill::Keyword("end"));
+
+const BACK_OUT: Field<Stop> = positive(
+    "back_out_m",
+    M,
+    LONGEST_WAY,
+    "How far it backs out, where `then` says so",
+    |stop: &mut Stop| match &mut stop.then {
+        Then::BackOut(way) => Some(way),
+        Then::End | Then::NextLeg => None,
+    },
+)
+.optional();

@@ -1,0 +1,197 @@
+//! Legs of a mission that stand in a file of their own: a table as CSV, or places as GeoJSON.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::Value as Json;
+
+use super::error::{DocumentError, Problem};
+use super::samples::{BYTE_ORDER_MARK, cells};
+use super::source::{LARGEST_FILE, read_file};
+use super::tree::{Entry, Node, Origin, Text, Value};
+
+/// The key of a mission under which the file stands.
+pub(crate) const LEGS_FROM: &str = "legs_from";
+/// The key of a mission under which its legs stand.
+const LEGS: &str = "leg";
+
+/// Puts the legs of the file that a mission names before its own, so that it names none any more.
+pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
+    let Some(entry) = mission.entry(LEGS_FROM) else { return Ok(()) };
+    // What is no text is for the check to report.
+    let Value::String(name) = &entry.node.value else { return Ok(()) };
+    let (origin, key_origin) = (entry.node.origin.clone(), entry.key_origin.clone());
+    let mut legs = read(name, &origin).map_err(|error| error.named_by(&origin))?;
+    let Value::Table(entries) = &mut mission.value else { return Ok(()) };
+    entries.retain(|entry| entry.key != LEGS_FROM);
+    match entries.iter_mut().find(|entry| entry.key == LEGS).map(|entry| &mut entry.node.value) {
+        Some(Value::List(own)) => {
+            legs.append(own);
+            *own = legs;
+        }
+        Some(_) => {}
+        None => {
+            let node = Node { value: Value::List(legs), origin };
+            entries.push(Entry { key: LEGS.to_owned(), key_origin, node });
+        }
+    }
+    Ok(())
+}
+
+fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
+    let beside = origin.text.companions.iter().find(|beside| beside.name == name);
+    let path = origin.text.folder.join(name);
+    let label = beside.map_or_else(|| path.display().to_string(), |_| name.to_owned());
+    let content = match beside {
+        Some(beside) => beside.content.clone(),
+        None => read_file(&path, LARGEST_FILE)
+            .map_err(|problem| DocumentError::whole(&label, problem))?,
+    };
+    let text = Arc::new(Text { label, content, ..Text::default() });
+    let ends_in =
+        |end: &str| Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
+    if ends_in("csv") {
+        of_csv(&text)
+    } else if ends_in("geojson") || ends_in("json") {
+        of_geojson(&text)
+    } else {
+        let what = "its name ends in neither .csv nor .geojson".to_owned();
+        Err(DocumentError::whole(&text.label, Problem::NoLegs(what)))
+    }
+}
+
+// ---- CSV: the first line has keys of a leg, every other line is one ----
+
+fn of_csv(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
+    let mut lines = Vec::new();
+    let mut start = 0;
+    for line in text.content.split_inclusive('\n') {
+        if !line.trim().trim_start_matches(BYTE_ORDER_MARK).is_empty() {
+            lines.push((start, line.trim_end()));
+        }
+        start += line.len();
+    }
+    let Some(((_, header), rows)) = lines.split_first() else {
+        return Err(DocumentError::whole(&text.label, Problem::NoLegs("it is empty".to_owned())));
+    };
+    let keys: Vec<&str> = cells(header).map(|(_, key)| key).collect();
+    rows.iter().map(|(from, line)| row(text, &keys, *from, line)).collect()
+}
+
+fn row(text: &Arc<Text>, keys: &[&str], from: usize, line: &str) -> Result<Node, DocumentError> {
+    let origin =
+        |from: usize, length: usize| Origin { text: text.clone(), span: from..from + length };
+    let count = cells(line).count();
+    if count != keys.len() {
+        let columns = keys.len();
+        let what = format!("this row has {count} values, the first line names {columns} keys");
+        let hint = line.contains(';').then(|| "values are separated by commas".to_owned());
+        let error = DocumentError::at(&origin(from, line.len()), Problem::NoLegs(what));
+        return Err(error.with_hint(hint));
+    }
+    let mut leg = Node { value: Value::Table(Vec::new()), origin: origin(from, line.len()) };
+    for (key, (offset, cell)) in keys.iter().zip(cells(line)) {
+        if !cell.is_empty() {
+            let node = Node { value: value_of(cell), origin: origin(from + offset, cell.len()) };
+            put(&mut leg, key, node);
+        }
+    }
+    Ok(leg)
+}
+
+/// A cell: a number, a truth value, or else a text.
+fn value_of(cell: &str) -> Value {
+    match (cell.parse::<f64>(), cell) {
+        (Ok(number), _) => Value::Float(number),
+        (_, "true") => Value::Boolean(true),
+        (_, "false") => Value::Boolean(false),
+        _ => Value::String(cell.to_owned()),
+    }
+}
+
+/// Puts a value under a dotted key.
+fn put(table: &mut Node, key: &str, node: Node) {
+    let Value::Table(entries) = &mut table.value else { return };
+    let (first, rest) =
+        key.split_once('.').map_or((key, None), |(first, rest)| (first, Some(rest)));
+    let origin = node.origin.clone();
+    let Some(rest) = rest else {
+        entries.push(Entry { key: first.to_owned(), key_origin: origin, node });
+        return;
+    };
+    let place = entries.iter().position(|entry| entry.key == first).unwrap_or_else(|| {
+        let inner = Node { value: Value::Table(Vec::new()), origin: origin.clone() };
+        entries.push(Entry { key: first.to_owned(), key_origin: origin, node: inner });
+        entries.len() - 1
+    });
+    put(&mut entries[place].node, rest, node);
+}
+
+// ---- GeoJSON: points, and the vertices of lines, are waypoints ----
+
+fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
+    let fault = |what: String| DocumentError::whole(&text.label, Problem::NoLegs(what));
+    let json: Json =
+        serde_json::from_str(&text.content).map_err(|error| fault(format!("no JSON: {error}")))?;
+    let mut legs = Vec::new();
+    for (geometry, properties) in features(&json) {
+        let places: Vec<&Json> = match geometry["type"].as_str() {
+            Some("Point") => vec![&geometry["coordinates"]],
+            Some("LineString" | "MultiPoint") => {
+                geometry["coordinates"].as_array().into_iter().flatten().collect()
+            }
+            other => {
+                let found = other.unwrap_or("no geometry");
+                return Err(fault(format!(
+                    "it has a {found}, it may have Point, MultiPoint and LineString"
+                )));
+            }
+        };
+        for place in places {
+            let [Some(x), Some(y)] = [place[0].as_f64(), place[1].as_f64()] else {
+                return Err(fault(format!("{place} is no place: two numbers are, x and y")));
+            };
+            legs.push(waypoint(text, [x, y], properties));
+        }
+    }
+    if legs.is_empty() {
+        return Err(fault("it has no features".to_owned()));
+    }
+    Ok(legs)
+}
+
+/// The geometries of a document with their properties, in order.
+fn features(json: &Json) -> Vec<(&Json, &Json)> {
+    match json["type"].as_str() {
+        Some("FeatureCollection") => {
+            json["features"].as_array().into_iter().flatten().flat_map(features).collect()
+        }
+        Some("Feature") => vec![(&json["geometry"], &json["properties"])],
+        Some("GeometryCollection") => {
+            let all = json["geometries"].as_array().into_iter().flatten();
+            all.map(|geometry| (geometry, &Json::Null)).collect()
+        }
+        _ => vec![(json, &Json::Null)],
+    }
+}
+
+/// Properties of a feature that are keys of its legs; programs add many others.
+const PROPERTIES: [&str; 5] = ["speed_m_s", "yaw_deg", "reverse", "look_ahead_m", "within_m"];
+
+fn waypoint(text: &Arc<Text>, [x, y]: [f64; 2], properties: &Json) -> Node {
+    let node = |value: Value| Node { value, origin: Origin { text: text.clone(), span: 0..0 } };
+    let mut leg = node(Value::Table(Vec::new()));
+    put(&mut leg, "goto.x_m", node(Value::Float(x)));
+    put(&mut leg, "goto.y_m", node(Value::Float(y)));
+    for key in PROPERTIES {
+        let value = match &properties[key] {
+            Json::Bool(yes) => Value::Boolean(*yes),
+            Json::Number(number) => Value::Float(number.as_f64().unwrap_or(f64::NAN)),
+            Json::String(text) => Value::String(text.clone()),
+            _ => continue,
+        };
+        let key = if key == "within_m" { "goto.within_m" } else { key };
+        put(&mut leg, key, node(value));
+    }
+    leg
+}

@@ -1,0 +1,302 @@
+//! Missions as documents say them: legs with keys, each of which becomes a leg with a manoeuvre.
+
+use super::columns::{ENERGY, Quantity, SLIP_RATIO, TIME, TORQUE, quantity};
+use super::describe::mission::MISSION;
+use super::describe::scenario;
+use super::document::Document;
+use super::error::Problem;
+use super::field::Inner;
+use super::unit::{DEG, M, ONE};
+use super::values::{Described, Misfit};
+use grouser_core::mission::{
+    Heading, Leg, Limited, Manoeuvre, Measure, Mission, PlanError, Stop, Then,
+};
+use grouser_core::simulation::Scenario;
+use grouser_core::units::Vec2;
+
+/// A mission as its document says it: the keys of its legs, in SI.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Rover, ground, model, and how the run is computed.
+    pub scenario: Scenario,
+    pub(crate) legs: Vec<LegKeys>,
+    pub(crate) alternatives: Vec<Alternative>,
+    pub(crate) stops: Vec<Stop>,
+}
+
+/// One of several ways to drive a mission.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Alternative {
+    pub name: String,
+    pub legs: Vec<LegKeys>,
+}
+
+/// What documents and results call a number that is limited.
+#[must_use]
+pub const fn limited_quantity(limited: Limited) -> Quantity {
+    match limited {
+        Limited::SlipRatio => SLIP_RATIO,
+        Limited::Drift => quantity("drift_m", M),
+        Limited::Sinkage => quantity("sinkage_ratio", ONE),
+        Limited::Roll => quantity("roll_deg", DEG),
+        Limited::Pitch => quantity("pitch_deg", DEG),
+        Limited::Torque => TORQUE,
+        Limited::Time => TIME,
+        Limited::Energy => ENERGY,
+        Limited::OffPath => quantity("off_path_m", M),
+    }
+}
+
+/// The keys of a leg that are given.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LegKeys {
+    pub drive: Option<f64>,
+    pub by: Option<Measure>,
+    pub turn: Option<f64>,
+    pub arc: Option<Arc>,
+    pub goto: Option<Waypoint>,
+    pub wait: Option<f64>,
+    pub reverse: bool,
+    pub speed: Option<f64>,
+    pub yaw: Option<f64>,
+    pub held: Option<Held>,
+    pub toward: Option<Waypoint>,
+    pub look_ahead: Option<f64>,
+    pub stops: Vec<Stop>,
+}
+
+/// A way along a circle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Arc {
+    pub radius: f64,
+    pub angle: f64,
+}
+
+/// A place, and how near is near enough.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Waypoint {
+    pub place: Vec2,
+    pub within: f64,
+}
+
+/// What is held on the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Held {
+    Hold,
+    Contour,
+    Toward,
+}
+
+impl Plan {
+    /// The mission: the first of its alternatives, where it has some.
+    #[must_use]
+    pub fn mission(&self) -> Mission {
+        let first = self.alternatives.first();
+        self.mission_of(first.map_or(&self.legs, |alternative| &alternative.legs))
+    }
+
+    /// The mission, or its alternatives by their names, each a mission of its own from the same start.
+    #[must_use]
+    pub fn missions(&self) -> Vec<(String, Mission)> {
+        if self.alternatives.is_empty() {
+            return vec![(String::new(), self.mission())];
+        }
+        self.alternatives.iter().map(|it| (it.name.clone(), self.mission_of(&it.legs))).collect()
+    }
+
+    /// The mission of some legs, with the speed of each.
+    fn mission_of(&self, legs: &[LegKeys]) -> Mission {
+        let mut speed = None;
+        let legs = legs.iter().map(|keys| {
+            speed = keys.speed.or(speed);
+            keys.leg(speed)
+        });
+        Mission { scenario: self.scenario.clone(), legs: legs.collect(), stops: self.stops.clone() }
+    }
+
+    /// All legs, with the keys under which they stand.
+    fn all_legs(&self) -> Vec<(String, &[LegKeys])> {
+        let each = self.alternatives.iter().enumerate();
+        let each = each.map(|(place, it)| (format!("alternative.{place}.leg"), &*it.legs));
+        std::iter::once(("leg".to_owned(), &*self.legs)).chain(each).collect()
+    }
+
+    /// That alternatives have names of their own, and stand in place of legs.
+    fn check_alternatives(&self) -> Result<(), Misfit> {
+        let names: Vec<&str> = self.alternatives.iter().map(|it| &*it.name).collect();
+        for (place, name) in names.iter().enumerate() {
+            if names[..place].contains(name) {
+                let key = format!("alternative.{place}.name");
+                let name = name.escape_debug().to_string();
+                return Err(Misfit::new(key.clone(), Problem::RepeatedName { key, name }));
+            }
+        }
+        if !names.is_empty() && !self.legs.is_empty() {
+            let problem = Problem::Conflict("the mission has legs beside its alternatives");
+            let hint = "legs that all alternatives have stand in each of them";
+            return Err(Misfit::new("leg", problem).with_hint(hint));
+        }
+        Ok(())
+    }
+}
+
+impl LegKeys {
+    /// The manoeuvres that are given, with their keys: one, of a leg that is one.
+    fn manoeuvres(&self) -> Vec<(&'static str, Manoeuvre)> {
+        let reverse = self.reverse;
+        let drive = self.drive.map(|distance| {
+            ("drive_m", Manoeuvre::Drive { distance, by: self.by.unwrap_or_default() })
+        });
+        let turn = self.turn.map(|angle| ("turn_deg", Manoeuvre::Turn { angle }));
+        let arc = self
+            .arc
+            .map(|Arc { radius, angle }| ("arc", Manoeuvre::Arc { radius, angle, reverse }));
+        let goto = self
+            .goto
+            .map(|Waypoint { place, within }| ("goto", Manoeuvre::Goto { place, within, reverse }));
+        let wait = self.wait.map(|time| ("wait_s", Manoeuvre::Wait { time }));
+        [drive, turn, arc, goto, wait].into_iter().flatten().collect()
+    }
+
+    /// The leg, of keys that go together.
+    fn leg(&self, speed: Option<f64>) -> Leg {
+        let manoeuvres = self.manoeuvres();
+        let manoeuvre = manoeuvres.first().map_or(Manoeuvre::Wait { time: 0.0 }, |(_, it)| *it);
+        let usual = Leg::new(manoeuvre);
+        let heading = match (self.held, self.toward) {
+            (Some(Held::Hold), _) => Heading::Hold,
+            (Some(Held::Contour), _) => Heading::Contour,
+            (Some(Held::Toward), Some(to)) => Heading::Toward(to.place),
+            _ => Heading::Free,
+        };
+        Leg {
+            speed: speed.unwrap_or(usual.speed),
+            yaw: self.yaw,
+            heading,
+            stops: self.stops.clone(),
+            look_ahead: self.look_ahead,
+            ..usual
+        }
+    }
+
+    /// What is wrong with it: the key, a sentence, and what to write instead.
+    fn fault(&self) -> Option<(&'static str, String, &'static str)> {
+        let given: Vec<&str> = self.manoeuvres().into_iter().map(|(key, _)| key).collect();
+        let [manoeuvre] = given[..] else {
+            let (key, what) = match given[..] {
+                [] => ("", "says nothing to do".to_owned()),
+                [one, other, ..] => (other, format!("has both `{one}` and `{other}`")),
+                [_] => return None,
+            };
+            return Some((key, what, ONE_OF));
+        };
+        let only = |key: &'static str, with: &str, instead| {
+            Some((
+                key,
+                format!("has `{key}` beside `{manoeuvre}`: it goes with {with} only"),
+                instead,
+            ))
+        };
+        let drives = manoeuvre == "drive_m";
+        if self.by.is_some() && !drives {
+            return only("by", "`drive_m`", "leave it out");
+        }
+        if self.held.is_some() && !drives {
+            return only(
+                "heading",
+                "`drive_m`",
+                "leave it out: turns, arcs and ways to places have their own",
+            );
+        }
+        if self.reverse && !matches!(manoeuvre, "arc" | "goto") {
+            return only("reverse", "`arc` and `goto`", "a `drive_m` below 0 is driven backward");
+        }
+        match (self.held, self.toward) {
+            (Some(Held::Toward), None) => {
+                let what = "has the heading \"toward\", but no place `toward`".to_owned();
+                Some(("heading", what, "write for instance toward = { x_m = 5.0, y_m = 1.0 }"))
+            }
+            (held, Some(_)) if held != Some(Held::Toward) => {
+                let what = "has a place `toward`, but not the heading \"toward\"".to_owned();
+                Some(("toward", what, "write heading = \"toward\", or leave the place out"))
+            }
+            _ => None,
+        }
+    }
+}
+
+const ONE_OF: &str = "a leg has exactly one of drive_m, turn_deg, arc, goto and wait_s";
+
+/// That who backs out knows how far.
+///
+/// * `within`: the table of the limits, with a dot after it
+fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
+    let Some(stop) = stops.iter().find(|stop| stop.then == Then::BackOut(0.0)) else {
+        return Ok(());
+    };
+    let path = format!("{within}stop.{}.then", limited_quantity(stop.limited).name);
+    let problem =
+        Problem::Conflict("`then` is \"back-out\", but `back_out_m` does not say how far");
+    Err(Misfit::new(path, problem).with_hint("write for instance back_out_m = 0.5 beside it"))
+}
+
+/// That legs can be driven.
+///
+/// * `within`: the key under which they stand
+fn check_legs(legs: &[LegKeys], within: &str) -> Result<(), Misfit> {
+    for (place, leg) in legs.iter().enumerate() {
+        if let Some((key, what, hint)) = leg.fault() {
+            let problem = Problem::Leg { number: place + 1, what };
+            return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
+        }
+        check_stops(&leg.stops, &format!("{within}.{place}."))?;
+    }
+    Ok(())
+}
+
+/// That there can be such a mission.
+///
+/// * `within`: the key under which its legs stand
+fn check_mission(mission: &Mission, within: &str) -> Result<(), Misfit> {
+    mission.check().map_err(|PlanError { leg, source }| match leg {
+        0 if mission.legs.is_empty() => {
+            let problem = Problem::Conflict("the mission has no legs");
+            let hint = "each leg is a table [[leg]]; `legs_from` names a file with legs";
+            Misfit::new(within, problem).with_hint(hint)
+        }
+        0 => Misfit::new(within, source),
+        number => {
+            let what = format!("cannot be driven: {source}");
+            Misfit::new(format!("{within}.{}", number - 1), Problem::Leg { number, what })
+        }
+    })
+}
+
+impl Described for Plan {
+    fn table() -> &'static dyn Inner<Self> {
+        &MISSION
+    }
+
+    fn blank() -> Self {
+        // How long it lasts is for the legs to say.
+        let scenario = Scenario { duration: 1.0, ..scenario::blank() };
+        Self { scenario, legs: Vec::new(), alternatives: Vec::new(), stops: Vec::new() }
+    }
+
+    fn follow(&mut self, document: &Document) {
+        self.scenario.follow(document);
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        let plan = Self { scenario: self.scenario.settled()?, ..self };
+        check_stops(&plan.stops, "")?;
+        plan.check_alternatives()?;
+        for (within, legs) in plan.all_legs() {
+            check_legs(legs, &within)?;
+            if plan.alternatives.is_empty() || within != "leg" {
+                check_mission(&plan.mission_of(legs), &within)?;
+            }
+        }
+        Ok(plan)
+    }
+}

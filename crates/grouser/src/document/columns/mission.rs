@@ -1,0 +1,227 @@
+//! A mission: a row for each leg that was begun, and the whole of it.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::super::limited_quantity;
+use super::super::table::Table;
+use super::super::unit::M;
+use super::run::{DISTANCE, END, METHOD};
+use super::{Column, ENERGY, SLIP_RATIO, TIME, X, Y, YAW, maybe, text, whole};
+use crate::mission::{
+    Cause, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Stop, Stopped,
+};
+use crate::studies::mission::{DrivenLeg, DrivenMission};
+
+impl DrivenMission {
+    /// What became of its legs: a row for each that was begun.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        Table::of(&LEG, &self.legs)
+    }
+}
+
+impl DrivenLeg {
+    /// Why it did not end as it says, in a sentence; none if it did.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        match &self.report.outcome {
+            LegOutcome::Completed => None,
+            LegOutcome::Stopped(stopped) => Some(why(stopped)),
+            LegOutcome::Ended(outcome) => outcome.reason(),
+        }
+    }
+}
+
+/// A mission among its alternatives.
+pub const MISSION: [Column<DrivenMission>; 10] = [
+    text(ALTERNATIVE, "The way that was driven", |it| Some(it.name.clone())),
+    text(
+        "outcome",
+        "That of the last leg that was begun: `completed`, `stopped` or what became of the rover",
+        |it| Some(it.report.outcome().to_owned()),
+    ),
+    whole("legs_completed", "Legs that ended as they say", |it| {
+        let completed = |leg: &&DrivenLeg| leg.report.outcome == LegOutcome::Completed;
+        Some(it.legs.iter().filter(completed).count())
+    }),
+    whole("legs_planned", "Legs of the plan", |it| Some(it.planned)),
+    DISTANCE.number("Way over the ground of drives, arcs and ways to places", |it| {
+        it.ways().map(|leg| leg.distance).sum()
+    }),
+    SLIP_RATIO.maybe("Largest slip ratio of a leg", |it| {
+        it.ways().filter_map(|leg| leg.slip_ratio).reduce(f64::max)
+    }),
+    TIME.number("Time at the end", |it| it.report.last().time),
+    X.number("Along the contour, at the end", |it| it.report.last().state.position.x),
+    Y.number("Uphill, at the end", |it| it.report.last().state.position.y),
+    ENERGY.number("Work of the motors", |it| it.report.energy()),
+];
+
+/// The name of an alternative.
+const ALTERNATIVE: &str = "alternative";
+
+/// A leg.
+pub const LEG: [Column<DrivenLeg>; 15] = [
+    whole("leg", "Number of the leg, from 1", |it| Some(it.number)),
+    text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg))),
+    text(
+        "outcome",
+        "`completed`, `stopped` by a limit, `immobilised`, `sliding` or `tipped_over`",
+        |it| Some(it.report.outcome.name().into()),
+    ),
+    DISTANCE.number(
+        "Way over the ground; a turn to the yaw of the leg before it does not count",
+        |it| it.report.distance,
+    ),
+    TIME.number("How long it took, with the turn before it", |it| it.report.time),
+    ENERGY.number("Work of the motors, with the turn before it", |it| it.report.energy),
+    SLIP_RATIO.maybe(
+        "1 less the way over the ground by that of the rims; of drives, arcs and ways to places",
+        |it| it.report.slip_ratio,
+    ),
+    text(
+        "stopped_by",
+        "The limit that stopped it, by its key, or what would have become of it",
+        |it| stopped(it).map(|it| name(it).to_owned()),
+    ),
+    text(
+        "stopped_kind",
+        "`command`, `reactive`, or `predictive` for what was simulated ahead",
+        |it| stopped(it).map(|it| kind(it.kind).to_owned()),
+    ),
+    text("reason", "Why it did not end as it says", DrivenLeg::reason),
+    X.number("Along the contour, where it ended, of the body's centre of mass", |it| {
+        it.report.end.position.x
+    }),
+    Y.number("Uphill, where it ended", |it| it.report.end.position.y),
+    YAW.number("Yaw where it ended, positive where the nose points uphill", |it| it.report.end.yaw),
+    maybe("back_out_m", M, "How far it drove back out of the leg", |it| {
+        Some(it.report.back_out.as_ref()?.distance)
+    }),
+    text("back_out", "What became of that", |it| {
+        Some(it.report.back_out.as_ref()?.outcome.name().to_owned())
+    }),
+];
+
+/// The columns of [`LEG`] for reading.
+#[must_use]
+pub fn legs_brief() -> Vec<String> {
+    let names = [
+        "leg",
+        "manoeuvre",
+        "outcome",
+        DISTANCE.name,
+        TIME.name,
+        ENERGY.name,
+        SLIP_RATIO.name,
+        X.name,
+        Y.name,
+        YAW.name,
+    ];
+    names.map(str::to_owned).into()
+}
+
+/// A mission as one object of JSON: `outcome`, `energy_j`, `final`, and its `legs`.
+#[derive(Clone, Copy, Debug)]
+pub struct MissionObject<'a> {
+    /// The mission.
+    pub mission: &'a DrivenMission,
+}
+
+impl Serialize for MissionObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let DrivenMission { name, report, .. } = self.mission;
+        let end = Table::of(END, std::slice::from_ref(report.last()));
+        let mut map = serializer.serialize_map(None)?;
+        if !name.is_empty() {
+            map.serialize_entry(ALTERNATIVE, name)?;
+        }
+        map.serialize_entry("outcome", report.outcome())?;
+        map.serialize_entry(ENERGY.name, &report.energy())?;
+        METHOD.iter().try_for_each(|column| column.write(&mut map, &report.trajectory))?;
+        map.serialize_entry("final", &end.row(0))?;
+        map.serialize_entry("legs", &self.mission.table())?;
+        map.end()
+    }
+}
+
+fn stopped(leg: &DrivenLeg) -> Option<&Stopped> {
+    match &leg.report.outcome {
+        LegOutcome::Stopped(stopped) => Some(stopped),
+        LegOutcome::Completed | LegOutcome::Ended(_) => None,
+    }
+}
+
+/// What stopped a rover, in one word.
+fn name(stopped: &Stopped) -> &'static str {
+    match &stopped.cause {
+        Cause::Limit { stop, .. } => limited_quantity(stop.limited).name,
+        Cause::Outcome(outcome) => outcome.name(),
+    }
+}
+
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Command => "command",
+        Kind::Reactive => "reactive",
+        Kind::Predictive => "predictive",
+    }
+}
+
+/// Why a rover stopped: `slip ratio 0.42 over 1 m after 3.70 m`.
+fn why(stopped: &Stopped) -> String {
+    let ahead = if stopped.kind == Kind::Predictive { "ahead " } else { "" };
+    let cause = match &stopped.cause {
+        Cause::Limit { stop, value } => passed(stop, *value),
+        Cause::Outcome(outcome) => outcome.name().replace('_', " "),
+    };
+    format!("{ahead}{cause} after {:.2} m", stopped.after)
+}
+
+/// The number that passed a limit, with so many digits that it is seen to have done so.
+fn passed(stop: &Stop, value: f64) -> String {
+    if stop.limited == Limited::Time {
+        return format!("not done within {:.0} s,", stop.above);
+    }
+    let quantity = limited_quantity(stop.limited);
+    let [value, above] = [value, stop.above].map(|it| quantity.unit.from_si(it));
+    let is_above = |shown: String| shown.parse::<f64>().is_ok_and(|shown| shown > above);
+    let digits = (2..6).find(|digits| is_above(format!("{value:.digits$}"))).unwrap_or(6);
+    let unit = match quantity.unit.symbol {
+        "-" => String::new(),
+        "°" => "°".to_owned(),
+        symbol => format!(" {symbol}"),
+    };
+    let over =
+        if stop.limited.is_of_a_way() { format!(" over {} m", stop.over) } else { String::new() };
+    format!("{} {value:.digits$}{unit}{over}", quantity.label())
+}
+
+/// What a leg says: `drive 2 m on the contour`.
+fn in_words(leg: &Leg) -> String {
+    let deg = |angle: f64| format!("{}°", YAW.unit.as_given(angle));
+    let side = |angle: f64| if angle < 0.0 { "right" } else { "left" };
+    let back = |reverse: bool| if reverse { " backward" } else { "" };
+    let what = match leg.manoeuvre {
+        Manoeuvre::Drive { distance, by } => {
+            let by = if by == Measure::Odometry { " by odometry" } else { "" };
+            format!("drive {distance} m{by}")
+        }
+        Manoeuvre::Turn { angle } => format!("turn {} {}", deg(angle.abs()), side(angle)),
+        Manoeuvre::Arc { radius, angle, reverse } => {
+            format!("arc {} {}, radius {radius} m{}", deg(angle.abs()), side(angle), back(reverse))
+        }
+        Manoeuvre::Goto { place, reverse, .. } => {
+            format!("go to {}, {} m{}", place.x, place.y, back(reverse))
+        }
+        Manoeuvre::Wait { time } => format!("wait {time} s"),
+    };
+    let held = match leg.heading {
+        Heading::Free => String::new(),
+        Heading::Hold => ", yaw held".to_owned(),
+        Heading::Contour => ", on the contour".to_owned(),
+        Heading::Toward(place) => format!(", toward {}, {} m", place.x, place.y),
+    };
+    let yaw = leg.yaw.map_or(String::new(), |yaw| format!(", from yaw {}", deg(yaw)));
+    what + &yaw + &held
+}
