@@ -125,7 +125,9 @@ impl Driven {
         let until = if now + eta < next { now + eta.max(LEAST_STEP) } else { next };
         let kept_until =
             if self.pilot.is_steady() { now + eta.min(LONGEST_STRETCH) } else { until };
+        let rims = run.state().rim_speeds().to_vec();
         run.go_on(&mut self.pilot, until, kept_until.max(until))?;
+        run.set_off(&rims);
         let state = run.state();
         self.odometer.look(state.time(), state.rover(), state.rim_speeds());
         self.pilot.gone = self.odometer.ground();

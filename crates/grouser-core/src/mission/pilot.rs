@@ -23,11 +23,12 @@ use crate::vehicle::{Mount, RoverState};
 pub const YAW_GAIN: f64 = 0.5;
 /// The same per error and time, *I_γ* [1/s²]. Source: ours, slow beside [`YAW_GAIN`].
 pub const YAW_INTEGRAL: f64 = 0.05;
-/// Yaw that is asked for, per distance from the line, *K_y* [rad/m]. Source: ours; at 6 cm/s a distance fades in 17 s, four
-/// times slower than the yaw follows.
-pub const CROSS_TRACK_GAIN: f64 = 1.0;
-/// The same per distance and time, *I_y* [rad/(m s)]. Source: ours, slow beside [`CROSS_TRACK_GAIN`].
-pub const CROSS_TRACK_INTEGRAL: f64 = 0.01;
+/// Yaw that is asked for, per distance from the line, *K_y* [rad/m]. Source: ours; at 5 cm/s a distance fades in 10 s, more
+/// than twice slower than the yaw follows.
+pub const CROSS_TRACK_GAIN: f64 = 2.0;
+/// The same per distance and time, *I_y* [rad/(m s)]. Source: ours; with [`CROSS_TRACK_GAIN`] the damping ratio at 5 cm/s,
+/// *K_y* √(*v* / *I_y*) / 2, is 1: what a slope asks for is learnt in half a minute, without overshoot.
+pub const CROSS_TRACK_INTEGRAL: f64 = 0.05;
 /// The most yaw by which a rover is turned towards its line [rad]: 45°. Source: ours.
 pub const MOST_CROSS_YAW: f64 = std::f64::consts::FRAC_PI_4;
 

@@ -8,15 +8,19 @@ use super::error::RunError;
 use super::leg::Leg;
 use super::method::Method;
 use super::outcome::Outcome;
+use super::power;
+use super::quasi_steady::Carried;
 use super::record::Record;
-use super::scenario::{LONGEST_DURATION, Scenario};
+use super::scenario::{LONGEST_DURATION, Motion, ROLLING_SHARE, Scenario};
 use super::state::State;
 use super::times::{is_same_time, snapped};
 use super::trajectory::Trajectory;
-use super::watch::WATCH_PERIOD;
+use super::watch::{LEAST_PROGRESS, WATCH_PERIOD};
 use super::work::Work;
 use crate::error::{ParameterError, positive};
-use crate::vehicle::{DriveLaw, WheelReaction};
+use crate::units::Vec2;
+use crate::vehicle::kinematics::rolling_velocity;
+use crate::vehicle::{DriveLaw, RoverState, WheelReaction};
 
 /// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
@@ -147,6 +151,32 @@ impl Run {
     pub(crate) fn try_steady_again(&mut self) -> Option<Method> {
         let fell_back = matches!(self.state.method, Method::FallbackToDynamic { .. });
         fell_back.then(|| std::mem::replace(&mut self.state.method, Method::QuasiSteady))
+    }
+
+    /// Sets the rover rolling where its rims roll another way than before, and it does not follow them, as at a
+    /// [rolling](Motion::Rolling) start; nothing where a run starts from rest.
+    ///
+    /// The models know no shear that builds up with the way: a wheel that stands, or moves against its rim, has a slip
+    /// ratio of 1 or more at once, and near the limit of its thrust digs there for ever, where a real one passes through
+    /// the slip at which it pulls most.
+    ///
+    /// * `before`: speeds of the rims before [m/s]
+    pub(crate) fn set_off(&mut self, before: &[f64]) {
+        let mounts = self.scenario.rover.mounts();
+        let State { rim_speeds, point, history, carried, .. } = &mut self.state;
+        let [old, new] = [before, rim_speeds].map(|rims| rolling_velocity(mounts, rims));
+        let follows = point.state.velocity.dot(&new) > LEAST_PROGRESS * new.norm_squared();
+        let is_new = old.dot(&new) <= 0.0 && new != Vec2::zeros();
+        if !is_new || follows || self.scenario.start.motion == Motion::Rest {
+            return;
+        }
+        let energy = |state: &RoverState| power::kinetic_energy(&self.scenario.rover, state);
+        let kinetic = energy(&point.state);
+        point.state.velocity = ROLLING_SHARE * new;
+        point.state.yaw_rate = 0.0;
+        point.motors += energy(&point.state) - kinetic;
+        history.clear();
+        *carried = Carried::default();
     }
 
     /// Records where the run has come to.

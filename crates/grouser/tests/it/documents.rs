@@ -38,6 +38,7 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
         Kind::Wheel => read!(read_wheel),
         Kind::Rover => read!(read_rover),
         Kind::Scenario => read!(read_scenario),
+        Kind::Mission => read!(read_mission),
         Kind::DataSet => read!(read_data_set),
         Kind::Campaign => {
             let campaign = document::read_campaign(source, overrides)?;
