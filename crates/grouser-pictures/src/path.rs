@@ -146,8 +146,9 @@ impl Map {
         let size = self.most - self.least;
         let step = round_step(size.x.max(size.y) / LINES);
         let lines = |from: f64, to: f64| {
-            let [first, last] = [(from / step).ceil(), (to / step).floor()];
-            (0..=(last - first).max(0.0) as usize).map(move |line| (first + line as f64) * step)
+            let first = (from / step).ceil();
+            let numbers = std::iter::successors(Some(first), |line| Some(line + 1.0));
+            numbers.map(move |line| line * step).take_while(move |at| *at <= to)
         };
         let [grid, faint, ink] =
             [Role::Grid, Role::Faint, Role::Ink].map(|role| role.on(Ground::Light));

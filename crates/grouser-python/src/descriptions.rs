@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use grouser::document::{
-    self, Companion, DocumentError, Kind, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel,
-    Overrides, Problem, Source,
+    self, Companion, DocumentError, Kind, LoadedMission, LoadedRover, LoadedScenario, LoadedSoil,
+    LoadedWheel, Overrides, Problem, Source,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -28,6 +28,7 @@ enum Read {
     Wheel(Box<LoadedWheel>),
     Rover(Box<LoadedRover>),
     Scenario(Box<LoadedScenario>),
+    Mission(Box<LoadedMission>),
     Campaign(Box<LoadedCampaign>),
 }
 
@@ -38,6 +39,7 @@ impl Read {
             Kind::Wheel => Self::Wheel(document::read_wheel(source, overrides)?.into()),
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
             Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
+            Kind::Mission => Self::Mission(document::read_mission(source, overrides)?.into()),
             Kind::Scenario | Kind::DataSet | Kind::Prior => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
@@ -53,6 +55,7 @@ impl Document {
             Read::Wheel(it) => &it.document,
             Read::Rover(it) => &it.document,
             Read::Scenario(it) => &it.document,
+            Read::Mission(it) => &it.document,
             Read::Campaign(it) => it.campaign().document(),
         }
     }
@@ -70,6 +73,7 @@ impl Document {
             Read::Wheel(it) => &it.companions,
             Read::Rover(it) => &it.companions,
             Read::Scenario(it) => &it.companions,
+            Read::Mission(it) => &it.companions,
             // A campaign holds all that it needs.
             Read::Campaign(_) => &[],
         }
@@ -121,7 +125,7 @@ impl Document {
 
 #[pymethods]
 impl Document {
-    /// `soil`, `wheel`, `rover`, `scenario` or `campaign`.
+    /// `soil`, `wheel`, `rover`, `scenario`, `mission` or `campaign`.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.read {
@@ -129,6 +133,7 @@ impl Document {
             Read::Wheel(_) => Kind::Wheel.name(),
             Read::Rover(_) => Kind::Rover.name(),
             Read::Scenario(_) => Kind::Scenario.name(),
+            Read::Mission(_) => Kind::Mission.name(),
             Read::Campaign(_) => Kind::Campaign.name(),
         }
     }
@@ -141,6 +146,7 @@ impl Document {
             Read::Wheel(it) => it.assumptions.clone(),
             Read::Rover(it) => it.assumptions.clone(),
             Read::Scenario(it) => it.assumptions.clone(),
+            Read::Mission(it) => it.assumptions.clone(),
             Read::Campaign(it) => it.campaign().assumptions().to_vec(),
         }
     }
@@ -153,6 +159,7 @@ impl Document {
             Read::Wheel(it) => it.assumed.clone(),
             Read::Rover(it) => it.assumed.clone(),
             Read::Scenario(it) => it.assumed.clone(),
+            Read::Mission(it) => it.assumed.clone(),
             Read::Campaign(it) => it.campaign().assumed(),
         };
         all.into_iter().map(|one| one.key).collect()
@@ -332,7 +339,8 @@ fn keyword(path: &str, value: &str) -> String {
 }
 
 fn kind_of(name: &str) -> PyResult<Kind> {
-    let known = [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario, Kind::Campaign];
+    let known =
+        [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario, Kind::Mission, Kind::Campaign];
     known
         .into_iter()
         .find(|kind| kind.name() == name)
