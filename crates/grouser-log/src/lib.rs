@@ -15,11 +15,12 @@
 //! Times count from the run's start, which is 0 ns. Transforms and scenes are in SI units, numbers in the units of
 //! their columns. The same records make the same bytes.
 //!
-//! How does a mission become a log, leg by leg?
+//! How does a mission become a log?
 //!
 //! ```
 //! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
-//! use grouser_core::mission::{Leg, Manoeuvre, Mission, MissionRun};
+//! use grouser::studies::mission::DrivenMission;
+//! use grouser_core::mission::{Leg, Manoeuvre, Mission};
 //! use grouser_core::units::deg;
 //! use grouser_log::Log;
 //!
@@ -28,20 +29,16 @@
 //!     Leg::new(Manoeuvre::Turn { angle: deg(45.0) }),
 //! ];
 //! let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new() };
-//! let mut run = MissionRun::new(&mission)?;
+//! let driven = DrivenMission::drive("there", &mission)?;
 //! let mut log = Log::begin(Vec::new(), "HAKUTO on sand", &mission.scenario)?;
-//! for (place, what) in ["drive 0.5 m", "turn by 45°"].iter().enumerate() {
-//!     log.leg_began(run.time(), place, what)?;
-//!     let report = run.next_leg()?.cloned();
-//!     log.append(&run.take_records())?;
-//!     if let Some(report) = report {
-//!         log.leg_ended(run.time(), place, &report)?;
-//!     }
-//! }
+//! log.mission(&driven)?;
 //! let file = log.finish()?;
 //! assert!(file.starts_with(b"\x89MCAP0\r\n"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! A mission of weeks is written as it is driven, without its records in memory: a
+//! [`MissionRun`](grouser_core::mission::MissionRun) hands them over some at a time, to [`Log::append`].
 
 mod container;
 mod error;

@@ -2,9 +2,11 @@
 
 use std::io::{self, Write};
 
+use grouser::document::columns::mission::in_words;
+use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser::studies::validity::RoverOnSlope;
 use grouser_core::contact::validity::Flag;
-use grouser_core::mission::{Cause, LegOutcome, LegReport, Stopped};
+use grouser_core::mission::{Leg, LegOutcome};
 use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
 use grouser_pictures::motion::{Follower, Pose};
 
@@ -172,44 +174,52 @@ impl<W: Write> Log<W> {
     /// Says that a leg of a mission begins.
     ///
     /// * `time`: [s]
-    /// * `place`: of the leg in the mission, 0 for the first
-    /// * `what`: it is to do
+    /// * `number`: of the leg, from 1
     ///
     /// # Errors
     /// As [`event`](Self::event).
-    pub fn leg_began(&mut self, time: f64, place: usize, what: &str) -> Result<(), LogError> {
-        self.event(time, Level::Info, &leg(place), &format!("began: {what}"))
+    pub fn leg_began(&mut self, time: f64, number: usize, leg: &Leg) -> Result<(), LogError> {
+        self.event(time, Level::Info, &leg_name(number), &format!("began: {}", in_words(leg)))
     }
 
     /// Says what became of a leg.
     ///
     /// * `time`: its end, with the way back out of it [s]
-    /// * `place`: of the leg in the mission, 0 for the first
     ///
     /// # Errors
     /// As [`event`](Self::event).
-    pub fn leg_ended(
-        &mut self,
-        time: f64,
-        place: usize,
-        report: &LegReport,
-    ) -> Result<(), LogError> {
-        let (level, became) = match &report.outcome {
-            LegOutcome::Completed => (Level::Info, report.outcome.name().to_owned()),
-            LegOutcome::Stopped(stopped) => (Level::Warning, reason(stopped)),
-            LegOutcome::Ended(outcome) => (Level::Error, words(outcome)),
-        };
+    pub fn leg_ended(&mut self, time: f64, leg: &DrivenLeg) -> Result<(), LogError> {
+        let report = &leg.report;
+        let reason = leg.reason().map_or(String::new(), |reason| format!(": {reason}"));
+        let (became, name) = (format!("{}{reason}", report.outcome.name()), leg_name(leg.number));
         let way =
             format!("{:.3} m in {:.1} s with {:.1} J", report.distance, report.time, report.energy);
-        self.event(time, level, &leg(place), &format!("{became}; {way}"))?;
+        self.event(time, level_of_leg(&report.outcome), &name, &format!("{became}; {way}"))?;
         let Some(back) = &report.back_out else { return Ok(()) };
         let way = format!("backed out by {:.3} m in {:.1} s", back.distance, back.time);
-        match &back.ended {
-            None => self.event(time, Level::Info, &leg(place), &way),
-            Some(outcome) => {
-                self.event(time, Level::Error, &leg(place), &format!("{way}; {}", words(outcome)))
-            }
+        let became = match &back.outcome {
+            LegOutcome::Completed => way,
+            other => format!("{way}; {}", other.name()),
+        };
+        self.event(time, level_of_leg(&back.outcome), &name, &became)
+    }
+
+    /// Appends a mission that was driven: the records of each leg between what is said of it.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub fn mission(&mut self, mission: &DrivenMission) -> Result<(), LogError> {
+        let mut time = mission.report.trajectory.records.first().map_or(0.0, |first| first.time);
+        let legs = mission.legs.iter().zip(mission.report.legs_with_records()).enumerate();
+        for (place, (leg, (report, records))) in legs {
+            self.leg_began(time, leg.number, &leg.leg)?;
+            // Its first record is the last one of the leg before.
+            self.append(&records[usize::from(place > 0).min(records.len())..])?;
+            time += report.time + report.back_out.as_ref().map_or(0.0, |back| back.time);
+            self.leg_ended(time, leg)?;
         }
+        let ended = mission.report.outcome();
+        self.event(time, Level::Info, "mission", &ended.replace('_', " "))
     }
 
     /// Puts a file into the log, such as the document that determined the run.
@@ -322,8 +332,16 @@ fn nanoseconds(time: f64) -> Result<u64, LogError> {
     }
 }
 
-fn leg(place: usize) -> String {
-    format!("leg {}", place + 1)
+fn leg_name(number: usize) -> String {
+    format!("leg {number}")
+}
+
+fn level_of_leg(outcome: &LegOutcome) -> Level {
+    match outcome {
+        LegOutcome::Completed => Level::Info,
+        LegOutcome::Stopped(_) => Level::Warning,
+        LegOutcome::Ended(outcome) => level_of(outcome),
+    }
 }
 
 fn level_of(outcome: &Outcome) -> Level {
@@ -334,27 +352,4 @@ fn level_of(outcome: &Outcome) -> Level {
 fn words(outcome: &Outcome) -> String {
     let name = outcome.name().replace('_', " ");
     outcome.reason().map_or(name.clone(), |reason| format!("{name}: {reason}"))
-}
-
-/// Why a rover stopped.
-fn reason(stopped: &Stopped) -> String {
-    match &stopped.cause {
-        Cause::Limit { stop, value } => {
-            let name = spaced(&format!("{:?}", stop.limited));
-            format!("stopped: {name}, {value:.4}, is above {:.4} (SI units)", stop.above)
-        }
-        Cause::Outcome(outcome) => format!("stopped before it would be {}", words(outcome)),
-    }
-}
-
-/// A name of Rust as words: `slip ratio` for `SlipRatio`.
-fn spaced(name: &str) -> String {
-    let mut words = String::new();
-    for letter in name.chars() {
-        if letter.is_uppercase() && !words.is_empty() {
-            words.push(' ');
-        }
-        words.extend(letter.to_lowercase());
-    }
-    words
 }

@@ -1,7 +1,6 @@
 //! The path of a mission from above, to scale, leg by leg.
 
-use grouser_core::mission::{LegOutcome, LegReport, MissionReport};
-use grouser_core::simulation::Record;
+use grouser_core::mission::{LegOutcome, MissionReport};
 use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Rover, RoverState};
 use grouser_page::{Anchor, Colour, Place, Shape, Sheet, Stroke, Text};
@@ -33,7 +32,7 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
     if let Some(first) = first {
         rover_at(&mut sheet, &first.state, rover, &at, Role::Other.on(Ground::Light));
     }
-    for (place, (leg, records)) in legs(report).into_iter().enumerate() {
+    for (place, (leg, records)) in report.legs_with_records().into_iter().enumerate() {
         let colour = colour_of(place);
         let path = records.iter().map(|record| at(record.state.position));
         sheet.draw(Shape::line(path, Stroke::new(0.7, colour).rounded()));
@@ -45,21 +44,6 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
     let ends: Vec<Vec2> = report.legs.iter().map(|leg| leg.end.position).collect();
     numbers(&mut sheet, &map, &ends);
     on_both_grounds(&sheet)
-}
-
-/// The legs with their records; each begins where the one before ended.
-fn legs(report: &MissionReport) -> Vec<(&LegReport, &[Record])> {
-    let records = &report.trajectory.records;
-    let mut until = records.first().map_or(0.0, |first| first.time);
-    let mut from = 0;
-    let each = report.legs.iter().map(|leg| {
-        until += leg.time + leg.back_out.as_ref().map_or(0.0, |back| back.time);
-        let end = records.partition_point(|record| record.time <= until + 1e-9);
-        let own = &records[from..end.max(from)];
-        from = end.saturating_sub(1).max(from);
-        (leg, own)
-    });
-    each.collect()
 }
 
 /// Black is for text.

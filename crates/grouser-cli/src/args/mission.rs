@@ -9,7 +9,7 @@ use super::{OutputArgs, PartArgs, SettingArgs, StrictArgs};
 
 #[derive(Debug, Args)]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
-#[command(group(ArgGroup::new("written").args(["out", "animate"]).multiple(true)))]
+#[command(group(ArgGroup::new("written").args(["out", "animate", "mcap"]).multiple(true)))]
 pub(crate) struct MissionArgs {
     /// A mission's file or preset: `there-and-back`.
     #[arg(value_name = "FILE|NAME", value_parser = NonEmptyStringValueParser::new())]
@@ -29,6 +29,10 @@ pub(crate) struct MissionArgs {
     /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
+    /// Also log the mission: `.mcap` for Foxglove and Rerun, with what became of each leg. With --out, a
+    /// name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mcap: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]

@@ -3,8 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use grouser::document::{LoadedScenario, escape};
+use grouser::document::{Loaded, LoadedMission, LoadedScenario, escape};
 use grouser::simulation::Trajectory;
+use grouser::studies::mission::DrivenMission;
 use grouser_log::{Log, LogError};
 use grouser_pictures::title_of;
 
@@ -41,8 +42,35 @@ impl<'a> Target<'a> {
         run: &Trajectory,
         folder: Option<&mut OutputFolder>,
     ) -> Result<(), Failure> {
+        self.write_with(folder, |out| {
+            let mut log = Log::begin(out, &title_of(scenario), &scenario.value)?;
+            log.append(&run.records)?;
+            log.outcome(run.last().time, &run.outcome)?;
+            finish(log, "scenario.toml", scenario)
+        })
+    }
+
+    /// The same of a mission.
+    pub(super) fn write_mission(
+        &self,
+        document: &LoadedMission,
+        mission: &DrivenMission,
+        folder: Option<&mut OutputFolder>,
+    ) -> Result<(), Failure> {
+        self.write_with(folder, |out| {
+            let mut log = Log::begin(out, &title_of(document), &document.value.scenario)?;
+            log.mission(mission)?;
+            finish(log, "mission.toml", document)
+        })
+    }
+
+    fn write_with(
+        &self,
+        folder: Option<&mut OutputFolder>,
+        content: impl Fn(&mut dyn Write) -> Result<(), LogError>,
+    ) -> Result<(), Failure> {
         let content = |out: &mut dyn Write| {
-            write(scenario, run, out).map_err(|error| match error {
+            content(out).map_err(|error| match error {
                 LogError::Write(error) => self.place.failed()(error),
                 other => Failure::Run(other.to_string()),
             })
@@ -51,12 +79,14 @@ impl<'a> Target<'a> {
     }
 }
 
-fn write(scenario: &LoadedScenario, run: &Trajectory, out: &mut dyn Write) -> Result<(), LogError> {
-    let mut log = Log::begin(out, &title_of(scenario), &scenario.value)?;
-    log.append(&run.records)?;
-    log.outcome(run.last().time, &run.outcome)?;
-    log.attach("scenario.toml", "application/toml", scenario.to_toml().as_bytes())?;
-    for companion in &scenario.companions {
+/// Puts the document that determined a run into its log, and ends that.
+fn finish<V>(
+    mut log: Log<&mut dyn Write>,
+    name: &str,
+    document: &Loaded<V>,
+) -> Result<(), LogError> {
+    log.attach(name, "application/toml", document.to_toml().as_bytes())?;
+    for companion in &document.companions {
         log.attach(&companion.name, "text/plain", companion.content.as_bytes())?;
     }
     log.finish().map(drop)

@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::animation::Target;
-use super::{Answer, strict};
+use super::{Answer, log, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -34,12 +34,22 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
     let target = |path| Target::of(path, folder.is_some(), args.output.force);
     let target = args.animate.as_deref().map(target).transpose()?;
+    let log = |path| log::Target::of(path, folder.is_some(), args.output.force);
+    let log = args.mcap.as_deref().map(log).transpose()?;
     let document = inputs::mission::read(args)?;
-    let ways = DrivenMission::all(&document.value.missions()).map_err(failed)?;
+    let missions = document.value.missions();
+    if log.is_some() && missions.len() > 1 {
+        let text = "--mcap logs one mission: this one has alternatives, each of which would be one";
+        return Err(Failure::Usage(text.to_owned()));
+    }
+    let ways = DrivenMission::all(&missions).map_err(failed)?;
     let answered = Answered { document, ways };
     answered.check(&args.strict)?;
     if let Some(target) = target {
         target.write(&title_of(&answered.document), &answered.shown(), folder.as_mut())?;
+    }
+    if let (Some(log), [one]) = (log, &answered.ways[..]) {
+        log.write_mission(&answered.document, one, folder.as_mut())?;
     }
     answered.output(args, folder)
 }

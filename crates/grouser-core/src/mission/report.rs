@@ -59,6 +59,9 @@ pub struct MissionReport {
     pub trajectory: Trajectory,
 }
 
+/// Sums of times are no further off than this [s]. Source: ours; a thousandth of the shortest step.
+const SAME_TIME: f64 = 1e-9;
+
 impl From<End> for LegOutcome {
     fn from(end: End) -> Self {
         match end {
@@ -98,6 +101,23 @@ impl MissionReport {
     #[must_use]
     pub fn last(&self) -> &Record {
         self.trajectory.last()
+    }
+
+    /// The legs with their records, each from where the one before it ended; of a mission whose records were not taken on
+    /// the way.
+    #[must_use]
+    pub fn legs_with_records(&self) -> Vec<(&LegReport, &[Record])> {
+        let records = &self.trajectory.records;
+        let mut end = records.first().map_or(0.0, |first| first.time);
+        let mut from = 0;
+        let each = self.legs.iter().map(|leg| {
+            end += leg.time + leg.back_out.as_ref().map_or(0.0, |back| back.time);
+            let until = records.partition_point(|record| record.time <= end + SAME_TIME);
+            let own = &records[from.min(until)..until];
+            from = until.saturating_sub(1);
+            (leg, own)
+        });
+        each.collect()
     }
 
     /// Work of the motors in all legs [J].

@@ -10,8 +10,9 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::io::{self, Write};
 
-use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, MissionRun, Stop};
-use grouser_core::simulation::{Outcome, Record, Run, Scenario, Trajectory};
+use grouser::studies::mission::DrivenMission;
+use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
+use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
 use grouser_core::units::{Vec3, deg};
 use grouser_core::vehicle::{Mount, Rover};
 use grouser_log::{Level, Log, LogError};
@@ -394,18 +395,10 @@ fn a_mission_says_what_becomes_of_its_legs() -> Outcomes {
         Leg { stops: vec![limit], ..Leg::new(Manoeuvre::Turn { angle: deg(90.0) }) },
     ];
     let mission = Mission { scenario: short(), legs, stops: Vec::new() };
-    let mut run = MissionRun::new(&mission)?;
+    let driven = DrivenMission::drive("", &mission)?;
+    let records = driven.report.trajectory.records.len();
     let mut log = Log::begin(Vec::new(), "a mission", &mission.scenario)?;
-    let mut records = 0;
-    for (place, what) in ["drive 0.1 m", "turn by 90°"].iter().enumerate() {
-        log.leg_began(run.time(), place, what)?;
-        let report = run.next_leg()?.cloned().expect("a leg");
-        let batch = run.take_records();
-        records += batch.len();
-        log.append(&batch)?;
-        log.leg_ended(run.time(), place, &report)?;
-    }
-    log.outcome(run.time(), &Outcome::Sliding { time: run.time() })?;
+    log.mission(&driven)?;
     let file = log.finish()?;
     assert_eq!(counts(&file)["/rover"], records);
     let events: Vec<(String, String)> =
@@ -423,8 +416,8 @@ fn a_mission_says_what_becomes_of_its_legs() -> Outcomes {
     };
     begins(0, "leg 1", "began: drive 0.1 m");
     begins(1, "leg 1", "completed; 0.1");
-    begins(2, "leg 2", "began: turn by 90°");
-    begins(3, "leg 2", "stopped: time, 2");
-    begins(4, "run", "sliding: it slides downhill");
+    begins(2, "leg 2", "began: turn 90° left");
+    begins(3, "leg 2", "stopped: not done within 2 s, after");
+    begins(4, "mission", "stopped");
     Ok(())
 }

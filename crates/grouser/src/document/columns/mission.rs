@@ -198,7 +198,8 @@ fn passed(stop: &Stop, value: f64) -> String {
 }
 
 /// What a leg says: `drive 2 m on the contour`.
-fn in_words(leg: &Leg) -> String {
+#[must_use]
+pub fn in_words(leg: &Leg) -> String {
     let deg = |angle: f64| format!("{}°", YAW.unit.as_given(angle));
     let side = |angle: f64| if angle < 0.0 { "right" } else { "left" };
     let back = |reverse: bool| if reverse { " backward" } else { "" };
