@@ -19,6 +19,7 @@ KINDS = {
     "Wheel": ("wheel", set()),
     "Rover": ("rover", set()),
     "Scenario": ("scenario", {"rover", "soil"}),
+    "Mission": ("mission", {"rover", "soil"}),
 }
 #: Keys of a site, which are a scenario's.
 SITE = ("slope_deg", "gravity_m_s2")
@@ -121,7 +122,7 @@ def written() -> str:
                 keys[key] = (writer.type_of(of, part), of.get("description", ""))
         parts += writer.tables.values()
         parts.append(attributes_of(f"{owner}Keys", kind, keys))
-        scenario = keys
+        scenario = keys if kind == "scenario" else scenario
     parts.append(attributes_of("SiteKeys", "site", {key: scenario[key] for key in SITE}))
     return HEAD + "\n\n\n".join("\n".join(lines) for lines in parts) + "\n"
 

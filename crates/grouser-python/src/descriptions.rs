@@ -107,6 +107,13 @@ impl Document {
         }
     }
 
+    pub(crate) fn mission(&self) -> PyResult<&LoadedMission> {
+        match &self.read {
+            Read::Mission(mission) => Ok(mission),
+            _ => Err(self.is_no("mission")),
+        }
+    }
+
     pub(crate) fn campaign(&self) -> PyResult<&LoadedCampaign> {
         match &self.read {
             Read::Campaign(campaign) => Ok(campaign),

@@ -6,6 +6,7 @@ use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
 use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
+use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
 use grouser_store::StoreError;
@@ -168,6 +169,17 @@ pub(crate) fn of_simulation(error: &RunError) -> PyErr {
         RunError::Reaction { time, .. } | RunError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
         }
+    }
+}
+
+/// A mission that cannot be driven.
+pub(crate) fn of_mission(error: &MissionError) -> PyErr {
+    match error {
+        MissionError::Plan(error) => {
+            let ParameterError { name, value, expected } = &error.source;
+            parameter(error.to_string(), name, Some(*value), *expected)
+        }
+        MissionError::Run(error) => of_simulation(error),
     }
 }
 

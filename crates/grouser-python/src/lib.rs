@@ -2,7 +2,7 @@
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
-//! ([`simulators`]), runs studies ([`studies`], [`rollouts`], [`validation`], [`calibration`]) and
+//! ([`simulators`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
 //! [`ground`] under their wheels) and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
@@ -18,6 +18,7 @@ mod errors;
 mod ground;
 mod interrupt;
 mod measurements;
+mod missions;
 mod rollouts;
 mod simulators;
 mod studies;
@@ -56,6 +57,8 @@ mod _core {
     use super::ground::Footprints;
     #[pymodule_export]
     use super::measurements::import_wheel_tests;
+    #[pymodule_export]
+    use super::missions::drive_mission;
     #[pymodule_export]
     use super::rollouts::rollout;
     #[pymodule_export]

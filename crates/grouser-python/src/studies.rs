@@ -46,7 +46,8 @@ pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bo
     let scenario = scenario.scenario()?.value.clone();
     let names = wheel_names(&scenario);
     let (found, scenario) = listening(py, move |_| (run(&scenario), scenario))?;
-    to_python(py, &found.map_err(|error| errors::of_simulation(&error))?, &scenario, &names)
+    let run = found.map_err(|error| errors::of_simulation(&error))?;
+    trajectory_to_python(py, &run, &scenario, &names)
 }
 
 pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
@@ -58,7 +59,7 @@ pub(crate) fn wheel_names(scenario: &Scenario) -> Vec<String> {
 }
 
 /// A trajectory: outcome and messages, columns over time, and columns over time and wheel.
-fn to_python<'py>(
+pub(crate) fn trajectory_to_python<'py>(
     py: Python<'py>,
     run: &Trajectory,
     scenario: &Scenario,

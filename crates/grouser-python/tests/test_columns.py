@@ -30,6 +30,8 @@ RESULTS = [
     (gr.WheelTestBand, "wheel_test_band", set()),
     (gr.TraverseBand, "traverse_band_over_time", set()),
     (gr.SimulatedWheelTest, "stand", set()),
+    (gr.Legs, "leg", set()),
+    (gr.DrivenMission, "mission", set()),
 ]
 
 #: Columns that are no attributes: of a wheel's rim speed there is none, runs are a dimension.

@@ -42,6 +42,13 @@ def stepped(scenarios: list[gr.Scenario]) -> NDArray[np.float64]:
     return state if stuck else many.step(np.full((len(many), 4), 0.5), 0.1)[0]
 
 
+def stopped_by(mission: gr.Mission) -> dict[str, str | None]:
+    found: gr.DrivenMission = gr.mission(mission, simulation="quasi-steady")
+    distance: NDArray[np.float64] = found.legs.distance_m
+    print(found.final["x_m"], distance.sum(), found.trajectory.yaw_deg[-1], mission.slope_deg)
+    return {name: way.legs.stopped_by[-1] for name, way in found.alternatives.items()}
+
+
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
@@ -51,6 +58,7 @@ def main() -> None:
     exact: gr.WheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4])
     print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
+    print(stopped_by(gr.Mission("two-steps-forward")))
     try:
         print(deepest([soil], 17.0), downhill_m(10.0), limit, ends.outcome[0], stepped([gr.Scenario()]))
     except gr.ParameterError as error:

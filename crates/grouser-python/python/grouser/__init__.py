@@ -1,13 +1,13 @@
 """Predicts how a wheeled rover moves on loose soil.
 
-`Soil`, `Wheel`, `Rover`, `Site` and `Scenario` describe the inputs. `settle` and `wheel_forces`
-compute the forces of the soil on wheels, for whole arrays. `simulate`, `rollout`, `heading` and
-`heading_map` compute the motion of a rover, `wheel_test` simulates a wheel on a test stand, and
-`validate` and `calibrate` compare models with measurements, which `import_wheel_tests` converts.
-`card` is the operator's card, `forecast` predicts under another gravity, and `check` checks
-documents. `Run` and ``grouser.gym``, which is
-imported by itself, are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte
-Carlo campaigns, on one machine or on many.
+`Soil`, `Wheel`, `Rover`, `Site`, `Scenario` and `Mission` describe the inputs. `settle` and
+`wheel_forces` compute the forces of the soil on wheels, for whole arrays. `simulate`, `rollout`,
+`heading` and `heading_map` compute the motion of a rover, `mission` drives it through legs with
+limits at which it stops, `wheel_test` simulates a wheel on a test stand, and `validate` and
+`calibrate` compare models with measurements, which `import_wheel_tests` converts. `card` is the
+operator's card, `forecast` predicts under another gravity, and `check` checks documents. `Run` and
+``grouser.gym``, which is imported by itself, are for step-by-step control. `Campaign` and
+`grouser.campaign` are for Monte Carlo campaigns, on one machine or on many.
 
 Names end with units: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are defined in
 ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -30,7 +30,7 @@ from . import _former_names, campaign, style
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates
-from ._descriptions import Rover, Scenario, Site, Soil, Wheel
+from ._descriptions import Mission, Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
     CalibrationError,
     CampaignDiskError,
@@ -51,6 +51,7 @@ from ._forecast import Forecast, forecast
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
 from ._measurements import ImportedWheelTests, import_wheel_tests
+from ._missions import Alternatives, DrivenMission, Legs, mission
 from ._rollouts import Rollout, rollout
 from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
@@ -73,6 +74,7 @@ __all__ = [
     "MARS_GRAVITY",
     "MODELS",
     "MOON_GRAVITY",
+    "Alternatives",
     "Animation",
     "ByModel",
     "Calibration",
@@ -88,6 +90,7 @@ __all__ = [
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
+    "DrivenMission",
     "FLAGS",
     "Forecast",
     "GrouserError",
@@ -96,6 +99,8 @@ __all__ = [
     "HeadingMapBand",
     "Headings",
     "ImportedWheelTests",
+    "Legs",
+    "Mission",
     "OutsideDomainError",
     "ParameterError",
     "Ranking",
@@ -126,6 +131,7 @@ __all__ = [
     "heading",
     "heading_map",
     "import_wheel_tests",
+    "mission",
     "require_inside",
     "rollout",
     "settle",

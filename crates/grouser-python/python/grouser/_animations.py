@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from . import _core
-from ._descriptions import Scenario
+from ._descriptions import Mission, Scenario
 from ._errors import ParameterError
 
 
@@ -26,13 +26,21 @@ class Animation:
     b'glTF'
     """
 
-    def __init__(self, scenarios: Sequence[Scenario], names: Sequence[str]) -> None:
-        if len(names) != len(scenarios):
+    def __init__(self, runs: Sequence[tuple[Scenario | Mission, str]], names: Sequence[str]) -> None:
+        """
+        Parameters
+        ----------
+        runs
+            A scenario, or a mission with the name of its alternative, empty where it has none.
+        names
+            What the runs are called.
+        """
+        if len(names) != len(runs):
             raise ParameterError(
-                f"names has {len(names)} entries, it must be one for each of {len(scenarios)} runs",
+                f"names has {len(names)} entries, it must be one for each of {len(runs)} runs",
                 "names",
             )
-        self._scenarios = tuple(scenarios)
+        self._runs = tuple(runs)
         self._names = tuple(names)
 
     def to_bytes(self, form: str) -> bytes:
@@ -76,13 +84,13 @@ class Animation:
         Path(path).write_bytes(self._drawn(Path(path)))
 
     def _drawn(self, path: Path) -> bytes:
-        documents = [scenario._document for scenario in self._scenarios]
-        return _core.animation(documents, list(self._names), path)
+        sources = [(source._document, alternative) for source, alternative in self._runs]
+        return _core.animation(sources, list(self._names), path)
 
     def _repr_html_(self) -> str:
         # A frame keeps the styles of page and player apart.
         page = html.escape(self.to_html())
-        height = 36 + 4 * len(self._scenarios)
+        height = 36 + 4 * len(self._runs)
         return (
             f'<iframe srcdoc="{page}" title="Animation of a run" sandbox="allow-scripts" '
             f'style="width: 100%; max-width: 62rem; height: {height}rem; border: 0"></iframe>'

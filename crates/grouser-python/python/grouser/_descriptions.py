@@ -381,35 +381,14 @@ class Rover(_Description, _keys.RoverKeys):
         return Wheel(self._items["wheel_unit"]["wheel"])
 
 
-class Scenario(_Description, _keys.ScenarioKeys):
-    """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
-    ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``,
-    ``load_transfer``, ``wheel_moments``, ``simulation``, ``drive``, ``by_wheel``, ``scatter``,
-    ``slope_stability``, ``start``.
-    Every key has a default: together they are the source paper's traverse of a slope of 10°, with a
-    complete load transfer. ``drive={"yaw_deg": [[0, 5.51], [20, 3.1]]}`` prescribes the yaw over time. A ``site=Site(…)``
-    gives ``soil``, ``slope_deg`` and ``gravity_m_s2`` together.
-
-    Sources and errors are those of `Soil`.
-
-    Examples
-    --------
-    The rover starts with its nose 8° uphill, on the Moon:
-
-    >>> import grouser as gr
-    >>> scenario = gr.Scenario(slope_deg=12.0, gravity_m_s2=gr.MOON_GRAVITY, start={"yaw_deg": 8.0})
-    >>> scenario.start["yaw_deg"], scenario.soil.name, scenario.rover.name
-    (8.0, 'Toyoura sand', 'HAKUTO')
-    >>> gr.simulate(scenario, duration_s=2.0).outcome
-    'completed'
-    """
+class _OnGround(_Description):
+    """What a rover does on its ground: with a rover, and a soil on a slope under a gravity."""
 
     __slots__ = ()
-    _kind = "scenario"
 
     def __init__(
         self,
-        source: Scenario | Source | None = None,
+        source: _OnGround | Source | None = None,
         /,
         *,
         site: Site | None = None,
@@ -440,6 +419,75 @@ class Scenario(_Description, _keys.ScenarioKeys):
         """Soil, slope and gravity."""
         keys = ("slope_deg", "gravity_m_s2")
         return Site(self.soil, **{key: self._items[key] for key in keys})
+
+
+class Scenario(_OnGround, _keys.ScenarioKeys):
+    """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
+    ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``,
+    ``load_transfer``, ``wheel_moments``, ``simulation``, ``drive``, ``by_wheel``, ``scatter``,
+    ``slope_stability``, ``start``.
+    Every key has a default: together they are the source paper's traverse of a slope of 10°, with a
+    complete load transfer. ``drive={"yaw_deg": [[0, 5.51], [20, 3.1]]}`` prescribes the yaw over time. A ``site=Site(…)``
+    gives ``soil``, ``slope_deg`` and ``gravity_m_s2`` together.
+
+    Sources and errors are those of `Soil`.
+
+    Examples
+    --------
+    The rover starts with its nose 8° uphill, on the Moon:
+
+    >>> import grouser as gr
+    >>> scenario = gr.Scenario(slope_deg=12.0, gravity_m_s2=gr.MOON_GRAVITY, start={"yaw_deg": 8.0})
+    >>> scenario.start["yaw_deg"], scenario.soil.name, scenario.rover.name
+    (8.0, 'Toyoura sand', 'HAKUTO')
+    >>> gr.simulate(scenario, duration_s=2.0).outcome
+    'completed'
+    """
+
+    __slots__ = ()
+    _kind = "scenario"
+
+
+class Mission(_OnGround, _keys.MissionKeys):
+    """Legs that a rover drives one after the other over a plane of soil, and limits at which it
+    stops.
+
+    ``Mission("there-and-back")`` is a preset, ``Mission("my-mission.toml")`` a file, and
+    ``Mission(leg=[…], stop={…}, …)`` gives its keys. A leg is a mapping with one of ``drive_m`` [m],
+    ``turn_deg`` [°], ``arc``, ``goto`` and ``wait_s`` [s]; ``stop`` has limits under the names of their
+    numbers: ``slip_ratio``, ``drift_m`` [m], ``off_path_m`` [m] and more. ``alternative`` is a list of
+    ways from the same start, each with a ``name`` and legs, and ``legs_from`` a file with legs.
+    ``schema/mission.json`` has all keys, with their ranges. A ``site=Site(…)`` gives ``soil``,
+    ``slope_deg`` and ``gravity_m_s2`` together. `mission` drives it.
+
+    Sources and errors are those of `Soil`; the message about a leg names it.
+
+    Examples
+    --------
+    Two metres along the contour of a slope of 10°, unless slip or drift become too large:
+
+    >>> import grouser as gr
+    >>> along = gr.Mission(
+    ...     slope_deg=10.0,
+    ...     stop={"slip_ratio": {"above": 0.4}, "drift_m": {"above": 0.1}},
+    ...     leg=[{"drive_m": 2.0, "heading": "contour"}],
+    ... )
+    >>> along.leg[0]["drive_m"], along.stop["drift_m"]["over_m"], along.soil.name
+    (2.0, 1.0, 'Toyoura sand')
+    >>> gr.mission(along).outcome
+    'completed'
+    """
+
+    __slots__ = ()
+    _kind = "mission"
+
+    @property
+    def scenario(self) -> Scenario:
+        """Rover, ground, model and start as a scenario, which has a drive and a duration of its
+        own."""
+        own = ("schema", "leg", "alternative", "stop")
+        items = {key: value for key, value in self._items.items() if key not in own}
+        return Scenario._of(items, self._files)
 
 
 class Site(_Description, _keys.SiteKeys):

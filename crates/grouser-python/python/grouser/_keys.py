@@ -877,6 +877,678 @@ class ScenarioKeys:
             ...
 
 
+class MissionByWheel(TypedDict, total=False):
+    """How the soil below each wheel, and its speed, differ from what is said of all."""
+
+    friction_angle_offset_deg: float | tuple[float, ...]
+    """Added to the soil's angle of internal friction, Δφ [°]."""
+    stiffness_factor: float | tuple[float, ...]
+    """Factor on the soil's stiffness: on k_c and k_phi, and on that of resistive force theory
+    [-]."""
+    speed_factor: float | tuple[float, ...]
+    """Factor on the speed that the drive tells the motor [-]."""
+
+
+class MissionScatter(TypedDict, total=False):
+    """How the soil scatters from place to place, and the speed from wheel to wheel."""
+
+    friction_angle_std_deg: float
+    """Standard deviation of the angle of internal friction from place to place [°]."""
+    stiffness_std: float
+    """Standard deviation of the soil's stiffness from place to place, as a share of it (of its
+    logarithm) [-]."""
+    correlation_length_m: float
+    """Distance at which the correlation of the soil has fallen to 1/e; not below a footprint's
+    length [m]."""
+    speed_std: float
+    """Standard deviation of each wheel's speed over a run, as a share of what its motor is told
+    (of its logarithm) [-]."""
+    seed: int
+    """Which realisation a single run has; the runs of a campaign have one each, by its own
+    seed."""
+
+
+class MissionStart(TypedDict, total=False):
+    """How the run starts."""
+
+    yaw_deg: float
+    """Yaw, γ; above 0 with the nose uphill [°]."""
+    motion: str
+    """Whether the rover already moves."""
+
+
+class MissionStopSlipRatio(TypedDict, total=False):
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+
+    above: float
+    """The rover stops above this [-]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopDriftM(TypedDict, total=False):
+    """Way straight down the slope over a way."""
+
+    above: float
+    """The rover stops above this [m]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopSinkageRatio(TypedDict, total=False):
+    """Largest sinkage of a wheel over its shearing radius."""
+
+    above: float
+    """The rover stops above this [-]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopRollDeg(TypedDict, total=False):
+    """Roll to either side."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopPitchDeg(TypedDict, total=False):
+    """Pitch, nose up or down."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopTorqueNm(TypedDict, total=False):
+    """Largest torque of a wheel's motor."""
+
+    above: float
+    """The rover stops above this [N·m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopTimeS(TypedDict, total=False):
+    """Time since the leg began."""
+
+    above: float
+    """The rover stops above this [s]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopEnergyJ(TypedDict, total=False):
+    """Work of the motors since the leg began."""
+
+    above: float
+    """The rover stops above this [J]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopOffPathM(TypedDict, total=False):
+    """Distance from the straight line, or the circle, of the leg."""
+
+    above: float
+    """The rover stops above this [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStop(TypedDict, total=False):
+    """Limits at which the rover stops in every leg that has none of its own for the same
+    number."""
+
+    slip_ratio: MissionStopSlipRatio
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+    drift_m: MissionStopDriftM
+    """Way straight down the slope over a way."""
+    sinkage_ratio: MissionStopSinkageRatio
+    """Largest sinkage of a wheel over its shearing radius."""
+    roll_deg: MissionStopRollDeg
+    """Roll to either side."""
+    pitch_deg: MissionStopPitchDeg
+    """Pitch, nose up or down."""
+    torque_nm: MissionStopTorqueNm
+    """Largest torque of a wheel's motor."""
+    time_s: MissionStopTimeS
+    """Time since the leg began."""
+    energy_j: MissionStopEnergyJ
+    """Work of the motors since the leg began."""
+    off_path_m: MissionStopOffPathM
+    """Distance from the straight line, or the circle, of the leg."""
+
+
+class MissionLegArc(TypedDict, total=False):
+    """It drives along a circle."""
+
+    radius_m: float
+    """Radius of the circle of the centre of mass [m]."""
+    angle_deg: float
+    """How far the rover turns on it, above 0 to its left [°]."""
+
+
+class MissionLegGoto(TypedDict, total=False):
+    """It drives along a straight line to a place, towards which it turns on the spot first where
+    that is not ahead."""
+
+    x_m: float
+    """Along the contour [m]."""
+    y_m: float
+    """Uphill, measured along the slope [m]."""
+    within_m: float
+    """How near is near enough [m]."""
+
+
+class MissionLegToward(TypedDict, total=False):
+    """The place towards which the nose is held."""
+
+    x_m: float
+    """Along the contour [m]."""
+    y_m: float
+    """Uphill, measured along the slope [m]."""
+
+
+class MissionLegStopSlipRatio(TypedDict, total=False):
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+
+    above: float
+    """The rover stops above this [-]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopDriftM(TypedDict, total=False):
+    """Way straight down the slope over a way."""
+
+    above: float
+    """The rover stops above this [m]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopSinkageRatio(TypedDict, total=False):
+    """Largest sinkage of a wheel over its shearing radius."""
+
+    above: float
+    """The rover stops above this [-]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopRollDeg(TypedDict, total=False):
+    """Roll to either side."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopPitchDeg(TypedDict, total=False):
+    """Pitch, nose up or down."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopTorqueNm(TypedDict, total=False):
+    """Largest torque of a wheel's motor."""
+
+    above: float
+    """The rover stops above this [N·m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopTimeS(TypedDict, total=False):
+    """Time since the leg began."""
+
+    above: float
+    """The rover stops above this [s]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopEnergyJ(TypedDict, total=False):
+    """Work of the motors since the leg began."""
+
+    above: float
+    """The rover stops above this [J]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStopOffPathM(TypedDict, total=False):
+    """Distance from the straight line, or the circle, of the leg."""
+
+    above: float
+    """The rover stops above this [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionLegStop(TypedDict, total=False):
+    """Limits of this leg, in place of the mission's for the same numbers."""
+
+    slip_ratio: MissionLegStopSlipRatio
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+    drift_m: MissionLegStopDriftM
+    """Way straight down the slope over a way."""
+    sinkage_ratio: MissionLegStopSinkageRatio
+    """Largest sinkage of a wheel over its shearing radius."""
+    roll_deg: MissionLegStopRollDeg
+    """Roll to either side."""
+    pitch_deg: MissionLegStopPitchDeg
+    """Pitch, nose up or down."""
+    torque_nm: MissionLegStopTorqueNm
+    """Largest torque of a wheel's motor."""
+    time_s: MissionLegStopTimeS
+    """Time since the leg began."""
+    energy_j: MissionLegStopEnergyJ
+    """Work of the motors since the leg began."""
+    off_path_m: MissionLegStopOffPathM
+    """Distance from the straight line, or the circle, of the leg."""
+
+
+class MissionLeg(TypedDict, total=False):
+    """One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is
+    driven."""
+
+    drive_m: float
+    """It drives so far; below 0 backward [m]."""
+    by: str
+    """What measures `drive_m`; without it `ground`."""
+    turn_deg: float
+    """It turns on the spot by this much, above 0 to its left, and keeps its place [°]."""
+    arc: MissionLegArc
+    """It drives along a circle."""
+    goto: MissionLegGoto
+    """It drives along a straight line to a place, towards which it turns on the spot first where
+    that is not ahead."""
+    wait_s: float
+    """It stands so long [s]."""
+    reverse: bool
+    """Whether an arc, or the way to a place, is driven backward."""
+    speed_m_s: float
+    """Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06
+    [m/s]."""
+    yaw_deg: float
+    """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
+    held only where `heading` says so [°]."""
+    heading: str
+    """What `drive_m` holds on its way; without it nothing: the wheels keep one speed."""
+    toward: MissionLegToward
+    """The place towards which the nose is held."""
+    look_ahead_m: float
+    """How far ahead the way is simulated before it is driven: where a limit would be passed, the
+    rover stops before [m]."""
+    stop: MissionLegStop
+    """Limits of this leg, in place of the mission's for the same numbers."""
+
+
+class MissionAlternativeLegArc(TypedDict, total=False):
+    """It drives along a circle."""
+
+    radius_m: float
+    """Radius of the circle of the centre of mass [m]."""
+    angle_deg: float
+    """How far the rover turns on it, above 0 to its left [°]."""
+
+
+class MissionAlternativeLegGoto(TypedDict, total=False):
+    """It drives along a straight line to a place, towards which it turns on the spot first where
+    that is not ahead."""
+
+    x_m: float
+    """Along the contour [m]."""
+    y_m: float
+    """Uphill, measured along the slope [m]."""
+    within_m: float
+    """How near is near enough [m]."""
+
+
+class MissionAlternativeLegToward(TypedDict, total=False):
+    """The place towards which the nose is held."""
+
+    x_m: float
+    """Along the contour [m]."""
+    y_m: float
+    """Uphill, measured along the slope [m]."""
+
+
+class MissionAlternativeLegStopSlipRatio(TypedDict, total=False):
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+
+    above: float
+    """The rover stops above this [-]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopDriftM(TypedDict, total=False):
+    """Way straight down the slope over a way."""
+
+    above: float
+    """The rover stops above this [m]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopSinkageRatio(TypedDict, total=False):
+    """Largest sinkage of a wheel over its shearing radius."""
+
+    above: float
+    """The rover stops above this [-]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopRollDeg(TypedDict, total=False):
+    """Roll to either side."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopPitchDeg(TypedDict, total=False):
+    """Pitch, nose up or down."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopTorqueNm(TypedDict, total=False):
+    """Largest torque of a wheel's motor."""
+
+    above: float
+    """The rover stops above this [N·m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopTimeS(TypedDict, total=False):
+    """Time since the leg began."""
+
+    above: float
+    """The rover stops above this [s]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopEnergyJ(TypedDict, total=False):
+    """Work of the motors since the leg began."""
+
+    above: float
+    """The rover stops above this [J]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStopOffPathM(TypedDict, total=False):
+    """Distance from the straight line, or the circle, of the leg."""
+
+    above: float
+    """The rover stops above this [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionAlternativeLegStop(TypedDict, total=False):
+    """Limits of this leg, in place of the mission's for the same numbers."""
+
+    slip_ratio: MissionAlternativeLegStopSlipRatio
+    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
+    drift_m: MissionAlternativeLegStopDriftM
+    """Way straight down the slope over a way."""
+    sinkage_ratio: MissionAlternativeLegStopSinkageRatio
+    """Largest sinkage of a wheel over its shearing radius."""
+    roll_deg: MissionAlternativeLegStopRollDeg
+    """Roll to either side."""
+    pitch_deg: MissionAlternativeLegStopPitchDeg
+    """Pitch, nose up or down."""
+    torque_nm: MissionAlternativeLegStopTorqueNm
+    """Largest torque of a wheel's motor."""
+    time_s: MissionAlternativeLegStopTimeS
+    """Time since the leg began."""
+    energy_j: MissionAlternativeLegStopEnergyJ
+    """Work of the motors since the leg began."""
+    off_path_m: MissionAlternativeLegStopOffPathM
+    """Distance from the straight line, or the circle, of the leg."""
+
+
+class MissionAlternativeLeg(TypedDict, total=False):
+    """One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is
+    driven."""
+
+    drive_m: float
+    """It drives so far; below 0 backward [m]."""
+    by: str
+    """What measures `drive_m`; without it `ground`."""
+    turn_deg: float
+    """It turns on the spot by this much, above 0 to its left, and keeps its place [°]."""
+    arc: MissionAlternativeLegArc
+    """It drives along a circle."""
+    goto: MissionAlternativeLegGoto
+    """It drives along a straight line to a place, towards which it turns on the spot first where
+    that is not ahead."""
+    wait_s: float
+    """It stands so long [s]."""
+    reverse: bool
+    """Whether an arc, or the way to a place, is driven backward."""
+    speed_m_s: float
+    """Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06
+    [m/s]."""
+    yaw_deg: float
+    """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
+    held only where `heading` says so [°]."""
+    heading: str
+    """What `drive_m` holds on its way; without it nothing: the wheels keep one speed."""
+    toward: MissionAlternativeLegToward
+    """The place towards which the nose is held."""
+    look_ahead_m: float
+    """How far ahead the way is simulated before it is driven: where a limit would be passed, the
+    rover stops before [m]."""
+    stop: MissionAlternativeLegStop
+    """Limits of this leg, in place of the mission's for the same numbers."""
+
+
+class MissionAlternative(TypedDict, total=False):
+    """One of several ways to drive a mission."""
+
+    name: str
+    """What the way is called; no two alike."""
+    leg: tuple[MissionAlternativeLeg, ...]
+    """What the rover does on this way, leg after leg."""
+
+
+class MissionKeys:
+    """Keys of a mission."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def schema(self) -> str:
+            """Kind and version of this document."""
+            ...
+
+        @property
+        def name(self) -> str:
+            """What it is there to show."""
+            ...
+
+        @property
+        def source(self) -> str:
+            """Where the values come from."""
+            ...
+
+        @property
+        def notes(self) -> str:
+            """Anything else worth knowing."""
+            ...
+
+        @property
+        def assumed(self) -> tuple[str, ...]:
+            """Values that the source does not give, each as `key: why this value`."""
+            ...
+
+        @property
+        def model(self) -> str:
+            """The wheel-soil model; without it the soil's own, or else `ishigami`."""
+            ...
+
+        @property
+        def gravity_m_s2(self) -> float:
+            """Gravity, g [m/s²]."""
+            ...
+
+        @property
+        def slope_deg(self) -> float:
+            """Inclination of the plane, α [°]."""
+            ...
+
+        @property
+        def sample_interval_s(self) -> float:
+            """Time between two recorded samples [s]."""
+            ...
+
+        @property
+        def load_transfer(self) -> str:
+            """Load transfer: how the weight is shared among the wheels."""
+            ...
+
+        @property
+        def wheel_moments(self) -> str:
+            """Whether the wheels' own overturning and aligning moments act on the rover; without
+            it they do where the load transfer is complete."""
+            ...
+
+        @property
+        def simulation(self) -> str:
+            """Whether velocities are integrated, or those of a steady state at every instant."""
+            ...
+
+        @property
+        def by_wheel(self) -> MissionByWheel:
+            """How the soil below each wheel, and its speed, differ from what is said of all."""
+            ...
+
+        @property
+        def scatter(self) -> MissionScatter:
+            """How the soil scatters from place to place, and the speed from wheel to wheel."""
+            ...
+
+        @property
+        def start(self) -> MissionStart:
+            """How the run starts."""
+            ...
+
+        @property
+        def stop(self) -> MissionStop:
+            """Limits at which the rover stops in every leg that has none of its own for the same
+            number."""
+            ...
+
+        @property
+        def legs_from(self) -> str:
+            """A file with legs, which come before those of the document: CSV with keys of a leg in
+            its first line, or GeoJSON with places in metres."""
+            ...
+
+        @property
+        def leg(self) -> tuple[MissionLeg, ...]:
+            """What the rover does, leg after leg."""
+            ...
+
+        @property
+        def alternative(self) -> tuple[MissionAlternative, ...]:
+            """In place of legs: several ways from the same start, to be compared."""
+            ...
+
+
 class SiteKeys:
     """Keys of a site."""
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from . import _core, _tables
 from ._animations import Animation
 from ._arrays import Floats, whole_number
-from ._descriptions import Scenario, Soil, Source
+from ._descriptions import Mission, Scenario, Soil, Source
 from ._models import ByModel, each_model
 
 if TYPE_CHECKING:
@@ -125,9 +125,10 @@ class Trajectory(_tables.Tabular):
     """
 
     scenario: Scenario
-    """The scenario of the run."""
+    """The scenario of the run; of a `mission` its rover, ground, model and start."""
     outcome: str
-    """``completed``, ``immobilised``, ``sliding`` or ``tipped_over``."""
+    """``completed``, ``immobilised``, ``sliding`` or ``tipped_over``; a mission that a limit ended
+    counts as completed here."""
     message: str | None
     """The outcome explained; None for a completed run."""
     simulation: str
@@ -170,6 +171,10 @@ class Trajectory(_tables.Tabular):
     """Potential energy, zero at the start's height [J]."""
     band: TraverseBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
+    mission: Mission | None = None
+    """The mission that was driven; None for a run of `simulate`."""
+    alternative: str = ""
+    """The alternative of the mission; empty where there are none."""
 
     def _table(self) -> dict[str, Any]:
         columns: dict[str, Any] = {**columns_of(self, SAMPLE), "flags": self.flags}
@@ -178,7 +183,11 @@ class Trajectory(_tables.Tabular):
         return columns
 
     def _notes(self) -> dict[str, str]:
-        notes = {"outcome": self.outcome, "scenario": self.scenario.to_toml()}
+        notes = {"outcome": self.outcome}
+        if self.mission is None:
+            notes["scenario"] = self.scenario.to_toml()
+        else:
+            notes |= {"mission": self.mission.to_toml(), "alternative": self.alternative}
         return notes if self.message is None else {**notes, "message": self.message}
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -250,7 +259,8 @@ class Trajectory(_tables.Tabular):
         """
         runs = (self, *beside)
         called = [run.outcome for run in runs] if names is None else names
-        animation = Animation([run.scenario for run in runs], called)
+        sources = [(run.mission or run.scenario, run.alternative) for run in runs]
+        animation = Animation(sources, called)
         if path is not None:
             animation.save(path)
         return animation
@@ -348,8 +358,18 @@ def simulate(
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         times, means = _core.simulate_band(run._document, *drawn)
         band = TraverseBand(run=means, **times)
+    return trajectory_of(found, scenario=run, band=band)
+
+
+def trajectory_of(found: Mapping[str, Any], **inputs: Any) -> Trajectory:
+    """What the native half has found.
+
+    Parameters
+    ----------
+    **inputs
+        The other fields.
+    """
     return Trajectory(
-        scenario=run,
         outcome=found["outcome"],
         message=found["reason"],
         simulation=found["simulation"],
@@ -359,8 +379,8 @@ def simulate(
         energy_error_j=found["energy_error_j"],
         wheel_names=tuple(found["wheels"]),
         wheel=found["each_wheel"],
-        band=band,
         **found["rover"],
+        **inputs,
     )
 
 

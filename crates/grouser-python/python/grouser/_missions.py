@@ -1,0 +1,315 @@
+"""Missions: legs that a rover drives one after the other, with limits at which it stops."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core, _tables
+from ._animations import Animation
+from ._arrays import Floats
+from ._descriptions import Mission, Source
+from ._studies import Trajectory, columns_of, trajectory_of
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False)
+class Legs(_tables.Tabular):
+    """What became of the legs of a mission: arrays of shape (legs,), of those that were begun; NaN
+    and None where there is nothing to say.
+
+    Made by `mission`, as `DrivenMission.legs`.
+    """
+
+    leg: Floats
+    """Number of the leg, from 1."""
+    manoeuvre: NDArray[np.object_]
+    """What the leg says, in a few words."""
+    outcome: NDArray[np.object_]
+    """``completed``, ``stopped`` by a limit, ``immobilised``, ``sliding`` or ``tipped_over``."""
+    distance_m: Floats
+    """Way over the ground; a turn to the yaw of the leg before it does not count [m]."""
+    time_s: Floats
+    """How long it took, with the turn before it [s]."""
+    energy_j: Floats
+    """Work of the motors, with the turn before it [J]."""
+    slip_ratio: Floats
+    """1 less the way over the ground by that of the rims; of drives, arcs and ways to places [-]."""
+    stopped_by: NDArray[np.object_]
+    """The limit that stopped it, by its key, or what would have become of it."""
+    stopped_kind: NDArray[np.object_]
+    """``command``, ``reactive``, or ``predictive`` for what was simulated ahead."""
+    reason: NDArray[np.object_]
+    """Why it did not end as it says."""
+    x_m: Floats
+    """Along the contour, where it ended, of the body's centre of mass [m]."""
+    y_m: Floats
+    """Uphill, where it ended [m]."""
+    yaw_deg: Floats
+    """Yaw where it ended, positive where the nose points uphill [°]."""
+    back_out_m: Floats
+    """How far it drove back out of the leg [m]."""
+    back_out: NDArray[np.object_]
+    """What became of that."""
+
+    def _table(self) -> dict[str, Any]:
+        return columns_of(self, [field.name for field in fields(self)])
+
+    def __len__(self) -> int:
+        return len(self.leg)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each leg that was begun."""
+        return _tables.frame(self._table())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``leg`` with units in the attributes."""
+        columns = self._table()
+        return _tables.dataset(("leg",), columns, {"leg": columns.pop("leg")})
+
+    def __repr__(self) -> str:
+        return f"<Legs: {', '.join(self.outcome)}>"
+
+
+class Alternatives(_tables.Tabular, Mapping[str, "DrivenMission"]):
+    """The ways to drive a mission by their names, each from the same start: a mapping, empty for a
+    mission without alternatives.
+
+    Made by `mission`, as `DrivenMission.alternatives`.
+    """
+
+    __slots__ = ("_ways",)
+
+    def __init__(self, ways: Mapping[str, DrivenMission]) -> None:
+        self._ways = dict(ways)
+
+    def __getitem__(self, name: str) -> DrivenMission:
+        return self._ways[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._ways)
+
+    def __len__(self) -> int:
+        return len(self._ways)
+
+    def _table(self) -> dict[str, Any]:
+        rows = [way._row() for way in self._ways.values()]
+        names = list(rows[0]) if rows else []
+        return {name: np.array([row[name] for row in rows]) for name in names}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each alternative."""
+        return _tables.frame(self._table())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``alternative`` with units in the attributes."""
+        columns = self._table()
+        coords = {"alternative": columns.pop("alternative", np.array([], dtype=str))}
+        return _tables.dataset(("alternative",), columns, coords)
+
+    def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
+        """Plots the path of each alternative on the same axes, labelled with its name.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of ``Axes.plot``.
+        """
+        axes = _tables.axes_or_new(axes)
+        for name, way in self._ways.items():
+            way.trajectory.plot(axes, **{"label": name, **style})
+        axes.legend()
+        return axes
+
+    def animate(self, path: str | os.PathLike[str] | None = None) -> Animation:
+        """Draws the alternatives beside each other, as `Trajectory.animate` does.
+
+        Parameters
+        ----------
+        path : path, optional
+            A file to write, in one of the forms of `Trajectory.animate`.
+
+        Returns
+        -------
+        Animation
+            In a notebook, a player.
+        """
+        first, *others = (way.trajectory for way in self._ways.values())
+        return first.animate(path, beside=others, names=list(self._ways))
+
+    def __repr__(self) -> str:
+        ways = (f"{name}: {way.outcome}" for name, way in self._ways.items())
+        return f"<Alternatives {', '.join(ways)}>"
+
+
+@dataclass(frozen=True, eq=False)
+class DrivenMission(_tables.Tabular):
+    """What became of a mission: of the whole, of each leg, and the rover over time.
+
+    Made by `mission`.
+    """
+
+    mission: Mission
+    """The mission that was driven."""
+    legs: Legs
+    """What became of each leg that was begun."""
+    final: Mapping[str, float]
+    """Where and when it ended: ``time_s``, ``x_m``, ``y_m``, ``yaw_deg``."""
+    trajectory: Trajectory
+    """The rover over time, from the start of the first leg to the end of the last."""
+    alternatives: Alternatives
+    """All ways by their names, of which this is the first; empty for a mission without any."""
+    alternative: str
+    """The way that was driven."""
+    outcome: str
+    """That of the last leg that was begun: ``completed``, ``stopped`` or what became of the rover."""
+    legs_completed: int
+    """Legs that ended as they say."""
+    legs_planned: int
+    """Legs of the plan."""
+    distance_m: float
+    """Way over the ground of drives, arcs and ways to places [m]."""
+    slip_ratio: float
+    """Largest slip ratio of a leg [-]."""
+    time_s: float
+    """Time at the end [s]."""
+    x_m: float
+    """Along the contour, at the end [m]."""
+    y_m: float
+    """Uphill, at the end [m]."""
+    energy_j: float
+    """Work of the motors [J]."""
+
+    def _table(self) -> dict[str, Any]:
+        return self.legs._table()
+
+    def _row(self) -> dict[str, Any]:
+        return columns_of(self, _ROW)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each leg that was begun."""
+        return self.legs.to_pandas()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset over ``leg`` with units in the attributes; that over time is
+        ``trajectory.to_xarray()``."""
+        return self.legs.to_xarray().assign_attrs(self._notes())
+
+    def _notes(self) -> dict[str, str]:
+        return {
+            "outcome": self.outcome,
+            "mission": self.mission.to_toml(),
+            "alternative": self.alternative,
+        }
+
+    def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
+        """Plots the path on the slope, seen from above, with a dot and a number where each leg
+        ended.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        **style
+            Arguments of ``Axes.plot``.
+        """
+        axes = self.trajectory.plot(axes, **{"label": self.alternative or self.outcome, **style})
+        colour = axes.lines[-1].get_color()
+        axes.plot(self.legs.x_m, self.legs.y_m, "o", color=colour, markersize=4.0)
+        for number, x, y in zip(self.legs.leg, self.legs.x_m, self.legs.y_m):
+            axes.annotate(f"{number:.0f}", (x, y), xytext=(4, 4), textcoords="offset points")
+        return axes
+
+    def __repr__(self) -> str:
+        name = f" {self.alternative}" if self.alternative else ""
+        state = ", ".join(f"{key}={value:.4g}" for key, value in self.final.items())
+        legs = f"{self.legs_completed} of {self.legs_planned} legs"
+        return f"<DrivenMission{name} {self.outcome}, {legs}: {state}>"
+
+
+#: Fields of the row of a mission, in the order of the program's table.
+_ROW = tuple(field.name for field in fields(DrivenMission)[5:])
+
+
+def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
+    """Drives a rover through the legs of a mission, to its end or to the limit that stops it.
+
+    Results are reproducible bit for bit, here and in the program's ``grouser mission``.
+
+    Parameters
+    ----------
+    mission : Mission, name, path or mapping
+        The mission.
+    **changes
+        Keys of the mission with other values: ``slope_deg=15.0``, ``stop={…}``.
+
+    Returns
+    -------
+    DrivenMission
+        The mission; of several alternatives the first, with all of them as its ``alternatives``.
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError
+        As `Mission`.
+    SimulationError
+        If the motion cannot be computed. A rover that gets stuck, and one that a limit stopped, is an
+        outcome, not an error.
+
+    Examples
+    --------
+    How much slip does a climb of 2 m cost, forward, backward and by a switchback?
+
+    >>> import grouser as gr
+    >>> found = gr.mission("two-steps-forward", simulation="quasi-steady")
+    >>> tuple(found.alternatives)
+    ('forward', 'backward', 'switchback')
+    >>> slip = {name: way.slip_ratio for name, way in found.alternatives.items()}
+    >>> slip["switchback"] < slip["forward"]
+    True
+
+    A drive that is stopped, and where:
+
+    >>> check = gr.mission("slip-check", simulation="quasi-steady", slope_deg=14.0)
+    >>> check.outcome, check.legs.stopped_by[-1]
+    ('stopped', 'slip_ratio')
+    """
+    if isinstance(mission, Mission) and not changes:
+        plan = mission
+    else:
+        plan = Mission(mission, **changes)
+    found = _core.drive_mission(plan._document)
+    ways = [_driven(plan, way, Alternatives({})) for way in found]
+    named = {way.alternative: way for way in ways if way.alternative}
+    return _driven(plan, found[0], Alternatives(named)) if named else ways[0]
+
+
+def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives) -> DrivenMission:
+    row, whole = dict(found["row"]), found["whole"]
+    row["alternative"] = row["alternative"] or ""
+    row["slip_ratio"] = np.nan if row["slip_ratio"] is None else row["slip_ratio"]
+    run = trajectory_of(
+        found["trajectory"],
+        scenario=plan.scenario,
+        mission=plan,
+        alternative=row["alternative"],
+    )
+    return DrivenMission(
+        mission=plan,
+        legs=Legs(**_tables.arrays_of(found["legs"])),
+        final=whole["final"],
+        trajectory=run,
+        alternatives=alternatives,
+        **row,
+    )
