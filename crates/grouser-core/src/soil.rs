@@ -3,6 +3,7 @@
 //! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
 //! mechanics itself beyond evaluating its own laws. All values are in SI units.
 
+pub mod compaction;
 pub mod difference;
 pub mod discrepancy;
 pub mod domain;
@@ -14,6 +15,7 @@ pub mod small_wheel;
 
 use std::f64::consts::FRAC_PI_4;
 
+pub use compaction::Compaction;
 pub use difference::SoilDifference;
 pub use discrepancy::Discrepancy;
 pub use domain::{AssumedValues, Domain, Span};

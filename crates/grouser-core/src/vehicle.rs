@@ -18,6 +18,7 @@ pub mod kinematics;
 pub mod load;
 pub mod reaction;
 pub mod rover;
+pub mod ruts;
 pub mod state;
 pub mod support_polygon;
 
@@ -26,4 +27,5 @@ pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::{Body, Inertia, Mount, MountParts, Rover, RoverParts, WheelUnit};
+pub use ruts::Ruts;
 pub use state::{Acceleration, RoverState, roll_and_pitch};

@@ -15,7 +15,7 @@ use grouser::site::Site;
 use grouser::soil::SlopeStability;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{
-    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit,
+    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, Ruts, WheelUnit,
 };
 use grouser::wheel::{Grousers, Wheel};
 
@@ -75,6 +75,7 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
+        ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 30.0,

@@ -215,6 +215,7 @@ pub(crate) fn lost_yaw(study: &Study) -> Table {
             (SLOPE.name): printed(loss.measured.slope),
             "measured_yaw_loss_deg": printed(loss.measured.yaw_loss()),
             "complete_yaw_loss_deg": degrees(loss.by_loads),
+            "ruts_yaw_loss_deg": degrees(loss.by_ruts),
             "yaw_loss_low_deg": degrees(loss.together.losses.low),
             "yaw_loss_high_deg": degrees(loss.together.losses.high),
             "lose_less_percent": 100.0 * loss.below_measured.estimate(),
@@ -226,13 +227,14 @@ pub(crate) fn lost_yaw(study: &Study) -> Table {
         }))
     };
     Table {
-        caption: "Yaw lost on the way from the measured start, in degrees: by complete loads alone, and with soil and \
+        caption: "Yaw lost on the way from the measured start, in degrees: by complete loads alone, with rear wheels in compacted ruts too, and with soil and \
                   speeds that scatter; standard deviations by each cause alone and by all",
         file: "lost-yaw",
         columns: vec![
             column(SLOPE.name, "slope", 0),
             column("measured_yaw_loss_deg", "measured", 2),
             column("complete_yaw_loss_deg", "loads alone", 2),
+            column("ruts_yaw_loss_deg", "with ruts", 2),
             column("yaw_loss_low_deg", "95 % of runs: from", 2),
             column("yaw_loss_high_deg", "to", 2),
             column("lose_less_percent", "runs that lose less than measured [%]", 0),
@@ -266,7 +268,7 @@ pub(crate) fn lost_yaw_figure(study: &Study) -> Figure {
         file: "lost-yaw",
         caption: format!(
             "Yaw lost in 20 s from the measured starts. The line is what complete loads take on even sand with \
-                  even motors; the band holds 95 % of {} runs on each slope in which friction, stiffness and speeds \
+                  even motors, the dotted one with rear wheels in compacted ruts; the band holds 95 % of {} runs on each slope in which friction, stiffness and speeds \
                   scatter. With loads by the weight alone, as in the paper, nothing is lost.",
             study.lost.first().map_or(0, |loss| loss.below_measured.trials)
         ),
@@ -276,6 +278,7 @@ pub(crate) fn lost_yaw_figure(study: &Study) -> Figure {
             vec![
                 Series::band("95 % of scattered runs", 6, edges),
                 Series::new("complete loads", Style::Line, 1, over(&|loss| loss.by_loads)),
+                Series::new("with ruts", Style::Dotted, 4, over(&|loss| loss.by_ruts)),
                 Series::new("the wheels' torque in pitch alone", Style::Dashed, 3, torque),
                 Series::new("measured", Style::Dots, 2, over(&|loss| loss.measured.yaw_loss())),
             ],

@@ -11,7 +11,7 @@ use grouser_core::soil::{
 };
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser_core::vehicle::{
-    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit,
+    Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, Ruts, WheelUnit,
 };
 use grouser_core::wheel::{Grousers, Wheel};
 
@@ -80,6 +80,7 @@ pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
+        ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 20.0,

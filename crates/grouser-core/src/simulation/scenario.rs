@@ -8,7 +8,9 @@ use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::soil::SlopeStability;
 use crate::vehicle::kinematics::rolling_velocity;
-use crate::vehicle::{ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Rover, RoverState};
+use crate::vehicle::{
+    ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Rover, RoverState, Ruts,
+};
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
 ///
@@ -49,6 +51,8 @@ pub struct Scenario {
     pub by_wheel: ByWheel,
     /// How they scatter.
     pub scatter: Scatter,
+    /// What wheels leave behind for those that follow.
+    pub ruts: Ruts,
     /// What is asked of the ground's own strength by those who plan on it; a run is not changed by it.
     pub stability: SlopeStability,
     /// How the run starts.
@@ -181,7 +185,7 @@ impl Scenario {
     #[must_use]
     pub fn differences(&self) -> Differences<'_> {
         let by_wheel = (self.by_wheel != ByWheel::ALIKE).then_some(&self.by_wheel);
-        Differences { by_wheel, by_place: self.scatter.soil_field() }
+        Differences { by_wheel, by_place: self.scatter.soil_field(), ruts: self.ruts }
     }
 
     /// The rim speeds, *ω r_s* [m/s], of wheels that are told to turn at others [m/s].

@@ -1,5 +1,6 @@
 //! What differs from wheel to wheel: the soil below it, and how fast its motor turns it.
 
+use super::ruts::Ruts;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SoilDifference;
 use crate::terrain::SoilField;
@@ -121,18 +122,20 @@ impl ByWheel {
     }
 }
 
-/// How the soil below each wheel differs from what the ground says: by wheel, and by place.
+/// How the soil below each wheel differs from what the ground says: by wheel, by place, and by the wheels before it.
 #[derive(Clone, Copy)]
 pub struct Differences<'a> {
     /// By wheel; without it all are alike.
     pub by_wheel: Option<&'a ByWheel>,
     /// By place; without it the ground is as it says.
     pub by_place: Option<SoilField>,
+    /// By the wheels that passed before.
+    pub ruts: Ruts,
 }
 
 impl Differences<'_> {
     /// None.
-    pub const NONE: Self = Self { by_wheel: None, by_place: None };
+    pub const NONE: Self = Self { by_wheel: None, by_place: None, ruts: Ruts::Fresh };
 
     /// How the soil below a wheel differs that stands at a place, if it does.
     pub(super) fn of(&self, wheel: usize, place: Vec2) -> Option<SoilDifference> {

@@ -1,5 +1,6 @@
 //! All wheels settled under their share of the weight: load transfer and soil together.
 
+use std::borrow::Cow;
 use std::iter::repeat;
 
 use nalgebra::Rotation2;
@@ -12,6 +13,7 @@ use crate::contact::{
     Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle, settle_from,
 };
 use crate::site::Site;
+use crate::soil::Compaction;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 
@@ -169,13 +171,21 @@ impl Ground<'_> {
         let loads = load::wheel_loads(rover, sharing, weight, moments)?;
         let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
         let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses).enumerate();
+        let ruts = differences.ruts.of_wheels(rover, slips);
         let settled = wheels.map(|(wheel, (((&slip, load), mount), guess))| {
             let at = place + slope_from_body * mount.position.xy();
             let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
             let soil = match differences.of(wheel, at) {
-                None => soil.on_slope(steepness),
-                Some(difference) => soil.differing(difference).on_slope(steepness),
+                None => soil,
+                Some(difference) => Cow::Owned(soil.differing(difference)),
             };
+            let soil = match &ruts {
+                Some(ruts) if ruts[wheel] != Compaction::NONE => {
+                    Cow::Owned(soil.compacted(ruts[wheel]))
+                }
+                _ => soil,
+            };
+            let soil = soil.on_slope(steepness);
             let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity };
             guess
                 .map_or_else(

@@ -10,7 +10,7 @@ use super::rover;
 use super::soil;
 use grouser_core::simulation::{Approach, Motion, Numerics, Scatter, Scenario, Start};
 use grouser_core::soil::Soil;
-use grouser_core::vehicle::{ByWheel, LoadSharing, OwnMoments, Rover, RoverParts};
+use grouser_core::vehicle::{ByWheel, LoadSharing, OwnMoments, Rover, RoverParts, Ruts};
 
 /// The slope on which the source's Table 4 is best met [°].
 const PAPERS_SLOPE: f64 = 10.0;
@@ -148,6 +148,21 @@ impl<T: OfScenario> Run<T> {
         Self::OF_SCATTER,
     )
     .otherwise(Fill::Keys(&[]));
+    pub(super) const RUTS: Field<T> = words(
+        "ruts",
+        "What wheels leave behind for those that roll in their ruts.",
+        &[
+            word("none", "Nothing: every wheel rolls on fresh soil.", |all: &mut T| {
+                all.scenario().ruts = Ruts::Fresh;
+            }),
+            word(
+                "compacted",
+                "Denser soil that shears sooner, by the passes before (Holm 1969), as far as ruts overlap on a straight way.",
+                |all: &mut T| all.scenario().ruts = Ruts::Compacted,
+            ),
+        ],
+    )
+    .otherwise(Fill::Keyword("none"));
     pub(super) const START: Field<T> =
         table("start", "How the run starts.", Self::OF_START).otherwise(Fill::Keys(&[]));
 }

@@ -17,7 +17,7 @@ use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenari
 use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
 use grouser_core::vehicle::drive::SlipTarget;
-use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover};
+use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover, Ruts};
 
 /// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(crate) const FASTEST: f64 = 10.0;
@@ -46,6 +46,7 @@ pub(crate) fn blank() -> Scenario {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
+        ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },
         duration: 0.0,
@@ -82,6 +83,7 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
         .otherwise(Fill::Keys(&[])),
         Run::BY_WHEEL,
         Run::SCATTER,
+        Run::RUTS,
         table(
             "slope_stability",
             "What is asked of the ground's own strength (infinite slope) by headings, maps and cards; a run is not changed by it.",

@@ -9,6 +9,7 @@ use super::comparison::MeasuredTraverse;
 use super::ensemble::{Band, Probability, outputs};
 use crate::simulation::{Integrator, Numerics, Outcome, Run, RunError, Scatter, Scenario, Start};
 use crate::terrain::SoilScatter;
+use crate::vehicle::Ruts;
 
 /// Runs from the measured starts, with soil and speeds that scatter.
 ///
@@ -59,6 +60,8 @@ pub struct SlopeLoss {
     pub measured: MeasuredTraverse,
     /// Lost without any scatter: by the loads alone.
     pub by_loads: f64,
+    /// The same with wheels that roll in compacted [ruts](Ruts::Compacted).
+    pub by_ruts: f64,
     /// With all that scatters.
     pub together: Losses,
     /// With one cause of scatter alone, in the order of [`Cause::ALL`].
@@ -151,11 +154,17 @@ impl LostYawPlan {
         Ok(SlopeLoss {
             measured: *measured,
             by_loads: self.one(measured, Scatter::NONE)?.loss,
+            by_ruts: self.in_ruts(Ruts::Compacted).one(measured, Scatter::NONE)?.loss,
             together: Losses::of(&all),
             alone: [Losses::of(&friction_angle?), Losses::of(&stiffness?), Losses::of(&speed?)],
             by_length: self.other_lengths.iter().map(of_length).collect::<Result<_, _>>()?,
             below_measured: Probability { successes: less, trials: all.len() },
         })
+    }
+
+    /// The plan with other ruts.
+    fn in_ruts(&self, ruts: Ruts) -> Self {
+        Self { scenario: Scenario { ruts, ..self.scenario.clone() }, ..self.clone() }
     }
 
     /// Yaws lost in runs whose realisations depend on the seed and the run's number alone: causes alone and

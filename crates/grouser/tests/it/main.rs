@@ -34,6 +34,7 @@ mod reference;
 mod rft;
 mod rover;
 mod runs;
+mod ruts;
 mod simulated;
 mod small_wheel;
 mod stepping;

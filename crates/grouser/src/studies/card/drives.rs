@@ -21,7 +21,7 @@ use crate::studies::ensemble::samples::Sample;
 use crate::studies::ensemble::{Band, Probability};
 use crate::studies::random;
 use crate::units::Vec2;
-use crate::vehicle::{ByWheel, DriveLaw};
+use crate::vehicle::{ByWheel, DriveLaw, Ruts};
 
 /// Drives by the rows of a card.
 #[derive(Clone, Copy, Debug)]
@@ -133,6 +133,7 @@ impl CardDrives<'_> {
             own_moments: study.own_moments,
             by_wheel: ByWheel::ALIKE,
             scatter: Scatter::NONE,
+            ruts: Ruts::Fresh,
             drive: DriveLaw::Constant(self.study.rim_speed),
             yaw: None,
             stability: study.stability,
