@@ -425,7 +425,7 @@ class Scenario(_OnGround, _keys.ScenarioKeys):
     """One run of one rover on one plane of soil: ``rover``, ``soil``, ``slope_deg`` [°],
     ``gravity_m_s2`` [m/s²], ``duration_s`` [s], ``sample_interval_s`` [s], ``model``,
     ``load_transfer``, ``wheel_moments``, ``simulation``, ``drive``, ``by_wheel``, ``scatter``,
-    ``slope_stability``, ``start``.
+    ``ruts``, ``slope_stability``, ``start``.
     Every key has a default: together they are the source paper's traverse of a slope of 10°, with a
     complete load transfer. ``drive={"yaw_deg": [[0, 5.51], [20, 3.1]]}`` prescribes the yaw over time. A ``site=Site(…)``
     gives ``soil``, ``slope_deg`` and ``gravity_m_s2`` together.

@@ -866,6 +866,11 @@ class ScenarioKeys:
             ...
 
         @property
+        def ruts(self) -> str:
+            """What wheels leave behind for those that roll in their ruts."""
+            ...
+
+        @property
         def slope_stability(self) -> ScenarioSlopeStability:
             """What is asked of the ground's own strength (infinite slope) by headings, maps and
             cards; a run is not changed by it."""
