@@ -9,6 +9,7 @@
 
 mod driven;
 mod look_ahead;
+mod navigator;
 mod odometer;
 mod pilot;
 mod plan;
@@ -17,6 +18,7 @@ mod run;
 mod stop;
 mod turn;
 
+pub use navigator::{Fix, Sensors};
 pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
 pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
 pub use report::{BackOut, LegOutcome, LegReport, MissionReport};

@@ -9,7 +9,7 @@ use super::field::Inner;
 use super::unit::{DEG, M, ONE};
 use super::values::{Described, Misfit};
 use grouser_core::mission::{
-    Heading, Leg, Limited, Manoeuvre, Measure, Mission, PlanError, Stop, Then,
+    Heading, Leg, Limited, Manoeuvre, Measure, Mission, PlanError, Sensors, Stop, Then,
 };
 use grouser_core::simulation::Scenario;
 use grouser_core::units::Vec2;
@@ -22,6 +22,7 @@ pub struct Plan {
     pub(crate) legs: Vec<LegKeys>,
     pub(crate) alternatives: Vec<Alternative>,
     pub(crate) stops: Vec<Stop>,
+    pub(crate) sensors: Option<Sensors>,
 }
 
 /// One of several ways to drive a mission.
@@ -111,7 +112,12 @@ impl Plan {
             speed = keys.speed.or(speed);
             keys.leg(speed)
         });
-        Mission { scenario: self.scenario.clone(), legs: legs.collect(), stops: self.stops.clone() }
+        Mission {
+            scenario: self.scenario.clone(),
+            legs: legs.collect(),
+            stops: self.stops.clone(),
+            sensors: self.sensors,
+        }
     }
 
     /// All legs, with the keys under which they stand.
@@ -280,7 +286,13 @@ impl Described for Plan {
     fn blank() -> Self {
         // How long it lasts is for the legs to say.
         let scenario = Scenario { duration: 1.0, ..scenario::blank() };
-        Self { scenario, legs: Vec::new(), alternatives: Vec::new(), stops: Vec::new() }
+        Self {
+            scenario,
+            legs: Vec::new(),
+            alternatives: Vec::new(),
+            stops: Vec::new(),
+            sensors: None,
+        }
     }
 
     fn follow(&mut self, document: &Document) {

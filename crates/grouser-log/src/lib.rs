@@ -28,7 +28,7 @@
 //!     Leg::new(Manoeuvre::drive(0.5)),
 //!     Leg::new(Manoeuvre::Turn { angle: deg(45.0) }),
 //! ];
-//! let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new() };
+//! let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new(), sensors: None };
 //! let driven = DrivenMission::drive("there", &mission)?;
 //! let mut log = Log::begin(Vec::new(), "HAKUTO on sand", &mission.scenario)?;
 //! log.mission(&driven)?;

@@ -1,12 +1,13 @@
 //! A manoeuvre under way: what is left of it, how far it came, and whether a limit is passed.
 
+use super::navigator::Navigator;
 use super::odometer::{Odometer, mean_speed};
 use super::pilot::{Line, Path, Pilot};
 use super::plan::Leg;
 use super::stop::{Cause, Limited, Stop, Stopped};
 use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
-use crate::vehicle::{Mount, roll_and_pitch};
+use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 
 /// A manoeuvre ends this near to its end [m], [rad], [s]. Source: ours; far below what a rover measures.
 const CLOSE: f64 = 1e-7;
@@ -50,6 +51,10 @@ pub(super) struct Driven {
     path: Path,
     start_time: f64,
     start_work: f64,
+    /// Way over the ground as the rover knew it at the start [m].
+    start_ground: f64,
+    /// How far it really came [m].
+    gone: f64,
 }
 
 impl Driven {
@@ -59,6 +64,7 @@ impl Driven {
     /// * `nominal`: how long it would take without slip [s]
     pub(super) fn new(
         run: &Run,
+        navigator: &Navigator,
         pilot: Pilot,
         (goal, nominal): (Goal, f64),
         leg: &Leg,
@@ -70,34 +76,46 @@ impl Driven {
         }
         let ways = stops.iter().filter(|stop| stop.limited.is_of_a_way()).map(|stop| stop.over);
         let remembered = ways.fold(0.0, f64::max);
-        let state = run.state();
+        let (state, seen) = (run.state(), navigator.seen());
         Self {
             pilot,
-            odometer: Odometer::new(state.time(), state.rover(), remembered),
+            odometer: Odometer::new(state.time(), seen.position, remembered),
             goal,
             stops,
-            path: Path::of_leg(leg, state.rover()),
+            path: Path::of_leg(leg, seen),
             start_time: state.time(),
             start_work: state.motor_work(),
+            start_ground: navigator.ground(),
+            gone: 0.0,
         }
     }
 
-    /// Way over the ground so far [m].
+    /// Real way over the ground so far [m].
+    pub(super) fn gone(&self) -> f64 {
+        self.gone
+    }
+
+    /// Way over the ground so far, as the rover knows it [m].
     pub(super) fn ground(&self) -> f64 {
         self.odometer.ground()
     }
 
-    /// Slip ratio so far [-], of manoeuvres that lead somewhere.
+    /// Real slip ratio so far [-], of manoeuvres that lead somewhere.
     pub(super) fn slip_ratio(&self) -> Option<f64> {
         let rims = self.odometer.rims();
-        (self.is_drive() && rims > 0.0).then(|| 1.0 - self.odometer.ground() / rims)
+        (self.is_drive() && rims > 0.0).then(|| 1.0 - self.gone / rims)
     }
 
     /// Drives for some metres over the ground; how the manoeuvre ended, if it did.
-    pub(super) fn drive_for(&mut self, run: &mut Run, way: f64) -> Result<Option<End>, RunError> {
+    pub(super) fn drive_for(
+        &mut self,
+        run: &mut Run,
+        navigator: &mut Navigator,
+        way: f64,
+    ) -> Result<Option<End>, RunError> {
         let until = self.ground() + way;
         while self.ground() < until {
-            if let Some(end) = self.step(run)? {
+            if let Some(end) = self.step(run, navigator)? {
                 return Ok(Some(end));
             }
         }
@@ -105,20 +123,31 @@ impl Driven {
     }
 
     /// Drives to the next look; how the manoeuvre ended, if it did.
-    pub(super) fn step(&mut self, run: &mut Run) -> Result<Option<End>, RunError> {
-        let (left, rate) = self.left(run);
+    pub(super) fn step(
+        &mut self,
+        run: &mut Run,
+        navigator: &mut Navigator,
+    ) -> Result<Option<End>, RunError> {
+        let (left, rate) = self.left(run, navigator.seen());
         if left <= CLOSE {
-            return Ok(Some(self.arrived(run)));
+            return Ok(Some(self.arrived(navigator.seen())));
         }
-        self.go_on(run, left, rate)?;
+        self.go_on(run, navigator, left, rate)?;
         let ended = run.outcome().map(|outcome| End::Ended(outcome.clone()));
-        Ok(ended.or_else(|| self.passed(run).map(End::Stopped)))
+        Ok(ended.or_else(|| self.passed(run, navigator.seen()).map(End::Stopped)))
     }
 
     /// Drives to the next look, or to the end of the manoeuvre where that comes before.
     ///
     /// * `left`, `rate`: how much of it is left, and how fast that becomes less
-    fn go_on(&mut self, run: &mut Run, left: f64, rate: f64) -> Result<(), RunError> {
+    fn go_on(
+        &mut self,
+        run: &mut Run,
+        navigator: &mut Navigator,
+        left: f64,
+        rate: f64,
+    ) -> Result<(), RunError> {
+        self.pilot.seen = *navigator.seen();
         let now = run.state().time();
         let next = ((now / CONTROL_PERIOD).round() + 1.0) * CONTROL_PERIOD;
         let eta = if rate > 0.0 { left / rate } else { f64::INFINITY };
@@ -128,9 +157,11 @@ impl Driven {
         let rims = run.state().rim_speeds().to_vec();
         run.go_on(&mut self.pilot, until, kept_until.max(until))?;
         run.set_off(&rims);
-        let state = run.state();
-        self.odometer.look(state.time(), state.rover(), state.rim_speeds());
-        self.pilot.gone = self.odometer.ground();
+        let (state, mounts) = (run.state(), run.scenario().rover.mounts());
+        self.gone += navigator.look(state.time(), state.rover(), mounts, state.rim_speeds());
+        let (place, ground) = (navigator.seen().position, navigator.ground() - self.start_ground);
+        self.odometer.look(state.time(), place, ground, state.rim_speeds());
+        self.pilot.gone = ground;
         Ok(())
     }
 
@@ -140,8 +171,7 @@ impl Driven {
     }
 
     /// What is left of the manoeuvre, and how fast that becomes less.
-    fn left(&self, run: &Run) -> (f64, f64) {
-        let state = run.state().rover();
+    fn left(&self, run: &Run, state: &RoverState) -> (f64, f64) {
         match self.goal {
             Goal::Ground(way) => (way - self.odometer.ground(), state.velocity.norm()),
             Goal::Rims(way) => (way - self.odometer.rims(), mean_speed(run.state().rim_speeds())),
@@ -159,9 +189,9 @@ impl Driven {
     }
 
     /// How it ended where nothing of it is left: a place may have been missed.
-    fn arrived(&self, run: &Run) -> End {
+    fn arrived(&self, seen: &RoverState) -> End {
         let Goal::Place { place, within, .. } = self.goal else { return End::Reached };
-        let off = (place - run.state().rover().position).norm();
+        let off = (place - seen.position).norm();
         if off <= within + CLOSE {
             return End::Reached;
         }
@@ -174,14 +204,14 @@ impl Driven {
     }
 
     /// The first limit that is passed now.
-    fn passed(&self, run: &Run) -> Option<Stopped> {
+    fn passed(&self, run: &Run, seen: &RoverState) -> Option<Stopped> {
         let [sinkage, torque] = self.of_wheels(run);
         let state = run.state();
-        let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, state.rover().yaw);
+        let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, seen.yaw);
         let value = |stop: &Stop| match stop.limited {
             Limited::SlipRatio => Some(self.odometer.over(stop.over)?.slip_ratio),
             Limited::Drift => Some(self.odometer.over(stop.over)?.drift),
-            Limited::OffPath => Some(self.path.off(state.rover().position)),
+            Limited::OffPath => Some(self.path.off(seen.position)),
             Limited::Sinkage => Some(sinkage),
             Limited::Roll => Some(roll.abs()),
             Limited::Pitch => Some(pitch.abs()),

@@ -1,6 +1,7 @@
 //! The way ahead, simulated before it is driven.
 
 use super::driven::{Driven, End};
+use super::navigator::Navigator;
 use super::stop::{Cause, Kind, Stopped};
 use crate::simulation::{Run, RunError};
 
@@ -19,14 +20,19 @@ impl Ahead {
 
     /// Looks ahead if that is due: every half of the way that is looked at. What is felt there, or what becomes of the
     /// rover there, stops it here.
-    pub(super) fn look(&mut self, run: &Run, driven: &Driven) -> Result<Option<Stopped>, RunError> {
+    pub(super) fn look(
+        &mut self,
+        run: &Run,
+        navigator: &Navigator,
+        driven: &Driven,
+    ) -> Result<Option<Stopped>, RunError> {
         let after = driven.ground();
         if after < self.next {
             return Ok(None);
         }
         self.next = after + self.way / 2.0;
         let mut copy = Run::resume(run.scenario(), run.state().clone());
-        let cause = match driven.clone().drive_for(&mut copy, self.way)? {
+        let cause = match driven.clone().drive_for(&mut copy, &mut navigator.clone(), self.way)? {
             Some(End::Stopped(Stopped { cause, kind: Kind::Reactive, .. })) => cause,
             Some(End::Ended(outcome)) => Cause::Outcome(outcome),
             _ => return Ok(None),

@@ -3,7 +3,6 @@
 use std::collections::VecDeque;
 
 use crate::units::Vec2;
-use crate::vehicle::RoverState;
 
 /// Ways since a leg began, and the last metres of them.
 #[derive(Clone, Debug)]
@@ -47,17 +46,18 @@ pub(super) struct Seen {
 
 impl Odometer {
     /// * `remembered`: the longest way of the rims that will be asked for [m]
-    pub(super) fn new(time: f64, state: &RoverState, remembered: f64) -> Self {
-        let now = Mark { place: state.position, ground: 0.0, rims: 0.0 };
+    pub(super) fn new(time: f64, place: Vec2, remembered: f64) -> Self {
+        let now = Mark { place, ground: 0.0, rims: 0.0 };
         Self { time, now, marks: VecDeque::from([now]), remembered }
     }
 
     /// Looks at a rover whose rims had the same speeds since the last look [m/s].
-    pub(super) fn look(&mut self, time: f64, state: &RoverState, rim_speeds: &[f64]) {
-        let gone = (state.position - self.now.place).norm();
+    ///
+    /// * `ground`: its way over the ground since the leg began [m]
+    pub(super) fn look(&mut self, time: f64, place: Vec2, ground: f64, rim_speeds: &[f64]) {
         self.now = Mark {
-            place: state.position,
-            ground: self.now.ground + gone,
+            place,
+            ground,
             rims: self.now.rims + mean_speed(rim_speeds) * (time - self.time),
         };
         self.time = time;
@@ -111,17 +111,14 @@ pub(super) fn mean_speed(rim_speeds: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    fn at(x: f64, y: f64) -> RoverState {
-        RoverState { position: Vec2::new(x, y), ..RoverState::default() }
-    }
-
     /// Closed form: half of the rims' way along, a tenth of it down.
     #[test]
     fn slip_and_drift_are_those_of_the_last_metres() {
-        let mut odometer = Odometer::new(0.0, &at(0.0, 0.0), 1.0);
+        let mut odometer = Odometer::new(0.0, Vec2::zeros(), 1.0);
         for step in 1..=40_u32 {
             let time = 0.7 * f64::from(step);
-            odometer.look(time, &at(0.03 * time, -0.006 * time), &[0.06, -0.06]);
+            let place = Vec2::new(0.03 * time, -0.006 * time);
+            odometer.look(time, place, place.norm(), &[0.06, -0.06]);
             let rims = 0.06 * time;
             assert!((odometer.rims() - rims).abs() < 1e-12);
             let seen = odometer.over(1.0);

@@ -44,7 +44,9 @@ pub(super) struct Pilot {
     speed: f64,
     /// 1 forward, -1 backward.
     direction: f64,
-    /// Way over the ground since the manoeuvre began [m], as the mission measures it.
+    /// Pose and velocities, as the rover knows them.
+    pub(super) seen: RoverState,
+    /// Way over the ground since the manoeuvre began [m], as the rover knows it.
     pub(super) gone: f64,
     /// Integrals of the errors of yaw [rad s] and of the distance to the line [m s].
     yaw_integral: f64,
@@ -125,8 +127,9 @@ impl Line {
 }
 
 impl Pilot {
-    fn new(law: Law, speed: f64, direction: f64) -> Self {
-        Self { law, speed, direction, gone: 0.0, yaw_integral: 0.0, cross_integral: 0.0 }
+    fn new(law: Law, speed: f64, direction: f64, seen: &RoverState) -> Self {
+        let (gone, yaw_integral, cross_integral) = (0.0, 0.0, 0.0);
+        Self { law, speed, direction, seen: *seen, gone, yaw_integral, cross_integral }
     }
 
     /// For the manoeuvre of a leg that begins here.
@@ -140,17 +143,17 @@ impl Pilot {
             (_, Heading::Toward(place)) => Law::Toward { place },
             (_, Heading::Free) => Law::Steady,
         };
-        Self::new(law, leg.speed, direction)
+        Self::new(law, leg.speed, direction, state)
     }
 
     /// For a turn on the spot to a yaw [rad].
     pub(super) fn to_yaw(yaw: f64, state: &RoverState, speed: f64) -> Self {
-        Self::new(Law::Turn(Turn::new(yaw, state)), speed, 0.0)
+        Self::new(Law::Turn(Turn::new(yaw, state)), speed, 0.0, state)
     }
 
     /// For a way straight on, with all rims at one speed.
-    pub(super) fn straight(speed: f64, direction: f64) -> Self {
-        Self::new(Law::Steady, speed, direction)
+    pub(super) fn straight(speed: f64, direction: f64, state: &RoverState) -> Self {
+        Self::new(Law::Steady, speed, direction, state)
     }
 
     /// Whether the rims keep their speeds.
@@ -196,7 +199,8 @@ impl Controller for Pilot {
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]) {
         let mounts = seen.scenario().rover.mounts();
         let slope = seen.scenario().site.terrain.slope;
-        let (rate, forward) = self.steer(seen.rover(), slope, reach(mounts));
+        let rover = self.seen;
+        let (rate, forward) = self.steer(&rover, slope, reach(mounts));
         for (rim_speed, mount) in rim_speeds.iter_mut().zip(mounts) {
             *rim_speed = forward - rate * mount.position.y;
         }

@@ -1,5 +1,6 @@
 //! What a rover is to drive: legs and their manoeuvres.
 
+use super::navigator::Sensors;
 use super::stop::Stop;
 use crate::error::{ParameterError, finite, not_negative, positive};
 use crate::simulation::Scenario;
@@ -20,7 +21,7 @@ use crate::units::Vec2;
 ///     Leg::new(Manoeuvre::Turn { angle: deg(90.0) }),
 ///     Leg::new(Manoeuvre::drive(-1.0)),
 /// ];
-/// let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new() };
+/// let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new(), sensors: None };
 /// let report = MissionRun::new(&mission)?.to_end()?;
 /// let distances: Vec<String> =
 ///     report.legs.iter().map(|leg| format!("{:.2}", leg.distance)).collect();
@@ -36,6 +37,8 @@ pub struct Mission {
     pub legs: Vec<Leg>,
     /// Limits of every leg that has none of its own for the same number.
     pub stops: Vec<Stop>,
+    /// What the rover knows of where it is; without it, all.
+    pub sensors: Option<Sensors>,
 }
 
 /// One leg of a mission.
@@ -222,6 +225,7 @@ impl Mission {
             )));
         }
         self.stops.iter().try_for_each(Stop::check).map_err(whole)?;
+        self.sensors.map_or(Ok(()), |sensors| sensors.check()).map_err(whole)?;
         let mut legs = self.legs.iter().enumerate();
         legs.try_for_each(|(place, leg)| {
             leg.check().map_err(|source| PlanError { leg: place + 1, source })

@@ -1,6 +1,7 @@
 //! What became of a mission and of its legs.
 
 use super::driven::End;
+use super::navigator::Fix;
 use super::stop::Stopped;
 use crate::simulation::{Outcome, Record, Trajectory};
 use crate::vehicle::RoverState;
@@ -57,6 +58,8 @@ pub struct MissionReport {
     /// The rover over time: its last record is where the mission ended. A rover that was stopped has no outcome of its own,
     /// and counts as completed there.
     pub trajectory: Trajectory,
+    /// Where the rover took itself to be, at each fix of its odometry; none of one that knows where it is.
+    pub fixes: Vec<Fix>,
 }
 
 /// Sums of times are no further off than this [s]. Source: ours; a thousandth of the shortest step.

@@ -2,6 +2,7 @@
 
 use super::driven::{Driven, End, Goal};
 use super::look_ahead::Ahead;
+use super::navigator::Navigator;
 use super::pilot::{Pilot, line_of, reach, turned};
 use super::plan::{Leg, Manoeuvre, Measure, Mission, PlanError};
 use super::report::{BackOut, LegOutcome, LegReport, MissionReport};
@@ -16,6 +17,7 @@ use crate::vehicle::RoverState;
 pub struct MissionRun {
     mission: Mission,
     run: Run,
+    navigator: Navigator,
     reports: Vec<LegReport>,
     /// How it was first computed otherwise than asked for.
     fell_back: Option<Method>,
@@ -62,7 +64,8 @@ impl MissionRun {
         };
         let run = Run::with_controller(&scenario, &mut pilot)?;
         let mission = mission.clone();
-        Ok(Self { mission, run, reports: Vec::new(), fell_back: None, is_over: false })
+        let navigator = Navigator::new(mission.sensors, run.state().rover());
+        Ok(Self { mission, run, navigator, reports: Vec::new(), fell_back: None, is_over: false })
     }
 
     /// Drives the mission to its end.
@@ -112,7 +115,7 @@ impl MissionRun {
         self.run.look();
         let mut trajectory = self.run.finish();
         trajectory.method = self.fell_back.unwrap_or(trajectory.method);
-        MissionReport { legs: self.reports, trajectory }
+        MissionReport { legs: self.reports, trajectory, fixes: self.navigator.into_fixes() }
     }
 
     /// The rover now.
@@ -139,19 +142,21 @@ impl MissionRun {
         let is_first = self.reports.is_empty();
         let stops = self.mission.stops_of(leg);
         let mut turned_to = End::Reached;
-        if let Some(yaw) = turn_before(leg, self.rover(), is_first) {
-            let pilot = Pilot::to_yaw(yaw, self.rover(), leg.speed);
-            let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - self.rover().yaw, leg));
-            let mut turn = Driven::new(&self.run, pilot, goal, leg, &stops);
+        if let Some(yaw) = turn_before(leg, self.navigator.seen(), is_first) {
+            let seen = self.navigator.seen();
+            let pilot = Pilot::to_yaw(yaw, seen, leg.speed);
+            let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - seen.yaw, leg));
+            let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
             turned_to = self.drive_on(&mut turn, None, watch)?;
         }
         let (mut distance, mut slip_ratio) = (0.0, None);
         let end = match turned_to {
             End::Reached => {
-                let pilot = Pilot::of_leg(leg, self.rover());
-                let mut driven = Driven::new(&self.run, pilot, self.goal(leg), leg, &stops);
+                let pilot = Pilot::of_leg(leg, self.navigator.seen());
+                let goal = self.goal(leg);
+                let mut driven = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
                 let end = self.drive_on(&mut driven, leg.look_ahead, watch)?;
-                (distance, slip_ratio) = (driven.ground(), driven.slip_ratio());
+                (distance, slip_ratio) = (driven.gone(), driven.slip_ratio());
                 end
             }
             other => other,
@@ -176,17 +181,17 @@ impl MissionRun {
             0.0 => -1.0,
             direction => -direction,
         };
-        let pilot = Pilot::straight(leg.speed, direction);
+        let pilot = Pilot::straight(leg.speed, direction, self.navigator.seen());
         let goal = (Goal::Ground(way), way / leg.speed);
-        let mut back = Driven::new(&self.run, pilot, goal, leg, &[]);
+        let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &[]);
         let outcome = self.drive_on(&mut back, None, watch)?.into();
-        let distance = back.ground();
+        let distance = back.gone();
         Ok(BackOut { outcome, distance, time: self.time() - time, energy: self.energy() - energy })
     }
 
     /// The end of a leg's manoeuvre from here, and how long that would take without slip [s].
     fn goal(&self, leg: &Leg) -> (Goal, f64) {
-        let state = self.rover();
+        let state = self.navigator.seen();
         match leg.manoeuvre {
             Manoeuvre::Drive { distance, by } => {
                 let way = distance.abs();
@@ -223,11 +228,11 @@ impl MissionRun {
         let mut ahead = look_ahead.map(Ahead::new);
         loop {
             if let Some(ahead) = &mut ahead
-                && let Some(stopped) = ahead.look(&self.run, driven)?
+                && let Some(stopped) = ahead.look(&self.run, &self.navigator, driven)?
             {
                 return Ok(End::Stopped(stopped));
             }
-            let end = driven.step(&mut self.run)?;
+            let end = driven.step(&mut self.run, &mut self.navigator)?;
             let records = self.run.records();
             if (records.len() >= BATCH || end.is_some()) && watch(records) {
                 self.run.take_records();

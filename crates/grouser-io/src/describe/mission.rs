@@ -1,15 +1,16 @@
 //! `mission/1`: legs that a rover drives one after the other, and limits at which it stops.
 
 use super::super::field::{
-    At, DEG, Each, Field, Fill, M, M_S, S, Table, flag, list, note, number, positive, table, text,
-    word, words,
+    At, DEG, Each, Field, Fill, M, M_S, ONE, S, Table, flag, list, note, number, positive, table,
+    text, whole, word, words,
 };
 use super::super::legs_file::LEGS_FROM;
 use super::super::mission::{Alternative, Arc, Held, LegKeys, Plan, Waypoint, limited_quantity};
 use super::about::{assumed, notes, purpose, schema, source};
+use super::differences::LARGEST_SEED;
 use super::run::{OfScenario, Run};
 use super::scenario::FASTEST;
-use grouser_core::mission::{Limited, Measure, Stop, Then};
+use grouser_core::mission::{Limited, Measure, Sensors, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 
@@ -50,6 +51,12 @@ pub(crate) static MISSION: Table<Plan> = Table {
             &At { inner: &STOPS, at: |plan: &mut Plan| &mut plan.stops },
         )
         .otherwise(Fill::Keys(&[])),
+        table(
+            "sensors",
+            "What the rover knows of where it is; without the table it knows all.",
+            &At { inner: &SENSORS, at: |plan: &mut Plan| plan.sensors.get_or_insert(EXACT) },
+        )
+        .optional(),
         note(
             LEGS_FROM,
             "A file with legs, which come before those of the document: CSV with keys of a leg in its first line, or GeoJSON with places in metres.",
@@ -73,6 +80,50 @@ pub(crate) static MISSION: Table<Plan> = Table {
             0,
         )
         .optional(),
+    ],
+};
+
+/// Sensors before their numbers are put in.
+const EXACT: Sensors = Sensors {
+    heading_deviation: 0.0,
+    heading_interval: 0.0,
+    heading_delay: 0.0,
+    odometry_deviation: 0.0,
+    odometry_interval: 0.0,
+    seed: 0,
+};
+
+static SENSORS: Table<Sensors> = Table {
+    doc: "A measured heading, and visual odometry between whose fixes the rover reckons on from the turns of its rims.",
+    fields: &[
+        number("heading_std_deg", DEG, 0.0..=45.0, "Standard deviation of a measured heading", |it: &mut Sensors| {
+            Some(&mut it.heading_deviation)
+        })
+        .or(1.0),
+        positive("heading_interval_s", S, 3600.0, "Time between two headings", |it: &mut Sensors| {
+            Some(&mut it.heading_interval)
+        })
+        .or(1.0),
+        number("heading_delay_s", S, 0.0..=60.0, "How old a heading is when it is known", |it: &mut Sensors| {
+            Some(&mut it.heading_delay)
+        })
+        .or(0.0),
+        number(
+            "odometry_std",
+            ONE,
+            0.0..=1.0,
+            "Standard deviation of a fix of visual odometry along each axis, over the way since the last one",
+            |it: &mut Sensors| Some(&mut it.odometry_deviation),
+        )
+        .or(0.02),
+        positive("odometry_interval_m", M, 100.0, "Way of the rims between two fixes", |it: &mut Sensors| {
+            Some(&mut it.odometry_interval)
+        })
+        .or(0.5),
+        whole("seed", 0..=LARGEST_SEED, "uint64", "Which realisation of the errors.", |it: &mut Sensors, seed| {
+            it.seed = seed;
+        })
+        .otherwise(Fill::Whole(0)),
     ],
 };
 

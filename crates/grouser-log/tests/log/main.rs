@@ -394,7 +394,7 @@ fn a_mission_says_what_becomes_of_its_legs() -> Outcomes {
         Leg::new(Manoeuvre::drive(0.1)),
         Leg { stops: vec![limit], ..Leg::new(Manoeuvre::Turn { angle: deg(90.0) }) },
     ];
-    let mission = Mission { scenario: short(), legs, stops: Vec::new() };
+    let mission = Mission { scenario: short(), legs, stops: Vec::new(), sensors: None };
     let driven = DrivenMission::drive("", &mission)?;
     let records = driven.report.trajectory.records.len();
     let mut log = Log::begin(Vec::new(), "a mission", &mission.scenario)?;

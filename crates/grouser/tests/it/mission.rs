@@ -2,7 +2,7 @@
 
 use grouser::mission::{
     Cause, Heading, Kind, Leg, LegOutcome, LegReport, Limited, Manoeuvre, Measure, Mission,
-    MissionError, MissionReport, MissionRun, Stop, Stopped, Then,
+    MissionError, MissionReport, MissionRun, Sensors, Stop, Stopped, Then,
 };
 use grouser::simulation::{Approach, CONTROL_PERIOD, Method, Numerics, Outcome, Record, Scenario};
 use grouser::units::{Vec2, deg};
@@ -17,7 +17,7 @@ fn on(slope: f64, yaw: f64) -> Scenario {
 }
 
 fn mission(slope: f64, legs: Vec<Leg>) -> Mission {
-    Mission { scenario: on(slope, 0.0), legs, stops: Vec::new() }
+    Mission { scenario: on(slope, 0.0), legs, stops: Vec::new(), sensors: None }
 }
 
 fn driven(mission: &Mission) -> MissionReport {
@@ -364,4 +364,51 @@ fn off_the_path_of_an_arc_is_off_its_circle() {
         assert_eq!(stop.limited, Limited::OffPath);
         assert!(value < 0.01, "{value}");
     }
+}
+
+/// Heading noise of 1° and visual odometry each half metre with 2 %.
+const SENSORS: Sensors = Sensors {
+    heading_deviation: 0.017_453,
+    heading_interval: 1.0,
+    heading_delay: 0.0,
+    odometry_deviation: 0.02,
+    odometry_interval: 0.5,
+    seed: 1,
+};
+
+/// The track that the rover takes itself to follow keeps to the contour, and the real one to three times the error of the
+/// sensors' closed form.
+#[test]
+fn a_contour_is_held_by_what_sensors_say() {
+    let leg =
+        Leg { yaw: Some(deg(8.0)), heading: Heading::Contour, ..Leg::new(Manoeuvre::drive(50.0)) };
+    for seed in 0..2 {
+        let sensors = Some(Sensors { seed, ..SENSORS });
+        let mut plan = Mission { sensors, ..mission(15.0, vec![leg.clone()]) };
+        plan.scenario.numerics.sample_interval = 10.0;
+        let report = driven(&plan);
+        assert_eq!(report.outcome(), "completed", "{:?}", report.legs);
+        assert!((report.legs[0].distance - 50.0).abs() < 1.0, "{} m", report.legs[0].distance);
+        let settled: Vec<_> = report.fixes.iter().filter(|fix| fix.truth.x > 2.0).collect();
+        assert!(settled.len() > 90);
+        for fix in settled {
+            let allowed = 3.0 * SENSORS.deviation_after(fix.truth.x) + 0.05;
+            assert!(fix.estimate.y.abs() < 0.05, "seed {seed}: {fix:?}");
+            assert!(fix.truth.y.abs() < allowed, "seed {seed}: {fix:?}, {allowed} m allowed");
+        }
+    }
+}
+
+/// Without errors a rover that measures knows as much as one that knows all, but for what it reckons between fixes.
+#[test]
+fn perfect_sensors_are_nearly_the_truth() {
+    let perfect = Sensors { heading_deviation: 0.0, odometry_deviation: 0.0, ..SENSORS };
+    let leg = Leg { heading: Heading::Contour, ..Leg::new(Manoeuvre::drive(4.0)) };
+    let knows_all = mission(10.0, vec![leg]);
+    let measures = Mission { sensors: Some(perfect), ..knows_all.clone() };
+    let [known, measured] = [driven(&knows_all), driven(&measures)];
+    assert!(known.fixes.is_empty() && measured.fixes.len() > 6);
+    assert!(measured.fixes.iter().all(|fix| (fix.estimate - fix.truth).norm() < 1e-12));
+    let off = (measured.last().state.position - known.last().state.position).norm();
+    assert!(off < 0.03, "{off} m");
 }
