@@ -13,6 +13,7 @@
 
 use std::collections::VecDeque;
 
+use crate::elementary::wide;
 use crate::error::{ParameterError, not_negative, positive};
 use crate::random::{LARGEST_SEED, Random};
 use crate::units::Vec2;
@@ -91,7 +92,7 @@ impl Sensors {
     /// * `way`: *L* [m]
     #[must_use]
     pub fn deviation_after(&self, way: f64) -> f64 {
-        let each = self.odometry_deviation.hypot(self.heading_deviation);
+        let each = wide::hypot(self.odometry_deviation, self.heading_deviation);
         (way * self.odometry_interval).sqrt() * each
     }
 

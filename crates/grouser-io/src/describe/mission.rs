@@ -44,6 +44,7 @@ pub(crate) static MISSION: Table<Plan> = Table {
         Run::SIMULATION,
         Run::BY_WHEEL,
         Run::SCATTER,
+        Run::RUTS,
         Run::START,
         table(
             "stop",
@@ -285,8 +286,8 @@ const NEAR: f64 = 0.1;
 static WAYPOINT: Table<Waypoint> = Table {
     doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the mission starts.",
     fields: &[
-        place("x_m", "Along the contour", |to| Some(&mut to.place.x)),
-        place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y)),
+        X,
+        Y,
         positive("within_m", M, 100.0, "How near is near enough", |to: &mut Waypoint| {
             Some(&mut to.within)
         })
@@ -296,11 +297,12 @@ static WAYPOINT: Table<Waypoint> = Table {
 
 static PLACE: Table<Waypoint> = Table {
     doc: "A place in the slope frame: x along the contour, y uphill, from where the mission starts.",
-    fields: &[
-        place("x_m", "Along the contour", |to| Some(&mut to.place.x)),
-        place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y)),
-    ],
+    fields: &[X, Y],
 };
+
+const X: Field<Waypoint> = place("x_m", "Along the contour", |to| Some(&mut to.place.x));
+const Y: Field<Waypoint> =
+    place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y));
 
 const fn place(
     key: &'static str,

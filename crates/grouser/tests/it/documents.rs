@@ -77,7 +77,7 @@ fn every_preset_says_its_name_and_its_source() {
     for preset in all_presets() {
         let (name, source) = preset.title_and_source();
         assert_ne!(name, "unnamed", "{}", preset.name);
-        if preset.kind != Kind::Scenario {
+        if !matches!(preset.kind, Kind::Scenario | Kind::Mission) {
             assert!(!source.is_empty() && source != "not stated", "{}", preset.name);
         }
     }
@@ -91,6 +91,7 @@ fn every_file_of_the_data_is_a_preset() {
         ("wheels", Kind::Wheel),
         ("rovers", Kind::Rover),
         ("scenarios", Kind::Scenario),
+        ("missions", Kind::Mission),
         ("measurements", Kind::DataSet),
         ("campaigns", Kind::Campaign),
         ("priors", Kind::Prior),
