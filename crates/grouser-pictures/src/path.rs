@@ -122,7 +122,11 @@ impl Map {
     }
 
     fn at(&self, place: Vec2) -> Place {
-        [LEFT + self.scale * (place.x - self.least.x), TOP + self.scale * (self.most.y - place.y)]
+        let spare = WIDTH - LEFT - RIGHT - self.scale * (self.most.x - self.least.x);
+        [
+            LEFT + 0.5 * spare + self.scale * (place.x - self.least.x),
+            TOP + self.scale * (self.most.y - place.y),
+        ]
     }
 
     /// Lines at whole numbers of a round distance, with what they mean.
@@ -163,7 +167,7 @@ impl Map {
             name("along the contour, x [m]").anchor(Anchor::Middle),
             [0.5 * (left + right), bottom + 10.0],
         );
-        sheet.text(name("uphill, y [m]"), [1.0, TOP - 3.0]);
+        sheet.text(name("uphill, y [m]"), [left - LEFT + 1.0, TOP - 3.0]);
     }
 }
 

@@ -13,6 +13,7 @@ mod former_names;
 mod hostile;
 mod import;
 mod logs;
+mod mission;
 mod models;
 mod new;
 mod program;

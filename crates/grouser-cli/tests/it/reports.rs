@@ -3,7 +3,7 @@
 use crate::program::Place;
 
 /// Commands with a folder, and words that their pages must have besides what all have.
-const COMMANDS: [(&str, &[&str]); 6] = [
+const COMMANDS: [(&str, &[&str]); 8] = [
     ("wheel-test --slip-angle-deg 0,15", &["Drawbar pull", "Sinkage", "Torque", "Side force"]),
     (
         "traverse --duration-s 2",
@@ -13,6 +13,14 @@ const COMMANDS: [(&str, &[&str]); 6] = [
     ("heading --slope-deg 5,10", &["Heading offset that holds the contour", "Yaw moment"]),
     ("heading-map --slope-deg 0,10 --course-deg 0,30", &["Yaw beyond the course", "Slip ratio"]),
     ("draw", &["entry angle", "side wall"]),
+    (
+        "mission back-out",
+        &["Energy by leg", "What became of each leg", "slip ratio 0.66 over 0.5 m"],
+    ),
+    (
+        "mission two-steps-forward --simulation quasi-steady",
+        &["The alternatives, each from the same start", "backward"],
+    ),
 ];
 
 #[test]
@@ -60,19 +68,20 @@ fn the_command_of_a_page_gives_the_same_rows_again() {
         ("traverse --duration-s 1 --slope-deg 7 --yaw-deg 3", "traverse.csv"),
         ("heading --slope-deg 5,12 --soil lunar-nominal --gravity-m-s2 moon", "heading.csv"),
         ("heading-map --slope-deg 0,10 --course-deg 0,30", "heading-map.csv"),
+        ("mission back-out --slope-deg 16", "records.csv"),
     ] {
         let place = Place::new();
         place.results(&format!("{command} --out out"));
         let html = place.read("out/report.html");
         let after = html.split_once("To have it again").expect("the section").1;
         let repeat = after.split_once("grouser ").and_then(|(_, rest)| rest.split_once("</pre>"));
-        let repeat = repeat.expect("a command").0.replace(".toml", "");
+        let repeat = repeat.expect("a command").0;
         // The documents are beside the page.
         let line: Vec<String> = repeat
             .split(' ')
-            .map(|word| match word {
-                "scenario" | "soil" | "wheel" => format!("out/{word}.toml"),
-                other => other.to_owned(),
+            .map(|word| match word.trim_end() {
+                word if word.ends_with(".toml") => format!("out/{word}"),
+                word => word.to_owned(),
             })
             .collect();
         place.results(&format!("{} --out again", line.join(" ")));
