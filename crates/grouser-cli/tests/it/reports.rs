@@ -80,7 +80,7 @@ fn the_command_of_a_page_gives_the_same_rows_again() {
         let line: Vec<String> = repeat
             .split(' ')
             .map(|word| match word.trim_end() {
-                word if word.ends_with(".toml") => format!("out/{word}"),
+                word if word.contains(".toml") => format!("out/{word}"),
                 word => word.to_owned(),
             })
             .collect();
