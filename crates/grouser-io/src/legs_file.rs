@@ -6,12 +6,11 @@ use std::sync::Arc;
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
+use super::mission::LEGS_FROM;
 use super::samples::{BYTE_ORDER_MARK, cells};
 use super::source::{LARGEST_FILE, read_file};
 use super::tree::{Entry, Node, Origin, Text, Value};
 
-/// The key of a mission under which the file stands.
-pub(crate) const LEGS_FROM: &str = "legs_from";
 /// The key of a mission under which its legs stand.
 const LEGS: &str = "leg";
 

@@ -1,16 +1,8 @@
 //! Missions as documents say them: legs with keys, each of which becomes a leg with a manoeuvre.
 
 use super::columns::{ENERGY, Quantity, SLIP_RATIO, TIME, TORQUE, quantity};
-use super::describe::mission::MISSION;
-use super::describe::scenario;
-use super::document::Document;
-use super::error::Problem;
-use super::field::Inner;
 use super::unit::{DEG, M, ONE};
-use super::values::{Described, Misfit};
-use grouser_core::mission::{
-    Heading, Leg, Limited, Manoeuvre, Measure, Mission, PlanError, Sensors, Stop, Then,
-};
+use grouser_core::mission::{Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Stop};
 use grouser_core::simulation::Scenario;
 use grouser_core::units::Vec2;
 
@@ -47,6 +39,9 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
         Limited::OffPath => quantity("off_path_m", M),
     }
 }
+
+/// The key under which the file of legs stands.
+pub(crate) const LEGS_FROM: &str = "legs_from";
 
 /// The keys of a leg that are given.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -106,7 +101,7 @@ impl Plan {
     }
 
     /// The mission of some legs, with the speed of each.
-    fn mission_of(&self, legs: &[LegKeys]) -> Mission {
+    pub(crate) fn mission_of(&self, legs: &[LegKeys]) -> Mission {
         let mut speed = None;
         let legs = legs.iter().map(|keys| {
             speed = keys.speed.or(speed);
@@ -121,28 +116,10 @@ impl Plan {
     }
 
     /// All legs, with the keys under which they stand.
-    fn all_legs(&self) -> Vec<(String, &[LegKeys])> {
+    pub(crate) fn all_legs(&self) -> Vec<(String, &[LegKeys])> {
         let each = self.alternatives.iter().enumerate();
         let each = each.map(|(place, it)| (format!("alternative.{place}.leg"), &*it.legs));
         std::iter::once(("leg".to_owned(), &*self.legs)).chain(each).collect()
-    }
-
-    /// That alternatives have names of their own, and stand in place of legs.
-    fn check_alternatives(&self) -> Result<(), Misfit> {
-        let names: Vec<&str> = self.alternatives.iter().map(|it| &*it.name).collect();
-        for (place, name) in names.iter().enumerate() {
-            if names[..place].contains(name) {
-                let key = format!("alternative.{place}.name");
-                let name = name.escape_debug().to_string();
-                return Err(Misfit::new(key.clone(), Problem::RepeatedName { key, name }));
-            }
-        }
-        if !names.is_empty() && !self.legs.is_empty() {
-            let problem = Problem::Conflict("the mission has legs beside its alternatives");
-            let hint = "legs that all alternatives have stand in each of them";
-            return Err(Misfit::new("leg", problem).with_hint(hint));
-        }
-        Ok(())
     }
 }
 
@@ -186,7 +163,7 @@ impl LegKeys {
     }
 
     /// What is wrong with it: the key, a sentence, and what to write instead.
-    fn fault(&self) -> Option<(&'static str, String, &'static str)> {
+    pub(crate) fn fault(&self) -> Option<(&'static str, String, &'static str)> {
         let given: Vec<&str> = self.manoeuvres().into_iter().map(|(key, _)| key).collect();
         let [manoeuvre] = given[..] else {
             let (key, what) = match given[..] {
@@ -232,83 +209,3 @@ impl LegKeys {
 }
 
 const ONE_OF: &str = "a leg has exactly one of drive_m, turn_deg, arc, goto and wait_s";
-
-/// That who backs out knows how far.
-///
-/// * `within`: the table of the limits, with a dot after it
-fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
-    let Some(stop) = stops.iter().find(|stop| stop.then == Then::BackOut(0.0)) else {
-        return Ok(());
-    };
-    let path = format!("{within}stop.{}.then", limited_quantity(stop.limited).name);
-    let problem =
-        Problem::Conflict("`then` is \"back-out\", but `back_out_m` does not say how far");
-    Err(Misfit::new(path, problem).with_hint("write for instance back_out_m = 0.5 beside it"))
-}
-
-/// That legs can be driven.
-///
-/// * `within`: the key under which they stand
-fn check_legs(legs: &[LegKeys], within: &str) -> Result<(), Misfit> {
-    for (place, leg) in legs.iter().enumerate() {
-        if let Some((key, what, hint)) = leg.fault() {
-            let problem = Problem::Leg { number: place + 1, what };
-            return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
-        }
-        check_stops(&leg.stops, &format!("{within}.{place}."))?;
-    }
-    Ok(())
-}
-
-/// That there can be such a mission.
-///
-/// * `within`: the key under which its legs stand
-fn check_mission(mission: &Mission, within: &str) -> Result<(), Misfit> {
-    mission.check().map_err(|PlanError { leg, source }| match leg {
-        0 if mission.legs.is_empty() => {
-            let problem = Problem::Conflict("the mission has no legs");
-            let hint = "each leg is a table [[leg]]; `legs_from` names a file with legs";
-            Misfit::new(within, problem).with_hint(hint)
-        }
-        0 => Misfit::new(within, source),
-        number => {
-            let what = format!("cannot be driven: {source}");
-            Misfit::new(format!("{within}.{}", number - 1), Problem::Leg { number, what })
-        }
-    })
-}
-
-impl Described for Plan {
-    fn table() -> &'static dyn Inner<Self> {
-        &MISSION
-    }
-
-    fn blank() -> Self {
-        // How long it lasts is for the legs to say.
-        let scenario = Scenario { duration: 1.0, ..scenario::blank() };
-        Self {
-            scenario,
-            legs: Vec::new(),
-            alternatives: Vec::new(),
-            stops: Vec::new(),
-            sensors: None,
-        }
-    }
-
-    fn follow(&mut self, document: &Document) {
-        self.scenario.follow(document);
-    }
-
-    fn settled(self) -> Result<Self, Misfit> {
-        let plan = Self { scenario: self.scenario.settled()?, ..self };
-        check_stops(&plan.stops, "")?;
-        plan.check_alternatives()?;
-        for (within, legs) in plan.all_legs() {
-            check_legs(legs, &within)?;
-            if plan.alternatives.is_empty() || within != "leg" {
-                check_mission(&plan.mission_of(legs), &within)?;
-            }
-        }
-        Ok(plan)
-    }
-}

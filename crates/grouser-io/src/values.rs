@@ -1,6 +1,8 @@
 //! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
 //! the checks of values against each other.
 
+mod mission;
+
 use std::ops::RangeInclusive;
 
 use super::campaign::{Settings, Stand};
@@ -37,7 +39,7 @@ pub struct Misfit {
 }
 
 impl Misfit {
-    pub(crate) fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
+    fn new(path: impl Into<String>, problem: impl Into<Problem>) -> Self {
         Self { part: "", path: path.into(), problem: Box::new(problem.into()), hint: None }
     }
 
@@ -46,7 +48,7 @@ impl Misfit {
         move |error| Self::new(path, error)
     }
 
-    pub(crate) fn with_hint(self, hint: impl Into<String>) -> Self {
+    fn with_hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(hint.into()), ..self }
     }
 

@@ -1,34 +1,28 @@
 //! `grouser mission`: drives a rover through legs, with limits at which it stops.
 
+mod answered;
 mod page;
 
+use grouser::document::columns::TIME;
 use grouser::document::columns::mission::{MISSION, MissionObject, legs_brief};
 use grouser::document::columns::run;
-use grouser::document::columns::{TIME, YAW};
-use grouser::document::table::Table;
-use grouser::document::{LoadedMission, escape};
 use grouser::mission::MissionError;
-use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser_pictures::{Shown, path_of, title_of};
+use grouser::studies::mission::DrivenMission;
+use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
 use serde_json::json;
 
+use self::answered::{Answered, reasons, sentence};
 use super::animation::Target;
 use super::{Answer, log, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
-use crate::output::text::{Text, capitalised};
+use crate::output::rows::Rows;
+use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-
-/// A document of a mission, and what was driven: one mission, or all alternatives.
-struct Answered {
-    document: LoadedMission,
-    ways: Vec<DrivenMission>,
-}
 
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
@@ -124,24 +118,6 @@ impl Answered {
         if self.ways.len() > 1 { format!("-{}", place + 1) } else { String::new() }
     }
 
-    /// A row for each leg that was begun, or for each alternative.
-    fn table(&self) -> Table {
-        match &self.ways[..] {
-            [one] => one.table(),
-            ways => Table::of(&MISSION, ways),
-        }
-    }
-
-    /// A row for each record.
-    fn records(&self, way: &DrivenMission) -> Table {
-        run::table(&way.report.trajectory, &self.document.value.scenario)
-    }
-
-    /// The path from above.
-    fn path(&self, way: &DrivenMission) -> String {
-        path_of("Path on the slope", &self.document.value.scenario.rover, &way.report)
-    }
-
     fn text(&self) -> Text {
         let blocks = self.ways.iter().map(|way| {
             let name = if way.name.is_empty() { String::new() } else { format!("{}\n", way.name) };
@@ -156,38 +132,6 @@ impl Answered {
         let names: Vec<&str> = MISSION.iter().map(|column| column.name).collect();
         blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&names)
     }
-}
-
-/// A line for each leg that did not end as it says.
-fn reasons(way: &DrivenMission) -> String {
-    let line = |leg: &DrivenLeg| {
-        let back =
-            leg.report.back_out.as_ref().map_or(String::new(), |back| {
-                format!("; backed out {} m", four_digits(back.distance))
-            });
-        let reason = escape::line(&leg.reason()?).into_owned();
-        Some(format!("leg {}: {}: {reason}{back}\n", leg.number, leg.report.outcome.name()))
-    };
-    way.legs.iter().filter_map(line).collect()
-}
-
-/// What became of a mission.
-fn sentence(way: &DrivenMission) -> String {
-    let (begun, all, end) = (way.legs.len(), way.planned, way.report.last());
-    let legs = match (begun < all, all) {
-        (true, _) => format!("in leg {begun} of {all}"),
-        (false, 1) => "one leg".to_owned(),
-        (false, all) => format!("{all} legs"),
-    };
-    format!(
-        "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J",
-        capitalised(way.report.outcome()).replace('_', " "),
-        four_digits(end.time),
-        four_digits(end.state.position.x),
-        four_digits(end.state.position.y),
-        four_digits(YAW.unit.from_si(end.state.yaw)),
-        four_digits(way.report.energy()),
-    )
 }
 
 /// A plan that is none was seen when it was read: what is left is the motion.

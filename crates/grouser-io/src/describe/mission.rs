@@ -4,8 +4,9 @@ use super::super::field::{
     At, DEG, Each, Field, Fill, M, M_S, ONE, S, Table, flag, list, note, number, positive, table,
     text, whole, word, words,
 };
-use super::super::legs_file::LEGS_FROM;
-use super::super::mission::{Alternative, Arc, Held, LegKeys, Plan, Waypoint, limited_quantity};
+use super::super::mission::{
+    Alternative, Arc, Held, LEGS_FROM, LegKeys, Plan, Waypoint, limited_quantity,
+};
 use super::about::{assumed, notes, purpose, schema, source};
 use super::differences::LARGEST_SEED;
 use super::run::{OfScenario, Run};

@@ -7,7 +7,7 @@ use grouser::document::columns::{ENERGY, SLOPE};
 
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 
-use super::{Answered, reasons, sentence};
+use super::answered::{Answered, reasons, sentence};
 use crate::chart::Bars;
 use crate::output::rows::four_digits;
 use crate::report::answer::{self, Basis, axis, meanings, over_time};

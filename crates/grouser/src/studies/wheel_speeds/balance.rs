@@ -4,8 +4,8 @@ use std::cell::RefCell;
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
+use super::motion::{Aim, SpeedFreedom, StraightMotion, WheelSpeedStudy};
 use super::search::{Place, Problem};
-use super::{Aim, SpeedFreedom, StraightMotion, WheelSpeedStudy};
 use crate::elementary::wide::{cos, sin};
 use crate::simulation::equations::Equations;
 use crate::simulation::steady_state;

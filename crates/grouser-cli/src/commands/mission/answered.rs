@@ -1,0 +1,70 @@
+//! What a mission answers: its rows, its path, and what became of it in words.
+
+use grouser::document::columns::YAW;
+use grouser::document::columns::mission::MISSION;
+use grouser::document::columns::run;
+use grouser::document::table::Table;
+use grouser::document::{LoadedMission, escape};
+use grouser::studies::mission::{DrivenLeg, DrivenMission};
+use grouser_pictures::path_of;
+
+use crate::output::rows::four_digits;
+use crate::output::text::capitalised;
+
+/// A document of a mission, and what was driven: one mission, or all alternatives.
+pub(super) struct Answered {
+    pub(super) document: LoadedMission,
+    pub(super) ways: Vec<DrivenMission>,
+}
+
+impl Answered {
+    /// A row for each leg that was begun, or for each alternative.
+    pub(super) fn table(&self) -> Table {
+        match &self.ways[..] {
+            [one] => one.table(),
+            ways => Table::of(&MISSION, ways),
+        }
+    }
+
+    /// A row for each record.
+    pub(super) fn records(&self, way: &DrivenMission) -> Table {
+        run::table(&way.report.trajectory, &self.document.value.scenario)
+    }
+
+    /// The path from above.
+    pub(super) fn path(&self, way: &DrivenMission) -> String {
+        path_of("Path on the slope", &self.document.value.scenario.rover, &way.report)
+    }
+}
+
+/// A line for each leg that did not end as it says.
+pub(super) fn reasons(way: &DrivenMission) -> String {
+    let line = |leg: &DrivenLeg| {
+        let back =
+            leg.report.back_out.as_ref().map_or(String::new(), |back| {
+                format!("; backed out {} m", four_digits(back.distance))
+            });
+        let reason = escape::line(&leg.reason()?).into_owned();
+        Some(format!("leg {}: {}: {reason}{back}\n", leg.number, leg.report.outcome.name()))
+    };
+    way.legs.iter().filter_map(line).collect()
+}
+
+/// What became of a mission.
+pub(super) fn sentence(way: &DrivenMission) -> String {
+    let (begun, all, end) = (way.legs.len(), way.planned, way.report.last());
+    let legs = match (begun < all, all) {
+        (true, _) => format!("in leg {begun} of {all}"),
+        (false, 1) => "one leg".to_owned(),
+        (false, all) => format!("{all} legs"),
+    };
+    format!(
+        "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J",
+        capitalised(way.report.outcome()).replace('_', " "),
+        four_digits(end.time),
+        four_digits(end.state.position.x),
+        four_digits(end.state.position.y),
+        four_digits(YAW.unit.from_si(end.state.yaw)),
+        four_digits(way.report.energy()),
+    )
+}
