@@ -1,5 +1,6 @@
 //! The settings of a campaign's document.
 
+use super::mission::Plan;
 use super::stated::Stated;
 use grouser_core::contact::Theory;
 use grouser_core::simulation::Scenario;
@@ -27,8 +28,10 @@ pub struct Settings {
     pub model_uncertainty: bool,
     /// The other uncertain inputs.
     pub uncertain: Stated,
-    /// The base that is varied: a scenario, or a stand.
+    /// The base that is varied: a scenario, a mission, or a stand.
     pub scenario: Option<Box<Scenario>>,
+    /// The mission that is varied, in a study of missions.
+    pub mission: Option<Box<Plan>>,
     /// The test stand that is varied, in a study of wheel tests.
     pub stand: Option<Stand>,
 }
@@ -46,6 +49,7 @@ impl Settings {
         model_uncertainty: false,
         uncertain: Stated { samples: None, parameters: Vec::new(), correlations: Vec::new() },
         scenario: None,
+        mission: None,
         stand: None,
     };
 }
@@ -70,6 +74,8 @@ pub enum Study {
     Traverse,
     /// The heading offset that holds the contour of the scenario's slope.
     Heading,
+    /// A mission, and what became of each of its legs.
+    Mission,
     /// A wheel on a test stand.
     WheelTest,
 }
@@ -81,6 +87,7 @@ impl Study {
         match self {
             Self::Traverse => "traverse",
             Self::Heading => "heading",
+            Self::Mission => "mission",
             Self::WheelTest => "wheel-test",
         }
     }

@@ -103,6 +103,7 @@ impl Kind {
             ],
             Self::Campaign => &[
                 Part { kind: Self::Scenario, path: &["scenario"], default: None },
+                Part { kind: Self::Mission, path: &["mission"], default: None },
                 Part { kind: Self::Soil, path: &["wheel_test", "soil"], default: None },
                 Part { kind: Self::Wheel, path: &["wheel_test", "wheel"], default: None },
             ],

@@ -145,6 +145,7 @@ static PRESETS: &[Preset] = &[
     preset!(DataSet, "measurements", "viper-slip-slope", "viper_slip_slope.csv"),
     preset!(DataSet, "measurements", "hakuto-slope", "hakuto_slope.csv"),
     preset!(Campaign, "campaigns", "campaign-heading"),
+    preset!(Campaign, "campaigns", "campaign-mission"),
     preset!(Campaign, "campaigns", "campaign-traverse"),
     preset!(Campaign, "campaigns", "campaign-wheel-test"),
     preset!(Prior, "priors", "general"),

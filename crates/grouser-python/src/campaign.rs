@@ -3,6 +3,7 @@
 //! The Python package `grouser.campaign` decides which worker computes which shard: a worker gets a study as
 //! a text and a shard's number, and returns the bytes of a Parquet file.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -65,6 +66,7 @@ pub(crate) fn campaign_facts<'py>(
     dict.set_item("shards", campaign.shards())?;
     dict.set_item("sha256", study.hash())?;
     dict.set_item("factors", campaign.factors())?;
+    dict.set_item("words_of_legs", campaign.words_of_legs())?;
     let columns = campaign.columns().iter().map(ColumnRecord::from);
     let columns = columns.map(|it| (it.name, it.kind, it.role, it.unit));
     dict.set_item("columns", columns.collect::<Vec<_>>())?;
@@ -397,6 +399,7 @@ pub(crate) fn merge_campaign(
 ///
 /// * `runs`: first and one after the last, in order
 /// * `statuses`, `outcomes`: theirs; no outcomes for studies that have none
+/// * `of_legs`: columns of words about legs, and theirs
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
 pub(crate) fn campaign_frequencies<'py>(
@@ -405,6 +408,7 @@ pub(crate) fn campaign_frequencies<'py>(
     runs: Vec<(u64, u64)>,
     statuses: Vec<Option<String>>,
     outcomes: Vec<Option<String>>,
+    of_legs: Vec<(String, Vec<Option<String>>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let campaign = campaign.campaign()?.campaign();
     let mut frequencies = Frequencies::default();
@@ -415,19 +419,29 @@ pub(crate) fn campaign_frequencies<'py>(
             texts.get(start..stop).map(<[_]>::to_vec).unwrap_or_default()
         };
         frequencies.add(campaign, first..end, &part(&statuses), &part(&outcomes));
+        for (column, words) in &of_legs {
+            frequencies.add_of_leg(campaign, first..end, column, &part(words));
+        }
         start = stop;
     }
     let dict = PyDict::new(py);
     dict.set_item("samples", frequencies.samples)?;
-    for (name, counts) in [("status", &frequencies.statuses), ("outcome", &frequencies.outcomes)] {
+    let shares_of = |counts: &BTreeMap<String, usize>| {
         let shares = PyDict::new(py);
         for (word, count) in counts {
             let Some(probability) = frequencies.probability(*count) else { continue };
             let (low, high) = probability.interval();
             shares.set_item(word, (*count, probability.estimate(), low, high))?;
         }
-        dict.set_item(name, shares)?;
+        PyResult::Ok(shares)
+    };
+    dict.set_item("status", shares_of(&frequencies.statuses)?)?;
+    dict.set_item("outcome", shares_of(&frequencies.outcomes)?)?;
+    let legs = PyDict::new(py);
+    for (column, counts) in &frequencies.legs {
+        legs.set_item(column, shares_of(counts)?)?;
     }
+    dict.set_item("legs", legs)?;
     Ok(dict)
 }
 

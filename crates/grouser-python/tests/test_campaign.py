@@ -336,6 +336,43 @@ def test_sensitivities_are_those_of_the_inputs(tmp_path: Path) -> None:
         found.to_pandas("sobol")  # type: ignore[arg-type]
 
 
+def test_legs_of_missions_have_shares(program: Program, tmp_path: Path) -> None:
+    """A mission that drift may stop, as a description in a campaign: program and Python agree."""
+    mission = gr.Mission(
+        name="short",
+        simulation="quasi-steady",
+        stop={"drift_m": {"above": 0.008, "over_m": 0.1}},
+        leg=[{"drive_m": 0.05, "yaw_deg": 0.0}, {"drive_m": 0.2}, {"wait_s": 1.0}],
+    )
+    slope = {"key": "slope_deg", "distribution": "uniform", "low": 6.0, "high": 14.0}
+    study = gr.Campaign(study="mission", runs=20, mission=mission, parameter=[slope])
+    found = gr.campaign.run(study, out=tmp_path / "out")
+    summary = found.summarise()
+    assert list(summary.legs) == [
+        f"leg_{k}.{name}" for k in (1, 2, 3) for name in ("outcome", "stopped_by")
+    ]
+    assert summary.legs["leg_1.outcome"]["completed"].share == 1.0
+    stopped = summary.legs["leg_2.outcome"]["stopped"]
+    assert 0 < stopped.count < 20 and stopped.low < stopped.count / 20 < stopped.high
+    assert stopped == summary.legs["leg_2.stopped_by"]["drift_m"] == summary.outcome["stopped"]
+    assert stopped == summary.legs["leg_3.outcome"]["not_begun"]
+    assert "leg_2.outcome stopped" in repr(summary)
+    table = found.to_pandas()
+    for run in (0, 7):
+        row = table.iloc[run]
+        alone = gr.mission(mission, slope_deg=row["slope_deg"])
+        assert (row["outcome"], row["energy_j"]) == (alone.outcome, alone.energy_j)
+        begun = len(alone.legs)
+        assert [row[f"leg_{k}.distance_m"] for k in range(1, begun + 1)] == list(alone.legs.distance_m)
+    answer = program("campaign", "summarise", str(tmp_path / "out"))
+    events = {row["event"]: row for row in answer["probabilities"]}
+    for column, shares in summary.legs.items():
+        for word, share in shares.items():
+            row = events[f"{column}: {word}"]
+            theirs = row["count"], row["probability"], row["probability_low"], row["probability_high"]
+            assert theirs == (share.count, share.share, share.low, share.high)
+
+
 def test_program_and_python_find_the_same(program: Program, tmp_path: Path) -> None:
     path = tmp_path / "study.toml"
     path.write_text(campaigns.study().to_toml())

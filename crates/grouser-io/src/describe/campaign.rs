@@ -6,9 +6,12 @@ use super::super::field::{
     words,
 };
 use super::super::kind::Kind;
+use super::super::mission::Plan;
 use super::super::stated::Stated;
+use super::super::values::Described;
 use super::about::{assumed, gravity, model, notes, purpose, schema};
 use super::differences::LARGEST_SEED;
+use super::mission::MISSION;
 use super::scenario::{self, SCENARIO};
 use super::soil::{self, SOIL};
 use super::uncertainty::{
@@ -47,6 +50,9 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
                     |all: &mut Settings| all.study = Study::Heading,
                 )
                 .formerly("attitude"),
+                word(Study::Mission.name(), "A mission, and what became of each of its legs.", |all| {
+                    all.study = Study::Mission;
+                }),
                 word(Study::WheelTest.name(), "A wheel on a test stand.", |all| {
                     all.study = Study::WheelTest;
                 }),
@@ -112,6 +118,18 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
                 inner: &SCENARIO,
                 at: |all: &mut Settings| -> &mut Scenario {
                     all.scenario.get_or_insert_with(|| Box::new(scenario::blank()))
+                },
+            },
+        )
+        .optional(),
+        part(
+            "mission",
+            Kind::Mission,
+            "The mission that is varied, for `mission`, without alternatives: a preset's name, a path from this document's folder, or a mission's keys.",
+            &At {
+                inner: &MISSION,
+                at: |all: &mut Settings| -> &mut Plan {
+                    all.mission.get_or_insert_with(|| Box::new(Plan::blank()))
                 },
             },
         )

@@ -391,6 +391,7 @@ def campaign_frequencies(
     runs: Sequence[tuple[int, int]],
     statuses: Sequence[str | None],
     outcomes: Sequence[str | None],
+    of_legs: Sequence[tuple[str, Sequence[str | None]]],
 ) -> dict[str, Any]: ...
 def campaign_summary(
     campaign: Document,

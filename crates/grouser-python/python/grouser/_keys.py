@@ -1051,6 +1051,24 @@ class MissionStop(TypedDict, total=False):
     """Distance from the straight line, or the circle, of the leg."""
 
 
+class MissionSensors(TypedDict, total=False):
+    """What the rover knows of where it is; without the table it knows all."""
+
+    heading_std_deg: float
+    """Standard deviation of a measured heading [°]."""
+    heading_interval_s: float
+    """Time between two headings [s]."""
+    heading_delay_s: float
+    """How old a heading is when it is known [s]."""
+    odometry_std: float
+    """Standard deviation of a fix of visual odometry along each axis, over the way since the last
+    one [-]."""
+    odometry_interval_m: float
+    """Way of the rims between two fixes [m]."""
+    seed: int
+    """Which realisation of the errors."""
+
+
 class MissionLegArc(TypedDict, total=False):
     """It drives along a circle."""
 
@@ -1527,6 +1545,11 @@ class MissionKeys:
             ...
 
         @property
+        def ruts(self) -> str:
+            """What wheels leave behind for those that roll in their ruts."""
+            ...
+
+        @property
         def start(self) -> MissionStart:
             """How the run starts."""
             ...
@@ -1535,6 +1558,11 @@ class MissionKeys:
         def stop(self) -> MissionStop:
             """Limits at which the rover stops in every leg that has none of its own for the same
             number."""
+            ...
+
+        @property
+        def sensors(self) -> MissionSensors:
+            """What the rover knows of where it is; without the table it knows all."""
             ...
 
         @property

@@ -1,10 +1,10 @@
 //! `campaign/1`: Monte Carlo campaigns, which sample uncertain inputs and run a study for each sample.
 //!
-//! A campaign names a study (`traverse`, `heading`, `wheel-test`), what it is a study of, and how well
+//! A campaign names a study (`traverse`, `heading`, `mission`, `wheel-test`), what it is a study of, and how well
 //! the numbers of that are known. Read, it is a [`Campaign`]: ready to run, run by run, in any order and
 //! on any machine, each run a row of the same [`Column`]s. These steps lead there:
 //!
-//! 1. The document is read as any other, with the scenario, or the soil and the wheel, that it names.
+//! 1. The document is read as any other, with the scenario, the mission, or the soil and the wheel, that it names.
 //! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from the
 //!    soil's own `[uncertainty]` if asked for; each key is a number of the resolved base (`inputs`).
 //! 3. It becomes an [`Ensemble`]. A run puts the ensemble's values in the base document's place of them, makes
@@ -75,6 +75,7 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
         study: settings.study,
         columns: rows::columns(
             settings.study,
+            &base,
             settings.sensitivity,
             prepared.keys(),
             prepared.has_models(),
@@ -138,6 +139,14 @@ impl Campaign {
         &self.columns
     }
 
+    /// The columns of words about legs, whose [`Frequencies`] are counted: `leg_1.outcome`, `leg_1.stopped_by`. Only
+    /// missions have some.
+    #[must_use]
+    pub fn words_of_legs(&self) -> Vec<&str> {
+        let words = self.columns.iter().filter(|column| rows::is_word_of_leg(column));
+        words.map(|column| &*column.name).collect()
+    }
+
     /// The inputs of its runs.
     #[must_use]
     pub fn ensemble(&self) -> &Ensemble {
@@ -173,8 +182,8 @@ impl Campaign {
     /// The keys that its soil takes from priors because they are not stated.
     #[must_use]
     pub fn assumed(&self) -> Vec<Assumed> {
-        let soil = |place: &str| self.document().part(Kind::Soil, place);
-        let soil = soil("scenario.soil").or_else(|| soil("wheel_test.soil"));
+        let soil = |place: &&str| self.document().part(Kind::Soil, &format!("{place}.soil"));
+        let soil = inputs::PLACES.iter().find_map(soil);
         soil.as_ref().map_or_else(Vec::new, assumed)
     }
 

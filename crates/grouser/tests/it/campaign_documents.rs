@@ -2,13 +2,14 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use grouser::document::campaign::{Role, STATUSES};
+use grouser::document::campaign::{Frequencies, Role, STATUSES};
 use grouser::document::table::{Cell, ColumnKind, Table, Values};
 use grouser::document::unit_of;
 use grouser::document::{self, Campaign, DocumentError, Kind, Overrides, Source};
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::Summary;
 use grouser::studies::heading::HeadingStudy;
+use grouser::studies::mission::DrivenMission;
 use proptest::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -269,6 +270,99 @@ fn traverses_say_what_became_of_the_rover() {
     assert!(texts(&tables, "reason").iter().all(Option::is_some));
 }
 
+// ---- Missions ----
+
+/// Two drives and a wait, that a limit on drift may stop; the slope is between 6° and 14°.
+const MISSION: &str = "schema = \"campaign/1\"\nname = \"mission\"\nstudy = \"mission\"\nruns = 12\n\
+    sampling = \"latin-hypercube\"\n\
+    [mission]\nsimulation = \"quasi-steady\"\n\
+    [mission.stop]\ndrift_m = { above = 0.008, over_m = 0.1 }\n\
+    [[mission.leg]]\ndrive_m = 0.05\nyaw_deg = 0.0\n[[mission.leg]]\ndrive_m = 0.2\n\
+    [[mission.leg]]\nwait_s = 1.0\n\
+    [[parameter]]\nkey = \"slope_deg\"\ndistribution = \"uniform\"\nlow = 6.0\nhigh = 14.0\n";
+
+/// A row is the mission with its inputs, driven alone: the mission's end, and each leg or that it was not begun.
+#[test]
+fn a_row_of_a_mission_is_the_mission_with_its_inputs() {
+    let campaign = campaign(MISSION);
+    let tables = whole(&campaign);
+    let slopes = floats(&tables, "slope_deg");
+    let mut stopped = 0;
+    for (run, slope) in slopes.iter().enumerate() {
+        let document = MISSION.split_once("[mission]\n").expect("it has one").1;
+        let document = document.split_once("[[parameter]]").expect("it has one").0;
+        let slope = slope.expect("a sample");
+        let text = format!(
+            "schema = \"mission/1\"\nname = \"alone\"\nslope_deg = {slope:?}\n{}",
+            document.replace("mission.", "")
+        );
+        let plan = document::read_mission(&Source::text("mission", text), &Overrides::none());
+        let mission = plan.expect("it is one").value.mission();
+        let alone = DrivenMission::drive("", &mission).expect("it can be driven");
+        let text = |name: &str| texts(&tables, name)[run].clone();
+        let float = |name: &str| floats(&tables, name)[run];
+        assert_eq!(text("outcome").as_deref(), Some(alone.report.outcome()));
+        assert_eq!(float("energy_j"), Some(alone.report.energy()));
+        assert_eq!(float("x_m"), Some(alone.report.last().state.position.x));
+        for place in 0..3 {
+            let name = |column: &str| format!("leg_{}.{column}", place + 1);
+            let leg = alone.legs.get(place).map(|leg| &leg.report);
+            let outcome = leg.map_or("not_begun", |leg| leg.outcome.name());
+            assert_eq!(text(&name("outcome")).as_deref(), Some(outcome));
+            assert_eq!(float(&name("distance_m")), leg.map(|leg| leg.distance));
+            assert_eq!(float(&name("slip_ratio")), leg.and_then(|leg| leg.slip_ratio));
+            let is_stopped = outcome == "stopped";
+            assert_eq!(text(&name("stopped_by")), is_stopped.then(|| "drift_m".to_owned()));
+            stopped += usize::from(is_stopped);
+        }
+        // Rims that have not gone 0.1 m are not looked at, so that the first leg always ends.
+        assert_eq!(text("leg_1.outcome").as_deref(), Some("completed"));
+    }
+    assert!((1..12).contains(&stopped), "{stopped}");
+    let mut frequencies = Frequencies::default();
+    for column in campaign.words_of_legs() {
+        frequencies.add_of_leg(&campaign, 0..12, column, &texts(&tables, column));
+    }
+    let counts = |column: &str| &frequencies.legs.iter().find(|it| it.0 == column).expect("one").1;
+    assert_eq!(counts("leg_1.outcome")["completed"], 12);
+    assert_eq!(counts("leg_2.outcome")["stopped"], stopped);
+    assert_eq!(counts("leg_2.stopped_by")["drift_m"], stopped);
+    assert_eq!(counts("leg_3.outcome")["not_begun"], stopped);
+    assert!(counts("leg_1.stopped_by").is_empty());
+}
+
+/// Keys of legs are inputs as others, a resolved campaign is the same one, and what cannot be is named.
+#[test]
+fn missions_of_campaigns_are_checked() {
+    let of_leg = MISSION.replace(
+        "key = \"slope_deg\"\ndistribution = \"uniform\"\nlow = 6.0\nhigh = 14.0",
+        "key = \"leg.1.drive_m\"\ndistribution = \"uniform\"\nlow = 0.1\nhigh = 0.2",
+    );
+    let with_legs = campaign(&of_leg);
+    let (inputs, ways) = (whole(&with_legs), floats(&whole(&with_legs), "leg_2.distance_m"));
+    for (given, way) in floats(&inputs, "leg.1.drive_m").iter().zip(ways) {
+        let (given, way) = (given.expect("a sample"), way.expect("it was driven"));
+        assert!(way > 0.0 && way <= given + 1e-6, "{way} of {given}");
+    }
+    assert_eq!(campaign(with_legs.resolved()).run(3), with_legs.run(3));
+    let refused = |text: &str| read(text).expect_err("it is refused").to_string();
+    let start = refused(&MISSION.replace("key = \"slope_deg\"", "key = \"start.yaw_deg\""));
+    assert!(start.contains("the first leg begins with a yaw of its own"), "{start}");
+    let fault = refused(&MISSION.replace("wait_s = 1.0", "wait_s = 1.0\ndrive_m = 1.0"));
+    assert!(fault.contains("leg 3 has both"), "{fault}");
+    let ways = MISSION.replace("[[mission.leg]]", "[[mission.alternative.leg]]");
+    let ways = ways.replacen(
+        "[[mission.alternative.leg]]",
+        "[[mission.alternative]]\nname = \"one\"\n[[mission.alternative.leg]]",
+        1,
+    );
+    assert!(refused(&ways).contains("without alternatives"), "{}", refused(&ways));
+    let other = refused(&format!("scenario = \"traverse-10-deg\"\n{MISSION}"));
+    assert!(other.contains("the study does not use this table"), "{other}");
+    let none = refused(&text("mission", "runs = 3", ""));
+    assert!(none.contains("mission = \"slip-check\""), "{none}");
+}
+
 #[test]
 fn columns_say_their_kind_role_and_unit() {
     let campaign = campaign(&attitude("runs = 2\nsensitivity = true"));
@@ -283,6 +377,8 @@ fn columns_say_their_kind_role_and_unit() {
     assert_eq!((columns[4].role, columns[4].unit()), (Role::Status, None));
     for (name, expected) in [
         ("energy_j_per_m", Some("J/m")),
+        ("leg_2.distance_m", Some("m")),
+        ("leg_2.slip_ratio", None),
         ("drift_m_per_m", Some("m/m")),
         ("yaw_moment_nm", Some("N·m")),
         ("soil.density_kg_m3", Some("kg/m³")),

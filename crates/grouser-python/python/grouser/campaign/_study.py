@@ -11,10 +11,10 @@ from .._errors import ParameterError
 
 class Campaign(_Description):
     """Description of a Monte Carlo campaign: many runs of one study with sampled inputs. Keys:
-    ``study``, ``runs``, ``seed``, ``shard_runs``, ``sampling``, ``sensitivity``, ``scenario`` or
-    ``wheel_test``, and the uncertain inputs: ``parameter``, ``correlation``, ``samples``,
-    ``soil_uncertainty``. The guide on campaigns explains them. Sources and errors are those of
-    `Soil`.
+    ``study``, ``runs``, ``seed``, ``shard_runs``, ``sampling``, ``sensitivity``, ``scenario``,
+    ``mission`` or ``wheel_test``, and the uncertain inputs: ``parameter``, ``correlation``,
+    ``samples``, ``soil_uncertainty``. The guide on campaigns explains them. Sources and errors are
+    those of `Soil`.
 
     The complete document (``to_toml``) contains samples and all documents that it names: a worker
     needs only that text.

@@ -84,9 +84,12 @@ class Summary:
     status: Mapping[str, Share]
     """Share of each status."""
     outcome: Mapping[str, Share]
-    """Share of each outcome, for traverses."""
+    """Share of each outcome, for traverses and missions."""
     quantities: Mapping[str, Quantity]
     """Statistics of each result."""
+    legs: Mapping[str, Mapping[str, Share]]
+    """For missions, what became of each leg: the share of each word in the columns
+    ``leg_1.outcome``, ``leg_1.stopped_by`` and so on, of all independent runs."""
 
     def to_pandas(
         self, table: Literal["results", "sensitivity", "convergence"] = "results"
@@ -146,6 +149,8 @@ class Summary:
     def __repr__(self) -> str:
         lines = [f"{self.runs} runs"]
         shares = {**self.status, **{f"outcome {name}": it for name, it in self.outcome.items()}}
+        for column, words in self.legs.items():
+            shares |= {f"{column} {word}": it for word, it in words.items()}
         for name, it in shares.items():
             lines.append(f"  {name}: {it.share:.2%} ({it.low:.2%} to {it.high:.2%})")
         for name, quantity in self.quantities.items():
@@ -182,10 +187,13 @@ def summary_of(
             known = ", ".join(campaign.outputs)
             raise ParameterError(f"{name!r} is not a result", "columns", None, known)
     runs = results._runs()
-    texts = results._columns([name for name in ("status", "outcome") if name in results.columns])
+    words_of_legs = campaign._facts["words_of_legs"]
+    has = [name for name in ("status", "outcome") if name in results.columns]
+    texts = results._columns([*has, *words_of_legs])
     outcomes = texts.get("outcome", ())
     statuses = list(texts["status"])
-    found = _core.campaign_frequencies(campaign._document, runs, statuses, list(outcomes))
+    of_legs = [(name, list(texts[name])) for name in words_of_legs]
+    found = _core.campaign_frequencies(campaign._document, runs, statuses, list(outcomes), of_legs)
     quantities = {}
     at_once = max(1, _BYTES // (8 * max(1, len(results))))
     for start in range(0, len(names), at_once):
@@ -196,7 +204,8 @@ def summary_of(
         ):
             quantities[one["quantity"]] = _quantity(one)
     status, outcome = _shares(found["status"]), _shares(found["outcome"])
-    return Summary(found["samples"], status, outcome, quantities)
+    legs = {column: _shares(words) for column, words in found["legs"].items()}
+    return Summary(found["samples"], status, outcome, quantities, legs)
 
 
 #: Bytes of columns that are in memory at once: each pass over the files reads and checks that many.

@@ -70,10 +70,12 @@ pub(super) fn prepare(
     let place = place(settings, tree)?;
     let node = tree.entry(place).map_or(tree, |entry| &entry.node);
     let given = document.get(place).cloned().unwrap_or_default();
-    let base = if place == "scenario" {
-        Base::scenario(Document::of(Kind::Scenario, &given), node)?
-    } else {
-        Base::stand(document, node)?
+    let base = match settings.study {
+        Study::Traverse | Study::Heading => {
+            Base::scenario(Document::of(Kind::Scenario, &given), node)?
+        }
+        Study::Mission => Base::mission(Document::of(Kind::Mission, &given), node)?,
+        Study::WheelTest => Base::stand(document, node)?,
     };
     let of_soil = if settings.soil_uncertainty { of_soil(document, place, tree)? } else { None };
     let mut statements = Vec::new();
@@ -96,7 +98,8 @@ pub(super) fn prepare(
         let place = Distribution::of_marginals(vec![place], &[]).unwrap_or_default();
         inputs.distribution = inputs.distribution.and(place);
     }
-    let scatters = settings.study == Study::Traverse && base.scatters();
+    let drives = matches!(settings.study, Study::Traverse | Study::Mission);
+    let scatters = drives && base.scatters();
     let is_alike = !scatters && inputs.distribution.dimensions() == 0;
     if is_alike {
         return Err(nothing_uncertain(tree));
@@ -112,13 +115,18 @@ pub(super) fn prepare(
     Ok((base, Prepared { keys: inputs.keys, factors, ensemble, models, resolved }))
 }
 
+/// The keys under which a base may stand.
+pub(super) const PLACES: [&str; 3] = ["scenario", "mission", "wheel_test"];
+
 /// The key of the base that is varied.
 fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError> {
-    let (needed, other) = match settings.study {
-        Study::Traverse | Study::Heading => ("scenario", "wheel_test"),
-        Study::WheelTest => ("wheel_test", "scenario"),
+    let needed = match settings.study {
+        Study::Traverse | Study::Heading => "scenario",
+        Study::Mission => "mission",
+        Study::WheelTest => "wheel_test",
     };
-    if let Some(entry) = tree.entry(other) {
+    let mut others = PLACES.iter().filter(|place| **place != needed);
+    if let Some(entry) = others.find_map(|other| tree.entry(other)) {
         let problem = Problem::Conflict("the study does not use this table");
         return Err(DocumentError::at(&entry.key_origin, problem)
             .with_hint(format!("what it varies stands in `{needed}`")));
@@ -129,7 +137,12 @@ fn place(settings: &Settings, tree: &Node) -> Result<&'static str, DocumentError
     let problem = Problem::MissingKey { key: needed.to_owned() };
     let hint = match settings.study {
         Study::WheelTest => "it has the soil, the wheel, load_n and slip_ratio".to_owned(),
-        _ => "a preset such as scenario = \"traverse-10-deg\", a path, or a table".to_owned(),
+        Study::Mission => {
+            "a preset such as mission = \"slip-check\", a path, or a table".to_owned()
+        }
+        Study::Traverse | Study::Heading => {
+            "a preset such as scenario = \"traverse-10-deg\", a path, or a table".to_owned()
+        }
     };
     Err(DocumentError::at(&tree.origin, problem).with_hint(hint))
 }
@@ -201,6 +214,10 @@ impl Numbers for StudyNumbers<'_> {
             let problem = Problem::Conflict("the study does not use this key");
             return Err(NoNumber { problem, hint: None });
         }
+        if path == START_YAW && self.base.key(FIRST_YAW).is_ok() {
+            let problem = Problem::Conflict("the first leg begins with a yaw of its own");
+            return Err(NoNumber { problem, hint: Some(format!("that is `{FIRST_YAW}`")) });
+        }
         Ok(key)
     }
 
@@ -208,6 +225,10 @@ impl Numbers for StudyNumbers<'_> {
         self.base.check_with(keys, values)
     }
 }
+
+/// The yaw at the start of a run, and the yaw of a mission's first leg, which goes before it.
+const START_YAW: &str = "start.yaw_deg";
+const FIRST_YAW: &str = "leg.0.yaw_deg";
 
 /// What keys that a study does not look at start with.
 fn unused_keys(study: Study) -> &'static [&'static str] {
@@ -220,7 +241,7 @@ fn unused_keys(study: Study) -> &'static [&'static str] {
             "by_wheel.",
             "scatter.",
         ],
-        Study::Traverse => &["sample_interval_s"],
+        Study::Traverse | Study::Mission => &["sample_interval_s"],
         Study::WheelTest => &[],
     }
 }

@@ -2,21 +2,24 @@
 
 use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
+use super::super::columns::mission::{OUTCOME, kept, kept_of_leg};
 use super::super::columns::run::{DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{
     self, DRAWBAR_PULL, MODEL, OK, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE,
 };
-use super::super::error::DocumentError;
+use super::super::error::{DocumentError, Problem};
 use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
-use super::super::{Document, Misfit, Node};
+use super::super::{Document, Misfit, Node, Plan};
 use super::table::{Column, Role};
 use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, SettleError, Slip, Theory, settle};
-use crate::simulation::{Run, Scenario};
+use crate::mission::MissionError;
+use crate::simulation::{Run, Scenario, Trajectory};
 use crate::studies::drive::Drive;
 use crate::studies::heading::{HeadingStudy, NoHeading};
+use crate::studies::mission::{DrivenLeg, DrivenMission};
 use crate::studies::validity::RoverOnSlope;
 use crate::studies::wheel_test_band::Sunk;
 use crate::vehicle::DriveLaw;
@@ -26,6 +29,7 @@ use grouser_io::campaign::{Stand, Study};
 #[derive(Clone, Debug)]
 pub(super) enum Base {
     Scenario(Box<Varied<Scenario>>),
+    Mission(Box<Varied<Plan>>),
     Stand(Box<Varied<Stand>>),
 }
 
@@ -45,6 +49,7 @@ pub(super) struct Case<'a> {
 /// The domain value of a sample.
 enum Sampled {
     Scenario(Box<Scenario>),
+    Mission(Box<Plan>),
     WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
 }
 
@@ -80,6 +85,7 @@ pub const FAILED: [&str; 2] = [UNFIT, NOT_COMPUTED];
 /// * `has_models`: whether the model is one of them
 pub(super) fn columns(
     study: Study,
+    base: &Base,
     sensitivity: bool,
     keys: &[Key],
     has_models: bool,
@@ -92,18 +98,40 @@ pub(super) fn columns(
     all.extend(keys.iter().map(|key| Column::new(&*key.path, ColumnKind::Float, Role::Input)));
     all.extend(has_models.then(|| Column::new(MODEL, ColumnKind::Text, Role::Input)));
     let words: &[&str] = match study {
-        Study::Traverse => &["status", "reason", "outcome", "simulation"],
+        Study::Traverse | Study::Mission => &["status", "reason", OUTCOME, "simulation"],
         Study::Heading | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
     let names: Vec<&str> = match study {
         Study::Traverse => names(END).chain(names(&DRIVE)).collect(),
         Study::Heading => names(&held()).collect(),
+        Study::Mission => names(END).chain(kept().map(|column| column.name)).collect(),
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
+    all.extend((1..=base.legs()).flat_map(columns_of_leg));
     all.push(Column::new(FLAGS, ColumnKind::Text, Role::Status));
     all
+}
+
+/// The columns of a leg: `leg_2.outcome`.
+///
+/// * `number`: counted from 1
+fn columns_of_leg(number: usize) -> impl Iterator<Item = Column> {
+    kept_of_leg().map(move |column| {
+        let role = if column.kind() == ColumnKind::Text { Role::Status } else { Role::Result };
+        Column::new(format!("{LEG}{number}.{}", column.name), column.kind(), role)
+    })
+}
+
+/// What the columns of a leg begin with.
+const LEG: &str = "leg_";
+/// The outcome of a leg before which the mission ended.
+const NOT_BEGUN: &str = "not_begun";
+
+/// Whether a column has words about a leg: what became of it, or what stopped it.
+pub(super) fn is_word_of_leg(column: &Column) -> bool {
+    column.role == Role::Status && column.name.starts_with(LEG)
 }
 
 fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str> {
@@ -116,6 +144,7 @@ pub(super) fn run(study: Study, base: &Base, case: &Case<'_>, row: &mut Vec<Cell
     let answer = sampled.and_then(|sampled| match (study, sampled) {
         (Study::Heading, Sampled::Scenario(scenario)) => heading(&scenario),
         (_, Sampled::Scenario(scenario)) => traverse(&scenario),
+        (_, Sampled::Mission(plan)) => mission(&plan),
         (_, Sampled::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
     });
     match answer {
@@ -150,6 +179,8 @@ pub(super) fn counted(
             }
             _ => None,
         },
+        // A rover that gets stuck is an answer of a mission.
+        Sampled::Mission(_) => None,
         Sampled::WheelTest { contact, theory, load } => {
             let sunk = Sunk::of(theory, &contact, load);
             let quantities = [
@@ -167,11 +198,13 @@ pub(super) fn counted(
 impl Sampled {
     /// The same in the model and the realisation of a run.
     fn of(mut self, case: &Case<'_>) -> Self {
+        let of_case = |scenario: &mut Scenario| {
+            scenario.theory = case.theory.unwrap_or(scenario.theory);
+            scenario.scatter = scenario.scatter.of_case(case.seed, case.bed);
+        };
         match &mut self {
-            Self::Scenario(scenario) => {
-                scenario.theory = case.theory.unwrap_or(scenario.theory);
-                scenario.scatter = scenario.scatter.of_case(case.seed, case.bed);
-            }
+            Self::Scenario(scenario) => of_case(scenario),
+            Self::Mission(plan) => of_case(&mut plan.scenario),
             Self::WheelTest { theory, .. } => *theory = case.theory.unwrap_or(*theory),
         }
         self
@@ -184,6 +217,18 @@ impl Base {
         Ok(Self::Scenario(Box::new(Varied::new(document, tree)?)))
     }
 
+    /// * `tree`: where the mission was written
+    pub(super) fn mission(document: Document, tree: &Node) -> Result<Self, DocumentError> {
+        let varied = Varied::<Plan>::new(document, tree)?;
+        let is_one = varied.value.missions().iter().all(|(name, _)| name.is_empty());
+        if !is_one {
+            let problem = Problem::Conflict("a campaign drives one way, without alternatives");
+            return Err(DocumentError::at(tree.origin_of("alternative"), problem)
+                .with_hint("give the mission the legs of one of them, as [[leg]]".to_owned()));
+        }
+        Ok(Self::Mission(Box::new(varied)))
+    }
+
     /// * `campaign`: with the stand
     /// * `tree`: where the stand was written
     pub(super) fn stand(campaign: &Document, tree: &Node) -> Result<Self, DocumentError> {
@@ -193,13 +238,26 @@ impl Base {
 
     /// Whether runs differ by more than their numbers.
     pub(super) fn scatters(&self) -> bool {
-        matches!(self, Self::Scenario(varied) if varied.value.scatter.is_any())
+        match self {
+            Self::Scenario(varied) => varied.value.scatter.is_any(),
+            Self::Mission(varied) => varied.value.scenario.scatter.is_any(),
+            Self::Stand(_) => false,
+        }
+    }
+
+    /// How many legs its mission has; none for what is no mission.
+    pub(super) fn legs(&self) -> usize {
+        match self {
+            Self::Mission(varied) => varied.value.mission().legs.len(),
+            Self::Scenario(_) | Self::Stand(_) => 0,
+        }
     }
 
     /// What can be varied.
     pub(super) fn numbers(&self) -> &dyn Numbers {
         match self {
             Self::Scenario(varied) => &**varied,
+            Self::Mission(varied) => &**varied,
             Self::Stand(varied) => &**varied,
         }
     }
@@ -212,6 +270,7 @@ impl Base {
     fn case_of(&self, keys: &[Key], values: &[f64]) -> Result<Sampled, Misfit> {
         Ok(match self {
             Self::Scenario(varied) => Sampled::Scenario(Box::new(varied.with(keys, values)?)),
+            Self::Mission(varied) => Sampled::Mission(Box::new(varied.with(keys, values)?)),
             Self::Stand(varied) => {
                 let stand = varied.with(keys, values)?;
                 let contact = Contact {
@@ -272,9 +331,43 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.outcome.name()),
         Cell::text(run.method.name()),
     ];
-    let raised = RoverOnSlope::of(scenario).over(&run);
-    let flags = joined(&raised.iter().map(|it| it.finding).collect::<Vec<_>>());
+    let flags = raised(scenario, &run);
     Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).chain([flags]).collect())
+}
+
+/// The flags of a run.
+fn raised(scenario: &Scenario, run: &Trajectory) -> Cell {
+    let raised = RoverOnSlope::of(scenario).over(run);
+    joined(&raised.iter().map(|it| it.finding).collect::<Vec<_>>())
+}
+
+fn mission(plan: &Plan) -> Result<Vec<Cell>, Failure> {
+    let driven = DrivenMission::drive("", &plan.mission()).map_err(|error| {
+        let status = match error {
+            MissionError::Plan(_) => UNFIT,
+            MissionError::Run(_) => NOT_COMPUTED,
+        };
+        Failure { status, reason: error.to_string() }
+    })?;
+    let run = &driven.report.trajectory;
+    let words = [
+        Cell::Text(driven.legs.last().and_then(DrivenLeg::reason)),
+        Cell::text(driven.report.outcome()),
+        Cell::text(run.method.name()),
+    ];
+    let mut row: Vec<Cell> = cells(words, END, run.last()).collect();
+    row.extend(kept().flat_map(|column| column.cells(&driven)));
+    for place in 0..driven.planned {
+        match driven.legs.get(place) {
+            Some(leg) => row.extend(kept_of_leg().flat_map(|column| column.cells(leg))),
+            None => row.extend(kept_of_leg().map(|column| match column.name {
+                OUTCOME => Cell::text(NOT_BEGUN),
+                _ => Cell::none(column.kind()),
+            })),
+        }
+    }
+    row.push(raised(&plan.scenario, run));
+    Ok(row)
 }
 
 fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {

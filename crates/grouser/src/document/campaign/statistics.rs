@@ -96,12 +96,15 @@ pub struct Frequencies {
     pub samples: usize,
     /// How often each status is.
     pub statuses: BTreeMap<String, usize>,
-    /// How often each outcome is, for traverses.
+    /// How often each outcome is, for traverses and missions.
     pub outcomes: BTreeMap<String, usize>,
     /// How often the outcome or, without one, the status is each word.
     pub events: BTreeMap<String, usize>,
     /// Samples without a result, or not completed.
     pub failures: usize,
+    /// How often each word stands in a column of words about a leg: `stopped` in `leg_2.outcome`. In the columns'
+    /// order.
+    pub legs: Vec<(String, BTreeMap<String, usize>)>,
 }
 
 impl Frequencies {
@@ -121,6 +124,30 @@ impl Frequencies {
                 let word = |words: &[Option<String>]| words.get(place).cloned().flatten();
                 self.count(word(statuses).unwrap_or_default(), word(outcomes));
             }
+        }
+    }
+
+    /// Counts the words of a column about a leg in some runs.
+    ///
+    /// * `runs`: their numbers
+    /// * `column`: one of [`Campaign::words_of_legs`]
+    /// * `words`: theirs; none for legs that nothing stopped, and for runs without an answer
+    pub fn add_of_leg(
+        &mut self,
+        campaign: &Campaign,
+        runs: Range<u64>,
+        column: &str,
+        words: &[Option<String>],
+    ) {
+        let known = self.legs.iter().position(|(name, _)| name == column);
+        let place = known.unwrap_or_else(|| {
+            self.legs.push((column.to_owned(), BTreeMap::new()));
+            self.legs.len() - 1
+        });
+        let counts = &mut self.legs[place].1;
+        let samples = runs.zip(words).filter(|(run, _)| campaign.ensemble().is_sample(*run));
+        for word in samples.filter_map(|(_, word)| word.clone()) {
+            *counts.entry(word).or_default() += 1;
         }
     }
 

@@ -36,7 +36,7 @@ impl DrivenLeg {
 pub const MISSION: [Column<DrivenMission>; 10] = [
     text(ALTERNATIVE, "The way that was driven", |it| Some(it.name.clone())),
     text(
-        "outcome",
+        OUTCOME,
         "That of the last leg that was begun: `completed`, `stopped` or what became of the rover",
         |it| Some(it.report.outcome().to_owned()),
     ),
@@ -57,6 +57,10 @@ pub const MISSION: [Column<DrivenMission>; 10] = [
     ENERGY.number("Work of the motors", |it| it.report.energy()),
 ];
 
+/// What became of a mission or of a leg.
+pub(in super::super) const OUTCOME: &str = "outcome";
+/// What stopped a leg.
+pub(in super::super) const STOPPED_BY: &str = "stopped_by";
 /// The name of an alternative.
 const ALTERNATIVE: &str = "alternative";
 
@@ -65,7 +69,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     whole("leg", "Number of the leg, from 1", |it| Some(it.number)),
     text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg))),
     text(
-        "outcome",
+        OUTCOME,
         "`completed`, `stopped` by a limit, `immobilised`, `sliding` or `tipped_over`",
         |it| Some(it.report.outcome.name().into()),
     ),
@@ -80,7 +84,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
         |it| it.report.slip_ratio,
     ),
     text(
-        "stopped_by",
+        STOPPED_BY,
         "The limit that stopped it, by its key, or what would have become of it",
         |it| stopped(it).map(|it| name(it).to_owned()),
     ),
@@ -103,13 +107,27 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     }),
 ];
 
+/// What a campaign keeps of a mission beside its end: way and slip ratio, and energy.
+pub(in super::super) fn kept() -> impl Iterator<Item = &'static Column<DrivenMission>> {
+    static ALL: [Column<DrivenMission>; 10] = MISSION;
+    let names = [DISTANCE.name, SLIP_RATIO.name, ENERGY.name];
+    ALL.iter().filter(move |column| names.contains(&column.name))
+}
+
+/// What a campaign keeps of each leg: outcome, way, time, energy, slip ratio, and what stopped it.
+pub(in super::super) fn kept_of_leg() -> impl Iterator<Item = &'static Column<DrivenLeg>> {
+    static ALL: [Column<DrivenLeg>; 15] = LEG;
+    let names = [OUTCOME, DISTANCE.name, TIME.name, ENERGY.name, SLIP_RATIO.name, STOPPED_BY];
+    ALL.iter().filter(move |column| names.contains(&column.name))
+}
+
 /// The columns of [`LEG`] for reading.
 #[must_use]
 pub fn legs_brief() -> Vec<String> {
     let names = [
         "leg",
         "manoeuvre",
-        "outcome",
+        OUTCOME,
         DISTANCE.name,
         TIME.name,
         ENERGY.name,
@@ -136,7 +154,7 @@ impl Serialize for MissionObject<'_> {
         if !name.is_empty() {
             map.serialize_entry(ALTERNATIVE, name)?;
         }
-        map.serialize_entry("outcome", report.outcome())?;
+        map.serialize_entry(OUTCOME, report.outcome())?;
         map.serialize_entry(ENERGY.name, &report.energy())?;
         METHOD.iter().try_for_each(|column| column.write(&mut map, &report.trajectory))?;
         map.serialize_entry("final", &end.row(0))?;

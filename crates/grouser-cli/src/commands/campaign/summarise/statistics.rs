@@ -298,26 +298,34 @@ fn sensitivities(
     inputs.iter().zip(&found.indices).map(record).collect()
 }
 
-/// How often each status and outcome is, counted shard by shard.
+/// How often each status and outcome is, and each word about a leg, counted shard by shard.
 fn frequencies(campaign: &Campaign, results: &Results) -> Result<(Frequencies, Finished), Failure> {
     let has_outcome = campaign.columns().iter().any(|column| column.name == "outcome");
-    let names: &[&str] = if has_outcome { &["status", "outcome"] } else { &["status"] };
+    let mut names = if has_outcome { vec!["status", "outcome"] } else { vec!["status"] };
+    let of_legs = campaign.words_of_legs();
+    names.extend(&of_legs);
     let mut frequencies = Frequencies::default();
-    let finished = results.read(names, &mut |shard, table| {
+    let finished = results.read(&names, &mut |shard, table| {
         let words = |name: &str| match table.column(name) {
             Some(Values::Text(words)) => words.as_slice(),
             _ => &[],
         };
         let runs = results.manifest().runs_of(shard);
+        for column in &of_legs {
+            frequencies.add_of_leg(campaign, runs.clone(), column, words(column));
+        }
         frequencies.add(campaign, runs, words("status"), words("outcome"));
     })?;
     Ok((frequencies, finished))
 }
 
-/// The probability of each event, and that of any failure.
+/// The probability of each event, that of any failure, and those of what became of each leg.
 fn probabilities(frequencies: &Frequencies) -> Vec<ProbabilityRecord> {
     let mut counts = frequencies.events.clone();
     counts.insert("failure (all but ok and completed)".into(), frequencies.failures);
+    let of_legs = frequencies.legs.iter().flat_map(|(column, words)| {
+        words.iter().map(move |(word, count)| (format!("{column}: {word}"), *count))
+    });
     let record = |(event, count): (String, usize)| {
         let probability = frequencies.probability(count)?;
         let (probability_low, probability_high) = probability.interval();
@@ -330,5 +338,5 @@ fn probabilities(frequencies: &Frequencies) -> Vec<ProbabilityRecord> {
             probability_high,
         })
     };
-    counts.into_iter().filter_map(record).collect()
+    counts.into_iter().chain(of_legs).filter_map(record).collect()
 }
