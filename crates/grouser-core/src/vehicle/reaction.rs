@@ -1,6 +1,5 @@
 //! All wheels settled under their share of the weight: load transfer and soil together.
 
-use std::borrow::Cow;
 use std::iter::repeat;
 
 use nalgebra::Rotation2;
@@ -175,17 +174,16 @@ impl Ground<'_> {
         let settled = wheels.map(|(wheel, (((&slip, load), mount), guess))| {
             let at = place + slope_from_body * mount.position.xy();
             let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
-            let soil = match differences.of(wheel, at) {
-                None => soil,
-                Some(difference) => Cow::Owned(soil.differing(difference)),
-            };
-            let soil = match &ruts {
-                Some(ruts) if ruts[wheel] != Compaction::NONE => {
-                    Cow::Owned(soil.compacted(ruts[wheel]))
+            let difference = differences.of(wheel, at);
+            let rut = ruts.as_ref().map(|ruts| ruts[wheel]).filter(|it| *it != Compaction::NONE);
+            let soil = match (difference, rut) {
+                (None, None) => soil.on_slope(steepness),
+                (Some(difference), None) => soil.differing(difference).on_slope(steepness),
+                (None, Some(rut)) => soil.compacted(rut).on_slope(steepness),
+                (Some(difference), Some(rut)) => {
+                    soil.differing(difference).compacted(rut).on_slope(steepness)
                 }
-                _ => soil,
             };
-            let soil = soil.on_slope(steepness);
             let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity };
             guess
                 .map_or_else(
