@@ -145,7 +145,7 @@ impl MissionRun {
         if let Some(yaw) = turn_before(leg, self.navigator.seen(), is_first) {
             let seen = self.navigator.seen();
             let pilot = Pilot::to_yaw(yaw, seen, leg.speed);
-            let goal = (Goal::Yaw(yaw), self.nominal_turn(yaw - seen.yaw, leg));
+            let goal = self.turn_to(yaw, leg);
             let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
             turned_to = self.drive_on(&mut turn, None, watch)?;
         }
@@ -198,9 +198,7 @@ impl MissionRun {
                 let goal = if by == Measure::Ground { Goal::Ground(way) } else { Goal::Rims(way) };
                 (goal, way / leg.speed)
             }
-            Manoeuvre::Turn { angle } => {
-                (Goal::Yaw(state.yaw + angle), self.nominal_turn(angle, leg))
-            }
+            Manoeuvre::Turn { angle } => self.turn_to(state.yaw + angle, leg),
             Manoeuvre::Arc { radius, angle, .. } => {
                 let way = radius * angle.abs();
                 (Goal::Ground(way), way / leg.speed)
@@ -247,9 +245,10 @@ impl MissionRun {
         self.run.state().motor_work()
     }
 
-    /// How long a turn on the spot would take without slip [s].
-    fn nominal_turn(&self, angle: f64, leg: &Leg) -> f64 {
-        reach(self.run.scenario().rover.mounts()) * angle.abs() / leg.speed
+    /// A turn on the spot to a yaw [rad], and how long it would take without slip [s].
+    fn turn_to(&self, yaw: f64, leg: &Leg) -> (Goal, f64) {
+        let fastest = leg.speed / reach(self.run.scenario().rover.mounts());
+        (Goal::Yaw { yaw, fastest }, (yaw - self.navigator.seen().yaw).abs() / fastest)
     }
 }
 
