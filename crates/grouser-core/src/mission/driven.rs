@@ -58,6 +58,8 @@ pub(super) struct Driven {
     start_ground: f64,
     /// How far it really came [m].
     gone: f64,
+    /// Way of the rims at the last fix of its place [m].
+    rims_at_fix: f64,
     /// How fast it turned on the spot when it last did [rad/s].
     turn_rate: Option<f64>,
 }
@@ -92,6 +94,7 @@ impl Driven {
             start_work: state.motor_work(),
             start_ground: navigator.ground(),
             gone: 0.0,
+            rims_at_fix: 0.0,
             turn_rate: None,
         }
     }
@@ -167,6 +170,10 @@ impl Driven {
         self.gone += navigator.look(state.time(), state.rover(), mounts, state.rim_speeds());
         let (place, ground) = (navigator.seen().position, navigator.ground() - self.start_ground);
         self.odometer.look(state.time(), place, ground, state.rim_speeds());
+        if navigator.is_fixed() {
+            self.odometer.lay_anew(self.rims_at_fix);
+            self.rims_at_fix = self.odometer.rims();
+        }
         self.pilot.gone = ground;
         if let Goal::Yaw { fastest, .. } = self.goal {
             let rate = run.state().rover().yaw_rate.abs();

@@ -127,6 +127,12 @@ impl Navigator {
         self.ground
     }
 
+    /// Whether the last look gave a fix.
+    pub(super) fn is_fixed(&self) -> bool {
+        let last = self.sensed.as_ref().and_then(|sensed| sensed.fixes.last());
+        last.is_some_and(|fix| fix.time == self.last.1)
+    }
+
     /// The fixes so far; none of a rover that knows where it is.
     pub(super) fn into_fixes(self) -> Vec<Fix> {
         self.sensed.map_or(Vec::new(), |sensed| sensed.fixes)

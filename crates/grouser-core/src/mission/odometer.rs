@@ -69,6 +69,18 @@ impl Odometer {
         }
     }
 
+    /// Lays what was seen since some way of the rims [m] anew, evenly from there to what is known now: between two fixes a
+    /// rover only reckoned.
+    pub(super) fn lay_anew(&mut self, since: f64) {
+        let now = self.now;
+        let first = self.marks.partition_point(|mark| mark.rims <= since);
+        let start = first.checked_sub(1).and_then(|at| self.marks.get(at)).copied();
+        let Some(start) = start.filter(|start| start.rims < now.rims) else { return };
+        for mark in self.marks.range_mut(first..) {
+            *mark = start.toward(now, (mark.rims - start.rims) / (now.rims - start.rims));
+        }
+    }
+
     /// Way over the ground [m].
     pub(super) fn ground(&self) -> f64 {
         self.now.ground
