@@ -8,10 +8,9 @@ use super::super::field::{
 use super::super::kind::Kind;
 use super::super::mission::Plan;
 use super::super::stated::Stated;
-use super::super::values::Described;
 use super::about::{assumed, gravity, model, notes, purpose, schema};
 use super::differences::LARGEST_SEED;
-use super::mission::MISSION;
+use super::mission::{self, MISSION};
 use super::scenario::{self, SCENARIO};
 use super::soil::{self, SOIL};
 use super::uncertainty::{
@@ -129,7 +128,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             &At {
                 inner: &MISSION,
                 at: |all: &mut Settings| -> &mut Plan {
-                    all.mission.get_or_insert_with(|| Box::new(Plan::blank()))
+                    all.mission.get_or_insert_with(|| Box::new(mission::blank()))
                 },
             },
         )

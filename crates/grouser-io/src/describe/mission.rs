@@ -10,7 +10,7 @@ use super::super::mission::{
 use super::about::{assumed, notes, purpose, schema, source};
 use super::differences::LARGEST_SEED;
 use super::run::{OfScenario, Run};
-use super::scenario::FASTEST;
+use super::scenario::{self, FASTEST};
 use grouser_core::mission::{Limited, Measure, Sensors, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
@@ -24,6 +24,13 @@ impl OfScenario for Plan {
     fn scenario(&mut self) -> &mut Scenario {
         &mut self.scenario
     }
+}
+
+/// A mission before its numbers are put in.
+pub(crate) fn blank() -> Plan {
+    // How long it lasts is for the legs to say.
+    let scenario = Scenario { duration: 1.0, ..scenario::blank() };
+    Plan { scenario, legs: Vec::new(), alternatives: Vec::new(), stops: Vec::new(), sensors: None }
 }
 
 pub(crate) static MISSION: Table<Plan> = Table {

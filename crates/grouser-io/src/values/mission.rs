@@ -1,14 +1,12 @@
 //! Missions: that their legs can be driven.
 
-use super::super::describe::mission::MISSION;
-use super::super::describe::scenario;
+use super::super::describe::mission::{self, MISSION};
 use super::super::document::Document;
 use super::super::error::Problem;
 use super::super::field::Inner;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
 use super::{Described, Misfit};
 use grouser_core::mission::{Mission, PlanError, Stop, Then};
-use grouser_core::simulation::Scenario;
 
 /// That alternatives have names of their own, and stand in place of legs.
 fn check_alternatives(plan: &Plan) -> Result<(), Misfit> {
@@ -79,15 +77,7 @@ impl Described for Plan {
     }
 
     fn blank() -> Self {
-        // How long it lasts is for the legs to say.
-        let scenario = Scenario { duration: 1.0, ..scenario::blank() };
-        Self {
-            scenario,
-            legs: Vec::new(),
-            alternatives: Vec::new(),
-            stops: Vec::new(),
-            sensors: None,
-        }
+        mission::blank()
     }
 
     fn follow(&mut self, document: &Document) {
