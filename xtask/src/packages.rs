@@ -121,11 +121,11 @@ mod tests {
 
     #[test]
     fn a_file_of_the_package_that_was_left_out_is_found() {
-        let files = ["crates/grouser/src/lib.rs", "crates/grouser-python/python/grouser/gym.py"];
+        let files = ["crates/grouser/src/lib.rs", "crates/grouser-python/python/grouser/style.py"];
         let files = files.map(String::from);
         let packed = ["grouser-0.1.0/crates/grouser/src/lib.rs", "grouser-0.1.0/PKG-INFO"];
-        assert_eq!(lacking(&files, &packed), ["crates/grouser-python/python/grouser/gym.py"]);
-        let packed = [packed[0], "grouser-0.1.0/python/grouser/gym.py"];
+        assert_eq!(lacking(&files, &packed), ["crates/grouser-python/python/grouser/style.py"]);
+        let packed = [packed[0], "grouser-0.1.0/python/grouser/style.py"];
         assert!(lacking(&files, &packed).is_empty());
         assert!(lacking(&["README.md".into()], &[]).is_empty());
     }

@@ -351,7 +351,7 @@ def test_a_subclass_has_its_own_spaces() -> None:
         check_env(Rims(), skip_render_check=True)
     env = Rims()
     env.reset(seed=1)
-    left = np.array(env._traverses.side) < 0.0
+    left = np.array(env._rovers.side) < 0.0
     env.step(np.where(left, 0.02, 0.08))
     assert env.wheel["wheel_speed_rad_s"][left].max() < env.wheel["wheel_speed_rad_s"][~left].min()
     with pytest.raises(NotImplementedError, match="def reward"):

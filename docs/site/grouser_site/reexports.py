@@ -21,7 +21,7 @@ from sphinx.util import logging
 def gather(app) -> None:
     # Pages of names that are gone would stay.
     shutil.rmtree(Path(app.srcdir, "reference", "generated", "python"), ignore_errors=True)
-    for package in (grouser, grouser.campaign):
+    for package in (grouser, grouser.campaign, grouser.gym):
         whole = ModuleAnalyzer.for_module(package.__name__)
         whole.analyze()
         for module in pkgutil.iter_modules(package.__path__):

@@ -1,0 +1,130 @@
+"""Any number of rovers on slopes of unknown soil, and what all environments have in common: what a
+reset samples, what an action turns, what is observed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._arrays import Floats, number, numbers
+from .._descriptions import Scenario, Soil, Source
+from .._errors import ParameterError
+from .._runs import RunBatch
+from ._options import OPTIONS, given
+from ._start import start_of
+
+#: The range of the sampled yaw at the start [°].
+START_YAW_DEG = (-10.0, 10.0)
+#: Names of the observations of the rover, with units.
+_ROVER = ("y_m", "yaw_deg", "forward_speed_m_s", "lateral_speed_m_s", "yaw_rate_deg_s")
+#: Bounds of the same; values beyond are clipped, far outside the range of an episode that
+#: continues.
+_ROVER_BOUNDS = (1.0, 180.0, 1.0, 1.0, 180.0)
+#: Names of the observations of each wheel, with units, and their bounds.
+_WHEEL = ("wheel_speed_rad_s", "torque_nm", "power_w")
+_WHEEL_BOUNDS = (20.0, 50.0, 100.0)
+
+
+class Rovers:
+    """Any number of rovers: the common part of all environments."""
+
+    def __init__(
+        self,
+        count: int,
+        *,
+        scenario: Scenario | Source | None = None,
+        soil: Soil | Source | None = None,
+        slope_deg: Sequence[float] | None = None,
+        max_speed_m_s: float = 0.1,
+        dt_s: float = 0.5,
+    ) -> None:
+        run, slopes = start_of(scenario, soil, slope_deg)
+        self.slopes = slopes
+        self.fastest = number("max_speed_m_s", max_speed_m_s)
+        if not 0.0 < self.fastest <= 10.0:
+            raise ParameterError(
+                f"max_speed_m_s is {self.fastest}, it must be above 0, at most 10",
+                "max_speed_m_s",
+                self.fastest,
+            )
+        self.dt_s = number("dt_s", dt_s)
+        self.batch = RunBatch([run] * count, commands="rim_speed_m_s")
+        # Wheels on the left side are those with y > 0 in the body frame.
+        left = [mount["position_m"][1] > 0.0 for mount in run.rover.mount]
+        self.side = np.where(left, -1.0, 1.0)
+        bounds = np.array([*_ROVER_BOUNDS, *np.repeat(_WHEEL_BOUNDS, len(left))])
+        self.observation_space = gymnasium.spaces.Box(-bounds, bounds, dtype=np.float64)
+        self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), dtype=np.float64)
+        self.slope_deg = np.full(count, slopes[1])
+
+    def reset(
+        self,
+        which: NDArray[np.bool_],
+        randoms: Sequence[np.random.Generator],
+        options: Mapping[str, Any],
+    ) -> None:
+        """Samples slope, yaw and soil of each rover, in this order, from its own generator; options
+        replace sampled values."""
+        count = len(randoms)
+        given_slopes, given_yaws, given_seeds = (given(name, options, count) for name in OPTIONS)
+        slopes, yaws = self.slope_deg.copy(), np.zeros(count)
+        seeds: list[int | None] = [0] * count
+        for k in places(which):
+            slopes[k] = randoms[k].uniform(*self.slopes)
+            yaws[k] = randoms[k].uniform(*START_YAW_DEG)
+            seeds[k] = int(randoms[k].integers(2**63))
+            slopes[k] = slopes[k] if given_slopes is None else given_slopes[k]
+            yaws[k] = yaws[k] if given_yaws is None else given_yaws[k]
+            seeds[k] = seeds[k] if given_seeds is None else given_seeds[k]
+        self.batch.reset(seed=seeds, slope_deg=slopes, yaw_deg=yaws, mask=which)
+        self.slope_deg = slopes
+
+    def step(
+        self, actions: ArrayLike, which: NDArray[np.bool_]
+    ) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+        """Rewards, which episodes ended by what the rover did, and which are cut off here: those of
+        a task."""
+        raise NotImplementedError
+
+    def shares(self, actions: ArrayLike) -> Floats:
+        """Actions of all rovers, checked, each number limited to −1 to 1."""
+        shares = np.clip(numbers("action", actions), -1.0, 1.0)
+        if shares.shape != (len(self.batch), 2) or np.isnan(shares).any():
+            raise ParameterError(
+                f"the action is {actions!r}, it must be two numbers for each rover, from -1 to 1",
+                "action",
+            )
+        return shares
+
+    def rim_speeds(self, shares: Floats) -> Floats:
+        """Rim speeds [m/s] of drive and turn, a row for each rover."""
+        drive, turn = shares[:, :1], shares[:, 1:]
+        rims: Floats = self.fastest * np.clip(drive + turn * self.side, -1.0, 1.0)
+        return rims
+
+    def observations(self) -> Floats:
+        state, wheel = self.batch.state, self.batch.wheel
+        rover = [state[:, [self.batch.STATE.index(name)]] for name in _ROVER]
+        # A rover that has just tipped over or sunk has no torque: NaN.
+        wheels = [np.nan_to_num(wheel[name]) for name in _WHEEL]
+        high = self.observation_space.high
+        observations: Floats = np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
+        return observations
+
+    def info(self, k: int) -> dict[str, Any]:
+        return {
+            "x_m": float(self.batch.state[k, 0]),
+            "slope_deg": float(self.slope_deg[k]),
+            "energy_j": float(self.batch.energy_j[k]),
+            "outcome": self.batch.outcome[k],
+            "fallback_to_dynamic": self.batch.simulation[k] not in ("dynamic", "quasi-steady"),
+        }
+
+
+def places(which: NDArray[np.bool_]) -> list[int]:
+    chosen: list[int] = np.flatnonzero(which).tolist()
+    return chosen
