@@ -5,6 +5,8 @@ use super::unit::{DEG, M, ONE};
 use grouser_core::mission::{Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Stop};
 use grouser_core::simulation::Scenario;
 use grouser_core::units::Vec2;
+use grouser_core::vehicle::drive::{SlipLimit, SlipTarget};
+use grouser_core::vehicle::{DriveLaw, PerWheel};
 
 /// A mission as its document says it: the keys of its legs, in SI.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,12 +55,21 @@ pub(crate) struct LegKeys {
     pub goto: Option<Waypoint>,
     pub wait: Option<f64>,
     pub reverse: bool,
-    pub speed: Option<f64>,
+    pub speed: Option<PerWheel>,
+    pub law: Option<LegLaw>,
     pub yaw: Option<f64>,
     pub held: Option<Held>,
     pub toward: Option<Waypoint>,
     pub look_ahead: Option<f64>,
     pub stops: Vec<Stop>,
+}
+
+/// A law that looks at the slip of wheels, with its slip ratio [-].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum LegLaw {
+    Eq18AsPrinted(f64),
+    Eq18(f64),
+    SlipLimiting(f64),
 }
 
 /// A way along a circle.
@@ -104,8 +115,8 @@ impl Plan {
     pub(crate) fn mission_of(&self, legs: &[LegKeys]) -> Mission {
         let mut speed = None;
         let legs = legs.iter().map(|keys| {
-            speed = keys.speed.or(speed);
-            keys.leg(speed)
+            speed = keys.speed.clone().or(speed.take());
+            keys.leg(speed.as_ref())
         });
         Mission {
             scenario: self.scenario.clone(),
@@ -142,7 +153,7 @@ impl LegKeys {
     }
 
     /// The leg, of keys that go together.
-    fn leg(&self, speed: Option<f64>) -> Leg {
+    fn leg(&self, speed: Option<&PerWheel>) -> Leg {
         let manoeuvres = self.manoeuvres();
         let manoeuvre = manoeuvres.first().map_or(Manoeuvre::Wait { time: 0.0 }, |(_, it)| *it);
         let usual = Leg::new(manoeuvre);
@@ -153,7 +164,7 @@ impl LegKeys {
             _ => Heading::Free,
         };
         Leg {
-            speed: speed.unwrap_or(usual.speed),
+            drive: speed.map_or(usual.drive, |speed| self.drive_at(speed)),
             yaw: self.yaw,
             heading,
             stops: self.stops.clone(),
@@ -162,8 +173,31 @@ impl LegKeys {
         }
     }
 
+    /// What turns the wheels of a leg with this speed [m/s].
+    fn drive_at(&self, speed: &PerWheel) -> DriveLaw {
+        let speed = match speed {
+            PerWheel::Each(speeds) => return DriveLaw::ConstantEach(speeds.clone()),
+            PerWheel::All(speed) => *speed,
+        };
+        match self.law {
+            None => DriveLaw::Constant(speed),
+            Some(LegLaw::Eq18AsPrinted(slip_ratio)) => {
+                DriveLaw::Eq18AsPrinted(SlipTarget { speed, slip_ratio })
+            }
+            Some(LegLaw::Eq18(slip_ratio)) => DriveLaw::Eq18(SlipTarget { speed, slip_ratio }),
+            Some(LegLaw::SlipLimiting(slip_ratio)) => {
+                DriveLaw::SlipLimiting(SlipLimit { speed, slip_ratio })
+            }
+        }
+    }
+
     /// What is wrong with it: the key, a sentence, and what to write instead.
-    pub(crate) fn fault(&self) -> Option<(&'static str, String, &'static str)> {
+    ///
+    /// * `speed`: its own, or that of the leg before
+    pub(crate) fn fault(
+        &self,
+        speed: Option<&PerWheel>,
+    ) -> Option<(&'static str, String, &'static str)> {
         let given: Vec<&str> = self.manoeuvres().into_iter().map(|(key, _)| key).collect();
         let [manoeuvre] = given[..] else {
             let (key, what) = match given[..] {
@@ -193,6 +227,20 @@ impl LegKeys {
         }
         if self.reverse && !matches!(manoeuvre, "arc" | "goto") {
             return only("reverse", "`arc` and `goto`", "a `drive_m` below 0 is driven backward");
+        }
+        if self.law.is_some() && !matches!(manoeuvre, "drive_m" | "arc" | "goto") {
+            return only("drive", "`drive_m`, `arc` and `goto`", "leave it out");
+        }
+        if let Some(PerWheel::All(speed)) = self.speed
+            && speed <= 0.0
+        {
+            let what = format!("has `speed_m_s` = {speed}, which is not above 0");
+            return Some(("speed_m_s", what, "a `drive_m` below 0 is driven backward"));
+        }
+        if self.law.is_some() && matches!(speed, Some(PerWheel::Each(_))) {
+            let what = "has `drive` beside a list of speeds, its own or that of the leg before";
+            let hint = "give the leg one `speed_m_s`, or leave `drive` out";
+            return Some(("drive", what.to_owned(), hint));
         }
         match (self.held, self.toward) {
             (Some(Held::Toward), None) => {

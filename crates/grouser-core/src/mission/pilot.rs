@@ -1,13 +1,13 @@
 //! What turns the wheels in a manoeuvre.
 //!
-//! A drive that holds nothing keeps one speed. All else is closed on the yaw: a cascade of two proportional-integral
+//! A drive that holds nothing leaves the wheels to the leg's law of drive. All else is closed on the yaw: a cascade of two proportional-integral
 //! laws, the outer from the distance to a line to the yaw that is wanted, the inner from the yaw to the difference of
 //! speeds between the sides.
 //!
 //! ```text
 //! γ_set = γ_0 + K_y e + I_y ∫ e dt        e: how far the line lies to the left of the rover's way
 //! w     = w_ff + K_γ (γ_set − γ) + I_γ ∫ (γ_set − γ) dt
-//! v_i   = ± v − w y_i
+//! v_i   = ± v_drive,i − w y_i
 //! ```
 
 use super::plan::{Heading, Leg, Manoeuvre};
@@ -16,7 +16,9 @@ use crate::elementary::wide;
 use crate::elementary::wide::atan2;
 use crate::simulation::{CONTROL_PERIOD, Controller, Observation};
 use crate::units::Vec2;
-use crate::vehicle::{Mount, RoverState};
+use crate::vehicle::drive::slip_limited;
+use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::{DriveLaw, Mount, RoverState};
 
 /// Yaw rate that is asked for, per error of the yaw, *K_γ* [1/s]. Source: ours; a skid-steered rover on sand turns with
 /// about half the rate that its sides would give on rigid ground, so an error fades in some 4 s.
@@ -40,10 +42,12 @@ const MOST_STEER: f64 = 0.75;
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     law: Law,
-    /// Speed of the rims [m/s], above 0.
+    drive: DriveLaw,
+    /// Speed of the fastest rims [m/s], above 0.
     speed: f64,
-    /// 1 forward, -1 backward.
+    /// 1 forward, -1 backward, 0 on the spot.
     direction: f64,
+    path: Path,
     /// Pose and velocities, as the rover knows them.
     pub(super) seen: RoverState,
     /// Way over the ground since the manoeuvre began [m], as the rover knows it.
@@ -55,8 +59,8 @@ pub(super) struct Pilot {
 
 #[derive(Clone, Copy, Debug)]
 enum Law {
-    /// All rims at one speed.
-    Steady,
+    /// Nothing is held.
+    Free,
     /// On the spot.
     Turn(Turn),
     /// A yaw is held [rad].
@@ -84,8 +88,8 @@ pub(super) struct Line {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Path {
     Line(Line),
-    /// Centre and radius [m].
-    Circle(Vec2, f64),
+    /// Centre and radius [m], and which way round it is gone: 1 to the left, -1 to the right.
+    Circle(Vec2, f64, f64),
 }
 
 impl Path {
@@ -97,14 +101,32 @@ impl Path {
         let (sin, cos) = wide::sin_cos(state.yaw);
         // Backward the same turn of the nose lies on the other side.
         let side = if reverse { -angle.signum() } else { angle.signum() };
-        Self::Circle(state.position + side * radius * Vec2::new(-sin, cos), radius)
+        let centre = state.position + side * radius * Vec2::new(-sin, cos);
+        Self::Circle(centre, radius, angle.signum())
+    }
+
+    /// Straight ahead of the nose.
+    fn ahead(state: &RoverState) -> Self {
+        let (sin, cos) = wide::sin_cos(state.yaw);
+        Self::Line(Line { from: state.position, along: Vec2::new(cos, sin), yaw: state.yaw })
+    }
+
+    /// Its direction beside a place, of length 1.
+    fn along(&self, place: Vec2) -> Vec2 {
+        match self {
+            Self::Line(line) => line.along,
+            Self::Circle(centre, _, side) => {
+                let out = (place - centre).try_normalize(0.0).unwrap_or_else(Vec2::x);
+                *side * Vec2::new(-out.y, out.x)
+            }
+        }
     }
 
     /// How far a place lies off it [m].
     pub(super) fn off(&self, place: Vec2) -> f64 {
         match self {
             Self::Line(line) => line.left_of(place).abs(),
-            Self::Circle(centre, radius) => ((place - centre).norm() - radius).abs(),
+            Self::Circle(centre, radius, _) => ((place - centre).norm() - radius).abs(),
         }
     }
 }
@@ -127,9 +149,12 @@ impl Line {
 }
 
 impl Pilot {
-    fn new(law: Law, speed: f64, direction: f64, seen: &RoverState) -> Self {
+    /// * `path`: what it is meant to stay on
+    fn new(law: Law, drive: DriveLaw, direction: f64, path: Path, seen: &RoverState) -> Self {
+        let speed = drive.nominal_rim_speed().abs();
         let (gone, yaw_integral, cross_integral) = (0.0, 0.0, 0.0);
-        Self { law, speed, direction, seen: *seen, gone, yaw_integral, cross_integral }
+        let seen = *seen;
+        Self { law, drive, speed, direction, path, seen, gone, yaw_integral, cross_integral }
     }
 
     /// For the manoeuvre of a leg that begins here.
@@ -141,31 +166,32 @@ impl Pilot {
             (Manoeuvre::Goto { .. }, _) | (_, Heading::Contour) => Law::Follow(line_of(leg, state)),
             (_, Heading::Hold) => Law::Hold { yaw },
             (_, Heading::Toward(place)) => Law::Toward { place },
-            (_, Heading::Free) => Law::Steady,
+            (_, Heading::Free) => Law::Free,
         };
-        Self::new(law, leg.speed, direction, state)
+        Self::new(law, leg.drive.clone(), direction, Path::of_leg(leg, state), state)
     }
 
     /// For a turn on the spot to a yaw [rad].
     pub(super) fn to_yaw(yaw: f64, state: &RoverState, speed: f64) -> Self {
-        Self::new(Law::Turn(Turn::new(yaw, state)), speed, 0.0, state)
+        let (law, path) = (Law::Turn(Turn::new(yaw, state)), Path::ahead(state));
+        Self::new(law, DriveLaw::Constant(speed), 0.0, path, state)
     }
 
     /// For a way straight on, with all rims at one speed.
     pub(super) fn straight(speed: f64, direction: f64, state: &RoverState) -> Self {
-        Self::new(Law::Steady, speed, direction, state)
+        Self::new(Law::Free, DriveLaw::Constant(speed), direction, Path::ahead(state), state)
     }
 
     /// Whether the rims keep their speeds.
     pub(super) fn is_steady(&self) -> bool {
-        matches!(self.law, Law::Steady)
+        matches!(self.law, Law::Free) && !self.drive.varies()
     }
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
     fn steer(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
         let forward = self.direction * self.speed;
         let (yaw, ahead) = match &mut self.law {
-            Law::Steady => return (0.0, forward),
+            Law::Free => return (0.0, forward),
             Law::Turn(turn) => return turn.steer(state, slope, [self.speed, reach]),
             Law::Hold { yaw } => (*yaw, 0.0),
             Law::Toward { place } => (yaw_towards(*place, state, self.direction), 0.0),
@@ -185,6 +211,21 @@ impl Pilot {
         (rate.clamp(-most, most), forward)
     }
 
+    /// Slip ratio of each wheel as the rover knows it [-].
+    fn slip_ratios(&self, seen: &Observation<'_>) -> Vec<f64> {
+        if self.seen == *seen.rover() {
+            return seen.slip_ratios().to_vec();
+        }
+        let slips = wheel_slips(&seen.scenario().rover, &self.seen, seen.rim_speeds());
+        slips.map(|slip| slip.ratio).collect()
+    }
+
+    /// How far the nose, backward the tail, is turned off the path [rad].
+    fn crab(&self, state: &RoverState) -> f64 {
+        let along = self.direction * self.path.along(state.position);
+        turned(state.yaw - atan2(along.y, along.x))
+    }
+
     /// The yaw that leads back to a line [rad].
     fn follow(&mut self, line: &Line, state: &RoverState) -> f64 {
         let left = line.left_of(state.position);
@@ -197,12 +238,31 @@ impl Pilot {
 
 impl Controller for Pilot {
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]) {
-        let mounts = seen.scenario().rover.mounts();
+        let rover = &seen.scenario().rover;
+        let (mounts, state) = (rover.mounts(), self.seen);
         let slope = seen.scenario().site.terrain.slope;
-        let rover = self.seen;
-        let (rate, forward) = self.steer(&rover, slope, reach(mounts));
-        for (rim_speed, mount) in rim_speeds.iter_mut().zip(mounts) {
-            *rim_speed = forward - rate * mount.position.y;
+        let (rate, forward) = self.steer(&state, slope, reach(mounts));
+        let steer = |mount: &Mount| rate * mount.position.y;
+        let each = rim_speeds.iter_mut().zip(mounts);
+        match &self.drive {
+            _ if self.direction == 0.0 => {
+                each.for_each(|(rim, mount)| *rim = forward - steer(mount))
+            }
+            DriveLaw::SlipLimiting(limit) => {
+                for ((rim, mount), slip_ratio) in each.zip(self.slip_ratios(seen)) {
+                    let wanted = forward - steer(mount);
+                    *rim = slip_limited(wanted, *rim, slip_ratio, limit.slip_ratio);
+                }
+            }
+            law => {
+                let mut slip_ratios = self.slip_ratios(seen);
+                // The law speaks of a drive forward.
+                slip_ratios.iter_mut().for_each(|slip_ratio| *slip_ratio *= self.direction);
+                law.rim_speeds(rover, self.crab(&state), &slip_ratios, rim_speeds);
+                for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
+                    *rim = self.direction * *rim - steer(mount);
+                }
+            }
         }
     }
 

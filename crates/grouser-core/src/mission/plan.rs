@@ -5,6 +5,7 @@ use super::stop::Stop;
 use crate::error::{ParameterError, finite, not_negative, positive};
 use crate::simulation::Scenario;
 use crate::units::Vec2;
+use crate::vehicle::{DriveLaw, Rover};
 
 /// A rover on its ground, and the legs that it is to drive there.
 ///
@@ -46,8 +47,9 @@ pub struct Mission {
 pub struct Leg {
     /// What the rover does.
     pub manoeuvre: Manoeuvre,
-    /// Speed of the rims, *ω r_s* [m/s], above 0: which way they turn is the manoeuvre's.
-    pub speed: f64,
+    /// Speeds of the rims: as for a drive forward, the manoeuvre says which way they turn. On the spot and back out it
+    /// turns its wheels at the [fastest](Self::speed) of them.
+    pub drive: DriveLaw,
     /// The yaw, *γ* [rad], before the manoeuvre: that of the start for a first leg, turned to on the spot for another.
     pub yaw: Option<f64>,
     /// What is held on the way.
@@ -182,7 +184,7 @@ impl Leg {
     pub fn new(manoeuvre: Manoeuvre) -> Self {
         Self {
             manoeuvre,
-            speed: USUAL_SPEED,
+            drive: DriveLaw::Constant(USUAL_SPEED),
             yaw: None,
             heading: Heading::Free,
             stops: Vec::new(),
@@ -190,9 +192,19 @@ impl Leg {
         }
     }
 
-    fn check(&self) -> Result<(), ParameterError> {
+    /// Speed of its fastest rims, *ω r_s* [m/s].
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.drive.nominal_rim_speed().abs()
+    }
+
+    fn check(&self, rover: &Rover) -> Result<(), ParameterError> {
         self.manoeuvre.check()?;
-        positive("rim speed of a leg [m/s]", self.speed)?;
+        self.drive.check(rover)?;
+        match self.drive {
+            DriveLaw::Constant(speed) => positive("rim speed of a leg [m/s]", speed)?,
+            _ => positive("fastest rim speed of a leg [m/s]", self.speed())?,
+        }
         self.yaw.map_or(Ok(()), |yaw| finite("yaw of a leg [rad]", yaw))?;
         self.look_ahead.map_or(Ok(()), |way| positive("way that is looked ahead [m]", way))?;
         if let Heading::Toward(place) = self.heading {
@@ -228,7 +240,7 @@ impl Mission {
         self.sensors.map_or(Ok(()), |sensors| sensors.check()).map_err(whole)?;
         let mut legs = self.legs.iter().enumerate();
         legs.try_for_each(|(place, leg)| {
-            leg.check().map_err(|source| PlanError { leg: place + 1, source })
+            leg.check(&self.scenario.rover).map_err(|source| PlanError { leg: place + 1, source })
         })?;
         if self.scenario.yaw.is_some() {
             let expected = "left out: legs have headings";

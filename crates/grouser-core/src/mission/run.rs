@@ -59,7 +59,7 @@ impl MissionRun {
         let scenario = Scenario { start, ..mission.scenario.clone() };
         let state = RoverState { yaw: start.yaw, ..RoverState::default() };
         let mut pilot = match turn_before(first, &state, true) {
-            Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed),
+            Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed()),
             None => Pilot::of_leg(first, &state),
         };
         let run = Run::with_controller(&scenario, &mut pilot)?;
@@ -144,7 +144,7 @@ impl MissionRun {
         let mut turned_to = End::Reached;
         if let Some(yaw) = turn_before(leg, self.navigator.seen(), is_first) {
             let seen = self.navigator.seen();
-            let pilot = Pilot::to_yaw(yaw, seen, leg.speed);
+            let pilot = Pilot::to_yaw(yaw, seen, leg.speed());
             let goal = self.turn_to(yaw, leg);
             let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
             turned_to = self.drive_on(&mut turn, None, watch)?;
@@ -181,8 +181,8 @@ impl MissionRun {
             0.0 => -1.0,
             direction => -direction,
         };
-        let pilot = Pilot::straight(leg.speed, direction, self.navigator.seen());
-        let goal = (Goal::Ground(way), way / leg.speed);
+        let pilot = Pilot::straight(leg.speed(), direction, self.navigator.seen());
+        let goal = (Goal::Ground(way), way / leg.speed());
         let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &[]);
         let outcome = self.drive_on(&mut back, None, watch)?.into();
         let distance = back.gone();
@@ -196,15 +196,15 @@ impl MissionRun {
             Manoeuvre::Drive { distance, by } => {
                 let way = distance.abs();
                 let goal = if by == Measure::Ground { Goal::Ground(way) } else { Goal::Rims(way) };
-                (goal, way / leg.speed)
+                (goal, way / leg.speed())
             }
             Manoeuvre::Turn { angle } => self.turn_to(state.yaw + angle, leg),
             Manoeuvre::Arc { radius, angle, .. } => {
                 let way = radius * angle.abs();
-                (Goal::Ground(way), way / leg.speed)
+                (Goal::Ground(way), way / leg.speed())
             }
             Manoeuvre::Goto { place, within, .. } => {
-                let nominal = (place - state.position).norm() / leg.speed;
+                let nominal = (place - state.position).norm() / leg.speed();
                 (Goal::Place { place, within, line: line_of(leg, state) }, nominal)
             }
             Manoeuvre::Wait { time } => (Goal::Time(self.time() + time), time),
@@ -247,7 +247,7 @@ impl MissionRun {
 
     /// A turn on the spot to a yaw [rad], and how long it would take without slip [s].
     fn turn_to(&self, yaw: f64, leg: &Leg) -> (Goal, f64) {
-        let fastest = leg.speed / reach(self.run.scenario().rover.mounts());
+        let fastest = leg.speed() / reach(self.run.scenario().rover.mounts());
         (Goal::Yaw { yaw, fastest }, (yaw - self.navigator.seen().yaw).abs() / fastest)
     }
 }

@@ -1,4 +1,4 @@
-//! What turns the wheels: constant speeds, or the source's slip-dependent law ([FourWheel], Eq. 18).
+//! What turns the wheels: constant speeds, the source's slip-dependent law ([FourWheel], Eq. 18), or a limit of slip.
 
 use super::rover::Rover;
 use crate::elementary::wide;
@@ -32,6 +32,8 @@ pub enum DriveLaw {
     Eq18AsPrinted(SlipTarget),
     /// ω = v_des cos γ / [(1 − s) r_s], s at most s_ref and a margin: the kinematics Eq. 18 means.
     Eq18(SlipTarget),
+    /// Every wheel turns at the same rim speed, but one that slips more than it may turns slower.
+    SlipLimiting(SlipLimit),
 }
 
 /// What Eq. 18 is to reach.
@@ -40,6 +42,15 @@ pub struct SlipTarget {
     /// Speed along the contour to be held, *v_des* [m/s].
     pub speed: f64,
     /// Reference slip ratio, *s_ref* [-]; 0.2 in the source.
+    pub slip_ratio: f64,
+}
+
+/// How fast wheels turn, and how much they may slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlipLimit {
+    /// Rim speed *ω r_s* of a wheel that does not slip more than it may [m/s].
+    pub speed: f64,
+    /// The most that a wheel may slip, *s_max* [-], 0 to below 1.
     pub slip_ratio: f64,
 }
 
@@ -66,12 +77,11 @@ impl DriveLaw {
             }
             Self::Eq18AsPrinted(target) | Self::Eq18(target) => {
                 positive("desired speed [m/s]", target.speed)?;
-                if (0.0..1.0).contains(&target.slip_ratio) {
-                    Ok(())
-                } else {
-                    let expected = "0 to below 1";
-                    Err(ParameterError::new("reference slip ratio", target.slip_ratio, expected))
-                }
+                below_one("reference slip ratio", target.slip_ratio)
+            }
+            Self::SlipLimiting(limit) => {
+                finite("rim speed [m/s]", limit.speed)?;
+                below_one("largest slip ratio", limit.slip_ratio)
             }
         }
     }
@@ -85,27 +95,40 @@ impl DriveLaw {
                 speeds.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
             }
             Self::Eq18AsPrinted(target) | Self::Eq18(target) => target.speed,
+            Self::SlipLimiting(limit) => limit.speed,
         }
     }
 
     /// Sets the rim speed ω r_s of each wheel [m/s]. Eq. 18 takes the direction of each wheel, γ + δ,
     /// for the yaw.
     ///
-    /// * `yaw`: *γ* [rad]
+    /// * `crab`: how far the nose is turned off the way that is to be gone [rad]: along the contour the yaw, *γ*
     /// * `slip_ratios`: of each wheel when it was last looked at [-]; zeros at the start
-    pub fn rim_speeds(&self, rover: &Rover, yaw: f64, slip_ratios: &[f64], rim_speeds: &mut [f64]) {
-        let each = rover.mounts().iter().map(|mount| yaw + mount.steering).zip(slip_ratios);
+    /// * `rim_speeds`: those that the wheels were told before; zeros at the start
+    pub fn rim_speeds(
+        &self,
+        rover: &Rover,
+        crab: f64,
+        slip_ratios: &[f64],
+        rim_speeds: &mut [f64],
+    ) {
+        let each = rover.mounts().iter().map(|mount| crab + mount.steering).zip(slip_ratios);
         match self {
             Self::Constant(speed) => rim_speeds.fill(*speed),
             Self::ConstantEach(speeds) => rim_speeds.copy_from_slice(speeds),
             Self::Eq18AsPrinted(target) => {
-                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
-                    *rim_speed = eq_18_as_printed(target, *s, yaw);
+                for (rim_speed, (crab, s)) in rim_speeds.iter_mut().zip(each) {
+                    *rim_speed = eq_18_as_printed(target, *s, crab);
                 }
             }
             Self::Eq18(target) => {
-                for (rim_speed, (yaw, s)) in rim_speeds.iter_mut().zip(each) {
-                    *rim_speed = eq_18(target, *s, yaw);
+                for (rim_speed, (crab, s)) in rim_speeds.iter_mut().zip(each) {
+                    *rim_speed = eq_18(target, *s, crab);
+                }
+            }
+            Self::SlipLimiting(limit) => {
+                for (rim_speed, s) in rim_speeds.iter_mut().zip(slip_ratios) {
+                    *rim_speed = slip_limited(limit.speed, *rim_speed, *s, limit.slip_ratio);
                 }
             }
         }
@@ -114,7 +137,7 @@ impl DriveLaw {
     /// Whether the speeds can change during a run.
     #[must_use]
     pub fn varies(&self) -> bool {
-        matches!(self, Self::Eq18AsPrinted(_) | Self::Eq18(_))
+        matches!(self, Self::Eq18AsPrinted(_) | Self::Eq18(_) | Self::SlipLimiting(_))
     }
 }
 
@@ -123,19 +146,50 @@ impl DriveLaw {
 const LEAST_DIVISOR: f64 = 0.05;
 
 /// Rim speed ω r_s [m/s] by [FourWheel], Eq. (18), as printed.
-fn eq_18_as_printed(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
+fn eq_18_as_printed(target: &SlipTarget, slip_ratio: f64, crab: f64) -> f64 {
     let s = slip_ratio.clamp(-1.0, 1.0);
-    target.speed / ((1.0 - (target.slip_ratio - s)) * wide::cos(yaw)).max(LEAST_DIVISOR)
+    target.speed / ((1.0 - (target.slip_ratio - s)) * wide::cos(crab)).max(LEAST_DIVISOR)
 }
 
 /// Rim speed ω r_s [m/s] at which a wheel that slips by s goes v_des along the contour.
 ///
 /// The source divides by cos γ; along the contour v_x = v_des cos γ, so it belongs above the bar.
-fn eq_18(target: &SlipTarget, slip_ratio: f64, yaw: f64) -> f64 {
+fn eq_18(target: &SlipTarget, slip_ratio: f64, crab: f64) -> f64 {
     /// However large the reference, some share of the rim's speed must be left to the hub.
     const MOST_SLIP: f64 = 0.95;
     let s = slip_ratio.clamp(0.0, (target.slip_ratio + SLIP_MARGIN).min(MOST_SLIP));
-    target.speed * wide::cos(yaw) / (1.0 - s)
+    target.speed * wide::cos(crab) / (1.0 - s)
+}
+
+/// A wheel that slips more than it may still turns at this share of what is wanted [-], so that it finds out when its
+/// soil holds again. Source: ours.
+const LEAST_SHARE: f64 = 0.1;
+
+/// Rim speed ω r_s [m/s] at which a wheel slips by no more than it may, were its hub to go on as it does:
+///
+/// ```text
+/// |ω r_s| ≤ (|ω r_s| − ω r_s s)_before / (1 − s_max)
+/// ```
+///
+/// * `wanted`: what it turns at where that is less [m/s]
+/// * `before`: what it was told before [m/s]
+/// * `slip_ratio`: what it slipped by then [-], below 0 where it drives backward
+/// * `most`: *s_max* [-]
+#[must_use]
+pub fn slip_limited(wanted: f64, before: f64, slip_ratio: f64, most: f64) -> f64 {
+    if wanted * before <= 0.0 {
+        return wanted;
+    }
+    let hub = before.abs() - before * slip_ratio;
+    let allowed = hub / (1.0 - most);
+    allowed.clamp(LEAST_SHARE * wanted.abs(), wanted.abs()).copysign(wanted)
+}
+
+fn below_one(name: &'static str, ratio: f64) -> Result<(), ParameterError> {
+    if (0.0..1.0).contains(&ratio) {
+        return Ok(());
+    }
+    Err(ParameterError::new(name, ratio, "0 to below 1"))
 }
 
 #[cfg(test)]
@@ -164,5 +218,18 @@ mod tests {
     #[test]
     fn corrected_it_stops_speeding_up_beyond_the_margin() {
         assert_eq!(eq_18(&TARGET, 0.4, 0.0), eq_18(&TARGET, 0.9, 0.0));
+    }
+
+    /// Closed form: a hub at 3 cm/s lets a rim turn at 3/(1 - 0.4) = 5 cm/s.
+    #[test]
+    fn a_wheel_that_slips_more_than_it_may_turns_as_fast_as_its_hub_allows() {
+        for side in [1.0, -1.0] {
+            let limited = |before, s| slip_limited(side * 0.06, side * before, side * s, 0.4);
+            assert!((limited(0.06, 0.5) - side * 0.05).abs() < 1e-15);
+            assert!((limited(0.05, 0.4) - side * 0.05).abs() < 1e-15, "it stays there");
+            assert_eq!(limited(0.05, 0.1), side * 0.06, "it goes back where the soil holds");
+            assert_eq!(limited(0.0, 0.0), side * 0.06, "at the start");
+            assert!((limited(0.06, 1.5) - side * 0.006).abs() < 1e-15, "it never stands");
+        }
     }
 }

@@ -56,7 +56,7 @@ const fn per_wheel(field: Field<ByWheel>, usual: f64) -> Field<ByWheel> {
 }
 
 /// Room for one number, or for as many.
-fn room(count: Option<usize>) -> PerWheel {
+pub(super) fn room(count: Option<usize>) -> PerWheel {
     count.map_or(PerWheel::All(0.0), |count| PerWheel::Each(vec![0.0; count]))
 }
 

@@ -1,16 +1,16 @@
 //! `mission/1`: legs that a rover drives one after the other, and limits at which it stops.
 
 use super::super::field::{
-    At, DEG, Each, Field, Fill, M, M_S, ONE, S, Table, flag, list, note, number, positive, table,
-    text, whole, word, words,
+    At, DEG, Each, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Table, flag, list, note, number,
+    numbers, positive, table, text, whole, word, words,
 };
 use super::super::mission::{
-    Alternative, Arc, Held, LEGS_FROM, LegKeys, Plan, Waypoint, limited_quantity,
+    Alternative, Arc, Held, LEGS_FROM, LegKeys, LegLaw, Plan, Waypoint, limited_quantity,
 };
 use super::about::{assumed, notes, purpose, schema, source};
-use super::differences::LARGEST_SEED;
+use super::differences::{LARGEST_SEED, room};
 use super::run::{OfScenario, Run};
-use super::scenario::{self, FASTEST};
+use super::scenario::{self, FASTEST, PAPERS_SLIP, USUAL_LIMIT};
 use grouser_core::mission::{Limited, Measure, Sensors, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
@@ -209,12 +209,23 @@ static LEG: Table<LegKeys> = Table {
             leg.reverse = yes;
         })
         .optional(),
-        positive(
+        numbers(
             "speed_m_s",
             M_S,
-            FASTEST,
-            "Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06",
-            |leg: &mut LegKeys| Some(leg.speed.get_or_insert(0.0)),
+            -FASTEST..=FASTEST,
+            Form::OneOrEach(
+                "Speed of every wheel's rim, above 0",
+                "Speed of the rim of each mount's wheel as for a drive forward, in the mounts' order; below 0 it turns against the others",
+            ),
+            "Speed of the rims, (r + h_g) ω []; a list gives one for each mount; without it that of the leg before, of a first leg 0.06",
+            |leg: &mut LegKeys, count| leg.speed = Some(room(count)),
+            |leg: &mut LegKeys, place| leg.speed.as_mut()?.number_mut(place),
+        )
+        .optional(),
+        table(
+            "drive",
+            "What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep their speeds.",
+            &DRIVE,
         )
         .optional(),
         number(
@@ -267,6 +278,46 @@ static LEG: Table<LegKeys> = Table {
         .optional(),
     ],
 };
+
+static DRIVE: Laws<LegKeys> = Laws {
+    doc: "What turns the wheels of a leg: speeds that follow the slip of each wheel.",
+    key: "law",
+    may_be_left_out: false,
+    is_written_last: false,
+    all: &[
+        Law {
+            name: "eq18",
+            word: Some("Eq. 18 of the source, corrected: `speed_m_s` is the speed along the way."),
+            choose: |leg| leg.law = Some(LegLaw::Eq18(0.0)),
+            table: Table { doc: "Eq. 18 of the source, corrected.", fields: &[REFERENCE_SLIP] },
+        },
+        Law {
+            name: "eq18-as-printed",
+            word: Some("The same as printed."),
+            choose: |leg| leg.law = Some(LegLaw::Eq18AsPrinted(0.0)),
+            table: Table { doc: "Eq. 18 of the source as printed.", fields: &[REFERENCE_SLIP] },
+        },
+        Law {
+            name: "slip-limiting",
+            word: Some("`speed_m_s`, but slower for a wheel that slips more than it may."),
+            choose: |leg| leg.law = Some(LegLaw::SlipLimiting(0.0)),
+            table: Table {
+                doc: "One rim speed; a wheel that slips more than it may turns slower.",
+                fields: &[slip("largest_slip_ratio", "The most that a wheel may slip, s_max")
+                    .or(USUAL_LIMIT)],
+            },
+        },
+    ],
+};
+
+const REFERENCE_SLIP: Field<LegKeys> =
+    slip("reference_slip_ratio", "Reference slip ratio, s_ref").or(PAPERS_SLIP);
+
+const fn slip(key: &'static str, doc: &'static str) -> Field<LegKeys> {
+    number(key, ONE, 0.0..=0.95, doc, |leg: &mut LegKeys| match leg.law.as_mut()? {
+        LegLaw::Eq18AsPrinted(slip) | LegLaw::Eq18(slip) | LegLaw::SlipLimiting(slip) => Some(slip),
+    })
+}
 
 static ARC: Table<Arc> = Table {
     doc: "A way along a circle.",

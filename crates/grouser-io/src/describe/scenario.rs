@@ -16,7 +16,7 @@ use grouser_core::simulation::scenario::LONGEST_DURATION;
 use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start};
 use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
-use grouser_core::vehicle::drive::SlipTarget;
+use grouser_core::vehicle::drive::{SlipLimit, SlipTarget};
 use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover, Ruts};
 
 /// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
@@ -28,9 +28,12 @@ pub const RIM_SPEED_M_S: RangeInclusive<f64> = -FASTEST..=FASTEST;
 /// Source: [FourWheel], section 5.2: "each wheel speed is set at 6 cm/s" [m/s].
 const PAPERS_SPEED: f64 = 0.06;
 /// Source: [FourWheel], section 3: s_ref is chosen at 0.2 [-].
-const PAPERS_SLIP: f64 = 0.2;
+pub(super) const PAPERS_SLIP: f64 = 0.2;
 /// About the length of the source's runs, which is not printed [s].
 const PAPERS_DURATION: f64 = 20.0;
+
+/// The most that a drive lets a wheel slip [-]. Source: ours; at this slip Opportunity's drives were told to stop.
+pub(super) const USUAL_LIMIT: f64 = 0.4;
 
 const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
 
@@ -148,6 +151,35 @@ static DRIVE: Laws<Scenario> = Laws {
                 fields: &[DESIRED_SPEED, REFERENCE_SLIP, YAW],
             },
         },
+        Law {
+            name: "slip-limiting",
+            word: Some("Constant, but slower for a wheel that slips more than it may."),
+            choose: |run| {
+                run.drive = DriveLaw::SlipLimiting(SlipLimit { speed: 0.0, slip_ratio: 0.0 });
+            },
+            table: Table {
+                doc: "One rim speed; a wheel that slips more than it may turns slower.",
+                fields: &[
+                    number(
+                        "rim_speed_m_s",
+                        M_S,
+                        -FASTEST..=FASTEST,
+                        "Speed of the rim, (r + h_g) ω, of a wheel that does not slip more than it may",
+                        |run: &mut Scenario| Some(&mut limit(run)?.speed),
+                    )
+                    .or(PAPERS_SPEED),
+                    number(
+                        "largest_slip_ratio",
+                        ONE,
+                        0.0..=0.95,
+                        "The most that a wheel may slip, s_max",
+                        |run: &mut Scenario| Some(&mut limit(run)?.slip_ratio),
+                    )
+                    .or(USUAL_LIMIT),
+                    YAW,
+                ],
+            },
+        },
     ],
 };
 
@@ -191,7 +223,14 @@ const LARGEST_YAW: f64 = 3600.0;
 fn target(run: &mut Scenario) -> Option<&mut SlipTarget> {
     match &mut run.drive {
         DriveLaw::Eq18AsPrinted(target) | DriveLaw::Eq18(target) => Some(target),
-        DriveLaw::Constant(_) | DriveLaw::ConstantEach(_) => None,
+        DriveLaw::Constant(_) | DriveLaw::ConstantEach(_) | DriveLaw::SlipLimiting(_) => None,
+    }
+}
+
+fn limit(run: &mut Scenario) -> Option<&mut SlipLimit> {
+    match &mut run.drive {
+        DriveLaw::SlipLimiting(limit) => Some(limit),
+        _ => None,
     }
 }
 

@@ -43,8 +43,10 @@ fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
 ///
 /// * `within`: the key under which they stand
 fn check_legs(legs: &[LegKeys], within: &str) -> Result<(), Misfit> {
+    let mut speed = None;
     for (place, leg) in legs.iter().enumerate() {
-        if let Some((key, what, hint)) = leg.fault() {
+        speed = leg.speed.as_ref().or(speed);
+        if let Some((key, what, hint)) = leg.fault(speed) {
             let problem = Problem::Leg { number: place + 1, what };
             return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
         }

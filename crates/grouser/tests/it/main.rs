@@ -27,6 +27,7 @@ mod measurements;
 mod messages;
 mod million;
 mod mission;
+mod mission_drives;
 mod mounts;
 mod paper;
 mod priors;

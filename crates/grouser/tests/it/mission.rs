@@ -6,7 +6,7 @@ use grouser::mission::{
 };
 use grouser::simulation::{Approach, CONTROL_PERIOD, Method, Numerics, Outcome, Record, Scenario};
 use grouser::units::{Vec2, deg};
-use grouser::vehicle::{LoadSharing, OwnMoments, Rover};
+use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover};
 
 use super::given::{RIM_SPEED, run, traverse};
 
@@ -334,7 +334,8 @@ fn waiting_takes_its_time_and_no_energy_on_level_ground() {
 fn plans_that_are_none_name_their_leg() {
     let bad = [
         Leg::new(Manoeuvre::drive(f64::NAN)),
-        Leg { speed: 0.0, ..Leg::new(Manoeuvre::drive(1.0)) },
+        Leg { drive: DriveLaw::Constant(0.0), ..Leg::new(Manoeuvre::drive(1.0)) },
+        Leg { drive: DriveLaw::ConstantEach(vec![0.06; 3]), ..Leg::new(Manoeuvre::drive(1.0)) },
         Leg::new(Manoeuvre::Arc { radius: -1.0, angle: 1.0, reverse: false }),
         Leg { heading: Heading::Hold, ..Leg::new(Manoeuvre::Wait { time: 1.0 }) },
         Leg { look_ahead: Some(0.0), ..Leg::new(Manoeuvre::drive(1.0)) },
