@@ -39,7 +39,7 @@ pub(crate) struct TraverseArgs {
     #[arg(long, hide = true, value_name = "LIST", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["rim_speed_m_s", "ground_speed_m_s"])]
     pub(crate) speed_m_s: Option<String>,
-    /// What turns the wheels: `constant`, `eq18-as-printed` or `eq18`.
+    /// What turns the wheels: `constant`, `eq18-as-printed`, `eq18` or `slip-limiting`.
     #[arg(long, value_name = "LAW")]
     pub(crate) drive: Option<String>,
     /// Reference slip ratio of the Eq. 18 drives.

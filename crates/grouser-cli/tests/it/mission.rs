@@ -68,6 +68,34 @@ fn a_limit_stops_the_rover_and_it_backs_out() {
     );
 }
 
+/// A speed is for all wheels, or one for each; a leg keeps those of the leg before.
+#[test]
+fn speeds_are_for_all_wheels_or_one_for_each_and_stay() {
+    let place = Place::new();
+    let legs = |first: &str| {
+        let then = "[[leg]]\ndrive_m = 0.2\n[[leg]]\ndrive_m = 0.2\n";
+        let speeds = "speed_m_s = [0.03, 0.03, 0.03, 0.03]\n";
+        begins(&format!(
+            "slope_deg = 0.0\n[[leg]]\ndrive_m = 0.2\nspeed_m_s = {first}\n{then}{speeds}"
+        ))
+    };
+    place.write("m.toml", legs("0.03"));
+    let times = |line: &str| -> Vec<f64> {
+        let answer = place.json(line);
+        let legs = answer["legs"].as_array().expect("legs");
+        legs.iter().map(|leg| number(&leg["time_s"])).collect()
+    };
+    let slow = times("mission m.toml");
+    assert!((slow[0] - 0.2 / (0.95 * 0.03)).abs() < 0.3, "{slow:?}");
+    assert!(slow.iter().all(|time| (time - slow[0]).abs() < 0.1), "{slow:?}");
+    let fast = times("mission m.toml --set mission.leg.0.speed_m_s=0.06");
+    assert!((slow[0] / fast[0] - 2.0).abs() < 0.02 && (slow[1] / fast[1] - 2.0).abs() < 0.02);
+    assert_eq!(
+        slow[2],
+        times("mission m.toml --set mission.leg.0.speed_m_s=[0.03,0.03,0.03,0.03]")[2]
+    );
+}
+
 #[test]
 fn alternatives_are_compared_in_a_table_and_are_objects_of_their_own() {
     let place = Place::new();
@@ -145,6 +173,9 @@ fn bad_missions_are_refused_with_the_leg_that_is_wrong() {
         "legs_from = \"words.csv\"\n",
         "legs_from = \"points.geojson\"\n",
         "[sensors]\nodometry_interval_m = 0.0\n[[leg]]\ndrive_m = 1.0\n",
+        "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06]\n",
+        "[[leg]]\nturn_deg = 90.0\ndrive = { law = \"eq18\" }\n",
+        "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[[leg]]\ndrive_m = 1.0\ndrive = { law = \"slip-limiting\" }\n",
     ];
     place.write("words.csv", "drive_m,turn_deg\nfar,\n");
     place.write("points.geojson", "{\"type\": \"Polygon\", \"coordinates\": []}");

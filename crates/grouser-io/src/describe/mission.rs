@@ -219,7 +219,7 @@ static LEG: Table<LegKeys> = Table {
             ),
             "Speed of the rims, (r + h_g) ω []; a list gives one for each mount; without it that of the leg before, of a first leg 0.06",
             |leg: &mut LegKeys, count| leg.speed = Some(room(count)),
-            |leg: &mut LegKeys, place| leg.speed.as_mut()?.number_mut(place),
+            |leg: &mut LegKeys, place| leg.speed.get_or_insert(room(None)).number_mut(place),
         )
         .optional(),
         table(
