@@ -242,25 +242,27 @@ impl Controller for Pilot {
         let (mounts, state) = (rover.mounts(), self.seen);
         let slope = seen.scenario().site.terrain.slope;
         let (rate, forward) = self.steer(&state, slope, reach(mounts));
-        let steer = |mount: &Mount| rate * mount.position.y;
-        let each = rim_speeds.iter_mut().zip(mounts);
+        let turned_by = |mount: &Mount| rate * mount.position.y;
         match &self.drive {
             _ if self.direction == 0.0 => {
-                each.for_each(|(rim, mount)| *rim = forward - steer(mount))
+                for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
+                    *rim = forward - turned_by(mount);
+                }
             }
             DriveLaw::SlipLimiting(limit) => {
-                for ((rim, mount), slip_ratio) in each.zip(self.slip_ratios(seen)) {
-                    let wanted = forward - steer(mount);
+                let each = rim_speeds.iter_mut().zip(mounts).zip(self.slip_ratios(seen));
+                for ((rim, mount), slip_ratio) in each {
+                    let wanted = forward - turned_by(mount);
                     *rim = slip_limited(wanted, *rim, slip_ratio, limit.slip_ratio);
                 }
             }
             law => {
-                let mut slip_ratios = self.slip_ratios(seen);
                 // The law speaks of a drive forward.
-                slip_ratios.iter_mut().for_each(|slip_ratio| *slip_ratio *= self.direction);
+                let slip_ratios: Vec<f64> =
+                    self.slip_ratios(seen).iter().map(|slip| self.direction * slip).collect();
                 law.rim_speeds(rover, self.crab(&state), &slip_ratios, rim_speeds);
                 for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
-                    *rim = self.direction * *rim - steer(mount);
+                    *rim = self.direction * *rim - turned_by(mount);
                 }
             }
         }
