@@ -19,8 +19,9 @@ pub(super) use adaptive::{History, adaptive};
 pub(super) use runge_kutta::rk4;
 
 use super::equations::{Equations, Rates};
+use super::power;
 use crate::units::Vec2;
-use crate::vehicle::{Acceleration, RoverState};
+use crate::vehicle::{Acceleration, Rover, RoverState};
 
 /// How many numbers move: pose, velocities, and the two energies.
 const SIZE: usize = 8;
@@ -34,6 +35,13 @@ pub(super) struct Point {
 }
 
 impl Point {
+    /// Changes pose and velocities at once. What that changes in kinetic energy counts as work of the motors.
+    pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
+        let before = power::kinetic_energy(rover, &self.state);
+        change(&mut self.state);
+        self.motors += power::kinetic_energy(rover, &self.state) - before;
+    }
+
     fn from_array(y: &[f64; SIZE]) -> Self {
         Self {
             state: RoverState {

@@ -15,7 +15,6 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::integrate::Point;
-use super::power;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use crate::contact::WheelForces;
 use crate::units::Vec2;
@@ -170,15 +169,13 @@ impl<'a> QuasiSteady<'a> {
         self.set_velocities(point);
     }
 
-    /// Sets velocities to their steady state. What that changes in kinetic energy the motors pay for:
-    /// the steady state itself leaves nothing over to accelerate with.
+    /// Sets velocities to their steady state, which itself leaves nothing over to accelerate with.
     fn set_velocities(&mut self, point: &mut Point) {
-        let rover = self.equations.rover();
-        let before = power::kinetic_energy(rover, &point.state);
         let velocities = self.stretch.velocities(point.state.yaw);
-        point.state.velocity = velocities.xy();
-        point.state.yaw_rate = velocities.z;
-        point.motors += power::kinetic_energy(rover, &point.state) - before;
+        point.jump(self.equations.rover(), |state| {
+            state.velocity = velocities.xy();
+            state.yaw_rate = velocities.z;
+        });
     }
 }
 

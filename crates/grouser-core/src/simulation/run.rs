@@ -8,7 +8,6 @@ use super::error::RunError;
 use super::leg::Leg;
 use super::method::Method;
 use super::outcome::Outcome;
-use super::power;
 use super::quasi_steady::Carried;
 use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Motion, ROLLING_SHARE, Scenario};
@@ -20,7 +19,7 @@ use super::work::Work;
 use crate::error::{ParameterError, positive};
 use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
-use crate::vehicle::{DriveLaw, RoverState, WheelReaction};
+use crate::vehicle::{DriveLaw, WheelReaction};
 
 /// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
@@ -163,20 +162,18 @@ impl Run {
     /// * `before`: speeds of the rims before [m/s]
     pub(crate) fn set_off(&mut self, before: &[f64]) {
         let mounts = self.scenario.rover.mounts();
-        let State { rim_speeds, point, history, carried, .. } = &mut self.state;
+        let State { rim_speeds, point, .. } = &self.state;
         let [old, new] = [before, rim_speeds].map(|rims| rolling_velocity(mounts, rims));
         let follows = point.state.velocity.dot(&new) > LEAST_PROGRESS * new.norm_squared();
         let is_new = old.dot(&new) <= 0.0 && new != Vec2::zeros();
         if !is_new || follows || self.scenario.start.motion == Motion::Rest {
             return;
         }
-        let energy = |state: &RoverState| power::kinetic_energy(&self.scenario.rover, state);
-        let kinetic = energy(&point.state);
-        point.state.velocity = ROLLING_SHARE * new;
-        point.state.yaw_rate = 0.0;
-        point.motors += energy(&point.state) - kinetic;
-        history.clear();
-        *carried = Carried::default();
+        self.state.jump(&self.scenario.rover, |state| {
+            state.velocity = ROLLING_SHARE * new;
+            state.yaw_rate = 0.0;
+        });
+        self.state.carried = Carried::default();
     }
 
     /// Records where the run has come to.

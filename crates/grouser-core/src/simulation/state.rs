@@ -8,7 +8,7 @@ use super::quasi_steady::Carried;
 use super::scenario::{Approach, Scenario};
 use super::watch::Watch;
 use super::work::Work;
-use crate::vehicle::RoverState;
+use crate::vehicle::{Rover, RoverState};
 
 /// All that changes in a run: where the rover is, how it and its wheels move, its energies, and what
 /// the solver knows of the motion so far.
@@ -108,13 +108,15 @@ impl State {
         let Some(yaw) = scenario.yaw.as_ref().filter(|yaw| yaw.turns_at(self.time)) else {
             return false;
         };
-        let before = power::kinetic_energy(&scenario.rover, &self.point.state);
-        self.point.state.yaw = yaw.at(self.time);
-        self.point.state.yaw_rate = yaw.rate_from(self.time);
-        let after = power::kinetic_energy(&scenario.rover, &self.point.state);
-        self.point.motors += after - before;
-        self.history.clear();
+        let (angle, rate) = (yaw.at(self.time), yaw.rate_from(self.time));
+        self.jump(&scenario.rover, |state| (state.yaw, state.yaw_rate) = (angle, rate));
         true
+    }
+
+    /// Changes pose and velocities at once, as [`Point::jump`]: the motion before says nothing of the one after.
+    pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
+        self.point.jump(rover, change);
+        self.history.clear();
     }
 
     /// That the motors are told to turn the wheels at other speeds from now on.
