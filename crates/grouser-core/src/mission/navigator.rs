@@ -13,6 +13,7 @@
 
 use std::collections::VecDeque;
 
+use super::odometer::mean_speed;
 use crate::elementary::wide;
 use crate::error::{ParameterError, not_negative, positive};
 use crate::random::{LARGEST_SEED, Random};
@@ -156,16 +157,16 @@ impl Navigator {
             }
             Some(sensed) => {
                 sensed.turn(time, state.yaw);
-                sensed.reckon(time - before, mounts, rim_speeds, self.seen.yaw);
+                let rolling = rolling_velocity(mounts, rim_speeds);
+                sensed.reckon(time - before, rolling, rim_speeds, self.seen.yaw);
                 let yaw = sensed.yaw(time);
                 if sensed.rims >= sensed.sensors.odometry_interval {
                     sensed.take_fix(time, state.position, yaw);
                 }
-                let forward = rolling_velocity(mounts, rim_speeds).x;
                 self.seen = RoverState {
                     position: sensed.reckoned,
                     yaw,
-                    velocity: forward * sensed.per_rim,
+                    velocity: rolling.x * sensed.per_rim,
                     yaw_rate: state.yaw_rate,
                 };
                 self.ground = sensed.ground + sensed.forward.abs() * sensed.per_rim.norm();
@@ -213,10 +214,11 @@ impl Sensed {
     }
 
     /// Reckons on from the last place that was known.
-    fn reckon(&mut self, span: f64, mounts: &[Mount], rim_speeds: &[f64], yaw: f64) {
-        let forward = span * rolling_velocity(mounts, rim_speeds).x;
-        let sizes: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
-        self.rims += span * sizes / rim_speeds.len() as f64;
+    ///
+    /// * `rolling`: velocity of the rover if no wheel slipped, in the body frame [m/s]
+    fn reckon(&mut self, span: f64, rolling: Vec2, rim_speeds: &[f64], yaw: f64) {
+        let forward = span * rolling.x;
+        self.rims += span * mean_speed(rim_speeds);
         self.forward += forward;
         self.reckoned += rotation(yaw) * (forward * self.per_rim);
     }
