@@ -43,6 +43,7 @@ pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;
 pub use steady_motion::SteadyMotion;
 pub use steady_state::{MOST_SLIP, NotSteady};
+pub use times::SAME_TIME;
 pub use trajectory::Trajectory;
 pub use work::Work;
 pub use yaw::{FASTEST_TURN, PrescribedYaw, TooFast};

@@ -17,6 +17,7 @@ use super::odometer::mean_speed;
 use crate::elementary::wide;
 use crate::error::{ParameterError, not_negative, positive};
 use crate::random::{LARGEST_SEED, Random};
+use crate::simulation::SAME_TIME;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::state::rotation;
@@ -238,9 +239,6 @@ impl Sensed {
         (self.rims, self.forward, self.reckoned) = (0.0, 0.0, self.fix.estimate);
     }
 }
-
-/// Times that differ by less are one [s].
-const SAME_TIME: f64 = 1e-9;
 
 /// The stream of random numbers for sensors: those of beds and motors have others.
 const SENSORS: u64 = 0x5E_0501;

@@ -3,7 +3,7 @@
 use super::driven::End;
 use super::navigator::Fix;
 use super::stop::Stopped;
-use crate::simulation::{Outcome, Record, Trajectory};
+use crate::simulation::{Outcome, Record, SAME_TIME, Trajectory};
 use crate::vehicle::RoverState;
 
 /// What became of a leg.
@@ -61,9 +61,6 @@ pub struct MissionReport {
     /// Where the rover took itself to be, at each fix of its odometry; none of one that knows where it is.
     pub fixes: Vec<Fix>,
 }
-
-/// Sums of times are no further off than this [s]. Source: ours; a thousandth of the shortest step.
-const SAME_TIME: f64 = 1e-9;
 
 impl From<End> for LegOutcome {
     fn from(end: End) -> Self {

@@ -3,6 +3,10 @@
 /// A day: no run lasts longer [s].
 pub const LONGEST_DURATION: f64 = 86_400.0;
 
+/// Times that differ by less are one, but for rounding [s]. Source: ours; a thousandth of the shortest step, and far above
+/// the rounding of a day in seconds.
+pub const SAME_TIME: f64 = 1e-9;
+
 /// Multiples of an interval after one time and before another.
 pub(super) fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f64> {
     let mut times = Vec::new();
@@ -25,9 +29,7 @@ pub(super) fn snapped(time: f64, interval: f64) -> f64 {
 
 /// Whether two times are one, but for rounding.
 pub(super) fn is_same_time(one: f64, other: f64) -> bool {
-    /// Far below any step, far above the rounding of a day in seconds [s].
-    const APART: f64 = 1e-9;
-    (one - other).abs() < APART
+    (one - other).abs() < SAME_TIME
 }
 
 /// Whether a sample belongs at a time: at the start, the end and the intervals between.

@@ -9,7 +9,7 @@ use super::drive::Drive;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability, outputs_while};
 use crate::simulation::{
-    Outcome, Record, Run, RunError, Scatter, Scenario, Trajectory, WheelRecord,
+    Outcome, Record, Run, RunError, SAME_TIME, Scatter, Scenario, Trajectory, WheelRecord,
 };
 use crate::vehicle::Rover;
 
@@ -167,9 +167,6 @@ pub fn record_times(run: &Trajectory, scenario: &Scenario) -> Vec<f64> {
     }
     times
 }
-
-/// Times closer than this are one [s]: far less than any interval of records.
-const SAME_TIME: f64 = 1e-9;
 
 impl OfSample {
     fn of(run: &Trajectory, scenario: &Scenario, times: &[f64]) -> Self {
