@@ -9,6 +9,7 @@ use grouser_core::simulation::Scenario;
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::{Mount, Rover};
 use grouser_pictures::motion::Pose as RoverPose;
+use grouser_pictures::round_step;
 use grouser_pictures::rover::{Bar, Block, Likeness, bars_of};
 use grouser_pictures::style::{Ground as Paper, Role};
 
@@ -178,14 +179,9 @@ fn grid(points: Vec<Point3>, role: Role) -> LinePrimitive {
     }
 }
 
-/// A distance of lines [m], 1, 2 or 5 times a power of ten, for about twenty of them on the longer side.
+/// A distance of lines [m], for about twenty of them on the longer side.
 fn spacing(size: Vec2) -> f64 {
-    let wanted = size.max() / 20.0;
-    let steps = (-3..=9).flat_map(|power| {
-        let power = wide::powi(10.0, power);
-        [1.0, 2.0, 5.0].map(|step| step * power)
-    });
-    steps.clone().find(|step| *step >= wanted).or(steps.last()).unwrap_or(wanted)
+    round_step(size.max() / 20.0)
 }
 
 /// The way of the body's centre of mass so far.

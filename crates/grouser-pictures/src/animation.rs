@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::marks::{Line, Mark, arrow};
 use crate::motion::{Motion, Pose};
 use crate::scene::{Actor, Label, Scene};
+use crate::step::round_step;
 use crate::style::{Ground, Role};
 
 /// Pictures in a second.
@@ -226,11 +227,7 @@ impl Animation {
 
 /// How many seconds of a run go into one of the animation: 1, 2 or 5 times a power of ten.
 fn speed(end: f64) -> f64 {
-    let powers = (0..=6).map(|power| 10.0_f64.powi(power));
-    powers
-        .flat_map(|power| [1.0, 2.0, 5.0].map(|step| step * power))
-        .find(|speed| end <= LONGEST * speed)
-        .unwrap_or(1e7)
+    round_step((end / LONGEST).max(1.0))
 }
 
 /// The times of pictures [s]: even, and the end.

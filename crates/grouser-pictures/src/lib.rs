@@ -28,6 +28,7 @@ mod outline;
 mod path;
 pub mod rover;
 mod scene;
+mod step;
 pub mod style;
 mod title;
 
@@ -36,4 +37,5 @@ pub use form::{Form, UnknownEnding};
 pub use mp4::VideoError;
 pub use outline::{draw_outline, reach};
 pub use path::path_of;
+pub use step::round_step;
 pub use title::title_of;

@@ -6,6 +6,7 @@ use grouser_core::vehicle::{Rover, RoverState};
 use grouser_page::{Anchor, Colour, Place, Shape, Sheet, Stroke, Text};
 
 use crate::outline::{draw_nose, draw_outline, reach};
+use crate::step::round_step;
 use crate::style::{Ground, Role, on_both_grounds, series};
 
 /// Width of the drawing, and the most that it is high [mm].
@@ -169,14 +170,4 @@ impl Map {
         );
         sheet.text(name("uphill, y [m]"), [left - LEFT + 1.0, TOP - 3.0]);
     }
-}
-
-/// The next of 1, 2, 5, 10, ... above a number.
-fn round_step(least: f64) -> f64 {
-    let power = 10f64.powf(least.log10().floor());
-    [1.0, 2.0, 5.0]
-        .into_iter()
-        .map(|it| it * power)
-        .find(|step| *step >= least)
-        .unwrap_or(10.0 * power)
 }
