@@ -6,8 +6,8 @@ use std::sync::Arc;
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
+use super::lines::{cells, check_count, lines};
 use super::mission::LEGS_FROM;
-use super::samples::{BYTE_ORDER_MARK, cells};
 use super::source::{LARGEST_FILE, read_file};
 use super::tree::{Entry, Node, Origin, Text, Value};
 
@@ -62,14 +62,7 @@ fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
 // ---- CSV: the first line has keys of a leg, every other line is one ----
 
 fn of_csv(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
-    let mut lines = Vec::new();
-    let mut start = 0;
-    for line in text.content.split_inclusive('\n') {
-        if !line.trim().trim_start_matches(BYTE_ORDER_MARK).is_empty() {
-            lines.push((start, line.trim_end()));
-        }
-        start += line.len();
-    }
+    let lines: Vec<_> = lines(&text.content).collect();
     let Some(((_, header), rows)) = lines.split_first() else {
         return Err(DocumentError::whole(&text.label, Problem::NoLegs("it is empty".to_owned())));
     };
@@ -80,15 +73,9 @@ fn of_csv(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
 fn row(text: &Arc<Text>, keys: &[&str], from: usize, line: &str) -> Result<Node, DocumentError> {
     let origin =
         |from: usize, length: usize| Origin { text: text.clone(), span: from..from + length };
-    let count = cells(line).count();
-    if count != keys.len() {
-        let columns = keys.len();
-        let what = format!("this row has {count} values, the first line names {columns} keys");
-        let hint = line.contains(';').then(|| "values are separated by commas".to_owned());
-        let error = DocumentError::at(&origin(from, line.len()), Problem::NoLegs(what));
-        return Err(error.with_hint(hint));
-    }
-    let mut leg = Node { value: Value::Table(Vec::new()), origin: origin(from, line.len()) };
+    let whole = origin(from, line.len());
+    check_count(line, (keys.len(), "keys"), &whole, Problem::NoLegs)?;
+    let mut leg = Node { value: Value::Table(Vec::new()), origin: whole };
     for (key, (offset, cell)) in keys.iter().zip(cells(line)) {
         if !cell.is_empty() {
             let node = Node { value: value_of(cell), origin: origin(from + offset, cell.len()) };

@@ -47,6 +47,7 @@ mod gravity;
 mod json_schema;
 mod kind;
 mod legs_file;
+mod lines;
 mod loaded;
 pub mod measurements;
 mod mission;

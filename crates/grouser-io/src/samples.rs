@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{DocumentError, Problem};
+use super::lines::{cells, check_count, lines};
 use super::source::read_file;
 use super::tree::{Origin, Text};
 
@@ -60,18 +61,11 @@ impl SampleTable {
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {
         let mut table = Self { text, columns: Vec::new(), rows: Vec::new(), lines: Vec::new() };
         let text = table.text.clone();
-        let mut start = 0;
-        for line in text.content.split_inclusive('\n') {
-            let end = start + line.trim_end().len();
-            let (from, until) = (start, end);
-            start += line.len();
-            if line.trim().trim_start_matches(BYTE_ORDER_MARK).is_empty() {
-                continue;
-            }
+        for (from, line) in lines(&text.content) {
+            let until = from + line.len();
             table.lines.push((from, until));
             if table.lines.len() == 1 {
-                let cells = cells(&text.content[from..until]);
-                table.columns = cells.map(|(_, cell)| cell.to_owned()).collect();
+                table.columns = cells(line).map(|(_, cell)| cell.to_owned()).collect();
             } else {
                 let row = table.row(from, until)?;
                 table.rows.push(row);
@@ -89,15 +83,8 @@ impl SampleTable {
 
     fn row(&self, from: usize, until: usize) -> Result<Vec<f64>, DocumentError> {
         let line = &self.text.content[from..until];
-        let count = cells(line).count();
-        if count != self.columns.len() {
-            let columns = self.columns.len();
-            let found =
-                format!("this row has {count} values, the first line names {columns} columns");
-            let hint = line.contains(';').then(|| "values are separated by commas".to_owned());
-            let origin = self.origin(from, until);
-            return Err(DocumentError::at(&origin, Problem::NoTable(found)).with_hint(hint));
-        }
+        let names = (self.columns.len(), "columns");
+        check_count(line, names, &self.origin(from, until), Problem::NoTable)?;
         let number = |(column, (offset, cell)): (usize, (usize, &str))| {
             let at = from + offset;
             let origin = self.origin(at, at + cell.len());
@@ -175,20 +162,4 @@ impl SampleTable {
     fn origin(&self, from: usize, until: usize) -> Origin {
         Origin { text: self.text.clone(), span: from..until }
     }
-}
-
-/// What some programs begin a text with.
-pub(crate) const BYTE_ORDER_MARK: char = '\u{feff}';
-
-/// The cells of a line without the blanks and quotes around them, each with its place in bytes.
-/// Keys and numbers have no commas and no quotes in them.
-pub(crate) fn cells(line: &str) -> impl Iterator<Item = (usize, &str)> {
-    let mut start = 0;
-    line.split(',').map(move |field| {
-        let around = |c: char| c.is_whitespace() || c == '"' || c == BYTE_ORDER_MARK;
-        let cell = field.trim_matches(around);
-        let offset = start + field.find(cell).unwrap_or(0);
-        start += field.len() + 1;
-        (offset, cell)
-    })
 }
