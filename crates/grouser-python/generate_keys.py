@@ -36,11 +36,19 @@ from typing import TYPE_CHECKING, TypedDict
 
 
 class Writer:
-    """Types of keys, and the tables that they name."""
+    """Types of keys, and the tables that they name.
 
-    def __init__(self, schema: dict[str, Any]) -> None:
+    Parameters
+    ----------
+    known
+        The name of each table that is written already, by all that is below its name: a table that is like
+        another has the other's name.
+    """
+
+    def __init__(self, schema: dict[str, Any], known: dict[tuple[str, ...], str]) -> None:
         self.defs = schema.get("$defs", {})
         self.tables: dict[str, list[str]] = {}
+        self.known = known
 
     def type_of(self, schema: dict[str, Any], name: str) -> str:
         """The type of what a resolved document has under a key.
@@ -86,12 +94,13 @@ class Writer:
                 part = name + "".join(word.capitalize() for word in key.split("_"))
                 types.setdefault(key, []).append(self.type_of(schema, part))
                 docs.setdefault(key, schema.get("description", ""))
-        lines = [f"class {name}(TypedDict, total=False):"]
-        lines += [*doc_of(doc or laws[0].get("description", name), "    "), ""]
+        lines = [*doc_of(doc or laws[0].get("description", name), "    "), ""]
         for key, found in types.items():
             lines += [f"    {key}: {' | '.join(dict.fromkeys(found))}", *doc_of(docs[key], "    ")]
-        self.tables[name] = lines
-        return name
+        first = self.known.setdefault(tuple(lines), name)
+        if first == name:
+            self.tables[name] = [f"class {name}(TypedDict, total=False):", *lines]
+        return first
 
 
 def doc_of(text: str, indent: str) -> list[str]:
@@ -113,9 +122,10 @@ def written() -> str:
     """The content of the file."""
     parts: list[list[str]] = []
     scenario: dict[str, tuple[str, str]] = {}
+    known: dict[tuple[str, ...], str] = {}
     for owner, (kind, own) in KINDS.items():
         schema = json.loads((HERE / f"../../schema/{kind}.json").read_text(encoding="utf-8"))
-        writer, keys = Writer(schema), {}
+        writer, keys = Writer(schema, known), {}
         for key, of in schema["properties"].items():
             if key not in own:
                 part = owner + "".join(word.capitalize() for word in key.split("_"))

@@ -30,29 +30,37 @@ def test_the_types_are_those_of_the_schemas() -> None:
     assert file.read_text("utf-8") == generated(), "run crates/grouser-python/generate_keys.py"
 
 
-def declared(text: str) -> dict[str, set[str]]:
-    """Keys by class: properties, and fields of tables."""
-    found: dict[str, set[str]] = {}
+def declared(text: str) -> dict[str, dict[str, str]]:
+    """Keys with their types by class: properties, and fields of tables."""
+    found: dict[str, dict[str, str]] = {}
     for part in re.split(r"(?m)^class ", text)[1:]:
         name = re.match(r"\w+", part)
         assert name is not None
-        keys = re.findall(r"(?m)^        def (\w+)|^    (\w+): ", part)
-        found[name.group()] = {key for pair in keys for key in pair if key}
+        properties = re.findall(r"(?m)^        def (\w+)\(self\) -> (.+):$", part)
+        found[name.group()] = dict(properties + re.findall(r"(?m)^    (\w+): (.+)$", part))
     return found
+
+
+def test_no_table_is_declared_twice() -> None:
+    tables = re.split(r"(?m)^class \w+\(TypedDict, total=False\):\n", generated())[1:]
+    bodies = [re.split(r"(?m)^class ", table)[0] for table in tables]
+    assert len(bodies) > 10
+    assert len(bodies) == len(set(bodies))
 
 
 @pytest.mark.parametrize("kind", [gr.Soil, gr.Wheel, gr.Rover, gr.Scenario, gr.Mission])
 def test_every_key_of_a_preset_is_declared(kind: Any) -> None:
     classes = declared(generated())
 
-    def check(value: Any, name: str) -> None:
+    def check(value: Any, type_of_it: str) -> None:
         if isinstance(value, list):
             for item in value:
-                check(item, name)
+                check(item, type_of_it)
         if isinstance(value, dict):
-            assert value.keys() <= classes[name], name
+            [name] = [word for word in re.findall(r"\w+", type_of_it) if word in classes]
+            assert value.keys() <= classes[name].keys(), name
             for key, item in value.items():
-                check(item, name + "".join(word.capitalize() for word in key.split("_")))
+                check(item, classes[name][key])
 
     described = [kind()] if kind is gr.Scenario else [kind(name) for name in kind.presets()]
     assert described
@@ -60,8 +68,7 @@ def test_every_key_of_a_preset_is_declared(kind: Any) -> None:
         for key, value in one.to_dict().items():
             if kind in (gr.Scenario, gr.Mission) and key in ("rover", "soil"):
                 continue
-            assert key in classes[f"{kind.__name__}Keys"]
-            check(value, kind.__name__ + "".join(word.capitalize() for word in key.split("_")))
+            check(value, classes[f"{kind.__name__}Keys"][key])
 
 
 #: Lines with the type that a checker finds, or a part of the error that it reports.

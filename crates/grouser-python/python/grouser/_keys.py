@@ -281,37 +281,6 @@ class SoilPriorsKeyword(TypedDict, total=False):
     """Where it was read."""
 
 
-class SoilPriorsStated(TypedDict, total=False):
-    """What is believed of a number of a soil."""
-
-    distribution: str
-    key: str
-    """A number of a soil, with the tables it stands in: `exit.ratio`."""
-    relative_to: str
-    """A number of the soil of which the numbers of this row are multiples; without it, they are in
-    the key's unit."""
-    mean: float
-    """Its mean, in the unit of the key; without it, the value that the key has."""
-    median: float
-    """Its median, in place of the mean."""
-    standard_deviation: float
-    """Its standard deviation, in the unit of the key."""
-    soils: str
-    """The soils that it is about, by their `consistency`; without it, all."""
-    unless: str
-    """A table, or a key, of the soil: the row is only for soils that do not have it."""
-    reason: str
-    """Why it is so, in a sentence; a document of its own must have it."""
-    source: str
-    """Where it was read; with `assumed` before it, what stands for a source."""
-    low: float
-    """The lower end, in the unit of the key."""
-    high: float
-    """The upper end, in the unit of the key."""
-    mode: float
-    """The most likely value, in the unit of the key."""
-
-
 class SoilPriorsCorrelation(TypedDict, total=False):
     """How two keys go together, and why."""
 
@@ -340,7 +309,7 @@ class SoilPriors(TypedDict, total=False):
     """Numbers that a soil does not state: a single answer takes the median, a band draws."""
     keyword: tuple[SoilPriorsKeyword, ...]
     """Keywords that a soil does not state."""
-    stated: tuple[SoilPriorsStated, ...]
+    stated: tuple[SoilPriorsMissing, ...]
     """How well a stated number is known, where the soil does not say: bands draw about it."""
     correlation: tuple[SoilPriorsCorrelation, ...]
     """Correlations between them; pairs that are not named have none."""
@@ -558,15 +527,6 @@ class RoverWheelUnitInertiaKgM2(TypedDict, total=False):
     """About z, up [kg·m²]."""
 
 
-class RoverWheelUnitWheelGrousers(TypedDict, total=False):
-    """Bars across the rim; left out for a smooth wheel."""
-
-    height_m: float
-    """Height over the rim, h_g [m]."""
-    count: int
-    """How many there are."""
-
-
 class RoverWheelUnitWheel(TypedDict, total=False):
     """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
 
@@ -584,7 +544,7 @@ class RoverWheelUnitWheel(TypedDict, total=False):
     """Radius of the rim, without grousers, r [m]."""
     width_m: float
     """Width of the rim, b [m]."""
-    grousers: RoverWheelUnitWheelGrousers
+    grousers: WheelGrousers
     """Bars across the rim; left out for a smooth wheel."""
 
 
@@ -611,15 +571,6 @@ class RoverMountInertiaKgM2(TypedDict, total=False):
     """About z, up [kg·m²]."""
 
 
-class RoverMountWheelGrousers(TypedDict, total=False):
-    """Bars across the rim; left out for a smooth wheel."""
-
-    height_m: float
-    """Height over the rim, h_g [m]."""
-    count: int
-    """How many there are."""
-
-
 class RoverMountWheel(TypedDict, total=False):
     """The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this
     document's folder, or a wheel's keys."""
@@ -638,7 +589,7 @@ class RoverMountWheel(TypedDict, total=False):
     """Radius of the rim, without grousers, r [m]."""
     width_m: float
     """Width of the rim, b [m]."""
-    grousers: RoverMountWheelGrousers
+    grousers: WheelGrousers
     """Bars across the rim; left out for a smooth wheel."""
 
 
@@ -882,46 +833,6 @@ class ScenarioKeys:
             ...
 
 
-class MissionByWheel(TypedDict, total=False):
-    """How the soil below each wheel, and its speed, differ from what is said of all."""
-
-    friction_angle_offset_deg: float | tuple[float, ...]
-    """Added to the soil's angle of internal friction, Δφ [°]."""
-    stiffness_factor: float | tuple[float, ...]
-    """Factor on the soil's stiffness: on k_c and k_phi, and on that of resistive force theory
-    [-]."""
-    speed_factor: float | tuple[float, ...]
-    """Factor on the speed that the drive tells the motor [-]."""
-
-
-class MissionScatter(TypedDict, total=False):
-    """How the soil scatters from place to place, and the speed from wheel to wheel."""
-
-    friction_angle_std_deg: float
-    """Standard deviation of the angle of internal friction from place to place [°]."""
-    stiffness_std: float
-    """Standard deviation of the soil's stiffness from place to place, as a share of it (of its
-    logarithm) [-]."""
-    correlation_length_m: float
-    """Distance at which the correlation of the soil has fallen to 1/e; not below a footprint's
-    length [m]."""
-    speed_std: float
-    """Standard deviation of each wheel's speed over a run, as a share of what its motor is told
-    (of its logarithm) [-]."""
-    seed: int
-    """Which realisation a single run has; the runs of a campaign have one each, by its own
-    seed."""
-
-
-class MissionStart(TypedDict, total=False):
-    """How the run starts."""
-
-    yaw_deg: float
-    """Yaw, γ; above 0 with the nose uphill [°]."""
-    motion: str
-    """Whether the rover already moves."""
-
-
 class MissionStopSlipRatio(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
 
@@ -1099,131 +1010,26 @@ class MissionLegToward(TypedDict, total=False):
     """Uphill, measured along the slope [m]."""
 
 
-class MissionLegStopSlipRatio(TypedDict, total=False):
-    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
-
-    above: float
-    """The rover stops above this [-]."""
-    over_m: float
-    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
-    [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopDriftM(TypedDict, total=False):
-    """Way straight down the slope over a way."""
-
-    above: float
-    """The rover stops above this [m]."""
-    over_m: float
-    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
-    [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopSinkageRatio(TypedDict, total=False):
-    """Largest sinkage of a wheel over its shearing radius."""
-
-    above: float
-    """The rover stops above this [-]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopRollDeg(TypedDict, total=False):
-    """Roll to either side."""
-
-    above: float
-    """The rover stops above this [°]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopPitchDeg(TypedDict, total=False):
-    """Pitch, nose up or down."""
-
-    above: float
-    """The rover stops above this [°]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopTorqueNm(TypedDict, total=False):
-    """Largest torque of a wheel's motor."""
-
-    above: float
-    """The rover stops above this [N·m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopTimeS(TypedDict, total=False):
-    """Time since the leg began."""
-
-    above: float
-    """The rover stops above this [s]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopEnergyJ(TypedDict, total=False):
-    """Work of the motors since the leg began."""
-
-    above: float
-    """The rover stops above this [J]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionLegStopOffPathM(TypedDict, total=False):
-    """Distance from the straight line, or the circle, of the leg."""
-
-    above: float
-    """The rover stops above this [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
 class MissionLegStop(TypedDict, total=False):
     """Limits of this leg, in place of the mission's for the same numbers."""
 
-    slip_ratio: MissionLegStopSlipRatio
+    slip_ratio: MissionStopSlipRatio
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
-    drift_m: MissionLegStopDriftM
+    drift_m: MissionStopDriftM
     """Way straight down the slope over a way."""
-    sinkage_ratio: MissionLegStopSinkageRatio
+    sinkage_ratio: MissionStopSinkageRatio
     """Largest sinkage of a wheel over its shearing radius."""
-    roll_deg: MissionLegStopRollDeg
+    roll_deg: MissionStopRollDeg
     """Roll to either side."""
-    pitch_deg: MissionLegStopPitchDeg
+    pitch_deg: MissionStopPitchDeg
     """Pitch, nose up or down."""
-    torque_nm: MissionLegStopTorqueNm
+    torque_nm: MissionStopTorqueNm
     """Largest torque of a wheel's motor."""
-    time_s: MissionLegStopTimeS
+    time_s: MissionStopTimeS
     """Time since the leg began."""
-    energy_j: MissionLegStopEnergyJ
+    energy_j: MissionStopEnergyJ
     """Work of the motors since the leg began."""
-    off_path_m: MissionLegStopOffPathM
+    off_path_m: MissionStopOffPathM
     """Distance from the straight line, or the circle, of the leg."""
 
 
@@ -1263,206 +1069,12 @@ class MissionLeg(TypedDict, total=False):
     """Limits of this leg, in place of the mission's for the same numbers."""
 
 
-class MissionAlternativeLegArc(TypedDict, total=False):
-    """It drives along a circle."""
-
-    radius_m: float
-    """Radius of the circle of the centre of mass [m]."""
-    angle_deg: float
-    """How far the rover turns on it, above 0 to its left [°]."""
-
-
-class MissionAlternativeLegGoto(TypedDict, total=False):
-    """It drives along a straight line to a place, towards which it turns on the spot first where
-    that is not ahead."""
-
-    x_m: float
-    """Along the contour [m]."""
-    y_m: float
-    """Uphill, measured along the slope [m]."""
-    within_m: float
-    """How near is near enough [m]."""
-
-
-class MissionAlternativeLegToward(TypedDict, total=False):
-    """The place towards which the nose is held."""
-
-    x_m: float
-    """Along the contour [m]."""
-    y_m: float
-    """Uphill, measured along the slope [m]."""
-
-
-class MissionAlternativeLegStopSlipRatio(TypedDict, total=False):
-    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
-
-    above: float
-    """The rover stops above this [-]."""
-    over_m: float
-    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
-    [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopDriftM(TypedDict, total=False):
-    """Way straight down the slope over a way."""
-
-    above: float
-    """The rover stops above this [m]."""
-    over_m: float
-    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
-    [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopSinkageRatio(TypedDict, total=False):
-    """Largest sinkage of a wheel over its shearing radius."""
-
-    above: float
-    """The rover stops above this [-]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopRollDeg(TypedDict, total=False):
-    """Roll to either side."""
-
-    above: float
-    """The rover stops above this [°]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopPitchDeg(TypedDict, total=False):
-    """Pitch, nose up or down."""
-
-    above: float
-    """The rover stops above this [°]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopTorqueNm(TypedDict, total=False):
-    """Largest torque of a wheel's motor."""
-
-    above: float
-    """The rover stops above this [N·m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopTimeS(TypedDict, total=False):
-    """Time since the leg began."""
-
-    above: float
-    """The rover stops above this [s]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopEnergyJ(TypedDict, total=False):
-    """Work of the motors since the leg began."""
-
-    above: float
-    """The rover stops above this [J]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStopOffPathM(TypedDict, total=False):
-    """Distance from the straight line, or the circle, of the leg."""
-
-    above: float
-    """The rover stops above this [m]."""
-    then: str
-    """What the rover does once it has stopped."""
-    back_out_m: float
-    """How far it backs out, where `then` says so [m]."""
-
-
-class MissionAlternativeLegStop(TypedDict, total=False):
-    """Limits of this leg, in place of the mission's for the same numbers."""
-
-    slip_ratio: MissionAlternativeLegStopSlipRatio
-    """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
-    drift_m: MissionAlternativeLegStopDriftM
-    """Way straight down the slope over a way."""
-    sinkage_ratio: MissionAlternativeLegStopSinkageRatio
-    """Largest sinkage of a wheel over its shearing radius."""
-    roll_deg: MissionAlternativeLegStopRollDeg
-    """Roll to either side."""
-    pitch_deg: MissionAlternativeLegStopPitchDeg
-    """Pitch, nose up or down."""
-    torque_nm: MissionAlternativeLegStopTorqueNm
-    """Largest torque of a wheel's motor."""
-    time_s: MissionAlternativeLegStopTimeS
-    """Time since the leg began."""
-    energy_j: MissionAlternativeLegStopEnergyJ
-    """Work of the motors since the leg began."""
-    off_path_m: MissionAlternativeLegStopOffPathM
-    """Distance from the straight line, or the circle, of the leg."""
-
-
-class MissionAlternativeLeg(TypedDict, total=False):
-    """One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is
-    driven."""
-
-    drive_m: float
-    """It drives so far; below 0 backward [m]."""
-    by: str
-    """What measures `drive_m`; without it `ground`."""
-    turn_deg: float
-    """It turns on the spot by this much, above 0 to its left, and keeps its place [°]."""
-    arc: MissionAlternativeLegArc
-    """It drives along a circle."""
-    goto: MissionAlternativeLegGoto
-    """It drives along a straight line to a place, towards which it turns on the spot first where
-    that is not ahead."""
-    wait_s: float
-    """It stands so long [s]."""
-    reverse: bool
-    """Whether an arc, or the way to a place, is driven backward."""
-    speed_m_s: float
-    """Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06
-    [m/s]."""
-    yaw_deg: float
-    """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
-    held only where `heading` says so [°]."""
-    heading: str
-    """What `drive_m` holds on its way; without it nothing: the wheels keep one speed."""
-    toward: MissionAlternativeLegToward
-    """The place towards which the nose is held."""
-    look_ahead_m: float
-    """How far ahead the way is simulated before it is driven: where a limit would be passed, the
-    rover stops before [m]."""
-    stop: MissionAlternativeLegStop
-    """Limits of this leg, in place of the mission's for the same numbers."""
-
-
 class MissionAlternative(TypedDict, total=False):
     """One of several ways to drive a mission."""
 
     name: str
     """What the way is called; no two alike."""
-    leg: tuple[MissionAlternativeLeg, ...]
+    leg: tuple[MissionLeg, ...]
     """What the rover does on this way, leg after leg."""
 
 
@@ -1535,12 +1147,12 @@ class MissionKeys:
             ...
 
         @property
-        def by_wheel(self) -> MissionByWheel:
+        def by_wheel(self) -> ScenarioByWheel:
             """How the soil below each wheel, and its speed, differ from what is said of all."""
             ...
 
         @property
-        def scatter(self) -> MissionScatter:
+        def scatter(self) -> ScenarioScatter:
             """How the soil scatters from place to place, and the speed from wheel to wheel."""
             ...
 
@@ -1550,7 +1162,7 @@ class MissionKeys:
             ...
 
         @property
-        def start(self) -> MissionStart:
+        def start(self) -> ScenarioStart:
             """How the run starts."""
             ...
 
