@@ -4,7 +4,7 @@ mod answered;
 mod page;
 
 use grouser::document::columns::TIME;
-use grouser::document::columns::mission::{MISSION, MissionObject, legs_brief};
+use grouser::document::columns::mission::{MissionObject, legs_brief, missions_brief};
 use grouser::document::columns::run;
 use grouser::mission::MissionError;
 use grouser::studies::mission::DrivenMission;
@@ -129,8 +129,7 @@ impl Answered {
         if self.ways.len() == 1 {
             return blocks;
         }
-        let names: Vec<&str> = MISSION.iter().map(|column| column.name).collect();
-        blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&names)
+        blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&missions_brief())
     }
 }
 

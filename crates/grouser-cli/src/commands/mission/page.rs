@@ -1,6 +1,6 @@
 //! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
 
-use grouser::document::columns::mission::{LEG, MISSION, legs_brief};
+use grouser::document::columns::mission::{LEG, MISSION, legs_brief, missions_brief};
 use grouser::document::columns::run::{self, RECORD, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{ENERGY, SLOPE};
@@ -21,8 +21,8 @@ pub(super) fn html(answered: &Answered) -> String {
     }
     page.list(what_was_driven(answered));
     if answered.ways.len() > 1 {
-        let names: Vec<&str> = MISSION.iter().map(|column| column.name).collect();
-        page.rows("The alternatives, each from the same start", &answered.table(), &names);
+        let title = "The alternatives, each from the same start";
+        page.rows(title, &answered.table(), &missions_brief());
     }
     for way in &answered.ways {
         of_way(&mut page, answered, way);

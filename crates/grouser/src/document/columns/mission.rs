@@ -121,6 +121,12 @@ pub(in super::super) fn kept_of_leg() -> impl Iterator<Item = &'static Column<Dr
     ALL.iter().filter(move |column| names.contains(&column.name))
 }
 
+/// The columns of [`MISSION`] for reading: all of them.
+#[must_use]
+pub fn missions_brief() -> Vec<String> {
+    MISSION.iter().map(|column| column.name.to_owned()).collect()
+}
+
 /// The columns of [`LEG`] for reading.
 #[must_use]
 pub fn legs_brief() -> Vec<String> {
