@@ -98,6 +98,17 @@ impl From<grouser::simulation::RunError> for Failure {
     }
 }
 
+/// A plan that is none was seen when it was read: what is left is the motion.
+impl From<grouser::mission::MissionError> for Failure {
+    fn from(error: grouser::mission::MissionError) -> Self {
+        use grouser::mission::MissionError;
+        match error {
+            MissionError::Plan(error) => Self::Usage(error.to_string()),
+            MissionError::Run(error) => error.into(),
+        }
+    }
+}
+
 impl From<grouser::document::validity::OutsideDomain> for Failure {
     fn from(error: grouser::document::validity::OutsideDomain) -> Self {
         Self::Usage(error.to_string())

@@ -6,7 +6,6 @@ mod page;
 use grouser::document::columns::TIME;
 use grouser::document::columns::mission::{MissionObject, legs_brief, missions_brief};
 use grouser::document::columns::run;
-use grouser::mission::MissionError;
 use grouser::studies::mission::DrivenMission;
 use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
@@ -36,7 +35,7 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
         let text = "--mcap logs one mission: this one has alternatives, each of which would be one";
         return Err(Failure::Usage(text.to_owned()));
     }
-    let ways = DrivenMission::all(&missions).map_err(failed)?;
+    let ways = DrivenMission::all(&missions)?;
     let answered = Answered { document, ways };
     answered.check(&args.strict)?;
     if let Some(target) = target {
@@ -130,13 +129,5 @@ impl Answered {
             return blocks;
         }
         blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&missions_brief())
-    }
-}
-
-/// A plan that is none was seen when it was read: what is left is the motion.
-fn failed(error: MissionError) -> Failure {
-    match error {
-        MissionError::Plan(error) => Failure::Usage(error.to_string()),
-        MissionError::Run(error) => error.into(),
     }
 }
