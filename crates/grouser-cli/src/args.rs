@@ -191,6 +191,32 @@ pub(crate) struct PartArgs {
     pub(crate) soil: Option<String>,
 }
 
+/// Rover, soil and slope of a run.
+#[derive(Debug, Args)]
+pub(crate) struct SlopeArgs {
+    #[command(flatten)]
+    pub(crate) parts: PartArgs,
+    /// Inclination of the slope [°].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Option<String>,
+}
+
+/// How a run is computed, and what else is made of it.
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
+    #[arg(long, value_name = "WORD")]
+    pub(crate) simulation: Option<String>,
+    /// Also draw the run: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
+    /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) animate: Option<PathBuf>,
+    /// Also log the run: an MCAP file for Foxglove and Rerun, with transforms, scene, model of the rover
+    /// and every number over time. With --out, a name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mcap: Option<PathBuf>,
+}
+
 /// How the weight acts on the wheels.
 #[derive(Debug, Args)]
 pub(crate) struct BalanceArgs {

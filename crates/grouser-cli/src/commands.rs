@@ -7,6 +7,7 @@ pub(crate) mod campaign;
 pub(crate) mod card;
 pub(crate) mod check;
 pub(crate) mod completions;
+mod destinations;
 pub(crate) mod draw;
 pub(crate) mod forecast;
 pub(crate) mod heading;

@@ -15,8 +15,8 @@ use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastStudy, Ground};
 
 use crate::args::{
-    BalanceArgs, CardArgs, DrawArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, SettingArgs,
-    StandArgs, TraverseArgs, WheelTestArgs,
+    BalanceArgs, CardArgs, DrawArgs, ForecastArgs, HeadingArgs, HeadingMapArgs, RunArgs,
+    SettingArgs, SlopeArgs, StandArgs, TraverseArgs, WheelTestArgs,
 };
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
@@ -58,12 +58,10 @@ pub(crate) fn traverse(
     let source = scenario_source("traverse", args.scenario.as_deref())?;
     let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
     scenario_settings(&mut overrides, Kind::Scenario, setting, &args.balance)?;
+    run_settings(&mut overrides, Kind::Scenario, &args.slope, &args.run)?;
     let texts = [
-        ("--rover", "scenario.rover", &args.parts.rover),
-        ("--soil", "scenario.soil", &args.parts.soil),
         ("--drive", "scenario.drive.law", &args.drive),
         ("--start", "scenario.start.motion", &args.start),
-        ("--simulation", "scenario.simulation", &args.simulation),
     ];
     for (flag, key, value) in texts {
         if let Some(value) = value {
@@ -71,7 +69,6 @@ pub(crate) fn traverse(
         }
     }
     let numbers = [
-        ("--slope-deg", "scenario.slope_deg", &args.slope_deg),
         ("--yaw-deg", yaw_key(yaw.as_deref()), &yaw),
         ("--duration-s", "scenario.duration_s", &args.duration_s),
         (
@@ -516,6 +513,29 @@ fn scenario_settings(
         let value = gravity_value("--gravity-m-s2", gravity)?;
         let key = format!("{kind}.gravity_m_s2");
         overrides.flag_numbers("--gravity-m-s2", &key, gravity, &[value])?;
+    }
+    Ok(())
+}
+
+/// * `kind`: as in [`scenario_settings`]
+fn run_settings(
+    overrides: &mut Overrides,
+    kind: Kind,
+    slope: &SlopeArgs,
+    run: &RunArgs,
+) -> Result<(), Failure> {
+    let words = [
+        ("--rover", "rover", &slope.parts.rover),
+        ("--soil", "soil", &slope.parts.soil),
+        ("--simulation", "simulation", &run.simulation),
+    ];
+    for (flag, key, value) in words {
+        if let Some(value) = value {
+            overrides.flag_text(flag, &format!("{kind}.{key}"), value)?;
+        }
+    }
+    if let Some(slope) = &slope.slope_deg {
+        overrides.flag("--slope-deg", &format!("{kind}.slope_deg"), slope)?;
     }
     Ok(())
 }

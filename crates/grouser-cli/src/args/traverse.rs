@@ -1,12 +1,11 @@
 //! Arguments of `traverse`.
 
-use std::path::PathBuf;
-
 use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
 use super::{
-    BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
+    BalanceArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs,
+    UncertaintyArgs,
 };
 
 #[derive(Debug, Args)]
@@ -18,10 +17,7 @@ pub(crate) struct TraverseArgs {
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
-    pub(crate) parts: PartArgs,
-    /// Inclination of the slope [°].
-    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
-    pub(crate) slope_deg: Option<String>,
+    pub(crate) slope: SlopeArgs,
     /// Yaw at the start [°], positive uphill; or over the whole run, as pairs of time [s] and yaw:
     /// `[[0, 5.51], [20, 3.10]]`. A yaw of the scenario, of either kind, is then not used.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
@@ -48,17 +44,8 @@ pub(crate) struct TraverseArgs {
     /// Motion at the start: `rolling` or `rest`.
     #[arg(long, value_name = "WORD")]
     pub(crate) start: Option<String>,
-    /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
-    #[arg(long, value_name = "WORD")]
-    pub(crate) simulation: Option<String>,
-    /// Also draw the run: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
-    /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) animate: Option<PathBuf>,
-    /// Also log the run: an MCAP file for Foxglove and Rerun, with transforms, scene, model of the rover
-    /// and every number over time. With --out, a name alone is a file in DIR.
-    #[arg(long, value_name = "FILE")]
-    pub(crate) mcap: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
     /// Beside it in the picture, the same rover with another yaw, as --yaw-deg takes it.
     #[arg(long, value_name = "DEG", requires = "animate", allow_hyphen_values = true)]
     pub(crate) beside_yaw_deg: Option<String>,

@@ -12,8 +12,8 @@ use serde::Serialize;
 use serde_json::json;
 
 use self::answered::{Answered, reasons, sentence};
-use super::animation::Target;
-use super::{Answer, log, strict};
+use super::destinations::Destinations;
+use super::{Answer, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -24,11 +24,7 @@ use crate::output::{self, Format};
 use crate::report::REPORT;
 
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
-    let mut folder = OutputFolder::for_args(&args.output)?;
-    let target = |path| Target::of(path, folder.is_some(), args.output.force);
-    let target = args.animate.as_deref().map(target).transpose()?;
-    let log = |path| log::Target::of(path, folder.is_some(), args.output.force);
-    let log = args.mcap.as_deref().map(log).transpose()?;
+    let Destinations { mut folder, animation, log } = Destinations::of(&args.run, &args.output)?;
     let document = inputs::mission::read(args)?;
     let missions = document.value.missions();
     if log.is_some() && missions.len() > 1 {
@@ -38,8 +34,8 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let ways = DrivenMission::all(&missions)?;
     let answered = Answered { document, ways };
     answered.check(&args.strict)?;
-    if let Some(target) = target {
-        target.write(&title_of(&answered.document), &answered.shown(), folder.as_mut())?;
+    if let Some(animation) = animation {
+        animation.write(&title_of(&answered.document), &answered.shown(), folder.as_mut())?;
     }
     if let (Some(log), [one]) = (log, &answered.ways[..]) {
         log.write_mission(&answered.document, one, folder.as_mut())?;

@@ -17,7 +17,8 @@ use serde_json::{Value, json};
 
 use self::of_model::{OfModel, chart, reason};
 use super::animation::Target;
-use super::{Answer, log, sampling};
+use super::destinations::Destinations;
+use super::{Answer, sampling};
 use crate::args::{EVERY_MODEL, TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -31,11 +32,7 @@ use crate::report::REPORT;
 const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
-    let mut folder = OutputFolder::for_args(&args.output)?;
-    let target = |path| Target::of(path, folder.is_some(), args.output.force);
-    let target = args.animate.as_deref().map(target).transpose()?;
-    let log = |path| log::Target::of(path, folder.is_some(), args.output.force);
-    let log = args.mcap.as_deref().map(log).transpose()?;
+    let Destinations { mut folder, animation, log } = Destinations::of(&args.run, &args.output)?;
     if log.is_some() && args.setting.each_model().len() > 1 {
         let text = "--mcap logs one run: name one model with --model";
         return Err(Failure::Usage(text.to_owned()));
@@ -43,7 +40,7 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
-    if let Some(target) = target {
+    if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
     }
     if let Some(log) = log {
