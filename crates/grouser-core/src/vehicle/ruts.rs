@@ -9,8 +9,8 @@
 //!
 //! with the distance L of both wheels and the angle γ_track between the line through them and the way. Nothing is
 //! remembered: the way is taken to be straight as the rover moves now, which holds for steady motion on a plane. A rover
-//! that has just turned, or set out, has ruts here that it has not made yet. The rut's floor, λh below the surface,
-//! counts as the ground of the following wheel: a few millimetres of pitch are left out.
+//! that has just turned, or set out, has ruts here that it has not made yet. The bottom of a rut, λh below the surface,
+//! counts as the ground of the wheel that rolls in it; the pose does not follow those few millimetres.
 
 use super::rover::{Mount, Rover};
 use crate::contact::Slip;

@@ -146,7 +146,7 @@ fn documents_name_ruts() {
     assert_eq!(scenario(&["scenario.ruts=none"]).ruts, Ruts::Fresh);
     let wrong = Overrides::parse(["scenario.ruts=deep"]).expect("it is a setting");
     let message = document::read_scenario(&Source::default_scenario(), &wrong)
-        .expect_err("there are none such")
+        .expect_err("no ruts are called deep")
         .to_string();
     assert!(message.contains("ruts") && message.contains("compacted"), "{message}");
 }
