@@ -17,13 +17,12 @@ use grouser_io::LoadedScenario;
 use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, STRAIGHT_DOWN, STUCK};
 use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
 pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
-use driven::{STRAIGHT_DOWN, STUCK};
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 pub use slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 

@@ -23,7 +23,7 @@ pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
 use super::ensemble::{Band, NothingAccepted, outputs_while};
-use super::heading::HeadingStudy;
+use super::heading::{HeadingStudy, STUCK};
 use crate::contact::validity::{Finding, Flag};
 use crate::error::{ParameterError, positive};
 use crate::soil::GravityScaling;
@@ -284,7 +284,7 @@ impl ForecastStudy {
                 };
                 let is_held = |it: &Vec<Option<f64>>| f64::from(u8::from(it[place].is_some()));
                 let held: Vec<f64> = found.iter().map(is_held).collect();
-                (Band::of(design.repeated(&slips(case::STUCK))), design.mean(&held))
+                (Band::of(design.repeated(&slips(STUCK))), design.mean(&held))
             };
             tests.push(TestForecast { mass, slopes: (0..slopes.len()).map(on_slope).collect() });
         }

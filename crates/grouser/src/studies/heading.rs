@@ -187,6 +187,12 @@ impl LimitedBy {
     }
 }
 
+/// Slip ratio of a rover that does not move, or holds no course [-].
+pub(super) const STUCK: f64 = 1.0;
+
+/// Drift of a rover that slides: straight downhill [m/m].
+pub(super) const STRAIGHT_DOWN: f64 = 1.0;
+
 /// Why a curve ends where the ground would slide by itself.
 const BEYOND_STRENGTH: &str = "where the ground's own strength ends";
 

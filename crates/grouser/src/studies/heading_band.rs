@@ -9,7 +9,7 @@
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading, STUCK};
 use crate::error::ParameterError;
 use crate::vehicle::Rover;
 
@@ -190,6 +190,6 @@ impl Kept {
     /// No heading holds the course: the wheels turn on the spot, and dig in down to their axles.
     fn stuck(rover: &Rover) -> Self {
         let sinkage = rover.mean_axle_height();
-        Self { yaw: None, slip_ratio: 1.0, sinkage, energy_per_metre: f64::INFINITY }
+        Self { yaw: None, slip_ratio: STUCK, sinkage, energy_per_metre: f64::INFINITY }
     }
 }

@@ -8,7 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
-use super::driven::{STRAIGHT_DOWN, STUCK, largest_torque};
+use super::super::heading::{STRAIGHT_DOWN, STUCK};
+use super::driven::largest_torque;
 use super::{CardRow, CardStudy, Driven, STUCK_ON_GO, Verdict};
 use crate::elementary::wide::sin;
 use crate::simulation::{MOST_SLIP, SteadyMotion};

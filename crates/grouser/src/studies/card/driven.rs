@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::super::ensemble::samples::{Sample, outputs_of_samples};
 use super::super::ensemble::{Band, Probability, outputs};
-use super::super::heading::HeadingStudy;
+use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK};
 use super::slip_check::SlipCheck;
 use crate::elementary::wide::sin;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
@@ -29,12 +29,6 @@ pub const SHORTEST_LEG: f64 = 0.1;
 
 /// The way that the drift of the card is over [m]. Source: ours; some ten lengths of a small rover.
 pub const DRIFT_WAY: f64 = 10.0;
-
-/// Slip ratio of a rover that holds no course [-].
-pub(super) const STUCK: f64 = 1.0;
-
-/// Drift of a rover that slides: straight downhill [m/m].
-pub(super) const STRAIGHT_DOWN: f64 = 1.0;
 
 /// A slope, driven as the card says.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -11,7 +11,8 @@
 
 use rayon::prelude::*;
 
-use super::driven::{HEADING_ERROR, STRAIGHT_DOWN, heading_error, settings};
+use super::super::heading::STRAIGHT_DOWN;
+use super::driven::{HEADING_ERROR, heading_error, settings};
 use super::{CardRow, CardStudy, Verdict};
 use crate::error::{ParameterError, positive};
 use crate::simulation::{

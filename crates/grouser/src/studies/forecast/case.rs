@@ -1,14 +1,8 @@
 //! One case of a forecast: a rover of one mass on one soil, by one model.
 
 use crate::error::ParameterError;
-use crate::studies::heading::{HeadingOffset, HeadingStudy};
+use crate::studies::heading::{HeadingOffset, HeadingStudy, STRAIGHT_DOWN, STUCK};
 use crate::vehicle::Rover;
-
-/// Slip of a rover that does not move.
-pub(super) const STUCK: f64 = 1.0;
-
-/// Drift of a rover that slides: straight downhill.
-const STRAIGHT_DOWN: f64 = 1.0;
 
 /// The numbers that a forecast needs of a case.
 #[derive(Clone)]
