@@ -4,7 +4,7 @@
 use grouser::contact::Theory;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::unit::MM;
-use grouser::studies::comparison::Levelness;
+use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::lost_yaw::SlopeLoss;
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
@@ -86,34 +86,47 @@ fn heading_row(runs: &SlopeRuns) -> Map<String, Value> {
 }
 
 fn drift_row(runs: &SlopeRuns) -> Map<String, Value> {
-    let end = runs.at_measured_yaw.last().state.position.y.abs();
-    row_of(json!({
-        "where": "Table 4",
-        "compared": "final distance, held at the measured yaw",
-        (SLOPE.name): printed(runs.measured.slope),
-        "off_measured_percent": percent_off(end, runs.measured.final_distance_error),
-        "not_printed": "its sign, and the yaw over time",
-    }))
+    let ours = runs.at_measured_yaw.last().state.position.y.abs();
+    table_4_row(
+        "final distance, held at the measured yaw",
+        &runs.measured,
+        percent_off(ours, runs.measured.final_distance_error),
+        "its sign, and the yaw over time",
+    )
 }
 
 fn distance_row(runs: &SlopeRuns) -> Map<String, Value> {
     let ours = Levelness::of(&runs.at_measured_yaw).rms_distance_error;
-    row_of(json!({
-        "where": "Table 4",
-        "compared": "RMS distance, held at the measured yaw",
-        (SLOPE.name): printed(runs.measured.slope),
-        "off_measured_percent": percent_off(ours, runs.measured.rms_distance_error),
-        "not_printed": "how it is formed",
-    }))
+    table_4_row(
+        "RMS distance, held at the measured yaw",
+        &runs.measured,
+        percent_off(ours, runs.measured.rms_distance_error),
+        "how it is formed",
+    )
 }
 
 fn lost_row(loss: &SlopeLoss) -> Map<String, Value> {
+    table_4_row(
+        "yaw lost on the way, with complete loads",
+        &loss.measured,
+        percent_off(loss.by_loads, loss.measured.yaw_loss()),
+        "repetitions, length of the runs",
+    )
+}
+
+/// * `off`: from the measurement [%]
+fn table_4_row(
+    compared: &str,
+    measured: &MeasuredTraverse,
+    off: f64,
+    not_printed: &str,
+) -> Map<String, Value> {
     row_of(json!({
         "where": "Table 4",
-        "compared": "yaw lost on the way, with complete loads",
-        (SLOPE.name): printed(loss.measured.slope),
-        "off_measured_percent": percent_off(loss.by_loads, loss.measured.yaw_loss()),
-        "not_printed": "repetitions, length of the runs",
+        "compared": compared,
+        (SLOPE.name): printed(measured.slope),
+        "off_measured_percent": off,
+        "not_printed": not_printed,
     }))
 }
 
