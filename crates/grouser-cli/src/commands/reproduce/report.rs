@@ -221,8 +221,9 @@ fn closing(page: &mut Page, scenario: &LoadedScenario) {
         "Besides these: the slope is plane and the sand homogeneous; wheels are rigid and settle \
          at once; load transfer is quasi-static, by weight and slope, without the wheels' torque \
          unless stated; the wheels' own overturning and aligning moments are neglected; rear \
-         wheels meet sand as fresh as the front ones do, unless ruts are named. The band of headings, the yaw lost on the way and the runs that \
-         say so have the complete load transfer instead, with the wheels' own moments.",
+         wheels meet sand as fresh as the front ones do, unless ruts are named. The band of \
+         headings, the yaw lost on the way and the runs that say so have the complete load \
+         transfer instead, with the wheels' own moments.",
     );
     page.heading("How the numbers were made");
     page.paragraph(&format!(
