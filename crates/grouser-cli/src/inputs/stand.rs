@@ -1,0 +1,102 @@
+//! The inputs of test stands: wheel, soil, gravity and model.
+
+use grouser::contact::Theory;
+use grouser::document::{self, Kind, Overrides, Source};
+use grouser::studies::ensemble::samples::BandInputs;
+
+use super::{
+    check_count, check_numbers, check_samples, flag_source, refuse_sampled_keys, scenario_settings,
+};
+use crate::args::{BalanceArgs, SettingArgs, StandArgs, WheelTestArgs};
+use crate::failure::Failure;
+use crate::list::Numbers;
+
+/// Wheel, soil, gravity and model of a test stand.
+pub(crate) struct StandInputs {
+    pub(crate) soil: document::LoadedSoil,
+    pub(crate) wheel: document::LoadedWheel,
+    pub(crate) gravity: f64,
+    pub(crate) theory: Theory,
+    /// What its bands are drawn from.
+    pub(crate) band: BandInputs,
+}
+
+/// The stand with each model that is asked for.
+pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<Vec<StandInputs>, Failure> {
+    use document::study;
+    check_numbers("--load-n", &args.load_n, &study::LOAD_N)?;
+    check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
+    check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
+    check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
+    if let Some(trials) = args.stand.trials {
+        check_stand(&args.stand, trials)?;
+    }
+    let settings = args.setting.each_model();
+    if args.sampling.uncertainty {
+        let lists = [&args.load_n, &args.slip_ratio, &args.slip_angle_deg];
+        let rows: usize = lists.iter().map(|list| list.0.len()).product();
+        check_samples(args.sampling.samples, settings.len() * rows)?;
+    }
+    let each = |setting: &SettingArgs| {
+        let stand = stand(&args.soil, &args.wheel, setting)?;
+        if args.sampling.uncertainty {
+            refuse_sampled_keys(setting, stand.soil.uncertain.as_ref())?;
+        }
+        Ok(stand)
+    };
+    settings.iter().map(each).collect()
+}
+
+/// A soil and gravity [m/s²].
+pub(crate) fn soil(
+    name: &str,
+    setting: &SettingArgs,
+) -> Result<(document::LoadedSoil, f64), Failure> {
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
+    overrides.check_kinds(&[Kind::Soil])?;
+    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
+    let mut scenario = Overrides::none();
+    scenario_settings(
+        &mut scenario,
+        Kind::Scenario,
+        setting,
+        &BalanceArgs { load_transfer: None, wheel_moments: None },
+    )?;
+    let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
+    Ok((soil, run.site.gravity))
+}
+
+/// That a simulated stand does what a stand can do.
+fn check_stand(args: &StandArgs, trials: usize) -> Result<(), Failure> {
+    use document::simulated_test::{NOISE, TRIALS};
+    let one = |number: f64| Numbers(vec![number]);
+    check_numbers("--trials", &one(trials as f64), &TRIALS)?;
+    check_numbers("--noise-n", &one(args.noise_n), &NOISE)?;
+    check_numbers("--noise-mm", &one(args.noise_mm), &NOISE)?;
+    check_numbers("--noise-nm", &one(args.noise_nm), &NOISE)
+}
+
+/// A wheel on a test stand, from the names of its soil and wheel.
+pub(crate) fn stand(
+    soil: &str,
+    wheel: &str,
+    setting: &SettingArgs,
+) -> Result<StandInputs, Failure> {
+    let overrides = Overrides::parse_flags("--set", &setting.settings)?;
+    overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
+    let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
+    let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
+    // Gravity and model are keys of scenarios: read them as such, to check them as such.
+    let mut scenario = Overrides::none();
+    scenario_settings(
+        &mut scenario,
+        Kind::Scenario,
+        setting,
+        &BalanceArgs { load_transfer: None, wheel_moments: None },
+    )?;
+    let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
+    let chosen = setting.model.as_ref().map(|_| run.theory);
+    let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
+    let band = BandInputs::of_soil(&soil, chosen);
+    Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory, band })
+}
