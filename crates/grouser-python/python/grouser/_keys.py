@@ -666,7 +666,7 @@ class ScenarioDrive(TypedDict, total=False):
 
     law: str
     """The law; may be left out."""
-    rim_speed_m_s: float | tuple[float, ...]
+    rim_speed_m_s: float | tuple[float, ...] | float
     """Speed of the rim, (r + h_g) ω [m/s]; a list gives one for each mount, in their order."""
     yaw_deg: tuple[tuple[float, ...], ...]
     """Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before
@@ -675,6 +675,8 @@ class ScenarioDrive(TypedDict, total=False):
     """Desired speed along the contour, v_des [m/s]."""
     reference_slip_ratio: float
     """Reference slip ratio, s_ref [-]."""
+    largest_slip_ratio: float
+    """The most that a wheel may slip, s_max [-]."""
 
 
 class ScenarioByWheel(TypedDict, total=False):
@@ -1001,6 +1003,18 @@ class MissionLegGoto(TypedDict, total=False):
     """How near is near enough [m]."""
 
 
+class MissionLegDrive(TypedDict, total=False):
+    """What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep their
+    speeds."""
+
+    law: str
+    """The law."""
+    reference_slip_ratio: float
+    """Reference slip ratio, s_ref [-]."""
+    largest_slip_ratio: float
+    """The most that a wheel may slip, s_max [-]."""
+
+
 class MissionLegToward(TypedDict, total=False):
     """The place towards which the nose is held."""
 
@@ -1052,9 +1066,12 @@ class MissionLeg(TypedDict, total=False):
     """It stands so long [s]."""
     reverse: bool
     """Whether an arc, or the way to a place, is driven backward."""
-    speed_m_s: float
-    """Speed of the rims, (r + h_g) ω; without it that of the leg before, of a first leg 0.06
-    [m/s]."""
+    speed_m_s: float | tuple[float, ...]
+    """Speed of the rims, (r + h_g) ω [m/s]; a list gives one for each mount; without it that of
+    the leg before, of a first leg 0.06."""
+    drive: MissionLegDrive
+    """What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep their
+    speeds."""
     yaw_deg: float
     """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
     held only where `heading` says so [°]."""
