@@ -175,18 +175,16 @@ impl LegKeys {
 
     /// What turns the wheels of a leg with this speed [m/s].
     fn drive_at(&self, speed: &PerWheel) -> DriveLaw {
-        let speed = match speed {
-            PerWheel::Each(speeds) => return DriveLaw::ConstantEach(speeds.clone()),
-            PerWheel::All(speed) => *speed,
-        };
-        match self.law {
-            None => DriveLaw::Constant(speed),
-            Some(LegLaw::Eq18AsPrinted(slip_ratio)) => {
-                DriveLaw::Eq18AsPrinted(SlipTarget { speed, slip_ratio })
+        let target = |slip_ratio| SlipTarget { speed: speed.of(0), slip_ratio };
+        match (self.law, speed) {
+            (None, PerWheel::All(speed)) => DriveLaw::Constant(*speed),
+            (None, PerWheel::Each(speeds)) => DriveLaw::ConstantEach(speeds.clone()),
+            (Some(LegLaw::Eq18AsPrinted(slip_ratio)), _) => {
+                DriveLaw::Eq18AsPrinted(target(slip_ratio))
             }
-            Some(LegLaw::Eq18(slip_ratio)) => DriveLaw::Eq18(SlipTarget { speed, slip_ratio }),
-            Some(LegLaw::SlipLimiting(slip_ratio)) => {
-                DriveLaw::SlipLimiting(SlipLimit { speed, slip_ratio })
+            (Some(LegLaw::Eq18(slip_ratio)), _) => DriveLaw::Eq18(target(slip_ratio)),
+            (Some(LegLaw::SlipLimiting(slip_ratio)), _) => {
+                DriveLaw::SlipLimiting(SlipLimit { speed: speed.clone(), slip_ratio })
             }
         }
     }
@@ -237,8 +235,9 @@ impl LegKeys {
             let what = format!("has `speed_m_s` = {speed}, which is not above 0");
             return Some(("speed_m_s", what, "a `drive_m` below 0 is driven backward"));
         }
-        if self.law.is_some() && matches!(speed, Some(PerWheel::Each(_))) {
-            let what = "has `drive` beside a list of speeds, its own or that of the leg before";
+        let is_eq18 = matches!(self.law, Some(LegLaw::Eq18(_) | LegLaw::Eq18AsPrinted(_)));
+        if is_eq18 && matches!(speed, Some(PerWheel::Each(_))) {
+            let what = "has Eq. 18 beside a list of speeds, its own or that of the leg before";
             let hint = "give the leg one `speed_m_s`, or leave `drive` out";
             return Some(("drive", what.to_owned(), hint));
         }

@@ -175,7 +175,7 @@ fn bad_missions_are_refused_with_the_leg_that_is_wrong() {
         "[sensors]\nodometry_interval_m = 0.0\n[[leg]]\ndrive_m = 1.0\n",
         "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06]\n",
         "[[leg]]\nturn_deg = 90.0\ndrive = { law = \"eq18\" }\n",
-        "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[[leg]]\ndrive_m = 1.0\ndrive = { law = \"slip-limiting\" }\n",
+        "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[[leg]]\ndrive_m = 1.0\ndrive = { law = \"eq18-as-printed\" }\n",
     ];
     place.write("words.csv", "drive_m,turn_deg\nfar,\n");
     place.write("points.geojson", "{\"type\": \"Polygon\", \"coordinates\": []}");

@@ -251,8 +251,8 @@ impl Controller for Pilot {
             }
             DriveLaw::SlipLimiting(limit) => {
                 let each = rim_speeds.iter_mut().zip(mounts).zip(self.slip_ratios(seen));
-                for ((rim, mount), slip_ratio) in each {
-                    let wanted = forward - turned_by(mount);
+                for (wheel, ((rim, mount), slip_ratio)) in each.enumerate() {
+                    let wanted = self.direction * limit.speed.of(wheel) - turned_by(mount);
                     *rim = slip_limited(wanted, *rim, slip_ratio, limit.slip_ratio);
                 }
             }

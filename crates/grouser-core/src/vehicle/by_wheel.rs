@@ -44,7 +44,7 @@ impl PerWheel {
     }
 
     /// That there is one for each wheel, if not one for all.
-    fn check(
+    pub(super) fn check(
         &self,
         name: &'static str,
         wheels: usize,

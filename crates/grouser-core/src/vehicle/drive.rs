@@ -1,5 +1,6 @@
 //! What turns the wheels: constant speeds, the source's slip-dependent law ([FourWheel], Eq. 18), or a limit of slip.
 
+use super::by_wheel::PerWheel;
 use super::rover::Rover;
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
@@ -32,7 +33,7 @@ pub enum DriveLaw {
     Eq18AsPrinted(SlipTarget),
     /// ω = v_des cos γ / [(1 − s) r_s], s at most s_ref and a margin: the kinematics Eq. 18 means.
     Eq18(SlipTarget),
-    /// Every wheel turns at the same rim speed, but one that slips more than it may turns slower.
+    /// The wheels have constant rim speeds, but one that slips more than it may turns slower.
     SlipLimiting(SlipLimit),
 }
 
@@ -46,10 +47,10 @@ pub struct SlipTarget {
 }
 
 /// How fast wheels turn, and how much they may slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SlipLimit {
-    /// Rim speed *ω r_s* of a wheel that does not slip more than it may [m/s].
-    pub speed: f64,
+    /// Rim speed *ω r_s* of wheels that do not slip more than they may [m/s].
+    pub speed: PerWheel,
     /// The most that a wheel may slip, *s_max* [-], 0 to below 1.
     pub slip_ratio: f64,
 }
@@ -80,7 +81,7 @@ impl DriveLaw {
                 below_one("reference slip ratio", target.slip_ratio)
             }
             Self::SlipLimiting(limit) => {
-                finite("rim speed [m/s]", limit.speed)?;
+                limit.speed.check("rim speed [m/s]", rover.wheel_count(), finite)?;
                 below_one("largest slip ratio", limit.slip_ratio)
             }
         }
@@ -91,11 +92,9 @@ impl DriveLaw {
     pub fn nominal_rim_speed(&self) -> f64 {
         match self {
             Self::Constant(speed) => *speed,
-            Self::ConstantEach(speeds) => {
-                speeds.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
-            }
+            Self::ConstantEach(speeds) => fastest(speeds),
             Self::Eq18AsPrinted(target) | Self::Eq18(target) => target.speed,
-            Self::SlipLimiting(limit) => limit.speed,
+            Self::SlipLimiting(limit) => fastest(limit.speed.numbers()),
         }
     }
 
@@ -127,8 +126,9 @@ impl DriveLaw {
                 }
             }
             Self::SlipLimiting(limit) => {
-                for (rim_speed, s) in rim_speeds.iter_mut().zip(slip_ratios) {
-                    *rim_speed = slip_limited(limit.speed, *rim_speed, *s, limit.slip_ratio);
+                for (wheel, (rim_speed, s)) in rim_speeds.iter_mut().zip(slip_ratios).enumerate() {
+                    let wanted = limit.speed.of(wheel);
+                    *rim_speed = slip_limited(wanted, *rim_speed, *s, limit.slip_ratio);
                 }
             }
         }
@@ -183,6 +183,11 @@ pub fn slip_limited(wanted: f64, before: f64, slip_ratio: f64, most: f64) -> f64
     let hub = before.abs() - before * slip_ratio;
     let allowed = hub / (1.0 - most);
     allowed.clamp(LEAST_SHARE * wanted.abs(), wanted.abs()).copysign(wanted)
+}
+
+/// The speed that is largest, whichever way it turns its wheel [m/s].
+fn fastest(speeds: &[f64]) -> f64 {
+    speeds.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
 }
 
 fn below_one(name: &'static str, ratio: f64) -> Result<(), ParameterError> {

@@ -302,7 +302,7 @@ static DRIVE: Laws<LegKeys> = Laws {
             word: Some("`speed_m_s`, but slower for a wheel that slips more than it may."),
             choose: |leg| leg.law = Some(LegLaw::SlipLimiting(0.0)),
             table: Table {
-                doc: "One rim speed; a wheel that slips more than it may turns slower.",
+                doc: "Constant rim speeds; a wheel that slips more than it may turns slower.",
                 fields: &[slip("largest_slip_ratio", "The most that a wheel may slip, s_max")
                     .or(USUAL_LIMIT)],
             },

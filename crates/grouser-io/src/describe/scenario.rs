@@ -8,6 +8,7 @@ use super::super::field::{
     table,
 };
 use super::about::{assumed, notes, purpose, schema, source};
+use super::differences::room;
 use super::rover;
 use super::run::Run;
 use super::soil;
@@ -17,7 +18,7 @@ use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenari
 use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
 use grouser_core::vehicle::drive::{SlipLimit, SlipTarget};
-use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, Rover, Ruts};
+use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, PerWheel, Rover, Ruts};
 
 /// The fastest rim [m/s]. The models are quasi-static: this is far beyond their validity.
 pub(crate) const FASTEST: f64 = 10.0;
@@ -109,28 +110,7 @@ static DRIVE: Laws<Scenario> = Laws {
             choose: |run| run.drive = DriveLaw::Constant(0.0),
             table: Table {
                 doc: "Constant wheel speeds, as in the source's experiments.",
-                fields: &[numbers(
-                    "rim_speed_m_s",
-                    M_S,
-                    -FASTEST..=FASTEST,
-                    Form::OneOrEach(
-                        "Rim speed of every wheel",
-                        "Rim speed of each mount's wheel, in the mounts' order",
-                    ),
-                    "Speed of the rim, (r + h_g) ω []; a list gives one for each mount, in their order",
-                    |run: &mut Scenario, count| {
-                        run.drive = count.map_or(DriveLaw::Constant(0.0), |count| {
-                            DriveLaw::ConstantEach(vec![0.0; count])
-                        });
-                    },
-                    |run: &mut Scenario, place| match &mut run.drive {
-                        DriveLaw::Constant(speed) if place == 0 => Some(speed),
-                        DriveLaw::ConstantEach(speeds) => speeds.get_mut(place),
-                        _ => None,
-                    },
-                )
-                .or(PAPERS_SPEED)
-                .formerly("speed_m_s"), YAW],
+                fields: &[RIM_SPEED, YAW],
             },
         },
         Law {
@@ -155,25 +135,24 @@ static DRIVE: Laws<Scenario> = Laws {
             name: "slip-limiting",
             word: Some("Constant, but slower for a wheel that slips more than it may."),
             choose: |run| {
-                run.drive = DriveLaw::SlipLimiting(SlipLimit { speed: 0.0, slip_ratio: 0.0 });
+                run.drive = DriveLaw::SlipLimiting(SlipLimit {
+                    speed: PerWheel::All(0.0),
+                    slip_ratio: 0.0,
+                });
             },
             table: Table {
-                doc: "One rim speed; a wheel that slips more than it may turns slower.",
+                doc: "Constant rim speeds; a wheel that slips more than it may turns slower.",
                 fields: &[
-                    number(
-                        "rim_speed_m_s",
-                        M_S,
-                        -FASTEST..=FASTEST,
-                        "Speed of the rim, (r + h_g) ω, of a wheel that does not slip more than it may",
-                        |run: &mut Scenario| Some(&mut limit(run)?.speed),
-                    )
-                    .or(PAPERS_SPEED),
+                    RIM_SPEED,
                     number(
                         "largest_slip_ratio",
                         ONE,
                         0.0..=0.95,
                         "The most that a wheel may slip, s_max",
-                        |run: &mut Scenario| Some(&mut limit(run)?.slip_ratio),
+                        |run: &mut Scenario| match &mut run.drive {
+                            DriveLaw::SlipLimiting(limit) => Some(&mut limit.slip_ratio),
+                            _ => None,
+                        },
                     )
                     .or(USUAL_LIMIT),
                     YAW,
@@ -183,6 +162,31 @@ static DRIVE: Laws<Scenario> = Laws {
     ],
 };
 
+const RIM_SPEED: Field<Scenario> = numbers(
+    "rim_speed_m_s",
+    M_S,
+    -FASTEST..=FASTEST,
+    Form::OneOrEach(
+        "Rim speed of every wheel",
+        "Rim speed of each mount's wheel, in the mounts' order",
+    ),
+    "Speed of the rim, (r + h_g) ω []; a list gives one for each mount, in their order",
+    |run: &mut Scenario, count| match &mut run.drive {
+        DriveLaw::SlipLimiting(limit) => limit.speed = room(count),
+        drive => {
+            *drive = count
+                .map_or(DriveLaw::Constant(0.0), |count| DriveLaw::ConstantEach(vec![0.0; count]));
+        }
+    },
+    |run: &mut Scenario, place| match &mut run.drive {
+        DriveLaw::Constant(speed) if place == 0 => Some(speed),
+        DriveLaw::ConstantEach(speeds) => speeds.get_mut(place),
+        DriveLaw::SlipLimiting(limit) => limit.speed.number_mut(place),
+        _ => None,
+    },
+)
+.or(PAPERS_SPEED)
+.formerly("speed_m_s");
 const DESIRED_SPEED: Field<Scenario> = positive(
     "ground_speed_m_s",
     M_S,
@@ -224,13 +228,6 @@ fn target(run: &mut Scenario) -> Option<&mut SlipTarget> {
     match &mut run.drive {
         DriveLaw::Eq18AsPrinted(target) | DriveLaw::Eq18(target) => Some(target),
         DriveLaw::Constant(_) | DriveLaw::ConstantEach(_) | DriveLaw::SlipLimiting(_) => None,
-    }
-}
-
-fn limit(run: &mut Scenario) -> Option<&mut SlipLimit> {
-    match &mut run.drive {
-        DriveLaw::SlipLimiting(limit) => Some(limit),
-        _ => None,
     }
 }
 

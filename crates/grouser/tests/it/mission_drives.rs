@@ -9,7 +9,7 @@ use grouser::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, PerWheel};
 use super::given::{RIM_SPEED, run, traverse};
 
 const TARGET: SlipTarget = SlipTarget { speed: RIM_SPEED, slip_ratio: 0.2 };
-const LIMIT: SlipLimit = SlipLimit { speed: RIM_SPEED, slip_ratio: 0.2 };
+const LIMIT: SlipLimit = SlipLimit { speed: PerWheel::All(RIM_SPEED), slip_ratio: 0.2 };
 
 fn on(slope: f64, yaw: f64) -> Scenario {
     let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
