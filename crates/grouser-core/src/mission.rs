@@ -5,22 +5,31 @@
 //! every control period an `odometer` says how far the rover came, and the [`Stop`]s are looked at: one that is passed ends
 //! the leg, and is a value like every other outcome.
 //!
+//! A rover whose wheels someone else turns has the same [`Limits`]: a [`PathRun`] is led along a [`Route`] by one command
+//! after the other.
+//!
 //! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the Mars Exploration Rovers.
 
 mod driven;
+mod limits;
 mod look_ahead;
 mod navigator;
 mod odometer;
+mod path_run;
 mod pilot;
 mod plan;
 mod report;
+mod route;
 mod run;
 mod stop;
 mod turn;
 
+pub use limits::Limits;
 pub use navigator::{Fix, Sensors};
+pub use path_run::{PathRun, PathTask};
 pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
 pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
 pub use report::{BackOut, LegOutcome, LegReport, MissionReport};
+pub use route::{BesideRoute, Route};
 pub use run::{MissionError, MissionRun};
 pub use stop::{Cause, Kind, Limited, Stop, Stopped, Then};

@@ -3,6 +3,8 @@
 
 mod mission;
 
+pub(crate) use mission::check_stops;
+
 use std::ops::RangeInclusive;
 
 use super::campaign::{Settings, Stand};

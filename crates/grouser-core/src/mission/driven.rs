@@ -1,13 +1,14 @@
 //! A manoeuvre under way: what is left of it, how far it came, and whether a limit is passed.
 
+use super::limits::{Known, Limits};
 use super::navigator::Navigator;
-use super::odometer::{Odometer, mean_speed};
+use super::odometer::mean_speed;
 use super::pilot::{Line, Path, Pilot};
 use super::plan::Leg;
-use super::stop::{Cause, Limited, Stop, Stopped};
+use super::stop::{Limited, Stop, Stopped};
 use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
-use crate::vehicle::{Mount, RoverState, roll_and_pitch};
+use crate::vehicle::RoverState;
 
 /// A manoeuvre ends this near to its end [m], [rad], [s]. Source: ours; far below what a rover measures.
 const CLOSE: f64 = 1e-7;
@@ -48,12 +49,9 @@ pub(super) enum Goal {
 #[derive(Clone)]
 pub(super) struct Driven {
     pilot: Pilot,
-    odometer: Odometer,
+    limits: Limits,
     goal: Goal,
-    stops: Vec<Stop>,
     path: Path,
-    start_time: f64,
-    start_work: f64,
     /// Way over the ground as the rover knew it at the start [m].
     start_ground: f64,
     /// How far it really came [m].
@@ -81,17 +79,12 @@ impl Driven {
         if stops.iter().all(|stop| stop.limited != Limited::Time) {
             stops.push(Stop::above(Limited::Time, SLOWEST * nominal + MINUTE));
         }
-        let ways = stops.iter().filter(|stop| stop.limited.is_of_a_way()).map(|stop| stop.over);
-        let remembered = ways.fold(0.0, f64::max);
-        let (state, seen) = (run.state(), navigator.seen());
+        let seen = navigator.seen();
         Self {
             pilot,
-            odometer: Odometer::new(state.time(), seen.position, remembered),
+            limits: Limits::begun(run, seen.position, stops),
             goal,
-            stops,
             path: Path::of_leg(leg, seen),
-            start_time: state.time(),
-            start_work: state.motor_work(),
             start_ground: navigator.ground(),
             gone: 0.0,
             rims_at_fix: 0.0,
@@ -106,12 +99,12 @@ impl Driven {
 
     /// Way over the ground so far, as the rover knows it [m].
     pub(super) fn ground(&self) -> f64 {
-        self.odometer.ground()
+        self.limits.odometer().ground()
     }
 
     /// Real slip ratio so far [-], of manoeuvres that lead somewhere.
     pub(super) fn slip_ratio(&self) -> Option<f64> {
-        let rims = self.odometer.rims();
+        let rims = self.limits.odometer().rims();
         (self.is_drive() && rims > 0.0).then(|| 1.0 - self.gone / rims)
     }
 
@@ -169,10 +162,10 @@ impl Driven {
         let (state, mounts) = (run.state(), run.scenario().rover.mounts());
         self.gone += navigator.look(state.time(), state.rover(), mounts, state.rim_speeds());
         let (place, ground) = (navigator.seen().position, navigator.ground() - self.start_ground);
-        self.odometer.look(state.time(), place, ground, state.rim_speeds());
+        self.limits.look_from(run, place, ground);
         if navigator.is_fixed() {
-            self.odometer.lay_anew(self.rims_at_fix);
-            self.rims_at_fix = self.odometer.rims();
+            self.limits.lay_anew(self.rims_at_fix);
+            self.rims_at_fix = self.limits.odometer().rims();
         }
         self.pilot.gone = ground;
         if let Goal::Yaw { fastest, .. } = self.goal {
@@ -190,8 +183,10 @@ impl Driven {
     /// What is left of the manoeuvre, and how fast that becomes less.
     fn left(&self, run: &Run, state: &RoverState) -> (f64, f64) {
         match self.goal {
-            Goal::Ground(way) => (way - self.odometer.ground(), state.velocity.norm()),
-            Goal::Rims(way) => (way - self.odometer.rims(), mean_speed(run.state().rim_speeds())),
+            Goal::Ground(way) => (way - self.limits.odometer().ground(), state.velocity.norm()),
+            Goal::Rims(way) => {
+                (way - self.limits.odometer().rims(), mean_speed(run.state().rim_speeds()))
+            }
             Goal::Yaw { yaw, fastest } => {
                 let error = yaw - state.yaw;
                 // Whatever it does now, it may turn towards it next, and must not turn past it.
@@ -213,46 +208,12 @@ impl Driven {
         if off <= within + CLOSE {
             return End::Reached;
         }
-        End::Stopped(self.stopped(Stop::above(Limited::OffPath, within), off))
-    }
-
-    fn stopped(&self, stop: Stop, value: f64) -> Stopped {
-        let (cause, kind) = (Cause::Limit { stop, value }, stop.limited.kind());
-        Stopped { cause, kind, after: self.odometer.ground() }
+        End::Stopped(self.limits.stopped(Stop::above(Limited::OffPath, within), off))
     }
 
     /// The first limit that is passed now.
     fn passed(&self, run: &Run, seen: &RoverState) -> Option<Stopped> {
-        let [sinkage, torque] = self.of_wheels(run);
-        let state = run.state();
-        let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, seen.yaw);
-        let value = |stop: &Stop| match stop.limited {
-            Limited::SlipRatio => Some(self.odometer.over(stop.over)?.slip_ratio),
-            Limited::Drift => Some(self.odometer.over(stop.over)?.drift),
-            Limited::OffPath => Some(self.path.off(seen.position)),
-            Limited::Sinkage => Some(sinkage),
-            Limited::Roll => Some(roll.abs()),
-            Limited::Pitch => Some(pitch.abs()),
-            Limited::Torque => Some(torque),
-            Limited::Time => Some(state.time() - self.start_time),
-            Limited::Energy => Some(state.motor_work() - self.start_work),
-        };
-        let is_looked_at = |stop: &&Stop| self.is_drive() || !stop.limited.is_of_a_drive();
-        self.stops.iter().filter(is_looked_at).find_map(|stop| {
-            let value = value(stop)?;
-            (value > stop.above).then(|| self.stopped(*stop, value))
-        })
-    }
-
-    /// Largest sinkage over the shearing radius [-] and largest torque [N·m] of a wheel, if some limit needs them.
-    fn of_wheels(&self, run: &Run) -> [f64; 2] {
-        if !self.stops.iter().any(|stop| stop.limited.needs_wheels()) {
-            return [0.0; 2];
-        }
-        let radii = run.scenario().rover.mounts().iter().map(Mount::shearing_radius);
-        let each = run.wheels().into_iter().zip(radii).map(|(wheel, radius)| {
-            [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs()]
-        });
-        each.fold([0.0, 0.0], |most, one| [most[0].max(one[0]), most[1].max(one[1])])
+        let (off_path, is_drive) = (self.path.off(seen.position), self.is_drive());
+        self.limits.passed_as(run, Known { seen, off_path, is_drive })
     }
 }

@@ -12,7 +12,7 @@ use super::quasi_steady::Carried;
 use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Motion, ROLLING_SHARE, Scenario};
 use super::state::State;
-use super::times::{is_same_time, snapped};
+use super::times::{is_same_time, multiple_after, snapped};
 use super::trajectory::Trajectory;
 use super::watch::{LEAST_PROGRESS, WATCH_PERIOD};
 use super::work::Work;
@@ -208,6 +208,21 @@ impl Run {
     /// [`RunError`] for speeds and times that nothing can have, which change nothing; and where the
     /// motion cannot be computed, at which the rover stays where it last was looked at.
     pub fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), RunError> {
+        self.step_watched(rim_speeds, span, f64::INFINITY, &mut |_| false)
+    }
+
+    /// The same with someone who looks at the run after each multiple of a period and at the end of the step, and may end
+    /// the step there.
+    ///
+    /// * `period`: between two looks [s]
+    /// * `ends`: whether the step ends here
+    pub(crate) fn step_watched(
+        &mut self,
+        rim_speeds: &[f64],
+        span: f64,
+        period: f64,
+        ends: &mut dyn FnMut(&Self) -> bool,
+    ) -> Result<(), RunError> {
         check(rim_speeds, &self.scenario)?;
         if !(LEAST_STEP..=LONGEST_DURATION).contains(&span) {
             let expected = "from 1e-6 to 86400";
@@ -216,13 +231,23 @@ impl Run {
         if self.state.outcome.is_some() {
             return Ok(());
         }
-        let is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.rim_speeds;
+        let mut is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.rim_speeds;
         if is_new_command {
             self.state.turn(&self.scenario, rim_speeds);
         }
         let until = snapped(self.state.time + span, WATCH_PERIOD);
         self.records.truncate(self.kept);
-        let done = self.go_to(is_new_command, [until, until], Some(until));
+        let mut done = Ok(());
+        let mut is_over = false;
+        while !is_over {
+            let next = multiple_after(self.state.time, period);
+            is_over = next > until || is_same_time(next, until);
+            let next = if is_over { until } else { next };
+            done = self.go_to(is_new_command, [next, until], Some(until));
+            is_new_command = false;
+            is_over |= done.is_err() || self.state.outcome.is_some();
+            is_over |= done.is_ok() && ends(self);
+        }
         self.record_now();
         done
     }

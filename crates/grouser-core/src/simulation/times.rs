@@ -21,6 +21,12 @@ pub(super) fn multiples_between(after: f64, until: f64, interval: f64) -> Vec<f6
     times
 }
 
+/// The first multiple of an interval after a time, which it is not but for rounding.
+pub(super) fn multiple_after(time: f64, interval: f64) -> f64 {
+    let next = ((time / interval).floor() + 1.0) * interval;
+    if is_same_time(next, time) { next + interval } else { next }
+}
+
 /// A time, or the multiple of an interval that it is but for rounding: so that many steps do not add
 /// up their rounding.
 pub(super) fn snapped(time: f64, interval: f64) -> f64 {

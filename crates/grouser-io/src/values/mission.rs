@@ -29,7 +29,7 @@ fn check_alternatives(plan: &Plan) -> Result<(), Misfit> {
 /// That who backs out knows how far.
 ///
 /// * `within`: the table of the limits, with a dot after it
-fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
+pub(crate) fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
     let Some(stop) = stops.iter().find(|stop| stop.then == Then::BackOut(0.0)) else {
         return Ok(());
     };

@@ -30,6 +30,7 @@ mod mission;
 mod mission_drives;
 mod mounts;
 mod paper;
+mod path_run;
 mod priors;
 mod reference;
 mod rft;

@@ -26,7 +26,7 @@ impl DrivenLeg {
     pub fn reason(&self) -> Option<String> {
         match &self.report.outcome {
             LegOutcome::Completed => None,
-            LegOutcome::Stopped(stopped) => Some(why(stopped)),
+            LegOutcome::Stopped(stopped) => Some(why_stopped(stopped)),
             LegOutcome::Ended(outcome) => outcome.reason(),
         }
     }
@@ -86,7 +86,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     text(
         STOPPED_BY,
         "The limit that stopped it, by its key, or what would have become of it",
-        |it| stopped(it).map(|it| name(it).to_owned()),
+        |it| stopped(it).map(|it| stopped_by(it).to_owned()),
     ),
     text(
         "stopped_kind",
@@ -176,8 +176,9 @@ fn stopped(leg: &DrivenLeg) -> Option<&Stopped> {
     }
 }
 
-/// What stopped a rover, in one word.
-fn name(stopped: &Stopped) -> &'static str {
+/// What stopped a rover: the limit by its key, or what would have become of it.
+#[must_use]
+pub fn stopped_by(stopped: &Stopped) -> &'static str {
     match &stopped.cause {
         Cause::Limit { stop, .. } => limited_quantity(stop.limited).name,
         Cause::Outcome(outcome) => outcome.name(),
@@ -193,7 +194,8 @@ fn kind(kind: Kind) -> &'static str {
 }
 
 /// Why a rover stopped: `slip ratio 0.42 over 1 m after 3.70 m`.
-fn why(stopped: &Stopped) -> String {
+#[must_use]
+pub fn why_stopped(stopped: &Stopped) -> String {
     let ahead = if stopped.kind == Kind::Predictive { "ahead " } else { "" };
     let cause = match &stopped.cause {
         Cause::Limit { stop, value } => passed(stop, *value),

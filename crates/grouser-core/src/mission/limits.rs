@@ -1,0 +1,158 @@
+//! Limits on a rover that someone drives, looked at after every control period.
+
+use super::odometer::Odometer;
+use super::stop::{Cause, Limited, Stop, Stopped};
+use crate::error::ParameterError;
+use crate::simulation::Run;
+use crate::units::Vec2;
+use crate::vehicle::{Mount, RoverState, roll_and_pitch};
+
+/// Limits on a rover under way, and what is measured for them since the drive began.
+///
+/// It drives nothing: whoever leads the [`Run`] has it [look](Self::look) at the rover once a
+/// [control period](crate::simulation::CONTROL_PERIOD), and asks it what was [passed](Self::passed). A
+/// [`MissionRun`](super::MissionRun) and a [`PathRun`](super::PathRun) do so.
+///
+/// Straight across a slope of 10°, where is a rover stopped that must not drift more than 5 cm on a metre of its rims' way?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::mission::{Limited, Limits, Stop};
+/// use grouser_core::simulation::{CONTROL_PERIOD, Run};
+///
+/// let mut run = Run::new(&hakuto::traverse()?)?;
+/// let mut limits = Limits::new(&run, &[Stop::above(Limited::Drift, 0.05)])?;
+/// let stopped = loop {
+///     run.step(&[0.06; 4], CONTROL_PERIOD)?;
+///     limits.look(&run);
+///     if let Some(stopped) = limits.passed(&run, 0.0) {
+///         break stopped;
+///     }
+/// };
+/// assert_eq!(format!("{:.1} s, {:.3} m", run.state().time(), stopped.after), "16.7 s, 0.948 m");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Limits {
+    stops: Vec<Stop>,
+    odometer: Odometer,
+    /// Where the rover was at the last look [m], and the way over the ground until then [m].
+    last: Vec2,
+    ground: f64,
+    start_time: f64,
+    start_work: f64,
+}
+
+/// What a rover knows of itself at a look.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// Pose.
+    pub(super) seen: &'a RoverState,
+    /// Distance from its path [m].
+    pub(super) off_path: f64,
+    /// Whether it drives somewhere: slip, drift and distance from the path are looked at.
+    pub(super) is_drive: bool,
+}
+
+impl Limits {
+    /// Limits on a drive that begins where a run has come to.
+    ///
+    /// * `stops`: in the order in which they are asked; of two that are passed at one look, the first counts
+    ///
+    /// # Errors
+    /// [`ParameterError`] for a limit that is none.
+    pub fn new(run: &Run, stops: &[Stop]) -> Result<Self, ParameterError> {
+        stops.iter().try_for_each(Stop::check)?;
+        Ok(Self::begun(run, run.state().rover().position, stops.to_vec()))
+    }
+
+    /// The same for a rover that takes itself to be at a place [m].
+    pub(super) fn begun(run: &Run, place: Vec2, stops: Vec<Stop>) -> Self {
+        let ways = stops.iter().filter(|stop| stop.limited.is_of_a_way()).map(|stop| stop.over);
+        let remembered = ways.fold(0.0, f64::max);
+        let state = run.state();
+        Self {
+            stops,
+            odometer: Odometer::new(state.time(), place, remembered),
+            last: place,
+            ground: 0.0,
+            start_time: state.time(),
+            start_work: state.motor_work(),
+        }
+    }
+
+    /// Looks at the rover, whose wheels kept their speeds since the last look.
+    pub fn look(&mut self, run: &Run) {
+        let place = run.state().rover().position;
+        self.ground += (place - self.last).norm();
+        self.last = place;
+        self.look_from(run, place, self.ground);
+    }
+
+    /// The same for one that takes itself to be at a place.
+    ///
+    /// * `place`, `ground`: where that is [m], and its way over the ground since the drive began [m]
+    pub(super) fn look_from(&mut self, run: &Run, place: Vec2, ground: f64) {
+        let state = run.state();
+        self.odometer.look(state.time(), place, ground, state.rim_speeds());
+    }
+
+    /// The first limit that is passed now.
+    ///
+    /// * `off_path`: how far the rover is from where it should drive [m]
+    #[must_use]
+    pub fn passed(&self, run: &Run, off_path: f64) -> Option<Stopped> {
+        self.passed_as(run, Known { seen: run.state().rover(), off_path, is_drive: true })
+    }
+
+    /// The same by what a rover knows of itself.
+    pub(super) fn passed_as(&self, run: &Run, known: Known<'_>) -> Option<Stopped> {
+        let [sinkage, torque] = self.of_wheels(run);
+        let state = run.state();
+        let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, known.seen.yaw);
+        let value = |stop: &Stop| match stop.limited {
+            Limited::SlipRatio => Some(self.odometer.over(stop.over)?.slip_ratio),
+            Limited::Drift => Some(self.odometer.over(stop.over)?.drift),
+            Limited::OffPath => Some(known.off_path),
+            Limited::Sinkage => Some(sinkage),
+            Limited::Roll => Some(roll.abs()),
+            Limited::Pitch => Some(pitch.abs()),
+            Limited::Torque => Some(torque),
+            Limited::Time => Some(state.time() - self.start_time),
+            Limited::Energy => Some(state.motor_work() - self.start_work),
+        };
+        let is_looked_at = |stop: &&Stop| known.is_drive || !stop.limited.is_of_a_drive();
+        self.stops.iter().filter(is_looked_at).find_map(|stop| {
+            let value = value(stop)?;
+            (value > stop.above).then(|| self.stopped(*stop, value))
+        })
+    }
+
+    /// That the rover stops here at a limit.
+    pub(super) fn stopped(&self, stop: Stop, value: f64) -> Stopped {
+        let (cause, kind) = (Cause::Limit { stop, value }, stop.limited.kind());
+        Stopped { cause, kind, after: self.odometer.ground() }
+    }
+
+    /// Ways since the drive began.
+    pub(super) fn odometer(&self) -> &Odometer {
+        &self.odometer
+    }
+
+    /// As [`Odometer::lay_anew`].
+    pub(super) fn lay_anew(&mut self, since: f64) {
+        self.odometer.lay_anew(since);
+    }
+
+    /// Largest sinkage over the shearing radius [-] and largest torque [N·m] of a wheel, if some limit needs them.
+    fn of_wheels(&self, run: &Run) -> [f64; 2] {
+        if !self.stops.iter().any(|stop| stop.limited.needs_wheels()) {
+            return [0.0; 2];
+        }
+        let radii = run.scenario().rover.mounts().iter().map(Mount::shearing_radius);
+        let each = run.wheels().into_iter().zip(radii).map(|(wheel, radius)| {
+            [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs()]
+        });
+        each.fold([0.0, 0.0], |most, one| [most[0].max(one[0]), most[1].max(one[1])])
+    }
+}
