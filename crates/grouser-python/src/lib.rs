@@ -2,7 +2,7 @@
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
-//! ([`simulators`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
+//! ([`simulators`], on [`paths`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
 //! [`ground`] under their wheels) and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
@@ -19,6 +19,7 @@ mod ground;
 mod interrupt;
 mod measurements;
 mod missions;
+mod paths;
 mod rollouts;
 mod simulators;
 mod studies;
@@ -60,9 +61,11 @@ mod _core {
     #[pymodule_export]
     use super::missions::drive_mission;
     #[pymodule_export]
+    use super::paths::PathTask;
+    #[pymodule_export]
     use super::rollouts::rollout;
     #[pymodule_export]
-    use super::simulators::{Simulators, simulator_columns};
+    use super::simulators::{Simulators, path_columns, simulator_columns};
     #[pymodule_export]
     use super::studies::{
         card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,

@@ -5,6 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use grouser::document::columns::run::RECORD;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range, scenario_with};
+use grouser::mission::PathTask as Task;
 use grouser::simulation::{LEAST_STEP, Run, RunError, Scenario, WheelRecord};
 use grouser::vehicle::Mount;
 use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
@@ -13,6 +14,7 @@ use rayon::prelude::*;
 
 use crate::descriptions::Document;
 use crate::errors;
+use crate::paths::{BESIDE, Led, PathOutcome, PathTask, beside, outcome_of};
 use crate::studies::{wheel_names, wheel_sample_columns};
 use crate::threads;
 use crate::wheels::check;
@@ -28,7 +30,8 @@ const LONGEST_STEP: f64 = grouser::simulation::scenario::LONGEST_DURATION;
 struct Stepped {
     nominal: Scenario,
     soils: Option<UncertainSoil>,
-    rover: Run,
+    task: Option<Task>,
+    rover: Led,
     failure: Option<String>,
 }
 
@@ -41,11 +44,11 @@ struct Fresh {
 }
 
 impl Stepped {
-    fn new(loaded: &LoadedScenario) -> Result<Self, RunError> {
+    fn new(loaded: &LoadedScenario, task: Option<&Task>) -> Result<Self, RunError> {
         let nominal = loaded.value.clone();
         let soils = loaded.stated_uncertainty().cloned();
-        let rover = Run::new(&nominal)?;
-        Ok(Self { nominal, soils, rover, failure: None })
+        let rover = Led::new(Run::new(&nominal)?, task)?;
+        Ok(Self { nominal, soils, task: task.cloned(), rover, failure: None })
     }
 
     fn reset(&mut self, fresh: Fresh) -> Result<(), RunError> {
@@ -58,7 +61,8 @@ impl Stepped {
         }
         let numbers = [(SLOPE.name, fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];
         let numbers = numbers.into_iter().filter_map(|(key, number)| Some((key, number?)));
-        self.rover = Run::new(&scenario_with(&scenario, numbers)?)?;
+        let run = Run::new(&scenario_with(&scenario, numbers)?)?;
+        self.rover = Led::new(run, self.task.as_ref())?;
         self.failure = None;
         Ok(())
     }
@@ -77,12 +81,12 @@ impl Stepped {
 
     /// `None` while it is under way.
     fn outcome(&self) -> Option<&'static str> {
-        let found = self.rover.outcome().map(grouser::simulation::Outcome::name);
+        let found = self.rover.run().outcome().map(grouser::simulation::Outcome::name);
         if self.failure.is_some() { Some("failed") } else { found }
     }
 
     fn message(&self) -> Option<String> {
-        self.failure.clone().or_else(|| self.rover.outcome()?.reason())
+        self.failure.clone().or_else(|| self.rover.run().outcome()?.reason())
     }
 }
 
@@ -97,9 +101,15 @@ pub(crate) struct Simulators {
 
 #[pymethods]
 impl Simulators {
+    /// * `path`: that all of them follow
     #[new]
+    #[pyo3(signature = (scenarios, path=None))]
     #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
-    fn new(scenarios: Vec<PyRef<'_, Document>>) -> PyResult<Self> {
+    fn new(
+        scenarios: Vec<PyRef<'_, Document>>,
+        path: Option<PyRef<'_, PathTask>>,
+    ) -> PyResult<Self> {
+        let task = path.as_ref().map(|path| &path.task);
         let loaded = scenarios.iter().map(|scenario| scenario.scenario());
         let loaded = loaded.collect::<PyResult<Vec<_>>>()?;
         let wheels = loaded.first().map_or(Vec::new(), |one| wheel_names(&one.value));
@@ -109,7 +119,8 @@ impl Simulators {
         }
         let radii = loaded.iter().map(|one| one.value.rover.mounts().iter());
         let radii = radii.map(|each| each.map(Mount::shearing_radius).collect()).collect();
-        let rovers = loaded.into_iter().map(Stepped::new).collect::<Result<_, _>>();
+        let rovers = loaded.into_iter().map(|one| Stepped::new(one, task));
+        let rovers = rovers.collect::<Result<_, _>>();
         let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
         Ok(Self { rovers, wheels, radii })
     }
@@ -206,7 +217,8 @@ impl Simulators {
     /// A row for each rover with the columns of a trajectory.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let rows: Vec<Vec<f64>> = py.detach(|| {
-            let row = |led: &Stepped| RECORD.iter().map(|it| it.number(led.rover.now())).collect();
+            let row =
+                |led: &Stepped| RECORD.iter().map(|it| it.number(led.rover.run().now())).collect();
             self.lock().iter().map(row).collect()
         });
         Ok(PyArray2::from_vec2(py, &rows)?)
@@ -218,7 +230,7 @@ impl Simulators {
         let wheels = 0..self.wheels.len();
         let matrix = |get: &dyn Fn(&WheelRecord) -> f64, rovers: &[Stepped]| {
             let row = |led: &Stepped| {
-                let now = &led.rover.now().wheels;
+                let now = &led.rover.run().now().wheels;
                 wheels.clone().map(|k| now.get(k).map_or(f64::NAN, get)).collect()
             };
             rovers.iter().map(row).collect::<Vec<Vec<f64>>>()
@@ -237,8 +249,32 @@ impl Simulators {
         py: Python<'_>,
     ) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
         let status =
-            |led: &Stepped| (led.outcome(), led.message(), led.rover.state().method().name());
+            |led: &Stepped| (led.outcome(), led.message(), led.rover.run().state().method().name());
         py.detach(|| self.lock().iter().map(status).collect())
+    }
+
+    /// A row for each rover with where it is beside its path, in the order of [`path_columns`]; then x and y of the places on
+    /// the path that are some ways ahead [m], in its body frame.
+    #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
+    fn path_samples<'py>(
+        &self,
+        py: Python<'py>,
+        ways: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows: Vec<Vec<f64>> = py.detach(|| {
+            let rovers = self.lock();
+            let paths = rovers.iter().filter_map(|led| led.rover.path());
+            paths.map(|path| beside(path, &ways)).collect()
+        });
+        Ok(PyArray2::from_vec2(py, &rows)?)
+    }
+
+    /// What became of each rover on its path.
+    fn path_outcomes(&self, py: Python<'_>) -> Vec<PathOutcome> {
+        py.detach(|| {
+            let rovers = self.lock();
+            rovers.iter().filter_map(|led| led.rover.path()).map(outcome_of).collect()
+        })
     }
 }
 
@@ -282,4 +318,10 @@ impl Simulators {
 pub(crate) fn simulator_columns() -> (Vec<&'static str>, Vec<&'static str>) {
     let wheel = wheel_sample_columns().map(|(name, _)| name);
     (RECORD.iter().map(|it| it.name).collect(), wheel.collect())
+}
+
+/// The names of the first columns of [`Simulators::path_samples`].
+#[pyfunction]
+pub(crate) fn path_columns() -> [&'static str; 3] {
+    BESIDE
 }

@@ -19,9 +19,10 @@ _AROUND = (1.5, 1.0)
 
 
 class Camera:
-    """Draws a rover, its path and the contour line through its start."""
+    """Draws a rover, its path, and what it should follow: points, or without them the contour line
+    through its start."""
 
-    def __init__(self, rover: Rover, mode: str) -> None:
+    def __init__(self, rover: Rover, mode: str, route: Floats | None = None) -> None:
         from matplotlib.figure import Figure
 
         if mode == "human":
@@ -34,6 +35,7 @@ class Camera:
             self.figure = Figure(figsize=_SIZE, dpi=_DPI)
             FigureCanvasAgg(self.figure)
         self.mode = mode
+        self._route = route
         self.axes: Any = self.figure.add_subplot()
         self._mounts = np.array([mount["position_m"][:2] for mount in rover.mount])
         wheel = rover.wheel_unit["wheel"]
@@ -53,7 +55,10 @@ class Camera:
         axes, yaw = self.axes, np.radians(yaw_deg)
         turned = np.array([[np.cos(yaw), np.sin(yaw)], [-np.sin(yaw), np.cos(yaw)]])
         axes.clear()
-        axes.axhline(0.0, color="0.6", lw=0.8, ls="--")
+        if self._route is None:
+            axes.axhline(0.0, color="0.6", lw=0.8, ls="--")
+        else:
+            axes.plot(self._route[:, 0], self._route[:, 1], color="0.6", lw=0.8, ls="--")
         axes.plot(path[:, 0], path[:, 1], lw=1.5)
         here = path[-1]
         axes.fill(*(self._body @ turned + here).T, color="0.75", ec="0.3")

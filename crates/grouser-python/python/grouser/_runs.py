@@ -79,8 +79,12 @@ class RunBatch:
             raise ParameterError("scenarios is empty, it must be at least one", "scenarios")
         self._scenarios = tuple(runs)
         self._commands: Commands = commands
-        self._native = _core.Simulators([run._document for run in runs])
+        self._native = self._simulators([run._document for run in runs])
         self._read_states()
+
+    def _simulators(self, documents: Sequence[_core.Document]) -> _core.Simulators:
+        """What simulates the rovers."""
+        return _core.Simulators(documents)
 
     def _read_states(self) -> None:
         """Reads the states of the rovers."""

@@ -1,8 +1,9 @@
 """Gymnasium environments: rovers on slopes of unknown soil.
 
-Importing this module registers ``grouser/LevelTraverse-v0``, with a vector form that simulates all
-its rovers at once on all cores. `RoverEnv` is the base class of your own environments. It needs
-Gymnasium: ``pip install gymnasium``; and matplotlib for pictures.
+Importing this module registers ``grouser/LevelTraverse-v0``, in which a rover holds its contour,
+and ``grouser/PathFollowing-v0``, in which it follows a path under stop conditions. Both have a
+vector form that simulates all its rovers at once on all cores. `RoverEnv` is the base class of your
+own environments. It needs Gymnasium: ``pip install gymnasium``; and matplotlib for pictures.
 
 Examples
 --------
@@ -27,18 +28,31 @@ except ImportError as _missing:
     ) from _missing
 
 from ._level import ENV_ID, MAX_EPISODE_STEPS, LevelTraverseEnv, LevelTraverseVectorEnv
+from ._path import MAX_PATH_STEPS, PATH_ENV_ID, PathFollowingEnv, PathFollowingVectorEnv
 from ._rover import RoverEnv
 
-__all__ = ["LevelTraverseEnv", "LevelTraverseVectorEnv", "RoverEnv"]
+__all__ = [
+    "LevelTraverseEnv",
+    "LevelTraverseVectorEnv",
+    "PathFollowingEnv",
+    "PathFollowingVectorEnv",
+    "RoverEnv",
+]
 
 # One canonical path for each name, in messages and in documentation.
-for _thing in (LevelTraverseEnv, LevelTraverseVectorEnv, RoverEnv):
-    _thing.__module__ = __name__
-del _thing
+for _name in __all__:
+    globals()[_name].__module__ = __name__
+del _name
 
 _gymnasium.register(
     id=ENV_ID,
     entry_point="grouser.gym:LevelTraverseEnv",
     vector_entry_point="grouser.gym:LevelTraverseVectorEnv",
     max_episode_steps=MAX_EPISODE_STEPS,
+)
+_gymnasium.register(
+    id=PATH_ENV_ID,
+    entry_point="grouser.gym:PathFollowingEnv",
+    vector_entry_point="grouser.gym:PathFollowingVectorEnv",
+    max_episode_steps=MAX_PATH_STEPS,
 )

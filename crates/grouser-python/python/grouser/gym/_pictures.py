@@ -42,12 +42,13 @@ class Pictures:
         batch = self._rovers.batch
         if self._camera is None:
             try:
-                self._camera = Camera(batch.scenarios[0].rover, str(self._mode))
+                rover = batch.scenarios[0].rover
+                self._camera = Camera(rover, str(self._mode), self._rovers.route)
             except ImportError as error:
                 raise gymnasium.error.DependencyNotInstalled(
                     "rendering needs matplotlib: pip install matplotlib"
                 ) from error
-        outcome = batch.outcome[k]
+        outcome = self._rovers.outcome(k)
         title = f"slope {self._rovers.slope_deg[k]:.1f}°, {batch.time_s[k]:.1f} s"
         title += f", {outcome}" if outcome else ""
         yaw_deg = float(batch.state[k, batch.STATE.index("yaw_deg")])

@@ -52,7 +52,7 @@ class Rovers:
                 self.fastest,
             )
         self.dt_s = number("dt_s", dt_s)
-        self.batch = RunBatch([run] * count, commands="rim_speed_m_s")
+        self.batch = self._batch([run] * count)
         # Wheels on the left side are those with y > 0 in the body frame.
         left = [mount["position_m"][1] > 0.0 for mount in run.rover.mount]
         self.side = np.where(left, -1.0, 1.0)
@@ -60,6 +60,14 @@ class Rovers:
         self.observation_space = gymnasium.spaces.Box(-bounds, bounds, dtype=np.float64)
         self.action_space = gymnasium.spaces.Box(-1.0, 1.0, (2,), dtype=np.float64)
         self.slope_deg = np.full(count, slopes[1])
+        #: Where a rover sets out, without what is sampled of it [°].
+        self.start_heading_deg = 0.0
+        #: Points of what it should follow, drawn in pictures [m]; without them the contour line.
+        self.route: Floats | None = None
+
+    def _batch(self, scenarios: Sequence[Scenario]) -> RunBatch:
+        """What simulates the rovers."""
+        return RunBatch(scenarios, commands="rim_speed_m_s")
 
     def reset(
         self,
@@ -75,7 +83,7 @@ class Rovers:
         seeds: list[int | None] = [0] * count
         for k in places(which):
             slopes[k] = randoms[k].uniform(*self.slopes)
-            yaws[k] = randoms[k].uniform(*START_YAW_DEG)
+            yaws[k] = _turned(self.start_heading_deg + randoms[k].uniform(*START_YAW_DEG))
             seeds[k] = int(randoms[k].integers(2**63))
             slopes[k] = slopes[k] if given_slopes is None else given_slopes[k]
             yaws[k] = yaws[k] if given_yaws is None else given_yaws[k]
@@ -93,9 +101,12 @@ class Rovers:
     def shares(self, actions: ArrayLike) -> Floats:
         """Actions of all rovers, checked, each number limited to −1 to 1."""
         shares = np.clip(numbers("action", actions), -1.0, 1.0)
-        if shares.shape != (len(self.batch), 2) or np.isnan(shares).any():
+        size = self.action_space.shape[0]
+        if shares.shape != (len(self.batch), size) or np.isnan(shares).any():
+            count = "two" if size == 2 else str(size)
             raise ParameterError(
-                f"the action is {actions!r}, it must be two numbers for each rover, from -1 to 1",
+                f"the action is {actions!r}, it must be {count} numbers for each rover, from -1 to "
+                "1",
                 "action",
             )
         return shares
@@ -115,14 +126,24 @@ class Rovers:
         observations: Floats = np.clip(np.concatenate([*rover, *wheels], axis=1), -high, high)
         return observations
 
+    def outcome(self, k: int) -> str | None:
+        """What became of a rover; None during its episode."""
+        outcome: str | None = self.batch.outcome[k]
+        return outcome
+
     def info(self, k: int) -> dict[str, Any]:
         return {
             "x_m": float(self.batch.state[k, 0]),
             "slope_deg": float(self.slope_deg[k]),
             "energy_j": float(self.batch.energy_j[k]),
-            "outcome": self.batch.outcome[k],
+            "outcome": self.outcome(k),
             "fallback_to_dynamic": self.batch.simulation[k] not in ("dynamic", "quasi-steady"),
         }
+
+
+def _turned(yaw_deg: float) -> float:
+    """A yaw from −180 to 180°; one that is, is not touched."""
+    return yaw_deg if abs(yaw_deg) <= 180.0 else (yaw_deg + 180.0) % 360.0 - 180.0
 
 
 def places(which: NDArray[np.bool_]) -> list[int]:

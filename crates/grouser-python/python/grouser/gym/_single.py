@@ -46,9 +46,9 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
 
     @property
     def outcome(self) -> str | None:
-        """``immobilised``, ``sliding`` or ``tipped_over``; None during the run."""
-        outcome: str | None = self._rovers.batch.outcome[0]
-        return outcome
+        """``immobilised``, ``sliding`` or ``tipped_over``, of a path also ``completed`` or
+        ``stopped``; None during the run."""
+        return self._rovers.outcome(0)
 
     @property
     def energy_j(self) -> float:
