@@ -38,6 +38,7 @@ mod rover;
 mod runs;
 mod ruts;
 mod simulated;
+mod slip_checks;
 mod small_wheel;
 mod stepping;
 mod time_step;

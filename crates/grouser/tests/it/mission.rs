@@ -108,21 +108,6 @@ fn a_rover_that_is_turned_round_reverses_the_same_way() {
     assert!((forward.energy() - backward.energy()).abs() < 1e-5);
 }
 
-/// A slip check at 40 % stops no rover on the soil that is expected, whatever its odometry says: straight up 8° it slips by
-/// 26 %, ten standard deviations of a fix over a metre below the limit.
-#[test]
-fn slip_checks_give_no_false_alarm() {
-    let stops = vec![Stop::above(Limited::SlipRatio, 0.4)];
-    let leg = Leg { yaw: Some(deg(90.0)), stops, ..Leg::new(Manoeuvre::drive(100.0)) };
-    for seed in 0..20 {
-        let sensors = Some(Sensors { seed, ..SENSORS });
-        let plan = quasi_steady(Mission { sensors, ..mission(8.0, vec![leg.clone()]) });
-        let report = driven(&plan);
-        assert_eq!(report.outcome(), "completed", "seed {seed}: {:?}", report.legs);
-        assert!(report.legs[0].slip_ratio.is_some_and(|slip| slip > 0.2));
-    }
-}
-
 /// On the spot a rover turns by its angle and ends within 0.1 m of its place. On the way it strays little more, but for
 /// half a turn on a slope, over which it slides both ways.
 #[test]
