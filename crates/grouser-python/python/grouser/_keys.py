@@ -666,7 +666,7 @@ class ScenarioDrive(TypedDict, total=False):
 
     law: str
     """The law; may be left out."""
-    rim_speed_m_s: float | tuple[float, ...] | float
+    rim_speed_m_s: float | tuple[float, ...]
     """Speed of the rim, (r + h_g) ω [m/s]; a list gives one for each mount, in their order."""
     yaw_deg: tuple[tuple[float, ...], ...]
     """Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before
