@@ -142,6 +142,10 @@ fn legs_come_from_files_and_the_folder_repeats_them() {
     let what: Vec<&str> = legs.iter().filter_map(|leg| leg["manoeuvre"].as_str()).collect();
     assert_eq!(what, ["drive 0.3 m", "go to 0.6, 0.05 m", "wait 1 s"]);
     assert_eq!(place.line("mission m.toml --out out").code(), 0);
+    let written: Value =
+        serde_json::from_str(&place.read("out/mission.json")).expect("the folder has the answer");
+    assert_eq!(written["legs"], answer["legs"], "whether or not records are kept");
+    assert_eq!(written["final"], answer["final"]);
     std::fs::remove_file(place.file("legs.csv")).expect("it is there");
     let again = place.json("mission out/mission.toml");
     assert_eq!(again["legs"], answer["legs"]);

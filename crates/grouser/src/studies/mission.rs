@@ -39,6 +39,20 @@ impl DrivenMission {
         missions.par_iter().map(|(name, mission)| Self::drive(name, mission)).collect()
     }
 
+    /// Drives missions for what becomes of their legs: of their records the last is kept alone, so that a mission of weeks
+    /// needs no more memory than one of minutes.
+    ///
+    /// # Errors
+    /// As [`all`](Self::all).
+    pub fn all_ends(missions: &[(String, Mission)]) -> Result<Vec<Self>, MissionError> {
+        let end = |(name, mission): &(String, Mission)| {
+            let mut run = MissionRun::new(mission)?;
+            while run.next_leg_watched(&mut |_| true)?.is_some() {}
+            Ok(Self::of(name, mission, run.finish()))
+        };
+        missions.par_iter().map(end).collect()
+    }
+
     /// Drives a mission to its end.
     ///
     /// # Errors

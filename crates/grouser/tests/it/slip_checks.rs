@@ -100,17 +100,18 @@ impl Count {
 
 /// Time between two records [s].
 const INTERVAL: f64 = 0.1;
+/// So many of them pass while rims at 6 cm/s go a metre.
+const METRE: usize = 167;
 
 /// Way of the rims after slip over a metre of them really was too much [m]; none if it never was.
 fn way_after_too_much_slip(records: &[Record]) -> Option<f64> {
-    let metre = (1.0 / (RIM_SPEED * INTERVAL)).round() as usize;
     let slip_ratio = |pair: &[Record]| {
-        let [first, last] = [&pair[0], &pair[metre]];
+        let [first, last] = [&pair[0], &pair[METRE]];
         let way = (last.state.position - first.state.position).norm();
         1.0 - way / (RIM_SPEED * (last.time - first.time))
     };
-    let pair = records.windows(metre + 1).find(|pair| slip_ratio(pair) > LIMIT + ERROR)?;
-    Some(RIM_SPEED * (records[records.len() - 1].time - pair[metre].time))
+    let pair = records.windows(METRE + 1).find(|pair| slip_ratio(pair) > LIMIT + ERROR)?;
+    Some(RIM_SPEED * (records[records.len() - 1].time - pair[METRE].time))
 }
 
 /// No rover drives on that has slipped too much over a metre, whatever its odometry says and wherever its bed is soft; one
