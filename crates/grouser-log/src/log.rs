@@ -6,7 +6,7 @@ use grouser::document::columns::mission::in_words;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser::studies::validity::RoverOnSlope;
 use grouser_core::contact::validity::Flag;
-use grouser_core::mission::{Leg, LegOutcome};
+use grouser_core::mission::{BackOut, Leg, LegOutcome};
 use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
 use grouser_pictures::motion::{Follower, Pose};
 
@@ -184,7 +184,7 @@ impl<W: Write> Log<W> {
 
     /// Says what became of a leg.
     ///
-    /// * `time`: its end, with the way back out of it [s]
+    /// * `time`: its end, without a way back out of it [s]
     ///
     /// # Errors
     /// As [`event`](Self::event).
@@ -194,14 +194,23 @@ impl<W: Write> Log<W> {
         let (became, name) = (format!("{}{reason}", report.outcome.name()), leg_name(leg.number));
         let way =
             format!("{:.3} m in {:.1} s with {:.1} J", report.distance, report.time, report.energy);
-        self.event(time, level_of_leg(&report.outcome), &name, &format!("{became}; {way}"))?;
-        let Some(back) = &report.back_out else { return Ok(()) };
+        self.event(time, level_of_leg(&report.outcome), &name, &format!("{became}; {way}"))
+    }
+
+    /// Says what became of a way back out of a leg.
+    ///
+    /// * `time`: its end [s]
+    /// * `number`: of the leg, from 1
+    ///
+    /// # Errors
+    /// As [`event`](Self::event).
+    pub fn backed_out(&mut self, time: f64, number: usize, back: &BackOut) -> Result<(), LogError> {
         let way = format!("backed out by {:.3} m in {:.1} s", back.distance, back.time);
         let became = match &back.outcome {
             LegOutcome::Completed => way,
             other => format!("{way}; {}", other.name()),
         };
-        self.event(time, level_of_leg(&back.outcome), &name, &became)
+        self.event(time, level_of_leg(&back.outcome), &leg_name(number), &became)
     }
 
     /// Appends a mission that was driven: the records of each leg between what is said of it.
@@ -214,9 +223,18 @@ impl<W: Write> Log<W> {
         for (place, (leg, (report, records))) in legs {
             self.leg_began(time, leg.number, &leg.leg)?;
             // Its first record is the last one of the leg before.
-            self.append(&records[usize::from(place > 0).min(records.len())..])?;
-            time += report.time + report.back_out.as_ref().map_or(0.0, |back| back.time);
+            let records = &records[usize::from(place > 0).min(records.len())..];
+            time += report.time;
+            let ended = nanoseconds(time)?;
+            let on_leg = |record: &Record| nanoseconds(record.time).is_ok_and(|it| it <= ended);
+            let (on_leg, later) = records.split_at(records.partition_point(on_leg));
+            self.append(on_leg)?;
             self.leg_ended(time, leg)?;
+            self.append(later)?;
+            if let Some(back) = &report.back_out {
+                time += back.time;
+                self.backed_out(time, leg.number, back)?;
+            }
         }
         let ended = mission.report.outcome();
         self.event(time, Level::Info, "mission", &ended.replace('_', " "))
