@@ -7,7 +7,7 @@ use grouser::document::columns::mission::{LEG, MISSION};
 use grouser::document::columns::run::{RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::wheel_test;
+use grouser::document::columns::{wheel_speeds, wheel_test};
 use grouser::document::table::{BETWEEN_NAMES, ColumnKind, Table, Values};
 use grouser::document::{self, Unit};
 use numpy::PyArray1;
@@ -48,6 +48,8 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("heading", declared(&held()))?;
     dict.set_item("heading_band", declared(&BAND))?;
     dict.set_item("heading_band_limit", declared(&BAND_LIMIT))?;
+    dict.set_item("wheel_speeds", declared(&wheel_speeds::results()))?;
+    dict.set_item("wheel_speeds_of_wheel", declared(&wheel_speeds::SPEED_RATIO))?;
     dict.set_item("wheel_test_band", declared(&wheel_test::BAND))?;
     dict.set_item("traverse_band", declared(&RUN_BAND))?;
     dict.set_item("traverse_band_over_time", declared(&TIME_BAND))?;

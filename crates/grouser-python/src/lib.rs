@@ -69,7 +69,8 @@ mod _core {
     #[pymodule_export]
     use super::studies::{
         card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,
-        heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_test_band,
+        heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_speeds,
+        wheel_test_band,
     };
     #[pymodule_export]
     use super::style::{spread_labels, style_colours};

@@ -28,6 +28,7 @@ use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::traverse_band::{TraverseBand, record_times};
 use grouser::studies::validity::RoverOnSlope;
+use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 use grouser::studies::wheel_test::WheelTest;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -145,6 +146,39 @@ pub(crate) fn heading<'py>(
     let reason = limit.texts(columns::heading::LIMIT_REASON)[0].clone().unwrap_or_default();
     let limited_by = limit.texts(columns::heading::LIMITED_BY)[0].clone();
     Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason, limited_by))
+}
+
+/// Wheels at speeds of their own: a row for each slope and for which wheels have a speed in common, the steepest
+/// slopes, and the wheels' names.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn wheel_speeds<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    slope_deg: PyReadonlyArray1<'py, f64>,
+    most_speed_ratio: f64,
+) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Vec<String>)> {
+    let slopes = slopes(&slope_deg)?;
+    let scenario = scenario.scenario()?.value.clone();
+    let names = wheel_names(&scenario);
+    let found = listening(py, move |cancelled| {
+        let heading = HeadingStudy::of(&scenario);
+        let curve = heading.curve()?;
+        let study = WheelSpeedStudy { heading, most_ratio: most_speed_ratio };
+        let found = WheelSpeeds::from(study, curve)
+            .map_err(|error| ParameterError { name: "most_speed_ratio".to_owned(), ..error })?;
+        let mut table = columns::wheel_speeds::table(&found, &[]);
+        for (place, slope) in slopes.iter().enumerate() {
+            if cancelled.is_set() {
+                break;
+            }
+            let rows = columns::wheel_speeds::table(&found, std::slice::from_ref(slope));
+            if place == 0 { table = rows } else { table.append(rows) }
+        }
+        Ok((table, columns::wheel_speeds::limits(&found)))
+    })?;
+    let (table, limits) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
+    Ok((table_to_python(py, table)?, table_to_python(py, limits)?, names))
 }
 
 /// The heading offset over slope, course and soil: a row for each, slopes fastest, then courses.

@@ -34,6 +34,7 @@ ENTRIES: dict[str, Callable[[Any], Any]] = {
     "yaw_deg": lambda it: gr.RunBatch([gr.Scenario()] * 3).reset(yaw_deg=it),
     "commands": lambda it: command(it / 100.0),
     "slope_deg of heading": lambda it: gr.heading(slope_deg=it),
+    "slope_deg of wheel_speeds": lambda it: gr.wheel_speeds(slope_deg=it),
     "course_deg": lambda it: gr.heading_map(course_deg=it, slope_deg=[5.0]),
     "slip_angle_deg": lambda it: gr.wheel_test(load_n=17, slip_ratio=0.1, slip_angle_deg=it),
     "candidate_slip_ratio": lambda it: gr.calibrate(

@@ -26,6 +26,8 @@ def results() -> list[Any]:
         gr.rollout(slope_deg=[[5.0], [6.0]], yaw_deg=[0.0, 1.0], duration_s=0.5),
         gr.heading(slope_deg=[5.0, 30.0]),
         gr.heading_map(soil=["toyoura", "lunar-nominal"], slope_deg=[0, 30], course_deg=[0, 20]),
+        gr.wheel_speeds(slope_deg=[5.0, 30.0]),
+        gr.wheel_speeds(slope_deg=[]).limits,
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2]),
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2], trials=2),
         gr.heading(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], uncertainty=True, samples=5),
@@ -73,4 +75,5 @@ def test_a_stream_can_be_left_unread() -> None:
 
 def test_an_empty_result_is_an_empty_table() -> None:
     assert gr.rollout([]).to_arrow().num_rows == 0
+    assert gr.wheel_speeds(slope_deg=[]).to_arrow().num_rows == 0
     assert gr.heading(slope_deg=[]).to_arrow().column_names[0] == "slope_deg"

@@ -21,6 +21,8 @@ RESULTS = [
     (gr.Rollout, "sample", set()),
     (gr.Headings, "heading", {"slope_deg", "limit_slope_deg"}),
     (gr.HeadingMap, "heading", {"course_deg", "slope_deg", "limit_slope_deg"}),
+    (gr.WheelSpeeds, "wheel_speeds", {"slope_deg"}),
+    (gr.WheelSpeedLimits, "wheel_speeds", {"limit_slope_deg"}),
     (gr.HeadingBand, "heading_band", {name for name, _, _ in COLUMNS["heading_band_limit"]}),
     (
         gr.HeadingMapBand,
@@ -87,6 +89,13 @@ def test_docs_have_the_sentence_and_the_unit_of_the_column(
         assert text == sentence, name
         compared += 1
     assert compared >= 4
+
+
+@pytest.mark.parametrize("result", [gr.WheelSpeeds, gr.WheelSpeedLimits])
+def test_the_speed_of_each_wheel_is_a_column(result: type) -> None:
+    ((name, unit, sentence),) = COLUMNS["wheel_speeds_of_wheel"]
+    text, stated = parts_of(docs_of(result)[name])
+    assert text.startswith(sentence) and (stated, unit) == ("-", None)
 
 
 def test_what_each_wheel_has_is_named() -> None:

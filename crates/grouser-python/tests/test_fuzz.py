@@ -112,6 +112,13 @@ def test_heading(slope: Any, samples: Any, seed: Any, soil: Any) -> None:
         result_or_ours(gr.heading, samples=2, seed=seed, **uncertain)
 
 
+@settings(max_examples=40, deadline=None)
+@given(slope=anything, ratio=anything, soil=things)
+def test_wheel_speeds(slope: Any, ratio: Any, soil: Any) -> None:
+    result_or_ours(gr.wheel_speeds, slope_deg=slope, most_speed_ratio=1.5)
+    result_or_ours(gr.wheel_speeds, soil=soil, slope_deg=5.0, most_speed_ratio=ratio)
+
+
 @settings(max_examples=150, deadline=None)
 @given(scenario=things, slope=anything, motion=things)
 def test_simulate(scenario: Any, slope: Any, motion: Any) -> None:

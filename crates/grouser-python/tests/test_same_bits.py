@@ -16,9 +16,12 @@ DATA = Path(__file__).resolve().parents[2] / "grouser" / "data" / "experiments"
 
 def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
     """Bit for bit, with null where Python has NaN, and lists of flags joined by semicolons."""
-    if all(isinstance(row[name], str | list) for row in rows):
+    if all(row[name] is None or isinstance(row[name], str | list) for row in rows) and any(
+        row[name] is not None for row in rows
+    ):
         texts = [";".join(row[name]) if name == "flags" else row[name] for row in rows]
-        return list(column) == texts
+        # In tables of pandas a missing text is NaN.
+        return [None if it != it else it for it in column] == texts
     answer = np.array([np.nan if row[name] is None else row[name] for row in rows], dtype=np.float64)
     return np.asarray(column, dtype=np.float64).tobytes() == answer.tobytes()
 
@@ -66,6 +69,40 @@ def test_heading(program: Program) -> None:
     assert level.limit_slope_deg == answer["limit_slope_deg"]
     for name in answer["rows"][0]:
         assert same(getattr(level, name), answer["rows"], name), name
+
+
+@pytest.mark.parametrize(
+    "arguments, settings",
+    [
+        (["--slope-deg", "0,10,20,30"], {"slope_deg": [0, 10, 20, 30]}),
+        (
+            ["--slope-deg", "12", "--most-speed-ratio", "1.2", "--rover", "curiosity", "--soil", "mars-sand"],
+            {"slope_deg": 12, "most_speed_ratio": 1.2, "rover": "curiosity", "soil": "mars-sand"},
+        ),
+    ],
+    ids=["four wheels", "six wheels"],
+)
+def test_wheel_speeds(program: Program, arguments: list[str], settings: dict[str, Any]) -> None:
+    answer = program("heading", "--wheel-speeds", *arguments)
+    found = gr.wheel_speeds(**settings)
+    for part, rows in [(found, answer["rows"]), (found.limits, answer["limits"])]:
+        table = part.to_pandas()
+        assert list(table) == list(rows[0])
+        for name in rows[0]:
+            assert same(table[name], rows, name), name
+    assert len(answer["limits"]) == 4
+
+
+def test_wheel_speeds_with_several_models(program: Program, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All of them take a minute: two show that each has the rows of its own."""
+    monkeypatch.setattr("grouser._models.MODELS", ("ishigami", "bekker"))
+    found = gr.wheel_speeds(slope_deg=8, model="all")
+    table = found.to_pandas()
+    assert list(found) == ["ishigami", "bekker"]
+    for model, own in table.groupby("model"):
+        rows = program("heading", "--wheel-speeds", "--slope-deg", "8", "--model", str(model))["rows"]
+        for name in rows[0]:
+            assert same(own[name], rows, name), name
 
 
 def test_heading_map(program: Program) -> None:

@@ -186,6 +186,90 @@ def test_a_heading_map_has_the_heading_offsets_on_course_0() -> None:
     assert maps.to_pandas().shape[0] == 18
 
 
+@pytest.fixture(scope="module")
+def own_speeds() -> gr.WheelSpeeds:
+    return gr.wheel_speeds(slope_deg=[0.0, 10.0, 30.0])
+
+
+def test_wheels_at_speeds_of_their_own_hold_the_contour(own_speeds: gr.WheelSpeeds) -> None:
+    """A mission drives 3 m with each set of speeds, and nothing corrects its heading: 0.04 mm beside
+    the contour. One speed for all wheels, whose yaw moment is left over, turns the nose downhill:
+    90 mm."""
+    found, on_10 = own_speeds, 1
+    assert found.status[on_10].tolist() == ["ok"] * 3
+
+    def driven(wheels: str) -> gr.DrivenMission:
+        way = found.wheels.index(wheels)
+        leg = {
+            "drive_m": 3.0,
+            "yaw_deg": found.yaw_deg[on_10, way],
+            "speed_m_s": 0.06 * found.speed_ratio[on_10, way],
+        }
+        return gr.mission(gr.Mission(slope_deg=10.0, leg=[leg]))
+
+    for wheels in ("by-side", "by-wheel"):
+        held = driven(wheels)
+        assert held.outcome == "completed" and held.x_m > 2.9
+        assert np.abs(held.trajectory.y_m).max() < 0.5e-3
+        assert np.ptp(held.trajectory.yaw_deg) < 0.01
+    alike = driven("alike").trajectory
+    assert alike.y_m[-1] < -50e-3 and alike.yaw_deg[-1] < alike.yaw_deg[0] - 1.0
+
+
+def test_wheels_at_speeds_of_their_own_are_tables(own_speeds: gr.WheelSpeeds) -> None:
+    found = own_speeds
+    level, steep = 0, 2
+    assert found.speed_ratio.shape == (3, 3, 4) and found.yaw_moment_nm.shape == (3, 3)
+    # Level ground asks for no difference between left and right: mounts go round the rover.
+    assert np.abs(found.speed_ratio[level] - found.speed_ratio[level, :, ::-1]).max() < 1e-6
+    assert np.isnan(found.yaw_deg[steep]).all() and np.isnan(found.speed_ratio[steep]).all()
+    assert (found.yaw_moment_nm[:steep, 1:] == 0.0).all() and found.yaw_moment_nm[1, 0] < 0.0
+    alike = gr.heading(slope_deg=found.slope_deg)
+    for name in ("yaw_deg", "slip_ratio", "energy_j_per_m", "yaw_moment_nm"):
+        held = getattr(found, name)[:, found.wheels.index("alike")]
+        assert held.tobytes() == getattr(alike, name).tobytes(), name
+    limits = found.limits
+    assert limits.wheels == ("alike", "by-side", "by-wheel", "uphill-reversed")
+    assert limits.limit_slope_deg[0] == alike.limit_slope_deg
+    assert limits.limit_reason[0] == alike.limit_message and limits.limited_by[0] == alike.limited_by
+    assert limits.speed_ratio.shape == (4, 4) and np.isnan(limits.speed_ratio[3]).all()
+    data = found.to_xarray()
+    assert data.speed_ratio.dims == ("slope_deg", "wheels", "wheel")
+    assert data.yaw_growth_per_m.attrs["units"] == "1/m"
+    one = data.speed_ratio.sel(slope_deg=10.0, wheels="by-wheel", wheel="rear-left")
+    row = found.to_pandas().query("slope_deg == 10 and wheels == 'by-wheel'")
+    assert one == row["rear-left.speed_ratio"].item() == found.speed_ratio[1, 2, 1]
+    at_limit = limits.to_xarray().sel(wheels="by-side")
+    assert at_limit.limit_slope_deg == limits.limit_slope_deg[1]
+    assert at_limit.speed_ratio.sel(wheel="front-left") == limits.speed_ratio[1, 0]
+    (*_, last) = found.plot(wheels="by-wheel").lines
+    assert last.get_label() == "front-right"
+    assert last.get_ydata()[1] == found.speed_ratio[1, 2, 3]
+    assert repr(found) == "<WheelSpeeds on 3 slopes, 6 of 9 hold the contour>"
+    assert "uphill-reversed none" in repr(limits)
+
+
+def test_wheel_speeds_without_slopes_are_the_limits_alone(own_speeds: gr.WheelSpeeds) -> None:
+    none = gr.wheel_speeds(slope_deg=[])
+    assert none.speed_ratio.shape == (0, 3, 4) and none.status.shape == (0, 3)
+    assert none.limits.to_pandas().equals(own_speeds.limits.to_pandas())
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.5, np.nan, np.inf])
+def test_the_fastest_wheel_is_faster_than_the_mean(ratio: float) -> None:
+    with pytest.raises(gr.ParameterError, match="most_speed_ratio is .* above 1") as error:
+        gr.wheel_speeds(slope_deg=[5.0], most_speed_ratio=ratio)
+    assert error.value.name == "most_speed_ratio"
+    assert error.value.value == ratio or np.isnan(ratio)
+
+
+def test_wheel_speeds_are_asked_of_what_is_there(own_speeds: gr.WheelSpeeds) -> None:
+    with pytest.raises(gr.ParameterError, match="slope_deg is 61"):
+        gr.wheel_speeds(slope_deg=[61.0])
+    with pytest.raises(gr.ParameterError, match="of alike, by-side, by-wheel"):
+        own_speeds.plot(wheels="by-sides")
+
+
 def test_no_slopes_no_heading_offsets() -> None:
     assert gr.heading(slope_deg=[]).yaw_deg.shape == (0,)
     assert gr.heading_map(slope_deg=[], course_deg=[0.0]).power_w.shape == (1, 1, 0)
@@ -264,6 +348,7 @@ def test_samples_of_a_soil_are_exact_soils_in_an_order_of_their_own() -> None:
         lambda: gr.simulate(duration_s=1.0),
         lambda: gr.heading(slope_deg=[5.0, 30.0]),
         lambda: gr.heading_map(slope_deg=[0, 10], course_deg=[0, 20]),
+        lambda: gr.wheel_speeds(slope_deg=[5.0, 30.0]),
         lambda: gr.wheel_test(load_n=10, slip_ratio=[0.0, 0.2], trials=3),
         lambda: gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], samples=4),
         lambda: gr.rollout(slope_deg=[3.0, 5.0], duration_s=0.5),

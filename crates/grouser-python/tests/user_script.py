@@ -53,6 +53,11 @@ def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
     level: gr.Headings = gr.heading(slope_deg=[5.0, 10.0])
+    speeds: gr.WheelSpeeds = gr.wheel_speeds(slope_deg=[5.0], most_speed_ratio=1.5)
+    ratios: NDArray[np.float64] = speeds.speed_ratio
+    steepest: NDArray[np.float64] = speeds.limits.limit_slope_deg
+    models: gr.ByModel[gr.WheelSpeeds] = gr.wheel_speeds(slope_deg=[], model="all")
+    print(ratios[0, speeds.wheels.index("by-side")], steepest.max(), len(models))
     ends: gr.Rollout = gr.rollout([gr.Scenario(site=site)], slope_deg=[[5.0], [10.0]])
     test: gr.SimulatedWheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4], trials=3)
     exact: gr.WheelTest = gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.4])

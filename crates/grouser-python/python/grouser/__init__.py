@@ -1,13 +1,14 @@
 """Predicts how a wheeled rover moves on loose soil.
 
 `Soil`, `Wheel`, `Rover`, `Site`, `Scenario` and `Mission` describe the inputs. `settle` and
-`wheel_forces` compute the forces of the soil on wheels, for whole arrays. `simulate`, `rollout`,
-`heading` and `heading_map` compute the motion of a rover, `mission` drives it through legs with
-limits at which it stops, `wheel_test` simulates a wheel on a test stand, and `validate` and
-`calibrate` compare models with measurements, which `import_wheel_tests` converts. `card` is the
-operator's card, `forecast` predicts under another gravity, and `check` checks documents. `Run` and
-``grouser.gym``, which is imported by itself, are for step-by-step control. `Campaign` and
-`grouser.campaign` are for Monte Carlo campaigns, on one machine or on many.
+`wheel_forces` compute the forces of the soil on wheels, for whole arrays. `simulate`,
+`rollout`, `heading`, `heading_map` and `wheel_speeds` compute the motion of a rover, `mission`
+drives it through legs with limits at which it stops, `wheel_test` simulates a wheel on a test
+stand, and `validate` and `calibrate` compare models with measurements, which
+`import_wheel_tests` converts. `card` is the operator's card, `forecast` predicts under another
+gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
+are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
+on one machine or on many.
 
 Names end with units: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are defined in
 ``docs/conventions.md``: slopes rise along +y, yaw is positive where the nose
@@ -65,6 +66,7 @@ from ._validation import (
     validate_slopes,
 )
 from ._validity import FLAGS, require_inside
+from ._wheel_speeds import WheelSpeedLimits, WheelSpeeds, wheel_speeds
 from ._wheel_test import SimulatedWheelTest, WheelTest, WheelTestBand, wheel_test
 from ._wheels import Settled, WheelForces, settle, wheel_forces
 from .campaign import Campaign
@@ -119,6 +121,8 @@ __all__ = [
     "Validation",
     "Wheel",
     "WheelForces",
+    "WheelSpeedLimits",
+    "WheelSpeeds",
     "WheelTest",
     "WheelTestBand",
     "__version__",
@@ -141,6 +145,7 @@ __all__ = [
     "validate_all",
     "validate_slopes",
     "wheel_forces",
+    "wheel_speeds",
     "wheel_test",
 ]
 

@@ -75,6 +75,7 @@ __all__ = [
     "validate_all",
     "validate_slopes",
     "wheel_forces",
+    "wheel_speeds",
     "wheel_test_band",
 ]
 
@@ -320,6 +321,9 @@ def heading_map_band(
     seed: int,
     samples: int,
 ) -> dict[str, Any]: ...
+def wheel_speeds(
+    scenario: Document, slope_deg: _Floats, most_speed_ratio: float
+) -> tuple[dict[str, Any], dict[str, Any], list[str]]: ...
 def wheel_test_band(
     soil: Document,
     wheel: Document,

@@ -24,7 +24,7 @@ pub const NONE_FOUND: &str = "no speeds were found that hold the contour";
 
 /// A rover that holds the contour, or does not.
 #[derive(Clone, Debug)]
-struct Crossing<'a> {
+pub struct Crossing<'a> {
     slope: f64,
     wheels: &'static str,
     rover: &'a Rover,
@@ -82,7 +82,9 @@ const fn settings<'a>() -> [Column<Crossing<'a>>; 2] {
     ]
 }
 
-const fn results<'a>() -> [Column<Crossing<'a>>; 7] {
+/// What is found on a slope.
+#[must_use]
+pub const fn results<'a>() -> [Column<Crossing<'a>>; 7] {
     [
         YAW.maybe("Yaw that holds the contour, positive uphill", |it| {
             it.number(|alike| alike.yaw, |own| own.yaw)
@@ -120,7 +122,8 @@ const fn limit<'a>() -> [Column<Crossing<'a>>; 1] {
     })]
 }
 
-const SPEED_RATIO: [Column<f64>; 1] =
+/// A wheel's speed: a column for each, with its name before.
+pub const SPEED_RATIO: [Column<f64>; 1] =
     [number("speed_ratio", ONE, "Rim speed over the rover's speed; negative backward", |it| *it)];
 
 const fn status<'a>() -> [Column<Crossing<'a>>; 2] {
