@@ -207,7 +207,7 @@ pub(crate) struct RunArgs {
     /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
-    /// Also draw the run: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
+    /// Also draw what is driven: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
     /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
