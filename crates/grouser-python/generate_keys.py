@@ -6,8 +6,10 @@ rows of the documents' tables. `tests/test_keys.py` fails if the file is not wha
 
 from __future__ import annotations
 
+import ast
 import json
 import textwrap
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +81,7 @@ class Writer:
         # A name or path stands for a table, which a resolved document has in its place.
         if tables:
             return self.table(tables, name, doc)
-        return " | ".join(dict.fromkeys(self.type_of(it, name) for it in whole))
+        return union(self.type_of(it, name) for it in whole)
 
     def table(self, laws: list[dict[str, Any]], name: str, doc: str) -> str:
         """A table, with the keys of all its laws."""
@@ -96,11 +98,22 @@ class Writer:
                 docs.setdefault(key, schema.get("description", ""))
         lines = [*doc_of(doc or laws[0].get("description", name), "    "), ""]
         for key, found in types.items():
-            lines += [f"    {key}: {' | '.join(dict.fromkeys(found))}", *doc_of(docs[key], "    ")]
+            lines += [f"    {key}: {union(found)}", *doc_of(docs[key], "    ")]
         first = self.known.setdefault(tuple(lines), name)
         if first == name:
             self.tables[name] = [f"class {name}(TypedDict, total=False):", *lines]
         return first
+
+
+def union(types: Iterable[str]) -> str:
+    """A type that is any of some, each of which may be such a union: each type once."""
+    return " | ".join(dict.fromkeys(part for one in types for part in parts_of(ast.parse(one, mode="eval").body)))
+
+
+def parts_of(node: ast.expr) -> list[str]:
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
+        return [*parts_of(node.left), *parts_of(node.right)]
+    return [ast.unparse(node)]
 
 
 def doc_of(text: str, indent: str) -> list[str]:

@@ -16,12 +16,16 @@ import grouser as gr
 GENERATOR = Path(__file__).resolve().parents[1] / "generate_keys.py"
 
 
-def generated() -> str:
+def generator() -> Any:
     spec = importlib.util.spec_from_file_location("generate_keys", GENERATOR)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    text: str = module.written()
+    return module
+
+
+def generated() -> str:
+    text: str = generator().written()
     return text
 
 
@@ -46,6 +50,18 @@ def test_no_table_is_declared_twice() -> None:
     bodies = [re.split(r"(?m)^class ", table)[0] for table in tables]
     assert len(bodies) > 10
     assert len(bodies) == len(set(bodies))
+
+
+def test_a_key_to_which_laws_give_types_has_each_once() -> None:
+    number, numbers = {"type": "number"}, {"type": "array", "items": {"type": "number"}}
+    either = {"anyOf": [number, numbers]}
+    several = {"type": "array", "items": {"anyOf": [number, {"type": "string"}]}}
+    laws = [{"type": "object", "properties": {"key": it}} for it in (either, number, several)]
+    writer = generator().Writer({}, {})
+    assert writer.type_of({"oneOf": laws}, "Law") == "Law"
+    assert declared("\n".join(writer.tables["Law"])) == {
+        "Law": {"key": "float | tuple[float, ...] | tuple[float | str, ...]"}
+    }
 
 
 @pytest.mark.parametrize("kind", [gr.Soil, gr.Wheel, gr.Rover, gr.Scenario, gr.Mission])
