@@ -105,6 +105,14 @@ pub const S_M: Unit = Unit::si("s/m");
 pub const N: Unit = Unit::si("N");
 /// Newton metres.
 pub const NM: Unit = Unit::si("N·m");
+/// Newton metres per ampere: the torque constant of a motor.
+pub const NM_A: Unit = Unit::si("N·m/A");
+/// Ohms.
+pub const OHM: Unit = Unit::si("Ω");
+/// Amperes.
+pub const A: Unit = Unit::si("A");
+/// Volts.
+pub const V: Unit = Unit::si("V");
 /// Watts.
 pub const W: Unit = Unit::si("W");
 /// Joules.
@@ -118,7 +126,7 @@ pub const OF_KEY: Unit = Unit::si("");
 
 /// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
 /// Python package asks this table; a test compares it with that of `docs/conventions.md`.
-pub const UNITS: [(&str, Unit); 26] = [
+pub const UNITS: [(&str, Unit); 30] = [
     ("_m_per_m", M_PER_M),
     ("_deg_per_m", DEG_PER_M),
     ("_j_per_m", J_PER_M),
@@ -130,6 +138,8 @@ pub const UNITS: [(&str, Unit); 26] = [
     ("_kg_m2.zz", KG_M2),
     ("_kg_m2", KG_M2),
     ("_kg_m3", KG_M3),
+    ("_nm_a", NM_A),
+    ("_ohm", OHM),
     ("_m_s2", M_S2),
     ("_rad_s", RAD_S),
     ("_deg_s", DEG_S),
@@ -145,6 +155,8 @@ pub const UNITS: [(&str, Unit); 26] = [
     ("_s", S),
     ("_w", W),
     ("_j", J),
+    ("_a", A),
+    ("_v", V),
 ];
 
 /// Ends of the names of quantiles: `yaw_deg_p2_5` is in degrees.

@@ -94,7 +94,7 @@ impl<W: Write> Log<W> {
         fixed("/robot_description", &string, &cdr(&text))?;
         let likeness = scene::of_rover(rover, &names);
         fixed("/scene/rover", &schema::<SceneUpdate>(), &likeness.to_bytes())?;
-        let (of_rover, of_wheel) = (numbers::of_rover(), numbers::of_wheel());
+        let (of_rover, of_wheel) = (numbers::of_rover(rover), numbers::of_wheel(rover));
         let scene =
             |out: &mut Container<W>, topic| out.channel(topic, &schema::<SceneUpdate>(), &[]);
         let wheel = |name: &WheelName| {

@@ -3,10 +3,11 @@
 use std::fmt;
 
 use grouser::document::columns::Column;
-use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{ELECTRICAL, ELECTRICAL_RECORD, RECORD, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser_core::contact::Settled;
 use grouser_core::simulation::{Record, WheelRecord};
+use grouser_core::vehicle::Rover;
 
 use crate::LogError;
 use crate::container::SchemaOf;
@@ -38,18 +39,25 @@ fn entries<R: 'static, S: 'static>(
     })
 }
 
-/// The rover's.
-pub(crate) fn of_rover() -> Numbers<Record> {
+/// The rover's, with what its motors take where that is known.
+pub(crate) fn of_rover(rover: &Rover) -> Numbers<Record> {
     static COLUMNS: &[Column<Record>] = &RECORD;
-    Numbers { schema: "grouser.Rover", entries: entries(COLUMNS, |it| it).collect() }
+    static TAKEN: &[Column<Record>] = &ELECTRICAL_RECORD;
+    let taken = if rover.has_motors() { TAKEN } else { &[] };
+    let all = entries(COLUMNS, |it| it).chain(entries(taken, |it: &Record| it));
+    Numbers { schema: "grouser.Rover", entries: all.collect() }
 }
 
-/// A wheel's.
-pub(crate) fn of_wheel() -> Numbers<WheelRecord> {
+/// A wheel's, with what its motor takes where that is known of every wheel: all wheels have one type of messages.
+pub(crate) fn of_wheel(rover: &Rover) -> Numbers<WheelRecord> {
     static MOTION: &[Column<WheelRecord>] = &WHEEL_RECORD;
     static SETTLED: &[Column<Settled>] = &WHEEL;
     let settled = entries(SETTLED, |it: &WheelRecord| &it.reaction.settled);
-    Numbers { schema: "grouser.Wheel", entries: entries(MOTION, |it| it).chain(settled).collect() }
+    static TAKEN: &[Column<WheelRecord>] = &ELECTRICAL;
+    let has_all = rover.mounts().iter().all(|mount| mount.unit.motor.is_some());
+    let taken = entries(if has_all { TAKEN } else { &[] }, |it: &WheelRecord| it);
+    let all = entries(MOTION, |it| it).chain(settled).chain(taken);
+    Numbers { schema: "grouser.Wheel", entries: all.collect() }
 }
 
 impl<R> fmt::Debug for Numbers<R> {

@@ -4,7 +4,9 @@ use std::ops::RangeInclusive;
 
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
-use grouser::document::columns::run::{ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
+use grouser::document::columns::run::{
+    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD,
+};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
     self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
@@ -78,7 +80,18 @@ pub(crate) fn trajectory_to_python<'py>(
         rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
     }
     dict.set_item("rover", rover)?;
-    dict.set_item("each_wheel", each_wheel(py, run, names.len())?)?;
+    let (electrical, wheels) = (PyDict::new(py), each_wheel(py, run, names.len())?);
+    if scenario.rover.has_motors() {
+        for one in &ELECTRICAL_RECORD {
+            let values = column(py, run.records.iter().map(|it| one.number(it)));
+            electrical.set_item(one.name, values)?;
+        }
+        for one in &ELECTRICAL {
+            wheels.set_item(one.name, of_wheels(py, run, names.len(), |it| one.number(it))?)?;
+        }
+    }
+    dict.set_item("electrical", electrical)?;
+    dict.set_item("each_wheel", wheels)?;
     let each = columns::run::each_findings(run, scenario);
     let each = each.iter().map(|findings| flags::names(findings).join(BETWEEN_NAMES));
     dict.set_item(FLAGS, each.collect::<Vec<_>>())?;
@@ -97,12 +110,22 @@ fn each_wheel<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (name, get) in wheel_sample_columns() {
-        let rows = run.records.iter().map(|sample| {
-            (0..count).map(|k| sample.wheels.get(k).map_or(f64::NAN, &get)).collect::<Vec<f64>>()
-        });
-        dict.set_item(name, PyArray2::from_vec2(py, &rows.collect::<Vec<_>>())?)?;
+        dict.set_item(name, of_wheels(py, run, count, get)?)?;
     }
     Ok(dict)
+}
+
+/// One of these arrays.
+fn of_wheels<'py>(
+    py: Python<'py>,
+    run: &Trajectory,
+    count: usize,
+    number: impl Fn(&WheelRecord) -> f64,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let rows = run.records.iter().map(|sample| {
+        (0..count).map(|k| sample.wheels.get(k).map_or(f64::NAN, &number)).collect::<Vec<f64>>()
+    });
+    Ok(PyArray2::from_vec2(py, &rows.collect::<Vec<_>>())?)
 }
 
 /// A number of a wheel at one time.

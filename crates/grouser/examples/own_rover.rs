@@ -43,6 +43,7 @@ pub(crate) fn six_wheels(steering: f64) -> Result<Rover, ParameterError> {
         mass: 1.0,
         inertia: Inertia { xx: 0.005, yy: 0.008, zz: 0.005 },
         wheel: Wheel { radius: 0.115, width: 0.10, grousers: Some(grousers) },
+        motor: None,
     };
     let mount = |(name, x, y, steering): (&str, f64, f64, f64)| Mount {
         name: name.to_owned(),

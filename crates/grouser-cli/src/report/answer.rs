@@ -3,7 +3,7 @@
 
 use grouser::contact::validity::Finding;
 use grouser::document::Loaded;
-use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{ELECTRICAL, ELECTRICAL_RECORD, RECORD, WHEEL_RECORD};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, Quantity, TIME};
 use grouser::document::table::Table;
@@ -92,18 +92,36 @@ pub(crate) fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
     columns.iter().map(each).collect()
 }
 
+/// What the channels of a run are.
+pub(crate) fn run_meanings(rover: &Rover) -> Vec<Meaning> {
+    let has_motors = rover.has_motors();
+    let electrical = |columns: Vec<Meaning>| if has_motors { columns } else { Vec::new() };
+    [
+        meanings(&RECORD),
+        electrical(meanings(&ELECTRICAL_RECORD)),
+        meanings(&WHEEL_RECORD),
+        meanings(&WHEEL),
+        electrical(meanings(&ELECTRICAL)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
 /// Every channel of a run over time.
 ///
 /// * `table`: a row for each record
 pub(crate) fn over_time(page: &mut Page, table: &Table, rover: &Rover) {
     page.heading("The rover over time");
     page.charts(&by_unit(table, TIME, &RECORD));
+    page.charts(&by_unit(table, TIME, &ELECTRICAL_RECORD));
     page.heading("Each wheel over time");
     let mounts = rover.mounts().iter();
     let wheels: Vec<(String, String)> =
         mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
     page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));
     page.charts(&by_part(table, TIME, &wheels, &WHEEL));
+    page.charts(&by_part(table, TIME, &wheels, &ELECTRICAL));
 }
 
 /// A chart for each unit of some columns over another: columns of one unit share an axis.

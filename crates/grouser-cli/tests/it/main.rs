@@ -15,6 +15,7 @@ mod import;
 mod logs;
 mod mission;
 mod models;
+mod motors;
 mod new;
 mod program;
 mod reports;

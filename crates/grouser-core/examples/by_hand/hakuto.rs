@@ -52,7 +52,7 @@ pub(crate) fn wheel() -> Wheel {
 pub(crate) fn rover() -> Result<Rover, ParameterError> {
     let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
     let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
-    let unit = WheelUnit { mass: 0.422, inertia, wheel: wheel() };
+    let unit = WheelUnit { mass: 0.422, inertia, wheel: wheel(), motor: None };
     let mount = |(name, x, y): (&str, f64, f64)| Mount {
         name: name.to_owned(),
         position: Vec3::new(x, y, -0.06),

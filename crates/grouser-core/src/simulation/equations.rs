@@ -49,6 +49,8 @@ pub struct Rates {
     pub motor_power: f64,
     /// Power into the soil [W].
     pub soil_power: f64,
+    /// Electrical power of the motors that are known [W].
+    pub electrical_power: f64,
 }
 
 /// Time in which a yaw rate returns to the one that is held [s]. It never leaves it by more than
@@ -147,6 +149,7 @@ impl<'a> Equations<'a> {
             acceleration,
             motor_power: motor_power + holding_moment * state.yaw_rate,
             soil_power,
+            electrical_power: power::electrical_power(rover, &wheels, &self.wheel_speeds),
         };
         Ok(Evaluation { rates, wheels })
     }

@@ -23,15 +23,16 @@ use super::power;
 use crate::units::Vec2;
 use crate::vehicle::{Acceleration, Rover, RoverState};
 
-/// How many numbers move: pose, velocities, and the two energies.
-const SIZE: usize = 8;
+/// How many numbers move: pose, velocities, and the three energies.
+const SIZE: usize = 9;
 
-/// What is integrated: the rover's state, the motors' work and the work on the soil [J].
+/// What is integrated: the rover's state, the motors' work, the work on the soil, and the electrical energy [J].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Point {
     pub(super) state: RoverState,
     pub(super) motors: f64,
     pub(super) soil: f64,
+    pub(super) electrical: f64,
 }
 
 impl Point {
@@ -52,12 +53,23 @@ impl Point {
             },
             motors: y[6],
             soil: y[7],
+            electrical: y[8],
         }
     }
 
     fn to_array(self) -> [f64; SIZE] {
         let RoverState { position, yaw, velocity, yaw_rate } = self.state;
-        [position.x, position.y, yaw, velocity.x, velocity.y, yaw_rate, self.motors, self.soil]
+        [
+            position.x,
+            position.y,
+            yaw,
+            velocity.x,
+            velocity.y,
+            yaw_rate,
+            self.motors,
+            self.soil,
+            self.electrical,
+        ]
     }
 }
 
@@ -73,6 +85,7 @@ impl Rates {
             yaw_acceleration,
             self.motor_power,
             self.soil_power,
+            self.electrical_power,
         ]
     }
 }

@@ -21,6 +21,9 @@ pub struct EnergyBalance {
     pub kinetic: f64,
     /// Potential energy on the slope, zero at the origin's height.
     pub potential: f64,
+    /// Electrical energy that the motors took, of the wheels whose motors are known. It is no part of the balance: what is
+    /// more than the motors' work is lost in them.
+    pub electrical: f64,
 }
 
 /// Power of the motors and into the soil [W].
@@ -44,6 +47,16 @@ pub fn powers(
         soil += motor - pull - forces.aligning_moment * aligning_work_rate;
     }
     (motors, soil)
+}
+
+/// Electrical power of the motors that are known [W].
+#[must_use]
+pub fn electrical_power(rover: &Rover, wheels: &[WheelReaction], wheel_speeds: &[f64]) -> f64 {
+    let each = rover.mounts().iter().zip(wheels).zip(wheel_speeds);
+    each.filter_map(|((mount, wheel), speed)| {
+        Some(mount.unit.motor?.at(wheel.settled.forces.torque, *speed).power)
+    })
+    .sum()
 }
 
 /// Kinetic energy of the rover as one rigid body [J], without the wheels' spin.

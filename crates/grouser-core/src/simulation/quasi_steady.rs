@@ -163,8 +163,10 @@ impl<'a> QuasiSteady<'a> {
             let share = weight * step / 6.0;
             point.state.position += k.velocity_slope * share;
             point.state.yaw += k.yaw_rate * share;
-            point.motors += k.powers.0 * share;
-            point.soil += k.powers.1 * share;
+            let [motors, soil, electrical] = k.powers;
+            point.motors += motors * share;
+            point.soil += soil * share;
+            point.electrical += electrical * share;
         }
         self.set_velocities(point);
     }
@@ -184,7 +186,7 @@ impl<'a> QuasiSteady<'a> {
 struct PoseRates {
     velocity_slope: Vec2,
     yaw_rate: f64,
-    powers: (f64, f64),
+    powers: [f64; 3],
 }
 
 impl Stretch {
@@ -279,14 +281,15 @@ impl Stretch {
     }
 
     fn rates(&self, yaw: f64) -> PoseRates {
-        let (mut velocities, mut motors, mut soil) = (Vector3::zeros(), 0.0, 0.0);
+        let (mut velocities, mut powers) = (Vector3::zeros(), [0.0; 3]);
         for (node, weight) in self.nodes.iter().zip(self.weights(yaw)) {
             velocities += node.velocities * weight;
-            motors += node.powers.0 * weight;
-            soil += node.powers.1 * weight;
+            for (power, of_node) in powers.iter_mut().zip(node.powers) {
+                *power += of_node * weight;
+            }
         }
         let velocity_slope = rotation(yaw) * velocities.xy();
-        PoseRates { velocity_slope, yaw_rate: velocities.z, powers: (motors, soil) }
+        PoseRates { velocity_slope, yaw_rate: velocities.z, powers }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::equations::Equations;
 use super::integrate::Point;
 use super::power::{self, EnergyBalance};
-use crate::vehicle::{RoverState, WheelReaction};
+use crate::vehicle::{Electrical, RoverState, WheelReaction};
 
 /// The rover at one time.
 ///
@@ -51,11 +51,17 @@ impl Record {
             soil: point.soil,
             kinetic: power::kinetic_energy(rover, &state) + power::spin_energy(rover, wheel_speeds),
             potential: power::potential_energy(rover, site, &state),
+            electrical: point.electrical,
         };
         let wheels = wheels
             .iter()
             .zip(wheel_speeds)
-            .map(|(&reaction, &wheel_speed)| WheelRecord { wheel_speed, reaction })
+            .zip(rover.mounts())
+            .map(|((&reaction, &wheel_speed), mount)| {
+                let torque = reaction.settled.forces.torque;
+                let electrical = mount.unit.motor.map(|motor| motor.at(torque, wheel_speed));
+                WheelRecord { wheel_speed, reaction, electrical }
+            })
             .collect();
         Self { time, state, wheels, energy }
     }
@@ -68,6 +74,8 @@ pub struct WheelRecord {
     pub wheel_speed: f64,
     /// Slip, load, sinkage and forces.
     pub reaction: WheelReaction,
+    /// What its motor takes, where that is known.
+    pub electrical: Option<Electrical>,
 }
 
 impl WheelRecord {

@@ -44,7 +44,7 @@ impl State {
         let state = scenario.start_state(&rim_speeds);
         Self {
             time: 0.0,
-            point: Point { state, motors: 0.0, soil: 0.0 },
+            point: Point { state, motors: 0.0, soil: 0.0, electrical: 0.0 },
             slip_ratios: vec![0.0; rim_speeds.len()],
             told,
             rim_speeds,

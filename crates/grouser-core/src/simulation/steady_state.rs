@@ -68,7 +68,7 @@ pub(super) struct SteadyState {
     /// *(u, v, γ')* [m/s, m/s, rad/s], in the body frame.
     pub(super) velocities: Vector3<f64>,
     /// Power of the motors and into the soil [W].
-    pub(super) powers: (f64, f64),
+    pub(super) powers: [f64; 3],
     /// The wheels.
     pub(super) wheels: Vec<WheelReaction>,
 }
@@ -287,5 +287,6 @@ fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {
 
 fn steady_state_at(yaw: f64, velocities: Vector3<f64>, evaluation: Evaluation) -> SteadyState {
     let Evaluation { rates, wheels } = evaluation;
-    SteadyState { yaw, velocities, powers: (rates.motor_power, rates.soil_power), wheels }
+    let powers = [rates.motor_power, rates.soil_power, rates.electrical_power];
+    SteadyState { yaw, velocities, powers, wheels }
 }

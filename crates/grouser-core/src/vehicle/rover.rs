@@ -4,6 +4,7 @@
 
 use nalgebra::Rotation2;
 
+use super::motor::Motor;
 use super::state::rotation;
 use super::support_polygon::SupportPolygon;
 use crate::error::{ParameterError, finite, positive};
@@ -41,6 +42,8 @@ pub struct WheelUnit {
     pub inertia: Inertia,
     /// Geometry.
     pub wheel: Wheel,
+    /// Its motor, where that is known.
+    pub motor: Option<Motor>,
 }
 
 /// A wheel in its place.
@@ -137,6 +140,8 @@ pub struct MountParts {
     pub mass: Option<f64>,
     /// An inertia of its own.
     pub inertia: Option<Inertia>,
+    /// A motor of its own.
+    pub motor: Option<Motor>,
 }
 
 impl RoverParts {
@@ -151,6 +156,7 @@ impl RoverParts {
                 mass: mount.mass.unwrap_or(common.mass),
                 inertia: mount.inertia.unwrap_or(common.inertia),
                 wheel: mount.wheel.unwrap_or(common.wheel),
+                motor: mount.motor.or(common.motor),
             },
             steering: mount.steering,
         };
@@ -169,7 +175,7 @@ impl RoverParts {
 ///
 /// let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
 /// let inertia = Inertia { xx: 0.00100, yy: 0.00154, zz: 0.00100 };
-/// let unit = WheelUnit { mass: 0.422, inertia, wheel: hakuto::wheel() };
+/// let unit = WheelUnit { mass: 0.422, inertia, wheel: hakuto::wheel(), motor: None };
 /// let mount = |(name, x, y): (&str, f64, f64)| Mount {
 ///     name: name.to_owned(),
 ///     position: Vec3::new(x, y, -0.06),
@@ -224,6 +230,7 @@ impl Rover {
             wheel: (unit.wheel != wheel_unit.wheel).then_some(unit.wheel),
             mass: (unit.mass != wheel_unit.mass).then_some(unit.mass),
             inertia: (unit.inertia != wheel_unit.inertia).then_some(unit.inertia),
+            motor: unit.motor.filter(|motor| Some(*motor) != wheel_unit.motor),
         };
         let mounts = mounts.into_iter().map(parts).collect();
         Self::draft(RoverParts { body, wheel_unit, mounts }).checked()
@@ -277,6 +284,7 @@ impl Rover {
         }
         for (unit, _) in &alike {
             unit.wheel.check()?;
+            unit.motor.map_or(Ok(()), |motor| motor.check())?;
         }
         check_stance(&mounts)?;
 
@@ -385,6 +393,12 @@ impl Rover {
     pub fn mean_axle_height(&self) -> f64 {
         let radii = self.mounts.iter().map(Mount::shearing_radius);
         radii.sum::<f64>() / self.mounts.len() as f64
+    }
+
+    /// Whether some wheel's motor is known.
+    #[must_use]
+    pub fn has_motors(&self) -> bool {
+        self.mounts.iter().any(|mount| mount.unit.motor.is_some())
     }
 
     /// How many wheels there are.
@@ -524,7 +538,7 @@ mod tests {
         let inertia = Inertia { xx: 0.138, yy: 0.142, zz: 0.230 };
         let wheel_inertia = Inertia { xx: 0.001, yy: 0.001_54, zz: 0.001 };
         let wheel = Wheel { radius: 0.11, width: 0.08, grousers: None };
-        let unit = WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel };
+        let unit = WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel, motor: None };
         let mounts = [(0.19, 0.24), (-0.17, 0.24), (-0.17, -0.24), (0.19, -0.24)].map(|(x, y)| {
             let (name, position) = (format!("{x},{y}"), Vec3::new(x, y, -0.06));
             Mount { name, position, unit, steering: 0.0 }

@@ -1,21 +1,21 @@
 //! `rover/1`: a body and its wheels.
 
 use super::super::field::{
-    At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers, part,
-    table, text,
+    At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, NM, NM_A, OHM, ONE, Reach, Table, flag, list,
+    number, numbers, part, positive, table, text,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, name, notes, schema, source};
 use super::wheel::{self, WHEEL};
 use grouser_core::units::Vec3;
-use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, WheelUnit};
+use grouser_core::vehicle::{Body, Inertia, Motor, MountParts, RoverParts, WheelUnit};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
 /// A rover before its numbers are put in.
 pub(crate) const BLANK: RoverParts = RoverParts {
     body: Body { mass: 0.0, inertia: NO_INERTIA },
-    wheel_unit: WheelUnit { mass: 0.0, inertia: NO_INERTIA, wheel: wheel::BLANK },
+    wheel_unit: WheelUnit { mass: 0.0, inertia: NO_INERTIA, wheel: wheel::BLANK, motor: None },
     mounts: Vec::new(),
 };
 
@@ -37,6 +37,15 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
             "A wheel with its motor: that of every mount that has no other.",
             &At { inner: &WHEEL_UNIT, at: |rover: &mut RoverParts| &mut rover.wheel_unit },
         ),
+        table(
+            "motor",
+            "The motor of every wheel whose mount has no other; without it nothing is said of current and battery.",
+            &At {
+                inner: &MOTOR,
+                at: |rover: &mut RoverParts| rover.wheel_unit.motor.get_or_insert(NO_MOTOR),
+            },
+        )
+        .optional(),
         list(
             "mount",
             "Where the wheels sit: three or more, standing on one plane, not in one line.",
@@ -50,6 +59,7 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
                     wheel: None,
                     mass: None,
                     inertia: None,
+                    motor: None,
                 },
             },
             3,
@@ -93,6 +103,55 @@ static WHEEL_UNIT: Table<WheelUnit> = Table {
             "Its geometry: a preset's name, a path from this document's folder, or a wheel's keys.",
             &At { inner: &WHEEL, at: |unit: &mut WheelUnit| &mut unit.wheel },
         ),
+    ],
+};
+
+const NO_MOTOR: Motor = Motor {
+    resistance: 0.0,
+    torque_constant: 0.0,
+    gear_ratio: 0.0,
+    efficiency: 0.0,
+    friction: 0.0,
+    is_self_locking: false,
+};
+
+static MOTOR: Table<Motor> = Table {
+    doc: "A DC motor behind a gear. It turns as fast as it is told, and takes the current that this needs.",
+    fields: &[
+        positive("resistance_ohm", OHM, 1e6, "Resistance of the winding, R", |motor: &mut Motor| {
+            Some(&mut motor.resistance)
+        }),
+        positive(
+            "torque_constant_nm_a",
+            NM_A,
+            1e4,
+            "Torque constant, k, which is that of the induced voltage, too",
+            |motor: &mut Motor| Some(&mut motor.torque_constant),
+        ),
+        positive(
+            "gear_ratio",
+            ONE,
+            1e6,
+            "Turns of the motor for one of the wheel, N",
+            |motor: &mut Motor| Some(&mut motor.gear_ratio),
+        ),
+        number("gear_efficiency", ONE, 0.01..=1.0, "Efficiency of the gear, η", |motor: &mut Motor| {
+            Some(&mut motor.efficiency)
+        }),
+        number(
+            "friction_torque_nm",
+            NM,
+            0.0..=1e3,
+            "Torque of friction at the motor's shaft, τ_f",
+            |motor: &mut Motor| Some(&mut motor.friction),
+        )
+        .or(0.0),
+        flag(
+            "self_locking",
+            "Whether the wheel cannot turn the gear: then the motor holds a slope without current, and brakes with none.",
+            |motor: &mut Motor, yes| motor.is_self_locking = yes,
+        )
+        .optional(),
     ],
 };
 
@@ -148,6 +207,15 @@ static MOUNT: Table<MountParts> = Table {
             &At {
                 inner: &WHEEL,
                 at: |mount: &mut MountParts| mount.wheel.get_or_insert(wheel::BLANK),
+            },
+        )
+        .optional(),
+        table(
+            "motor",
+            "The motor of this wheel, instead of the rover's.",
+            &At {
+                inner: &MOTOR,
+                at: |mount: &mut MountParts| mount.motor.get_or_insert(NO_MOTOR),
             },
         )
         .optional(),

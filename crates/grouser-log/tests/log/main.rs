@@ -14,7 +14,7 @@ use grouser::studies::mission::DrivenMission;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
 use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
 use grouser_core::units::{Vec3, deg};
-use grouser_core::vehicle::{Mount, Rover};
+use grouser_core::vehicle::{Motor, Mount, Rover};
 use grouser_log::{Level, Log, LogError};
 use grouser_pictures::motion::Follower;
 use grouser_pictures::rover::PlacedWheel;
@@ -185,6 +185,40 @@ fn six() -> Rover {
         Mount { name: (*name).into(), position: Vec3::new(x, 0.24 * side, -0.06), unit, steering }
     });
     Rover::new(*four.body(), mounts.collect()).expect("a rover")
+}
+
+/// What motors take stands behind the other numbers: of wheels where all have a motor, of the rover where one has.
+#[test]
+fn what_motors_take_is_logged() -> Outcomes {
+    let motor = Motor {
+        resistance: 10.0,
+        torque_constant: 0.01,
+        gear_ratio: 250.0,
+        efficiency: 0.6,
+        friction: 1e-3,
+        is_self_locking: false,
+    };
+    for (place, has_all) in [(None, true), (Some(2), false)] {
+        let mut parts = hakuto::rover().expect("a rover").parts().clone();
+        match place {
+            None => parts.wheel_unit.motor = Some(motor),
+            Some(place) => parts.mounts[place].motor = Some(motor),
+        }
+        let rover = Rover::draft(parts).checked().expect("a rover");
+        let scenario = Scenario { rover, ..short() };
+        let run = run_of(&scenario);
+        let file = log_of(&scenario, &run.records)?;
+        let last = |topic: &str| {
+            let all = messages(&file, topic);
+            doubles(&all.last().expect("a record").1)
+        };
+        let end = run.last();
+        assert_eq!(last("/rover").last(), Some(&end.energy.electrical));
+        let wheel = last("/wheels/rear-right");
+        let power = end.wheels[2].electrical.expect("a motor").power;
+        assert_eq!(wheel.last() == Some(&power), has_all);
+    }
+    Ok(())
 }
 
 /// The way from the slope to each hub by transforms, and by what the pictures draw.

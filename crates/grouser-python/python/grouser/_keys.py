@@ -559,6 +559,25 @@ class RoverWheelUnit(TypedDict, total=False):
     """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
 
 
+class RoverMotor(TypedDict, total=False):
+    """The motor of every wheel whose mount has no other; without it nothing is said of current and
+    battery."""
+
+    resistance_ohm: float
+    """Resistance of the winding, R [Ω]."""
+    torque_constant_nm_a: float
+    """Torque constant, k, which is that of the induced voltage, too [N·m/A]."""
+    gear_ratio: float
+    """Turns of the motor for one of the wheel, N [-]."""
+    gear_efficiency: float
+    """Efficiency of the gear, η [-]."""
+    friction_torque_nm: float
+    """Torque of friction at the motor's shaft, τ_f [N·m]."""
+    self_locking: bool
+    """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
+    brakes with none."""
+
+
 class RoverMountInertiaKgM2(TypedDict, total=False):
     """Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel
     unit's."""
@@ -593,6 +612,24 @@ class RoverMountWheel(TypedDict, total=False):
     """Bars across the rim; left out for a smooth wheel."""
 
 
+class RoverMountMotor(TypedDict, total=False):
+    """The motor of this wheel, instead of the rover's."""
+
+    resistance_ohm: float
+    """Resistance of the winding, R [Ω]."""
+    torque_constant_nm_a: float
+    """Torque constant, k, which is that of the induced voltage, too [N·m/A]."""
+    gear_ratio: float
+    """Turns of the motor for one of the wheel, N [-]."""
+    gear_efficiency: float
+    """Efficiency of the gear, η [-]."""
+    friction_torque_nm: float
+    """Torque of friction at the motor's shaft, τ_f [N·m]."""
+    self_locking: bool
+    """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
+    brakes with none."""
+
+
 class RoverMount(TypedDict, total=False):
     """Where a wheel sits, and what it has instead of the common wheel unit."""
 
@@ -611,6 +648,8 @@ class RoverMount(TypedDict, total=False):
     wheel: RoverMountWheel
     """The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this
     document's folder, or a wheel's keys."""
+    motor: RoverMountMotor
+    """The motor of this wheel, instead of the rover's."""
 
 
 class RoverKeys:
@@ -653,6 +692,12 @@ class RoverKeys:
         @property
         def wheel_unit(self) -> RoverWheelUnit:
             """A wheel with its motor: that of every mount that has no other."""
+            ...
+
+        @property
+        def motor(self) -> RoverMotor:
+            """The motor of every wheel whose mount has no other; without it nothing is said of
+            current and battery."""
             ...
 
         @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -108,7 +108,8 @@ class Trajectory(_tables.Tabular):
 
     ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
-    rover has just tipped over or sunk.
+    rover has just tipped over or sunk. Of a rover with motors it has ``current_a``, ``voltage_v``
+    and ``electrical_power_w``, too.
 
     Examples
     --------
@@ -169,6 +170,9 @@ class Trajectory(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
+    electrical: Mapping[str, Floats] = field(default_factory=dict)
+    """``electrical_power_w`` [W] and ``battery_energy_j`` [J] of all motors, arrays of shape
+    (records,); empty where no motor is known."""
     band: TraverseBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
     mission: Mission | None = None
@@ -177,7 +181,11 @@ class Trajectory(_tables.Tabular):
     """The alternative of the mission; empty where there are none."""
 
     def _table(self) -> dict[str, Any]:
-        columns: dict[str, Any] = {**columns_of(self, SAMPLE), "flags": self.flags}
+        columns: dict[str, Any] = {
+            **columns_of(self, SAMPLE),
+            **self.electrical,
+            "flags": self.flags,
+        }
         for k, name in enumerate(self.wheel_names):
             columns |= {f"{name}.{key}": values[:, k] for key, values in self.wheel.items()}
         return columns
@@ -198,7 +206,7 @@ class Trajectory(_tables.Tabular):
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for the wheels, whose
         names start with ``wheel_``. Units are in the attributes."""
-        rover = columns_of(self, SAMPLE[1:])
+        rover = {**columns_of(self, SAMPLE[1:]), **self.electrical}
         data = _tables.dataset(("time_s",), rover, {"time_s": self.time_s})
         for name, values in self.wheel.items():
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
@@ -379,6 +387,7 @@ def trajectory_of(found: Mapping[str, Any], **inputs: Any) -> Trajectory:
         energy_error_j=found["energy_error_j"],
         wheel_names=tuple(found["wheels"]),
         wheel=found["each_wheel"],
+        electrical=found["electrical"],
         **found["rover"],
         **inputs,
     )

@@ -88,7 +88,7 @@ pub(crate) fn simulant_2007() -> Soil {
 pub(crate) fn rover_on(wheel: Wheel, hubs: &[(f64, f64)]) -> Rover {
     let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
     let inertia = Inertia { xx: 0.001_00, yy: 0.001_54, zz: 0.001_00 };
-    let unit = WheelUnit { mass: 0.422, inertia, wheel };
+    let unit = WheelUnit { mass: 0.422, inertia, wheel, motor: None };
     let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
         name: format!("wheel {}", number + 1),
         position: Vec3::new(x, y, -0.06),

@@ -91,6 +91,7 @@ impl Scaling {
             mass: self.s * unit.mass,
             inertia: self.inertia(unit.inertia),
             wheel: self.wheel(unit.wheel),
+            motor: None,
         };
         let mount = |mount: &Mount| Mount {
             position: self.r * mount.position,

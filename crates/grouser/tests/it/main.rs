@@ -28,6 +28,7 @@ mod messages;
 mod million;
 mod mission;
 mod mission_drives;
+mod motors;
 mod mounts;
 mod paper;
 mod path_run;

@@ -21,7 +21,7 @@ fn changed(change: impl Fn(usize, &mut Mount)) -> Rover {
 }
 
 /// Soil that wheels hardly sink into: so little slip is needed that a rover follows its wheels.
-fn firm() -> Soil {
+pub(super) fn firm() -> Soil {
     let soil = given::toyoura();
     let PressureSinkage::Reece { k_c, k_phi, exponent } = soil.pressure_sinkage else {
         panic!("Toyoura sand has Reece's law");

@@ -21,7 +21,7 @@ use super::given::{self, cases};
 fn lopsided() -> Rover {
     let inertia = Inertia { xx: 0.1, yy: 0.1, zz: 0.1 };
     let hubs = [(1.0, 0.3), (1.5, 2.0), (0.4, 1.6), (2.0, 1.0)];
-    let unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel() };
+    let unit = WheelUnit { mass: 2.0, inertia, wheel: given::hakuto_wheel(), motor: None };
     let mounts = hubs.iter().map(|&(x, y)| Mount {
         name: format!("at {x}, {y}"),
         position: Vec3::new(x, y, -0.1),
@@ -204,7 +204,8 @@ fn any_rover() -> impl Strategy<Value = Rover> {
         "the wheels stand in a line",
         |(hubs, body_mass, wheel_mass, inertia)| {
             let inertia = Inertia { xx: inertia, yy: inertia, zz: inertia };
-            let unit = WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel() };
+            let unit =
+                WheelUnit { mass: wheel_mass, inertia, wheel: given::hakuto_wheel(), motor: None };
             let mounts = hubs.iter().enumerate().map(|(number, &(x, y))| Mount {
                 name: number.to_string(),
                 position: Vec3::new(x, y, -0.1),

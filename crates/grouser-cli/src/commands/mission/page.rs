@@ -1,8 +1,7 @@
 //! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
 
 use grouser::document::columns::mission::{LEG, MISSION, legs_brief, missions_brief};
-use grouser::document::columns::run::{self, RECORD, WHEEL_RECORD};
-use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::run;
 use grouser::document::columns::{ENERGY, SLOPE};
 
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
@@ -10,7 +9,7 @@ use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use super::answered::{Answered, reasons, sentence};
 use crate::chart::Bars;
 use crate::output::rows::four_digits;
-use crate::report::answer::{self, Basis, axis, meanings, over_time};
+use crate::report::answer::{self, Basis, axis, meanings, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(answered: &Answered) -> String {
@@ -37,9 +36,7 @@ pub(super) fn html(answered: &Answered) -> String {
     if answered.ways.len() > 1 {
         columns.extend(meanings(&MISSION));
     }
-    columns.extend(meanings(&RECORD));
-    columns.extend(meanings(&WHEEL_RECORD));
-    columns.extend(meanings(&WHEEL));
+    columns.extend(run_meanings(&scenario.rover));
     let basis = Basis::new("grouser mission mission.toml".to_owned());
     let basis = basis.with("mission.toml", &answered.document);
     answer::close(page, &findings, &columns, &basis)

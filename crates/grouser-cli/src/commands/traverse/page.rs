@@ -1,8 +1,7 @@
 //! The page of a traverse: where the rover ends up, its path, and every channel over time.
 
 use grouser::contact::validity::Finding;
-use grouser::document::columns::run::{self, RECORD, TIME_BAND, WHEEL_RECORD};
-use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::run::{self, TIME_BAND};
 use grouser::document::columns::{
     Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, SLOPE, TIME, X, Y, YAW,
 };
@@ -16,7 +15,7 @@ use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::four_digits;
 use crate::output::text::capitalised;
-use crate::report::answer::{self, Basis, axis, meanings, over_time};
+use crate::report::answer::{self, Basis, axis, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
@@ -38,9 +37,7 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         .iter()
         .flat_map(|it| run::each_findings(&it.run, &it.scenario.value).into_iter().flatten())
         .collect();
-    let mut columns = meanings(&RECORD);
-    columns.extend(meanings(&WHEEL_RECORD));
-    columns.extend(meanings(&WHEEL));
+    let columns = all.first().map_or(Vec::new(), |it| run_meanings(&it.scenario.value.rover));
     answer::close(page, &findings, &columns, &basis(args, all))
 }
 

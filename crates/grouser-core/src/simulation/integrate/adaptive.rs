@@ -12,14 +12,17 @@ use std::ops::Range;
 use super::dormand_prince::{ExplicitStep, explicit_step};
 use super::rosenbrock::{Linear, implicit_step};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
-use super::{OnSample, Point, Stalled, rates_at};
+use super::{OnSample, Point, SIZE, Stalled, rates_at};
 use crate::elementary::pow;
 use crate::simulation::equations::Equations;
 
 /// Smallest error that a step may leave, besides the relative tolerance times the value, over that
 /// tolerance: lengths [m], angles [rad] and speeds [m/s] far below what a rover notices, and
 /// energies [J] to match.
-const SMALL: Numbers = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-2, 1e-2];
+const SMALL: Numbers = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2];
+
+/// So many numbers decide how long a step is: all but the electrical energy, which goes with the motors' work.
+const DECIDING: usize = SIZE - 1;
 
 /// What an unfinished motion knows: the step it is in, which may reach beyond the last time that was
 /// asked for. While the wheels keep their speeds it goes on there, as if it had never paused.
@@ -275,15 +278,14 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
         Some(Attempt { step, rates: Some(rates), fastest })
     }
 
-    /// A step's error over what is allowed, as a root mean square over all components.
+    /// A step's error over what is allowed, as a root mean square over the components that decide.
     fn miss(&self, step: &Step) -> f64 {
         let part = |i: usize| {
             let size = step.from[i].abs().max(step.to[i].abs()) + SMALL[i];
             let miss = step.error[i] / (EMBEDDED_EXCESS * self.tolerance * size);
             miss * miss
         };
-        let parts = step.error.len();
-        ((0..parts).map(part).sum::<f64>() / parts as f64).sqrt()
+        ((0..DECIDING).map(part).sum::<f64>() / DECIDING as f64).sqrt()
     }
 
     /// How long the first step of a motion should be. What the wheels' new speeds disturb dies out
@@ -322,7 +324,6 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::integrate::SIZE;
 
     /// Numbers that couple: the first two components that may.
     fn pair(one: f64, other: f64) -> Numbers {

@@ -4,7 +4,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
 use super::super::table::Table;
-use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, RAD_S};
+use super::super::unit::{A, DEG_S, J, M, M_PER_M, M_S, RAD_S, V, W};
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
@@ -39,6 +39,31 @@ pub const RECORD: [Column<Record>; 12] = [
         it.energy.potential
     }),
 ];
+
+/// What motors take, of a rover whose motors are known: beside [`RECORD`].
+pub const ELECTRICAL_RECORD: [Column<Record>; 2] = [
+    ELECTRICAL_POWER.number("Electrical power of all motors", |it| {
+        it.wheels.iter().filter_map(|wheel| Some(wheel.electrical?.power)).sum()
+    }),
+    BATTERY_ENERGY
+        .number("Electrical energy that the motors took so far", |it| it.energy.electrical),
+];
+
+/// What a wheel's motor takes, where that is known: beside [`WHEEL_RECORD`].
+pub const ELECTRICAL: [Column<WheelRecord>; 3] = [
+    quantity("current_a", A)
+        .maybe("Current of its motor, negative where it brakes", |it| Some(it.electrical?.current)),
+    quantity("voltage_v", V)
+        .maybe("Voltage of its motor, negative backward", |it| Some(it.electrical?.voltage)),
+    ELECTRICAL_POWER.maybe("Electrical power of its motor; none is taken back", |it| {
+        Some(it.electrical?.power)
+    }),
+];
+
+/// Electrical power of motors.
+pub const ELECTRICAL_POWER: Quantity = quantity("electrical_power_w", W);
+/// Electrical energy.
+pub const BATTERY_ENERGY: Quantity = quantity("battery_energy_j", J);
 
 /// A wheel at one time, beside its results ([`WHEEL`]).
 pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
@@ -117,6 +142,9 @@ pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
 pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     let rover = &scenario.rover;
     let mut table = Table::of(&RECORD, &run.records);
+    if rover.has_motors() {
+        table = table.and(&ELECTRICAL_RECORD, &run.records.iter().map(Some).collect::<Vec<_>>());
+    }
     let findings = each_findings(run, scenario);
     table = table.and(&FLAGS, &findings.iter().map(Some).collect::<Vec<_>>());
     let wheels = run.records.iter().map(|record| record.wheels.len()).max().unwrap_or(0);
@@ -131,6 +159,9 @@ pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
         table = table.and_named(&prefix, first, &settled);
         table = table.and_named(&prefix, &WHEEL_RECORD, &wheels);
         table = table.and_named(&prefix, results, &settled);
+        if mount.unit.motor.is_some() {
+            table = table.and_named(&prefix, &ELECTRICAL, &wheels);
+        }
     }
     table
 }
@@ -269,6 +300,10 @@ impl Serialize for RunObject<'_> {
         let record = |record| RecordObject { record, scenario: self.scenario };
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
+        if self.scenario.rover.has_motors() {
+            let [_, energy] = &ELECTRICAL_RECORD;
+            energy.write(&mut map, self.run.last())?;
+        }
         let over = RoverOnSlope::of(self.scenario).over(self.run);
         let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
         FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
@@ -289,6 +324,9 @@ impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        if self.scenario.rover.has_motors() {
+            ELECTRICAL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        }
         let findings = RoverOnSlope::of(self.scenario).at(self.record);
         FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
         let wheels = self.record.wheels.iter().zip(self.scenario.rover.mounts());
@@ -311,6 +349,9 @@ impl Serialize for WheelObject<'_> {
         WHEEL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
         let settled = &self.wheel.reaction.settled;
         WHEEL.iter().try_for_each(|column| column.write(&mut map, settled))?;
+        if self.wheel.electrical.is_some() {
+            ELECTRICAL.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
+        }
         map.end()
     }
 }

@@ -1,0 +1,219 @@
+//! The motor of a wheel: a brushed or field-oriented DC motor behind a gear.
+//!
+//! ```text
+//! V   = R i + k N ω                             voltage of the winding
+//! τ   = k i − τ_f sgn ω                         torque of the motor's shaft
+//! T   = N η τ       where the motor drives      (T ω > 0)
+//! T   = N τ / η     where the wheel drives it   (T ω < 0), η > 0
+//! P   = max(V i, 0)                             power that it takes
+//! ```
+//!
+//! The torque constant *k* [N·m/A] is the constant of the voltage that turning induces, too [V·s/rad]. A self-locking gear
+//! lets no torque of the wheel through to the motor. Power that a driven motor gives is not taken back.
+
+use crate::error::{ParameterError, not_negative, positive};
+
+/// A DC motor behind a gear.
+///
+/// What does a micro rover's motor take that turns its wheel at 0.55 rad/s against 0.4 N·m?
+///
+/// ```
+/// use grouser_core::vehicle::Motor;
+///
+/// let motor = Motor {
+///     resistance: 10.0,
+///     torque_constant: 0.010,
+///     gear_ratio: 250.0,
+///     efficiency: 0.6,
+///     friction: 1e-3,
+///     is_self_locking: false,
+/// };
+/// let taken = motor.at(0.4, 0.55);
+/// assert_eq!(format!("{:.0} mA at {:.2} V", 1e3 * taken.current, taken.voltage), "367 mA at 5.04 V");
+/// assert_eq!(format!("{:.0} mW", 1e3 * taken.power), "1848 mW");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motor {
+    /// Resistance of the winding and of its leads, *R* [Ω].
+    pub resistance: f64,
+    /// Torque constant, *k* [N·m/A].
+    pub torque_constant: f64,
+    /// How often the motor turns while the wheel turns once, *N* [-].
+    pub gear_ratio: f64,
+    /// Efficiency of the gear, *η* [-], above 0 to 1.
+    pub efficiency: f64,
+    /// Torque of friction at the motor's shaft, *τ_f* [N·m].
+    pub friction: f64,
+    /// Whether the wheel cannot turn the gear.
+    pub is_self_locking: bool,
+}
+
+/// What a motor takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Electrical {
+    /// Current, *i* [A], below 0 where it brakes.
+    pub current: f64,
+    /// Voltage, *V* [V], of the sign of the speed where it drives.
+    pub voltage: f64,
+    /// Power [W], not below 0.
+    pub power: f64,
+}
+
+impl Motor {
+    /// That there can be such a motor.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first number that is out of its range.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        positive("resistance of a motor [Ω]", self.resistance)?;
+        positive("torque constant of a motor [N·m/A]", self.torque_constant)?;
+        positive("gear ratio of a motor", self.gear_ratio)?;
+        positive("efficiency of a gear", self.efficiency)?;
+        not_negative("friction of a motor [N·m]", self.friction)?;
+        if self.efficiency > 1.0 {
+            let expected = "above 0 and at most 1";
+            return Err(ParameterError::new("efficiency of a gear", self.efficiency, expected));
+        }
+        Ok(())
+    }
+
+    /// What it takes to turn a wheel.
+    ///
+    /// * `torque`: of the wheel, *T* [N·m], positive while it drives the wheel forward
+    /// * `wheel_speed`: *ω* [rad/s]
+    #[must_use]
+    pub fn at(&self, torque: f64, wheel_speed: f64) -> Electrical {
+        let current = self.shaft_torque(torque, wheel_speed) / self.torque_constant;
+        let induced = self.torque_constant * self.gear_ratio * wheel_speed;
+        let voltage = self.resistance * current + induced;
+        Electrical { current, voltage, power: (voltage * current).max(0.0) }
+    }
+
+    /// Torque of the magnetic field on the shaft, k i [N·m].
+    fn shaft_torque(&self, torque: f64, wheel_speed: f64) -> f64 {
+        let at_shaft = torque / self.gear_ratio;
+        if wheel_speed == 0.0 {
+            // It holds the wheel, and its friction helps.
+            let load = if self.is_self_locking { 0.0 } else { at_shaft * self.efficiency };
+            return load.signum() * (load.abs() - self.friction).max(0.0);
+        }
+        let is_driven = torque * wheel_speed < 0.0;
+        let load = match is_driven {
+            true if self.is_self_locking => 0.0,
+            true => at_shaft * self.efficiency,
+            false => at_shaft / self.efficiency,
+        };
+        load + self.friction.copysign(wheel_speed)
+    }
+
+    /// Speed at which a voltage turns a wheel against a torque that it drives, *ω* [rad/s]; 0 where the torque is more than
+    /// the motor gives.
+    ///
+    /// * `voltage`: *V* [V], not below 0
+    /// * `torque`: *T* [N·m], not below 0
+    #[must_use]
+    pub fn speed(&self, voltage: f64, torque: f64) -> f64 {
+        let shaft = torque / (self.gear_ratio * self.efficiency) + self.friction;
+        let left = voltage - self.resistance * shaft / self.torque_constant;
+        left.max(0.0) / (self.torque_constant * self.gear_ratio)
+    }
+
+    /// Speed of the wheel under a voltage and no load, *ω_0* = (V − R τ_f / k) / (k N) [rad/s].
+    #[must_use]
+    pub fn no_load_speed(&self, voltage: f64) -> f64 {
+        self.speed(voltage, 0.0)
+    }
+
+    /// Current of a motor that stands under a voltage, V / R [A].
+    #[must_use]
+    pub fn stall_current(&self, voltage: f64) -> f64 {
+        voltage / self.resistance
+    }
+
+    /// Torque on the wheel of a motor that stands under a voltage and is about to turn, N η (k V / R − τ_f) [N·m]; 0 where
+    /// its friction is more than that.
+    #[must_use]
+    pub fn stall_torque(&self, voltage: f64) -> f64 {
+        let shaft = self.torque_constant * self.stall_current(voltage) - self.friction;
+        self.gear_ratio * self.efficiency * shaft.max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MOTOR: Motor = Motor {
+        resistance: 10.0,
+        torque_constant: 0.010,
+        gear_ratio: 250.0,
+        efficiency: 0.6,
+        friction: 1e-3,
+        is_self_locking: false,
+    };
+
+    /// The power goes to the wheel, to the gear, to friction and to heat, and nowhere else.
+    #[test]
+    fn power_is_what_the_wheel_gets_and_what_is_lost() {
+        for (torque, speed) in [(0.4, 0.55), (0.1, -0.0), (-0.3, -0.8), (0.0, 0.5)] {
+            let taken = MOTOR.at(torque, speed);
+            let heat = MOTOR.resistance * taken.current * taken.current;
+            let gear = torque * speed * (1.0 / MOTOR.efficiency - 1.0);
+            let friction = MOTOR.friction * MOTOR.gear_ratio * speed.abs();
+            let sum = torque * speed + gear + friction + heat;
+            assert!((taken.power - sum).abs() < 1e-12, "{torque} N·m, {speed} rad/s: {taken:?}");
+        }
+    }
+
+    #[test]
+    fn speed_is_the_inverse_of_what_a_torque_takes() {
+        for torque in [0.0, 0.05, 0.3, 1.0] {
+            let voltage = MOTOR.at(torque, 0.55).voltage;
+            assert!((MOTOR.speed(voltage, torque) - 0.55).abs() < 1e-12, "{torque} N·m");
+        }
+        let line = |share: f64| MOTOR.speed(12.0, share * MOTOR.stall_torque(12.0));
+        assert!((line(0.0) - MOTOR.no_load_speed(12.0)).abs() < 1e-12);
+        assert!((line(0.5) - 0.5 * line(0.0)).abs() < 1e-12, "speed falls in a line");
+        assert!(line(1.0).abs() < 1e-12 && line(2.0) == 0.0);
+        assert!((MOTOR.no_load_speed(12.0) - (12.0 - 1.0) / 2.5).abs() < 1e-12);
+        assert!((MOTOR.stall_torque(12.0) - 150.0 * (0.012 - 0.001)).abs() < 1e-12);
+    }
+
+    /// Downhill the wheel drives its motor: less current, of the other sign once friction is overcome, and none through a
+    /// self-locking gear but for friction.
+    #[test]
+    fn a_driven_motor_brakes_and_a_self_locking_one_only_rubs() {
+        let braking = MOTOR.at(-0.6, 0.5).current;
+        assert!((braking - (-0.6 / 250.0 * 0.6 + 1e-3) / 0.010).abs() < 1e-15 && braking < 0.0);
+        let locking = Motor { is_self_locking: true, ..MOTOR };
+        assert!((locking.at(-0.6, 0.5).current - 0.1).abs() < 1e-15);
+        assert_eq!(
+            locking.at(-0.6, 0.0),
+            Electrical::default(),
+            "it stands on a slope for nothing"
+        );
+        assert!(MOTOR.at(-0.6, 0.5).power.abs() < 1e-15, "what it gives is not taken back");
+    }
+
+    /// A motor that stands holds by friction what its friction can, and pays for the rest.
+    #[test]
+    fn a_motor_that_holds_is_helped_by_its_friction() {
+        let most = MOTOR.friction * MOTOR.gear_ratio / MOTOR.efficiency;
+        assert_eq!(MOTOR.at(0.99 * most, 0.0).current, 0.0);
+        assert!((MOTOR.at(-2.0 * most, 0.0).current + 0.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn motors_that_are_none_are_refused() {
+        for wrong in [
+            Motor { resistance: 0.0, ..MOTOR },
+            Motor { torque_constant: f64::NAN, ..MOTOR },
+            Motor { gear_ratio: -1.0, ..MOTOR },
+            Motor { efficiency: 1.1, ..MOTOR },
+            Motor { friction: f64::INFINITY, ..MOTOR },
+        ] {
+            assert!(wrong.check().is_err(), "{wrong:?}");
+        }
+        assert_eq!(MOTOR.check(), Ok(()));
+    }
+}
