@@ -12,7 +12,8 @@ use crate::cited::is_work;
 use crate::workspace;
 
 /// Units, which may stand in brackets without being a link; works that are cited may, too.
-const UNITS: [&str; 12] = ["J", "K", "N", "Pa", "W", "bytes", "kPa", "kg", "m", "mm", "rad", "s"];
+const UNITS: [&str; 15] =
+    ["A", "J", "K", "N", "Pa", "V", "W", "bytes", "kPa", "kg", "m", "mm", "rad", "s", "Ω"];
 
 /// Whether the documentation of all crates builds without a warning; prints those it has.
 pub(crate) fn check() -> Result<bool> {

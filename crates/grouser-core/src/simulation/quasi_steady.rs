@@ -281,15 +281,16 @@ impl Stretch {
     }
 
     fn rates(&self, yaw: f64) -> PoseRates {
-        let (mut velocities, mut powers) = (Vector3::zeros(), [0.0; 3]);
+        let mut velocities = Vector3::zeros();
+        let (mut motors, mut soil, mut electrical) = (0.0, 0.0, 0.0);
         for (node, weight) in self.nodes.iter().zip(self.weights(yaw)) {
             velocities += node.velocities * weight;
-            for (power, of_node) in powers.iter_mut().zip(node.powers) {
-                *power += of_node * weight;
-            }
+            motors += node.powers[0] * weight;
+            soil += node.powers[1] * weight;
+            electrical += node.powers[2] * weight;
         }
         let velocity_slope = rotation(yaw) * velocities.xy();
-        PoseRates { velocity_slope, yaw_rate: velocities.z, powers }
+        PoseRates { velocity_slope, yaw_rate: velocities.z, powers: [motors, soil, electrical] }
     }
 }
 

@@ -30,7 +30,7 @@ use crate::error::{ParameterError, not_negative, positive};
 /// };
 /// let taken = motor.at(0.4, 0.55);
 /// assert_eq!(format!("{:.0} mA at {:.2} V", 1e3 * taken.current, taken.voltage), "367 mA at 5.04 V");
-/// assert_eq!(format!("{:.0} mW", 1e3 * taken.power), "1848 mW");
+/// assert_eq!(format!("{:.0} mW", 1e3 * taken.power), "1849 mW");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motor {
