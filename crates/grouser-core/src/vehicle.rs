@@ -28,6 +28,8 @@ pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
 pub use motor::{Electrical, Motor};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
-pub use rover::{Body, Inertia, Mount, MountParts, Rover, RoverParts, WheelUnit};
+pub use rover::{
+    Body, Inertia, Mount, MountParts, Rover, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
+};
 pub use ruts::Ruts;
 pub use state::{Acceleration, RoverState, roll_and_pitch};

@@ -91,6 +91,8 @@ pub const LIMIT_SLOPE: Quantity = quantity("limit_slope_deg", DEG);
 pub const COURSE: Quantity = quantity("course_deg", DEG);
 /// Yaw of the body.
 pub const YAW: Quantity = quantity("yaw_deg", DEG);
+/// Steering angle of a wheel, positive to the left.
+pub const STEERING: Quantity = quantity("steering_deg", DEG);
 /// Load on a wheel.
 pub const LOAD: Quantity = quantity("load_n", N);
 /// Slip ratio.

@@ -252,6 +252,7 @@ impl Described for Rover {
 
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
+        check_steering(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
         let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
@@ -269,6 +270,43 @@ fn check_names(rover: &Rover) -> Result<(), Misfit> {
             let key = format!("mount.{index}.name");
             let name = mount.name.escape_debug().to_string();
             return Err(Misfit::new(key.clone(), Problem::RepeatedName { key, name }));
+        }
+    }
+    Ok(())
+}
+
+/// Checks that wheels are turned no further than they can be, and that only those that are steered have numbers of
+/// steering.
+fn check_steering(rover: &Rover) -> Result<(), Misfit> {
+    let parts = rover.parts();
+    for (index, (mount, complete)) in parts.mounts.iter().zip(parts.complete_mounts()).enumerate() {
+        let misfit = |key: &str, name: String, value: f64, expected: &'static str| {
+            Err(Misfit::new(
+                format!("mount.{index}.{key}"),
+                ParameterError::new(name, value, expected),
+            ))
+        };
+        let (wheel, angle) = (&mount.name, DEG.as_given(mount.steering));
+        match complete.steering_axis {
+            Some(axis) if mount.steering.abs() > axis.limit => {
+                let limit = DEG.as_given(axis.limit);
+                let name = format!(
+                    "the steering angle of `{wheel}`, whose limit is {limit}° to either side, in degrees"
+                );
+                return misfit("steering_deg", name, angle, "at most its limit");
+            }
+            Some(_) => {}
+            None => {
+                let expected = "left out for a wheel that has no `steering_limit_deg`";
+                if let Some(rate) = mount.steered.rate {
+                    let name = format!("the steering rate of `{wheel}` [°/s]");
+                    return misfit("steering_rate_deg_s", name, DEG.as_given(rate), expected);
+                }
+                if mount.kingpin_offset.norm() > 0.0 {
+                    let name = format!("the kingpin offset of `{wheel}` [m]");
+                    return misfit("kingpin_offset_m", name, mount.kingpin_offset.norm(), expected);
+                }
+            }
         }
     }
     Ok(())

@@ -23,7 +23,7 @@ use grouser::studies::card::{CardStudy, Rule, Side};
 use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
-use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::measurement::PerQuantity;
@@ -155,11 +155,13 @@ pub(crate) fn heading<'py>(
     py: Python<'py>,
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
+    steering: &str,
 ) -> PyResult<Headings<'py>> {
     let slopes = slopes(&slope_deg)?;
+    let steering = Steering::ALL.into_iter().find(|it| it.name() == steering).unwrap_or_default();
     let scenario = scenario.scenario()?.value.clone();
     let found = listening(py, move |_| {
-        let curve = HeadingStudy::of(&scenario).curve()?;
+        let curve = HeadingStudy { steering, ..HeadingStudy::of(&scenario) }.curve()?;
         Ok((
             columns::heading::table(&curve, &scenario.rover, &slopes),
             columns::heading::steepest(&curve),

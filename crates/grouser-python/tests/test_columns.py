@@ -19,7 +19,7 @@ RESULTS = [
     (gr.WheelForces, "wheel", {"slip_ratio", "slip_angle_deg"}),
     (gr.Trajectory, "sample", {"energy_error_j"}),
     (gr.Rollout, "sample", set()),
-    (gr.Headings, "heading", {"slope_deg", "limit_slope_deg"}),
+    (gr.Headings, "heading", {"slope_deg", "limit_slope_deg", "steering_deg"}),
     (gr.HeadingMap, "heading", {"course_deg", "slope_deg", "limit_slope_deg"}),
     (gr.WheelSpeeds, "wheel_speeds", {"slope_deg"}),
     (gr.WheelSpeedLimits, "wheel_speeds", {"limit_slope_deg"}),

@@ -50,6 +50,7 @@ pub(crate) fn six_wheels(steering: f64) -> Result<Rover, ParameterError> {
         position: Vec3::new(x, y, -0.15),
         unit,
         steering,
+        steering_axis: None,
     };
     let mounts = [
         ("front-left", 0.40, 0.35, steering),

@@ -9,7 +9,7 @@ use grouser::document::columns::heading::{self};
 use grouser::document::columns::wheel_speeds;
 use grouser::document::table::{Row, Table};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::heading::{HeadingCurve, HeadingStudy};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
 use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -72,7 +72,8 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
 /// * `charted`: whether there will be charts
 fn of_model(args: &HeadingArgs, setting: &SettingArgs, charted: bool) -> Result<OfModel, Failure> {
     let scenario = inputs::heading(args, setting)?;
-    let curve = HeadingStudy::of(&scenario.value).curve()?;
+    let steering = args.steering.into();
+    let curve = HeadingStudy { steering, ..HeadingStudy::of(&scenario.value) }.curve()?;
     let bands = if args.uncertainty.sampling.uncertainty {
         Some(heading_band::bands(args, &scenario, &curve, charted)?)
     } else {
@@ -124,6 +125,10 @@ fn settings(args: &HeadingArgs, first: &OfModel) -> Value {
         "moments": document.get("moments"),
         "slope_deg": args.slope_deg.0,
     });
+    let steering = Steering::from(args.steering);
+    if steering != Steering::None {
+        settings["steering"] = steering.name().into();
+    }
     if args.wheel_speeds {
         settings["most_speed_ratio"] = args.most_speed_ratio.into();
     }

@@ -58,6 +58,7 @@ pub(crate) fn rover() -> Result<Rover, ParameterError> {
         position: Vec3::new(x, y, -0.06),
         unit,
         steering: 0.0,
+        steering_axis: None,
     };
     let places = [
         ("front-left", 0.19, 0.24),

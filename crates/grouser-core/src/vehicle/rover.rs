@@ -1,6 +1,6 @@
 //! A rover: a body and three or more wheels, rigidly joined ([FourWheel], Tables 1 and 2).
 //!
-//! Each mount has a wheel with its motor, and may be steered by a fixed angle.
+//! Each mount has a wheel with its motor. It may be turned by a fixed angle, or steered about an axis of its own.
 
 use nalgebra::Rotation2;
 
@@ -46,6 +46,66 @@ pub struct WheelUnit {
     pub motor: Option<Motor>,
 }
 
+/// The upright axis about which a wheel is steered, its kingpin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SteeringAxis {
+    /// How far the wheel turns to either side [rad], above 0 and at most a quarter turn.
+    pub limit: f64,
+    /// How fast it turns [rad/s].
+    pub rate: f64,
+    /// Kingpin offset, *k*: from the hub at a steering angle of zero to the axis, in the body frame [m].
+    pub kingpin_offset: Vec2,
+}
+
+/// How fast a wheel is steered whose rate is not known [rad/s]: 10 °/s. Source: assumed; a quarter turn in 9 s.
+pub const USUAL_STEERING_RATE: f64 = 0.174_532_925_199_432_95;
+
+impl SteeringAxis {
+    /// How far the hub moves where the wheel is steered, in the body frame [m]:
+    ///
+    /// ```text
+    /// d(δ) − d(0) = k − R(δ) k
+    /// ```
+    ///
+    /// * `angle`: steering angle, *δ* [rad]
+    #[must_use]
+    pub fn hub_shift(&self, angle: f64) -> Vec2 {
+        if angle == 0.0 || self.kingpin_offset == Vec2::zeros() {
+            return Vec2::zeros();
+        }
+        self.kingpin_offset - rotation(angle) * self.kingpin_offset
+    }
+
+    /// The same axis seen in a mirror: left and right changed.
+    fn mirrored(self) -> Self {
+        let Self { kingpin_offset, .. } = self;
+        Self { kingpin_offset: Vec2::new(kingpin_offset.x, -kingpin_offset.y), ..self }
+    }
+
+    /// That a wheel can have this axis, and this angle.
+    fn check(&self, wheel: &str, angle: f64) -> Result<(), ParameterError> {
+        use std::f64::consts::FRAC_PI_2;
+        /// A quarter turn of a document is one but for its last digit.
+        const ROUNDING: f64 = 1e-12;
+        if !(self.limit > 0.0 && self.limit <= FRAC_PI_2 + ROUNDING) {
+            let name = format!("steering limit of wheel {wheel} [rad]");
+            return Err(ParameterError::new(name, self.limit, "above zero and at most π/2"));
+        }
+        positive(&format!("steering rate of wheel {wheel} [rad/s]"), self.rate)?;
+        for (axis, value) in ["x", "y"].iter().zip(self.kingpin_offset.iter()) {
+            finite(&format!("kingpin offset {axis} of wheel {wheel} [m]"), *value)?;
+        }
+        if angle.abs() <= self.limit + ROUNDING {
+            return Ok(());
+        }
+        let limit = self.limit;
+        let name = format!(
+            "steering angle of wheel {wheel}, which turns by {limit:.3} to either side at most [rad]"
+        );
+        Err(ParameterError::new(name, angle, "within that limit"))
+    }
+}
+
 /// A wheel in its place.
 ///
 /// How does a front wheel see the rover's motion at 5 cm/s straight ahead, if it is steered by 10° to the left?
@@ -65,12 +125,14 @@ pub struct WheelUnit {
 pub struct Mount {
     /// The wheel's name, such as `front-left`.
     pub name: String,
-    /// Its hub, in the body frame [m].
+    /// Its hub, in the body frame [m], with the wheel steered as it is.
     pub position: Vec3,
     /// The wheel with its motor.
     pub unit: WheelUnit,
-    /// Steering angle, *δ* [rad]: the wheel is turned to the left by this much, for good.
+    /// Steering angle, *δ* [rad]: the wheel is turned to the left by this much; for good, if it has no axis.
     pub steering: f64,
+    /// The axis about which it is steered; without one it keeps its angle.
+    pub steering_axis: Option<SteeringAxis>,
 }
 
 impl Mount {
@@ -121,8 +183,19 @@ pub struct RoverParts {
     pub body: Body,
     /// The wheel with its motor of every mount that has no other.
     pub wheel_unit: WheelUnit,
+    /// How every wheel is steered whose mount says nothing else.
+    pub steering: SteeringParts,
     /// Where the wheels sit.
     pub mounts: Vec<MountParts>,
+}
+
+/// How far and how fast wheels are steered, as far as that is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SteeringParts {
+    /// How far a wheel turns to either side [rad]; 0 for one that is not steered.
+    pub limit: Option<f64>,
+    /// How fast it turns [rad/s]; if nothing is known, [`USUAL_STEERING_RATE`].
+    pub rate: Option<f64>,
 }
 
 /// Where a wheel sits, and what it has instead of the common wheel unit.
@@ -130,10 +203,15 @@ pub struct RoverParts {
 pub struct MountParts {
     /// The wheel's name, such as `front-left`.
     pub name: String,
-    /// Its hub, in the body frame [m].
+    /// Its hub at a steering angle of zero, in the body frame [m].
     pub position: Vec3,
     /// Steering angle, *δ* [rad], positive to the left.
     pub steering: f64,
+    /// How far and how fast it is steered, where that is not the rover's.
+    pub steered: SteeringParts,
+    /// Kingpin offset, *k*, of a wheel that is steered: from the hub at a steering angle of zero to the axis, in the
+    /// body frame [m].
+    pub kingpin_offset: Vec2,
     /// A wheel of its own.
     pub wheel: Option<Wheel>,
     /// A mass of its own [kg].
@@ -149,18 +227,48 @@ impl RoverParts {
     #[must_use]
     pub fn complete_mounts(&self) -> Vec<Mount> {
         let common = self.wheel_unit;
-        let complete = |mount: &MountParts| Mount {
-            name: mount.name.clone(),
-            position: mount.position,
-            unit: WheelUnit {
-                mass: mount.mass.unwrap_or(common.mass),
-                inertia: mount.inertia.unwrap_or(common.inertia),
-                wheel: mount.wheel.unwrap_or(common.wheel),
-                motor: mount.motor.or(common.motor),
-            },
-            steering: mount.steering,
+        let complete = |mount: &MountParts| {
+            let steering_axis = self.steering_axis(mount);
+            let shift = steering_axis.map_or(Vec2::zeros(), |axis| axis.hub_shift(mount.steering));
+            Mount {
+                name: mount.name.clone(),
+                position: mount.position + Vec3::new(shift.x, shift.y, 0.0),
+                unit: WheelUnit {
+                    mass: mount.mass.unwrap_or(common.mass),
+                    inertia: mount.inertia.unwrap_or(common.inertia),
+                    wheel: mount.wheel.unwrap_or(common.wheel),
+                    motor: mount.motor.or(common.motor),
+                },
+                steering: mount.steering,
+                steering_axis,
+            }
         };
         self.mounts.iter().map(complete).collect()
+    }
+
+    /// That only wheels that are steered have a rate or a kingpin of their own.
+    fn check_axes(&self, complete: &[Mount]) -> Result<(), ParameterError> {
+        for (parts, mount) in self.mounts.iter().zip(complete) {
+            let own = parts.kingpin_offset.norm();
+            let rate = parts.steered.rate.unwrap_or(0.0);
+            let of_none = [("kingpin offset", "m", own), ("steering rate", "rad/s", rate)];
+            for (what, unit, value) in of_none {
+                if mount.steering_axis.is_none() && value != 0.0 {
+                    let name = format!("{what} of wheel {} [{unit}]", mount.name);
+                    let expected = "left out for a wheel that has no `steering_limit_deg`";
+                    return Err(ParameterError::new(name, value, expected));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The axis about which a mount's wheel is steered, if it is.
+    fn steering_axis(&self, mount: &MountParts) -> Option<SteeringAxis> {
+        let limit = mount.steered.limit.or(self.steering.limit)?;
+        let rate = mount.steered.rate.or(self.steering.rate).unwrap_or(USUAL_STEERING_RATE);
+        let axis = SteeringAxis { limit, rate, kingpin_offset: mount.kingpin_offset };
+        (limit != 0.0).then_some(axis)
     }
 }
 
@@ -181,6 +289,7 @@ impl RoverParts {
 ///     position: Vec3::new(x, y, -0.06),
 ///     unit,
 ///     steering: 0.0,
+///     steering_axis: None,
 /// };
 /// let left = [("front-left", 0.19, 0.24), ("rear-left", -0.17, 0.24)];
 /// let right = [("rear-right", -0.17, -0.24), ("front-right", 0.19, -0.24)];
@@ -223,17 +332,27 @@ impl Rover {
             return Err(ParameterError::new("the number of wheels", 0.0, "three or more"));
         };
         let wheel_unit = first.unit;
-        let parts = |Mount { name, position, unit, steering }: Mount| MountParts {
-            name,
-            position,
-            steering,
-            wheel: (unit.wheel != wheel_unit.wheel).then_some(unit.wheel),
-            mass: (unit.mass != wheel_unit.mass).then_some(unit.mass),
-            inertia: (unit.inertia != wheel_unit.inertia).then_some(unit.inertia),
-            motor: unit.motor.filter(|motor| Some(*motor) != wheel_unit.motor),
+        let parts = |mount: Mount| {
+            let Mount { name, position, unit, steering, steering_axis } = mount;
+            let shift = steering_axis.map_or(Vec2::zeros(), |axis| axis.hub_shift(steering));
+            MountParts {
+                name,
+                position: position - Vec3::new(shift.x, shift.y, 0.0),
+                steering,
+                steered: SteeringParts {
+                    limit: steering_axis.map(|axis| axis.limit),
+                    rate: steering_axis.map(|axis| axis.rate),
+                },
+                kingpin_offset: steering_axis.map_or(Vec2::zeros(), |axis| axis.kingpin_offset),
+                wheel: (unit.wheel != wheel_unit.wheel).then_some(unit.wheel),
+                mass: (unit.mass != wheel_unit.mass).then_some(unit.mass),
+                inertia: (unit.inertia != wheel_unit.inertia).then_some(unit.inertia),
+                motor: unit.motor.filter(|motor| Some(*motor) != wheel_unit.motor),
+            }
         };
         let mounts = mounts.into_iter().map(parts).collect();
-        Self::draft(RoverParts { body, wheel_unit, mounts }).checked()
+        let steering = SteeringParts::default();
+        Self::draft(RoverParts { body, wheel_unit, steering, mounts }).checked()
     }
 
     /// A rover of which nothing but the parts is known: to be filled in, and then
@@ -287,6 +406,7 @@ impl Rover {
             unit.motor.map_or(Ok(()), |motor| motor.check())?;
         }
         check_stance(&mounts)?;
+        parts.check_axes(&mounts)?;
 
         let (mut mass, mut yaw_inertia) = (body.mass, body.inertia.zz);
         for (unit, positions) in &alike {
@@ -327,7 +447,7 @@ impl Rover {
             zz: factor * inertia.zz,
         };
         let mut rover = self.clone();
-        let RoverParts { body, wheel_unit, mounts } = &mut rover.parts;
+        let RoverParts { body, wheel_unit, mounts, .. } = &mut rover.parts;
         *body = Body { mass: factor * body.mass, inertia: scaled(body.inertia) };
         wheel_unit.mass *= factor;
         wheel_unit.inertia = scaled(wheel_unit.inertia);
@@ -338,6 +458,83 @@ impl Rover {
         rover.checked()
     }
 
+    /// The same rover with its wheels steered: each turned about its kingpin, so that the hub of one whose kingpin is
+    /// beside it moves.
+    ///
+    /// Four wheels that turn up to 30° to either side crab by 12°:
+    ///
+    /// ```
+    /// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+    /// use grouser_core::units::{Vec2, deg};
+    /// use grouser_core::vehicle::{Rover, SteeringAxis};
+    ///
+    /// let rover = hakuto::rover()?;
+    /// let axis = SteeringAxis { limit: deg(30.0), rate: deg(10.0), kingpin_offset: Vec2::zeros() };
+    /// let mut mounts = rover.mounts().to_vec();
+    /// mounts.iter_mut().for_each(|mount| mount.steering_axis = Some(axis));
+    /// let rover = Rover::new(*rover.body(), mounts)?;
+    ///
+    /// assert_eq!(rover.steered(&[deg(12.0); 4])?.steering_angles(), [deg(12.0); 4]);
+    /// let message = rover.steered(&[0.0, 0.0, 0.0, deg(40.0)]).expect_err("too far").to_string();
+    /// assert!(message.starts_with(
+    ///     "steering angle of wheel front-right, which turns by 0.524 to either side at most [rad] is 0.698"
+    /// ));
+    /// # Ok::<(), grouser_core::error::ParameterError>(())
+    /// ```
+    ///
+    /// * `angles`: steering angle of each wheel, *δ* [rad], in the mounts' order
+    ///
+    /// # Errors
+    /// [`ParameterError`] for another number of angles than wheels, for one beyond its wheel's limit, and for another
+    /// angle of a wheel that is not steered than it has.
+    pub fn steered(&self, angles: &[f64]) -> Result<Self, ParameterError> {
+        self.check_steering(angles)?;
+        if self.mounts.iter().zip(angles).all(|(mount, angle)| mount.steering == *angle) {
+            return Ok(self.clone());
+        }
+        let mut rover = self.clone();
+        for (mount, angle) in rover.parts.mounts.iter_mut().zip(angles) {
+            mount.steering = *angle;
+        }
+        rover.checked()
+    }
+
+    /// That wheels can have these steering angles.
+    ///
+    /// # Errors
+    /// As for [`steered`](Self::steered).
+    pub fn check_steering(&self, angles: &[f64]) -> Result<(), ParameterError> {
+        if angles.len() != self.mounts.len() {
+            let (count, expected) = (angles.len() as f64, "one for each wheel of the rover");
+            return Err(ParameterError::new("the number of steering angles", count, expected));
+        }
+        for (mount, angle) in self.mounts.iter().zip(angles) {
+            finite(&format!("steering angle of wheel {} [rad]", mount.name), *angle)?;
+            match &mount.steering_axis {
+                Some(axis) => axis.check(&mount.name, *angle)?,
+                None if mount.steering != *angle => {
+                    let name = format!("steering angle of wheel {} [rad]", mount.name);
+                    let expected = "left as it is: the wheel has no `steering_limit_deg`";
+                    return Err(ParameterError::new(name, *angle, expected));
+                }
+                None => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Steering angle of each wheel, *δ* [rad], in the mounts' order.
+    #[must_use]
+    pub fn steering_angles(&self) -> Vec<f64> {
+        self.mounts.iter().map(|mount| mount.steering).collect()
+    }
+
+    /// Whether some wheel is steered.
+    #[must_use]
+    pub fn is_steerable(&self) -> bool {
+        self.mounts.iter().any(|mount| mount.steering_axis.is_some())
+    }
+
     /// The same rover seen in a mirror: left and right changed. A traverse with the uphill side on
     /// the right is that of the mirrored rover with the uphill side on the left.
     #[must_use]
@@ -346,10 +543,12 @@ impl Rover {
         for mount in &mut mirrored.parts.mounts {
             mount.position.y = -mount.position.y;
             mount.steering = -mount.steering;
+            mount.kingpin_offset.y = -mount.kingpin_offset.y;
         }
         for mount in &mut mirrored.mounts {
             mount.position.y = -mount.position.y;
             mount.steering = -mount.steering;
+            mount.steering_axis = mount.steering_axis.map(SteeringAxis::mirrored);
         }
         for arm in &mut mirrored.load_arms {
             arm.y = -arm.y;
@@ -371,6 +570,7 @@ impl Rover {
                 (other.position.xy() - image).amax() <= SAME
                     && (other.steering + mount.steering).abs() <= SAME
                     && other.unit == mount.unit
+                    && other.steering_axis == mount.steering_axis.map(SteeringAxis::mirrored)
             })
         })
     }
@@ -499,6 +699,7 @@ fn check_stance(mounts: &[Mount]) -> Result<(), ParameterError> {
             finite(&format!("position {axis} of wheel {} [m]", mount.name), *value)?;
         }
         finite(&format!("steering of wheel {} [rad]", mount.name), mount.steering)?;
+        mount.steering_axis.map_or(Ok(()), |axis| axis.check(&mount.name, mount.steering))?;
         let larger = mount.shearing_radius() - mounts[0].shearing_radius();
         if (mount.position.z - mounts[0].position.z - larger).abs() > LEVEL {
             let name = format!("height z of wheel {} [m]", mount.name);
@@ -541,7 +742,7 @@ mod tests {
         let unit = WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel, motor: None };
         let mounts = [(0.19, 0.24), (-0.17, 0.24), (-0.17, -0.24), (0.19, -0.24)].map(|(x, y)| {
             let (name, position) = (format!("{x},{y}"), Vec3::new(x, y, -0.06));
-            Mount { name, position, unit, steering: 0.0 }
+            Mount { name, position, unit, steering: 0.0, steering_axis: None }
         });
         let rover =
             Rover::new(Body { mass: 5.24, inertia }, mounts.to_vec()).expect("a rover that stands");

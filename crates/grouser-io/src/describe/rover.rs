@@ -1,14 +1,16 @@
 //! `rover/1`: a body and its wheels.
 
 use super::super::field::{
-    At, DEG, Each, Field, Form, Inner, KG, KG_M2, M, NM, NM_A, OHM, ONE, Reach, Table, flag, list,
-    number, numbers, part, positive, table, text,
+    At, DEG, DEG_S, Each, Field, Form, Inner, KG, KG_M2, M, NM, NM_A, OHM, ONE, Reach, Table, flag,
+    list, number, numbers, part, positive, table, text,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, name, notes, schema, source};
 use super::wheel::{self, WHEEL};
-use grouser_core::units::Vec3;
-use grouser_core::vehicle::{Body, Inertia, Motor, MountParts, RoverParts, WheelUnit};
+use grouser_core::units::{Vec2, Vec3};
+use grouser_core::vehicle::{
+    Body, Inertia, Motor, MountParts, RoverParts, SteeringParts, WheelUnit,
+};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
@@ -16,8 +18,11 @@ const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 pub(crate) const BLANK: RoverParts = RoverParts {
     body: Body { mass: 0.0, inertia: NO_INERTIA },
     wheel_unit: WheelUnit { mass: 0.0, inertia: NO_INERTIA, wheel: wheel::BLANK, motor: None },
+    steering: NO_STEERING,
     mounts: Vec::new(),
 };
+
+const NO_STEERING: SteeringParts = SteeringParts { limit: None, rate: None };
 
 pub(crate) static ROVER: Table<RoverParts> = Table {
     doc: "A body and three or more wheels, rigidly joined.",
@@ -46,6 +51,16 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
             },
         )
         .optional(),
+        steering_limit(
+            "How far every wheel can be steered to either side; left out, wheels keep their angles",
+            |rover: &mut RoverParts| Some(rover.steering.limit.get_or_insert(0.0)),
+        )
+        .optional(),
+        steering_rate(
+            "How fast every wheel is steered; left out, 10 °/s (assumed)",
+            |rover: &mut RoverParts| Some(rover.steering.rate.get_or_insert(0.0)),
+        )
+        .optional(),
         list(
             "mount",
             "Where the wheels sit: three or more, standing on one plane, not in one line.",
@@ -56,6 +71,8 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
                     name: String::new(),
                     position: Vec3::zeros(),
                     steering: 0.0,
+                    steered: NO_STEERING,
+                    kingpin_offset: Vec2::zeros(),
                     wheel: None,
                     mass: None,
                     inertia: None,
@@ -66,6 +83,16 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         ),
     ],
 };
+
+/// How far wheels are steered.
+const fn steering_limit<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
+    number("steering_limit_deg", DEG, 0.0..=90.0, doc, reach)
+}
+
+/// How fast they are.
+const fn steering_rate<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
+    positive("steering_rate_deg_s", DEG_S, 3600.0, doc, reach)
+}
 
 static BODY: Table<Body> = Table {
     doc: "The body.",
@@ -175,7 +202,7 @@ static MOUNT: Table<MountParts> = Table {
             M,
             -100.0..=100.0,
             Form::Exactly(3),
-            "The wheel's centre from the body's centre of mass: x forward, y left, z up",
+            "The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward, y left, z up",
             |_, _| {},
             |mount, axis| mount.position.get_mut(axis),
         ),
@@ -183,8 +210,28 @@ static MOUNT: Table<MountParts> = Table {
             "steering_deg",
             DEG,
             -90.0..=90.0,
-            "Steering angle, δ: the wheel is turned to the left by this much, for good; left out, it points straight ahead",
+            "Steering angle, δ: the wheel is turned to the left by this much, for good if it has no limit of steering; left out, it points straight ahead",
             |mount: &mut MountParts| Some(&mut mount.steering),
+        )
+        .optional(),
+        steering_limit(
+            "How far this wheel can be steered to either side, instead of the rover's; 0 if it is not steered",
+            |mount: &mut MountParts| Some(mount.steered.limit.get_or_insert(0.0)),
+        )
+        .optional(),
+        steering_rate(
+            "How fast this wheel is steered, instead of the rover's",
+            |mount: &mut MountParts| Some(mount.steered.rate.get_or_insert(0.0)),
+        )
+        .optional(),
+        numbers(
+            "kingpin_offset_m",
+            M,
+            -10.0..=10.0,
+            Form::Exactly(2),
+            "Kingpin offset, k: from the wheel's centre, at a steering angle of zero, to the upright axis about which it is steered: x forward, y left",
+            |_, _| {},
+            |mount: &mut MountParts, axis| mount.kingpin_offset.get_mut(axis),
         )
         .optional(),
         unit_mass(

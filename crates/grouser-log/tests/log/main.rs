@@ -182,7 +182,13 @@ fn six() -> Rover {
         let (row, side) = (place / 2, if place % 2 == 0 { 1.0 } else { -1.0 });
         let x = 0.25 * (1.0 - row as f64);
         let steering = side * deg(10.0) * (1.0 - row as f64);
-        Mount { name: (*name).into(), position: Vec3::new(x, 0.24 * side, -0.06), unit, steering }
+        Mount {
+            name: (*name).into(),
+            position: Vec3::new(x, 0.24 * side, -0.06),
+            unit,
+            steering,
+            steering_axis: None,
+        }
     });
     Rover::new(*four.body(), mounts.collect()).expect("a rover")
 }

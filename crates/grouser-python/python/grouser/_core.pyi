@@ -295,7 +295,7 @@ def forecast(
     seed: int,
 ) -> dict[str, Any]: ...
 def heading(
-    scenario: Document, slope_deg: _Floats
+    scenario: Document, slope_deg: _Floats, steering: str
 ) -> tuple[dict[str, Any], float | None, str, str | None]: ...
 def heading_band(
     scenario: Document, slope_deg: _Floats, seed: int, samples: int

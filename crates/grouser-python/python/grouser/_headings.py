@@ -59,7 +59,7 @@ class Headings(_tables.Tabular):
     yaw_deg: Floats
     """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
-    """Slip ratio of every wheel [-]."""
+    """Slip ratio of every wheel; with wheels steered, of these [-]."""
     sinkage_mm: Floats
     """Mean sinkage of the wheels [mm]."""
     torque_nm: Floats
@@ -68,12 +68,17 @@ class Headings(_tables.Tabular):
     """Work of the wheels per metre along the course [J/m]."""
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
+    steering_deg: Floats | None = None
+    """Steering angle of every wheel that is steered [°], positive uphill; None without
+    ``steering="crab"``."""
     band: HeadingBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _table(self) -> dict[str, Any]:
         band = {} if self.band is None else self.band._table()
-        return {**columns_of(self, ("slope_deg", *_HELD)), "status": self.status, "flags": self.flags, **band}
+        steered = () if self.steering_deg is None else ("steering_deg",)
+        numbers = columns_of(self, ("slope_deg", *steered, *_HELD))
+        return {**numbers, "status": self.status, "flags": self.flags, **band}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -102,9 +107,12 @@ class Headings(_tables.Tabular):
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
             axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the samples")
-        axes.plot(self.slope_deg, self.yaw_deg, **{"marker": "o", "markersize": 4.0, **style})
+        turned, what = self.yaw_deg, "yaw"
+        if self.steering_deg is not None:
+            turned, what = self.steering_deg, "steering angle"
+        axes.plot(self.slope_deg, turned, **{"marker": "o", "markersize": 4.0, **style})
         axes.set_xlabel("slope [°]")
-        axes.set_ylabel("yaw, positive uphill [°]")
+        axes.set_ylabel(f"{what}, positive uphill [°]")
         return axes
 
     def __repr__(self) -> str:
@@ -120,6 +128,7 @@ def heading(
     *,
     model: Literal["all"],
     slope_deg: ArrayLike = ...,
+    steering: Literal["none", "crab"] = ...,
     uncertainty: bool = ...,
     samples: int = ...,
     seed: int = ...,
@@ -134,6 +143,7 @@ def heading(
     *,
     model: str | None = ...,
     slope_deg: ArrayLike = ...,
+    steering: Literal["none", "crab"] = ...,
     uncertainty: bool = ...,
     samples: int = ...,
     seed: int = ...,
@@ -147,6 +157,7 @@ def heading(
     *,
     model: str | None = None,
     slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
+    steering: Literal["none", "crab"] = "none",
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
@@ -167,6 +178,9 @@ def heading(
         or of its soil.
     slope_deg : array_like, shape (slopes,)
         Slopes [°], 0 to 60.
+    steering : "none" or "crab"
+        What holds the contour: the body's yaw, or with ``"crab"`` the wheels that are steered, with
+        the body along the contour. Not together with ``uncertainty``.
     uncertainty : bool
         Whether to sample what is uncertain, for `Headings.band`: the soil, where its document says
         so, and the wheel–soil model, where none is asked for by ``model``.
@@ -193,18 +207,29 @@ def heading(
     >>> import grouser as gr
     >>> round(float(gr.heading(slope_deg=[10.0]).yaw_deg[0]), 1)
     5.0
+    >>> crab = gr.heading(rover="spirit", soil="mars-sand", slope_deg=[10.0], steering="crab")
+    >>> bool(crab.steering_deg[0] > 0.0 and crab.yaw_deg[0] == 0.0)
+    True
     >>> level = gr.heading(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
     >>> bool(level.band.yaw_deg_p2_5[0] < level.band.yaw_deg_p97_5[0])
     True
     """
+    if steering not in ("none", "crab"):
+        raise ParameterError(f'steering is {steering!r}, it must be "none" or "crab"')
+    if uncertainty and steering == "crab":
+        raise ParameterError('uncertainty goes with steering="none"')
     if model == "all":
         settings: dict[str, Any] = {
-            "slope_deg": slope_deg, "uncertainty": uncertainty, "samples": samples, "seed": seed
+            "slope_deg": slope_deg,
+            "steering": steering,
+            "uncertainty": uncertainty,
+            "samples": samples,
+            "seed": seed,
         }
         return each_model(lambda name: heading(scenario, model=name, **settings, **changes))
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    found, limit, reason, limited_by = _core.heading(run._document, slopes)
+    found, limit, reason, limited_by = _core.heading(run._document, slopes, steering)
     band = None
     if uncertainty:
         count = whole_number("samples", samples, most=2**32 - 1)
@@ -249,7 +274,7 @@ class HeadingMap(_tables.Tabular):
     yaw_deg: Floats
     """Yaw that holds the course [°], positive uphill."""
     slip_ratio: Floats
-    """Slip ratio of every wheel [-]."""
+    """Slip ratio of every wheel; with wheels steered, of these [-]."""
     sinkage_mm: Floats
     """Mean sinkage of the wheels [mm]."""
     torque_nm: Floats

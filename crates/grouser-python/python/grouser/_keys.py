@@ -636,10 +636,19 @@ class RoverMount(TypedDict, total=False):
     name: str
     """The wheel's name, such as `front-left`; no two alike."""
     position_m: tuple[float, ...]
-    """The wheel's centre from the body's centre of mass: x forward, y left, z up [m]."""
+    """The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward,
+    y left, z up [m]."""
     steering_deg: float
-    """Steering angle, δ: the wheel is turned to the left by this much, for good; left out, it
-    points straight ahead [°]."""
+    """Steering angle, δ: the wheel is turned to the left by this much, for good if it has no limit
+    of steering; left out, it points straight ahead [°]."""
+    steering_limit_deg: float
+    """How far this wheel can be steered to either side, instead of the rover's; 0 if it is not
+    steered [°]."""
+    steering_rate_deg_s: float
+    """How fast this wheel is steered, instead of the rover's [°/s]."""
+    kingpin_offset_m: tuple[float, ...]
+    """Kingpin offset, k: from the wheel's centre, at a steering angle of zero, to the upright axis
+    about which it is steered: x forward, y left [m]."""
     mass_kg: float
     """Mass of this wheel with its motor, instead of the wheel unit's [kg]."""
     inertia_kg_m2: RoverMountInertiaKgM2
@@ -698,6 +707,17 @@ class RoverKeys:
         def motor(self) -> RoverMotor:
             """The motor of every wheel whose mount has no other; without it nothing is said of
             current and battery."""
+            ...
+
+        @property
+        def steering_limit_deg(self) -> float:
+            """How far every wheel can be steered to either side; left out, wheels keep their
+            angles [°]."""
+            ...
+
+        @property
+        def steering_rate_deg_s(self) -> float:
+            """How fast every wheel is steered; left out, 10 °/s (assumed) [°/s]."""
             ...
 
         @property

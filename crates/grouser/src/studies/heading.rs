@@ -9,8 +9,13 @@
 //! ΣF_x(s, γ) = W sin α sin γ        ΣF_y(s, γ) = W sin α cos γ
 //! ```
 //!
-//! Wheels may differ: they still share one slip ratio, so that all rims turn at one speed. Steered
-//! wheels have no slip angle in common, and no attitude here.
+//! Wheels may differ: they still share one slip ratio, so that all rims turn at one speed. Wheels
+//! that are turned for good have no slip angle in common, and no attitude here.
+//!
+//! A rover whose wheels are [steered](Steering::Crab) holds the contour with its body along it, γ = 0:
+//! it turns its wheels uphill instead of its nose, all by one steering angle δ, the crab angle. Then
+//! wheels have the slip angle β = −δ, and the two equations hold along the contour and across it. Rims
+//! turn at one speed, so that wheels that are not steered have β = 0 and a slip ratio of their own.
 //!
 //! The solutions (s, γ, α) form a curve that starts at γ = 0 on level ground. It rises to a
 //! steepest slope, where turning further uphill costs as much thrust as it gains, and folds back.
@@ -33,7 +38,7 @@ mod study;
 use nalgebra::Vector3;
 
 use self::path::{Held, JUST_TURNED, Path, Place, Point};
-pub use self::study::{HeadingStudy, STRAIGHT_UP};
+pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;
 use crate::contact::validity::Finding;
 use crate::elementary::wide;
@@ -56,7 +61,10 @@ pub struct HeadingOffset {
     pub course: f64,
     /// Yaw, *γ* [rad], positive uphill.
     pub yaw: f64,
-    /// Slip ratio of every wheel, *s* [-].
+    /// Steering angle of every wheel that is steered, *δ* [rad], positive uphill; none where the body's yaw holds the
+    /// course.
+    pub steering: Option<f64>,
+    /// Slip ratio of every wheel, *s* [-]; where wheels are steered, of every one that is.
     pub slip_ratio: f64,
     /// Yaw moment left over about the common centre of mass [N·m]; negative turns the nose downhill.
     pub yaw_moment: f64,
@@ -80,11 +88,17 @@ impl HeadingOffset {
         self.wheels.iter().map(|wheel| wheel.settled.forces.torque).sum()
     }
 
+    /// Crab angle, *c* = γ + δ − χ [rad]: how far the wheels that hold the course point uphill of it.
+    #[must_use]
+    pub fn crab(&self) -> f64 {
+        self.yaw + self.steering.unwrap_or(0.0) - self.course
+    }
+
     /// Rim speed of every wheel over the rover's speed along its course, cos c / (1 − s) [-], and with 1 + s
-    /// instead of the divisor for wheels that brake; c = γ − χ.
+    /// instead of the divisor for wheels that brake; c is the [crab angle](Self::crab).
     #[must_use]
     pub fn speed_ratio(&self) -> f64 {
-        wide::cos(self.yaw - self.course) * self.rim_over_hub()
+        wide::cos(self.crab()) * self.rim_over_hub()
     }
 
     fn rim_over_hub(&self) -> f64 {
@@ -93,10 +107,10 @@ impl HeadingOffset {
     }
 
     /// Work of the wheels per metre of way, ΣT cos c / [(1 − s) r_s] [J/m], and with 1 + s instead
-    /// of the divisor for wheels that brake; c = γ − χ.
+    /// of the divisor for wheels that brake; c is the [crab angle](Self::crab).
     #[must_use]
     pub fn energy_per_metre(&self, rover: &Rover) -> f64 {
-        let crab = self.yaw - self.course;
+        let crab = self.crab();
         let thrust = || {
             let each = self.each_torque(rover);
             each.map(|(mount, torque)| torque / mount.shearing_radius()).sum()
@@ -235,6 +249,7 @@ impl HeadingStudy {
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
             stability: scenario.stability,
+            steering: Steering::None,
         }
     }
 
@@ -248,7 +263,8 @@ impl HeadingStudy {
     /// Follows the curve of contour traverses from level ground to its end.
     ///
     /// # Errors
-    /// [`ParameterError`] if the soil or the gravity is not valid, or a wheel is steered.
+    /// [`ParameterError`] if the soil or the gravity is not valid, a wheel is turned for good, or none is steered
+    /// where wheels are to hold the course.
     pub fn curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.curve_on(0.0)
     }
@@ -262,7 +278,7 @@ impl HeadingStudy {
         if course.abs() > STRAIGHT_UP {
             return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
         }
-        self.follow(Held::Course(course), STEEPEST_SLOPE)
+        self.follow(self.held(course), STEEPEST_SLOPE)
     }
 
     /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
@@ -273,7 +289,7 @@ impl HeadingStudy {
     /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
     /// holds the contour there.
     pub fn on_slope(&self, slope: f64) -> Result<Result<HeadingOffset, NoHeading>, ParameterError> {
-        Ok(self.follow(Held::Course(0.0), slope)?.at(slope))
+        Ok(self.follow(self.held(0.0), slope)?.at(slope))
     }
 
     /// Follows the curve of drift: the nose stays along the contour, γ = 0, and the course turns
@@ -285,6 +301,14 @@ impl HeadingStudy {
         self.follow(Held::Yaw(0.0), STEEPEST_SLOPE)
     }
 
+    /// What is held on a course [rad].
+    fn held(&self, course: f64) -> Held {
+        match self.steering {
+            Steering::None => Held::Course(course),
+            Steering::Crab => Held::Body(course),
+        }
+    }
+
     /// The curve of a held course or yaw, as far as its first point that is not below a slope, or to its
     /// end.
     fn follow(&self, held: Held, slope: f64) -> Result<HeadingCurve, ParameterError> {
@@ -293,8 +317,13 @@ impl HeadingStudy {
         if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
             return Err(neglected_moments());
         }
+        let is_crab = held.is_steered();
+        if is_crab && !self.rover.is_steerable() {
+            let expected = "one or more where wheels hold the course: `steering_limit_deg` says how far they turn";
+            return Err(ParameterError::new("number of wheels that are steered", 0.0, expected));
+        }
         for mount in self.rover.mounts() {
-            if mount.steering != 0.0 {
+            if mount.steering != 0.0 && !(is_crab && mount.steering_axis.is_some()) {
                 let name = format!("steering of wheel {} [rad]", mount.name);
                 let expected = "0 where all wheels are to share one slip ratio and one slip angle";
                 return Err(ParameterError::new(name, mount.steering, expected));
@@ -320,6 +349,12 @@ impl HeadingCurve {
     #[must_use]
     pub fn course(&self) -> f64 {
         self.held.course(0.0)
+    }
+
+    /// What is turned uphill to hold the course.
+    #[must_use]
+    pub fn steering(&self) -> Steering {
+        if self.held.is_steered() { Steering::Crab } else { Steering::None }
     }
 
     /// How many wheels were settled to follow the curve.
@@ -436,14 +471,17 @@ impl HeadingCurve {
         let study = &self.study;
         let Point { place, wheels, .. } = point;
         let forces = forces_of(wheels);
-        let (force, moment) = dynamics::soil_resultant(&study.rover, forces, study.own_moments);
         let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
+        let path = Path::new(study, self.held);
+        let rover = path.rover(crab);
+        let (force, moment) = dynamics::soil_resultant(&rover, forces, study.own_moments);
         HeadingOffset {
             slope: place.z,
             course: self.held.course(crab),
             yaw: self.held.yaw(crab),
+            steering: self.held.is_steered().then_some(crab),
             slip_ratio: place.x,
-            yaw_moment: moment - study.rover.centre_of_mass().perp(&force),
+            yaw_moment: moment - rover.centre_of_mass().perp(&force),
             wheels: wheels.clone(),
             settled_wheels,
         }

@@ -7,7 +7,7 @@ mod closed_loop;
 #[path = "../../examples/heading_on_a_slope.rs"]
 mod heading_on_a_slope;
 #[path = "../../examples/own_rover.rs"]
-mod own_rover;
+pub(super) mod own_rover;
 #[path = "../../examples/uncertain_soil.rs"]
 mod uncertain_soil;
 #[path = "../../examples/wheel_on_sand.rs"]

@@ -94,6 +94,7 @@ pub(crate) fn rover_on(wheel: Wheel, hubs: &[(f64, f64)]) -> Rover {
         position: Vec3::new(x, y, -0.06),
         unit,
         steering: 0.0,
+        steering_axis: None,
     });
     Rover::new(body, mounts.collect()).expect("a rover that stands")
 }

@@ -9,7 +9,7 @@ use grouser::simulation::SteadyMotion;
 use grouser::soil::{
     GravityScaling, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil,
 };
-use grouser::studies::heading::{HeadingOffset, HeadingStudy};
+use grouser::studies::heading::{HeadingOffset, HeadingStudy, Steering};
 use grouser::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, deg};
 use grouser::vehicle::{Body, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
 use grouser::wheel::{Grousers, Wheel};
@@ -208,6 +208,7 @@ fn study(theory: Theory) -> HeadingStudy {
         sharing: LoadSharing::Complete,
         own_moments: OwnMoments::Included,
         stability: grouser::soil::SlopeStability::USUAL,
+        steering: Steering::None,
     }
 }
 

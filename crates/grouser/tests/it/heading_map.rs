@@ -2,7 +2,7 @@
 
 use grouser::contact::Theory;
 use grouser::simulation::{Approach, Numerics, Scenario};
-use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_map::HeadingMap;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use grouser::vehicle::{LoadSharing, OwnMoments};
@@ -18,6 +18,7 @@ fn study() -> HeadingStudy {
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,
+        steering: Steering::None,
     }
 }
 

@@ -41,6 +41,7 @@ mod ruts;
 mod simulated;
 mod slip_checks;
 mod small_wheel;
+mod steering;
 mod stepping;
 mod time_step;
 mod uncertain_documents;

@@ -13,7 +13,7 @@ use nalgebra::Rotation2;
 use super::given::{self, RIM_SPEED, hakuto, run, traverse};
 
 /// The rover of the source with its mounts changed.
-fn changed(change: impl Fn(usize, &mut Mount)) -> Rover {
+pub(super) fn changed(change: impl Fn(usize, &mut Mount)) -> Rover {
     let rover = hakuto();
     let mut mounts = rover.mounts().to_vec();
     mounts.iter_mut().enumerate().for_each(|(place, mount)| change(place, mount));
@@ -293,7 +293,7 @@ fn a_rover_described_in_a_turned_frame_is_the_same_rover() {
 }
 
 /// Different wheels, steered differently, on every place.
-fn motley() -> Rover {
+pub(super) fn motley() -> Rover {
     changed(|place, mount| {
         let share = place as f64;
         mount.unit.wheel.width *= 1.0 + 0.2 * share;

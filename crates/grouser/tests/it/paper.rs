@@ -5,7 +5,7 @@ use grouser::contact::{Slip, Theory, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::soil::{Bulldozing, Exit, PressureSinkage, Shear, SinkageExponent, Soil};
 use grouser::studies::comparison::{Levelness, yaw_error};
-use grouser::studies::heading::{HeadingCurve, HeadingStudy, NoHeading};
+use grouser::studies::heading::{HeadingCurve, HeadingStudy, NoHeading, Steering};
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
@@ -259,6 +259,7 @@ fn curve_with(soil: Soil, sharing: LoadSharing) -> HeadingCurve {
         sharing,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,
+        steering: Steering::None,
     };
     study.curve().expect("sand and gravity")
 }
@@ -441,6 +442,7 @@ fn the_assumed_wheel_decides_little_on_10_degrees() {
                 sharing: LoadSharing::QuasiStatic,
                 own_moments: OwnMoments::Neglected,
                 stability: grouser::soil::SlopeStability::USUAL,
+                steering: Steering::None,
             };
             let yaw = yaw_on(&study.curve().expect("sand and gravity"), 10.0);
             assert!((yaw - 5.04).abs() < 1.5, "{yaw}° with r {radius}, b {width} m");

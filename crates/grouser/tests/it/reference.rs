@@ -8,7 +8,7 @@ use grouser::soil::{
     StressPeak,
 };
 use grouser::studies::comparison::Levelness;
-use grouser::studies::heading::{HeadingOffset, HeadingStudy};
+use grouser::studies::heading::{HeadingOffset, HeadingStudy, Steering};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::load::{slope_pull, wheel_loads};
 use grouser::vehicle::{LoadSharing, OwnMoments, RoverState, dynamics};
@@ -162,6 +162,7 @@ fn hakuto_study(sharing: LoadSharing) -> HeadingStudy {
         sharing,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,
+        steering: Steering::None,
     }
 }
 

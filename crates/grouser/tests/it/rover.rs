@@ -27,6 +27,7 @@ fn lopsided() -> Rover {
         position: Vec3::new(x, y, -0.1),
         unit,
         steering: 0.0,
+        steering_axis: None,
     });
     Rover::new(Body { mass: 1.0, inertia }, mounts.collect()).expect("it stands")
 }
@@ -211,6 +212,7 @@ fn any_rover() -> impl Strategy<Value = Rover> {
                 position: Vec3::new(x, y, -0.1),
                 unit,
                 steering: 0.0,
+                steering_axis: None,
             });
             let body = Body { mass: body_mass, inertia };
             Rover::new(body, mounts.collect()).ok()
@@ -528,6 +530,7 @@ fn no_rover_stands_on_two_wheels_or_on_a_line() {
             position: Vec3::new(x, y, z),
             unit,
             steering: 0.0,
+            steering_axis: None,
         });
         Rover::new(*parts.body(), mounts.collect())
     };

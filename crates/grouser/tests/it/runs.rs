@@ -11,7 +11,7 @@ use grouser::simulation::{
 };
 use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
-use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::kinematics::hub_velocity;
@@ -418,6 +418,7 @@ fn the_level_attitude_does_not_depend_on_gravity_in_weighing_sand() {
             sharing: LoadSharing::QuasiStatic,
             own_moments: OwnMoments::Neglected,
             stability: grouser::soil::SlopeStability::USUAL,
+            steering: Steering::None,
         };
         let curve = study.curve().expect("sand and gravity");
         let yaw = curve.at(deg(15.0)).expect("it can be crossed").yaw;

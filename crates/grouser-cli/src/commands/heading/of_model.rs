@@ -1,11 +1,11 @@
 //! What a wheel–soil model answers about headings.
 
 use grouser::document::LoadedScenario;
-use grouser::document::columns::heading::{self, LIMIT_REASON};
+use grouser::document::columns::heading::{self, LIMIT_REASON, turned};
 use grouser::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
-use grouser::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, MODEL, SLOPE, YAW};
+use grouser::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, MODEL, SLOPE};
 use grouser::document::table::Table;
-use grouser::studies::heading::HeadingCurve;
+use grouser::studies::heading::{HeadingCurve, Steering};
 
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
@@ -55,13 +55,19 @@ impl OfModel {
 
 const CURVE: &str = "The rover crosses the slope along the contour line with its nose turned uphill by this angle. \
                      Where the curve ends no heading holds the contour.";
+const CRAB: &str = "The rover crosses the slope with its body along the contour line and its wheels steered uphill by \
+                    this angle. Where the curve ends no steering angle holds the contour.";
 const CHANCE: &str = "The share of the samples in which some heading holds the contour. The band is what so many \
                       samples leave open of that share, with 95 % confidence.";
 
 /// A chart of the curves of all models, or those of the bands of each, with the names of their files and captions.
 pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart, &'static str)> {
     if all.iter().all(|of_model| of_model.bands.is_none()) {
-        return vec![(format!("{command}.svg"), chart(all), CURVE)];
+        let caption = match all[0].curve.steering() {
+            Steering::None => CURVE,
+            Steering::Crab => CRAB,
+        };
+        return vec![(format!("{command}.svg"), chart(all), caption)];
     }
     let of_bands = |of_model: &OfModel| {
         let bands = of_model.bands.as_ref()?;
@@ -80,7 +86,7 @@ pub(super) fn brief(args: &HeadingArgs, first: &OfModel) -> Vec<String> {
     let mut names = match first {
         OfModel { bands: Some(_), .. } => heading::bands_brief(),
         OfModel { own_speeds: Some(_), .. } => wheel_speeds::brief(&first.scenario.value.rover),
-        _ => heading::brief(),
+        _ => heading::brief(first.curve.steering()),
     };
     if args.setting.has_every_model() {
         names.insert(0, MODEL.to_owned());
@@ -125,14 +131,16 @@ fn chart(all: &[OfModel]) -> Chart {
         let name = if all.len() > 1 { of_model.name() } else { "" };
         line(name, place + 1, &of_model.curve)
     });
-    Chart::new(
-        "Heading offset that holds the contour",
-        ("slope [°]", "yaw, positive uphill [°]"),
-        series.collect(),
-    )
+    let (title, angle) = match all[0].curve.steering() {
+        Steering::None => ("Heading offset that holds the contour", "yaw, positive uphill [°]"),
+        Steering::Crab => {
+            ("Steering angle that holds the contour", "steering angle, positive uphill [°]")
+        }
+    };
+    Chart::new(title, ("slope [°]", angle), series.collect())
 }
 
 fn line(name: &str, colour: usize, curve: &HeadingCurve) -> Series {
     let points = heading::curve(curve);
-    Series::new(name, Style::Line, colour, points.points(SLOPE.name, YAW.name))
+    Series::new(name, Style::Line, colour, points.points(SLOPE.name, turned(curve.steering()).name))
 }

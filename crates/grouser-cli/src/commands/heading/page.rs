@@ -1,9 +1,11 @@
 //! The page of the heading offset over slope.
 
 use grouser::contact::validity::Finding;
-use grouser::document::columns::heading::{self, held};
+use grouser::document::columns::heading::{self, held, steered};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
+
+use grouser::studies::heading::Steering;
 
 use super::of_model::{OfModel, brief, figures};
 use crate::args::HeadingArgs;
@@ -34,7 +36,11 @@ pub(super) fn html(command: &str, args: &HeadingArgs, all: &[OfModel], table: &T
         .iter()
         .flat_map(|it| heading::findings(&it.curve, &slopes).into_iter().flatten())
         .collect();
-    answer::close(page, &findings, &meanings(&held()), &basis(command, args, all))
+    let mut explained = meanings(&held());
+    if Steering::from(args.steering) == Steering::Crab {
+        explained.splice(0..0, meanings(&steered()));
+    }
+    answer::close(page, &findings, &explained, &basis(command, args, all))
 }
 
 /// Lines as sentences of one paragraph.
@@ -73,7 +79,10 @@ fn of_models(all: &[OfModel]) -> Vec<Chart> {
 
 fn basis(command: &str, args: &HeadingArgs, all: &[OfModel]) -> Basis {
     let slopes: Vec<String> = args.slope_deg.0.iter().map(ToString::to_string).collect();
-    let samples = if args.wheel_speeds {
+    let steering = Steering::from(args.steering);
+    let samples = if steering != Steering::None {
+        format!(" --steering {}", steering.name())
+    } else if args.wheel_speeds {
         format!(" --wheel-speeds --most-speed-ratio {}", args.most_speed_ratio)
     } else {
         sampling::flags(&args.uncertainty)

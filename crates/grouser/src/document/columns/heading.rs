@@ -6,10 +6,10 @@ use super::super::unit::NM;
 use super::flags::{self, FLAGS};
 use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE,
-    SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
+    SLIP_RATIO, SLOPE, STATUS, STEERING, TORQUE, YAW, quantity, text, whole,
 };
 use crate::contact::validity::Finding;
-use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
+use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading, Steering};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 use crate::vehicle::Rover;
@@ -30,7 +30,9 @@ pub struct Held<'a> {
 pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
     [
         YAW.number("Yaw that holds the course, positive uphill", |it| it.heading.yaw),
-        SLIP_RATIO.number("Slip ratio of every wheel", |it| it.heading.slip_ratio),
+        SLIP_RATIO.number("Slip ratio of every wheel; with wheels steered, of these", |it| {
+            it.heading.slip_ratio
+        }),
         SINKAGE.number("Mean sinkage of the wheels", |it| it.heading.mean_sinkage()),
         TORQUE.number("Torque of all wheels together", |it| it.heading.torque()),
         POWER.maybe("Power of the motors at the rim speed of the map", |it| {
@@ -43,6 +45,14 @@ pub const fn held<'a>() -> [Column<Held<'a>>; 7] {
             it.heading.yaw_moment
         }),
     ]
+}
+
+/// What a rover has whose wheels are steered to hold its course, before the other results.
+#[must_use]
+pub const fn steered<'a>() -> [Column<Held<'a>>; 1] {
+    [STEERING.maybe("Steering angle of every wheel that is steered, positive uphill", |it| {
+        it.heading.steering
+    })]
 }
 
 /// Yaw moment that is left over.
@@ -118,11 +128,17 @@ pub fn table(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Table {
         soil: "",
         row: None,
     });
-    found_table(Table::default(), &rows.collect::<Vec<_>>(), rover, None)
+    found_table(Table::default(), &rows.collect::<Vec<_>>(), rover, None, curve.steering())
 }
 
 /// Slope, results, status and flags.
-fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Option<f64>) -> Table {
+fn found_table(
+    table: Table,
+    rows: &[OnSlope<'_>],
+    rover: &Rover,
+    rim_speed: Option<f64>,
+    steering: Steering,
+) -> Table {
     let all = rows.iter().map(|row| {
         let heading = row.found.as_ref().ok()?;
         Some(Held { heading, rover, rim_speed })
@@ -132,26 +148,39 @@ fn found_table(table: Table, rows: &[OnSlope<'_>], rover: &Rover, rim_speed: Opt
     let rows: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
     let (power, results): (Vec<_>, Vec<_>) =
         held().into_iter().partition(|column| column.name == POWER.name);
-    let table = table.and(&slope(), &rows).and(&results, &all).and(&status(), &rows);
+    let table = table.and(&slope(), &rows);
+    let table = if steering == Steering::Crab { table.and(&steered(), &all) } else { table };
+    let table = table.and(&results, &all).and(&status(), &rows);
     if rim_speed.is_some() { table.and(&power, &all) } else { table }
 }
 
 /// The columns of [`table`] for reading.
 #[must_use]
-pub fn brief() -> Vec<String> {
+pub fn brief(steering: Steering) -> Vec<String> {
     let [.., yaw_moment] = held();
-    let names = [SLOPE, YAW, SLIP_RATIO, SINKAGE, ENERGY_PER_METRE].map(|it| it.name);
+    let names = [SLOPE, turned(steering), SLIP_RATIO, SINKAGE, ENERGY_PER_METRE].map(|it| it.name);
     names.into_iter().chain([yaw_moment.name, STATUS, FLAGS]).map(String::from).collect()
 }
 
-/// The heading offset over the slope, as points of a chart.
+/// The angle that holds the course: of the body, or of its wheels.
+#[must_use]
+pub const fn turned(steering: Steering) -> Quantity {
+    match steering {
+        Steering::None => YAW,
+        Steering::Crab => STEERING,
+    }
+}
+
+/// The angle that holds the course over the slope, as points of a chart.
 #[must_use]
 pub fn curve(curve: &HeadingCurve) -> Table {
-    const POINT: [Column<HeadingOffset>; 2] = [
+    let points: [Column<HeadingOffset>; 2] = [
         SLOPE.number("Slopes", |it| it.slope),
-        YAW.number("Yaw that holds the course, positive uphill", |it| it.yaw),
+        turned(curve.steering()).number("The angle that holds the course, positive uphill", |it| {
+            it.steering.unwrap_or(it.yaw)
+        }),
     ];
-    Table::of(&POINT, &curve.headings())
+    Table::of(&points, &curve.headings())
 }
 
 /// The steepest slope, and what ends the curve there: one row.
@@ -199,7 +228,8 @@ pub fn map_table(map: &HeadingMap, soils: &[String], rover: &Rover, rim_speed: f
     let rows: Vec<OnSlope<'_>> = rows.collect();
     let all: Vec<Option<&OnSlope<'_>>> = rows.iter().map(Some).collect();
     let table = Table::default().and(&place(), &all);
-    found_table(table, &rows, rover, Some(rim_speed)).and(&limit(), &all)
+    let table = found_table(table, &rows, rover, Some(rim_speed), Steering::None);
+    table.and(&limit(), &all)
 }
 
 /// The columns of [`map_table`] for reading.

@@ -1,6 +1,8 @@
 //! Follows the curve of heading offsets: predict along it, correct across it, stop where it folds.
 
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
+use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,10 +12,10 @@ use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::units::{STEEPEST_SLOPE, Vec2};
-use crate::vehicle::reaction::forces_of;
-use crate::vehicle::{ReactionError, RoverState, WheelReaction, dynamics};
+use crate::vehicle::reaction::{Ground, forces_of};
+use crate::vehicle::{ReactionError, Rover, RoverState, WheelReaction, dynamics};
 
-/// (s, c, α): slip ratio, crab angle c = γ − χ, slope.
+/// (s, c, α): slip ratio, crab angle c = γ + δ − χ, slope.
 pub(super) type Place = Vector3<f64>;
 
 /// A point of the curve.
@@ -37,6 +39,8 @@ pub(super) enum Held {
     Course(f64),
     /// Its yaw, *γ*: the course is γ − c.
     Yaw(f64),
+    /// Its course and its yaw, which are one: the wheels that are steered have the angle δ = c.
+    Body(f64),
 }
 
 impl Held {
@@ -44,22 +48,30 @@ impl Held {
     pub(super) fn yaw(self, crab: f64) -> f64 {
         match self {
             Self::Course(course) => course + crab,
-            Self::Yaw(yaw) => yaw,
+            Self::Yaw(yaw) | Self::Body(yaw) => yaw,
         }
     }
 
     /// Course at a crab angle [rad].
     pub(super) fn course(self, crab: f64) -> f64 {
         match self {
-            Self::Course(course) => course,
+            Self::Course(course) | Self::Body(course) => course,
             Self::Yaw(yaw) => yaw - crab,
         }
+    }
+
+    /// Whether wheels are steered to hold it.
+    pub(super) fn is_steered(self) -> bool {
+        matches!(self, Self::Body(_))
     }
 
     /// Why the curve folds.
     fn reason_to_fold(self) -> &'static str {
         match self {
             Self::Course(_) => "where turning further uphill costs more thrust than it gains",
+            Self::Body(_) => {
+                "where turning the wheels further uphill costs more thrust than it gains"
+            }
             Self::Yaw(_) => "where drifting more steeply gains no more side force",
         }
     }
@@ -69,6 +81,9 @@ impl Held {
 pub(super) struct Path<'a> {
     study: &'a HeadingStudy,
     held: Held,
+    /// The rover, with wheels that may be steered by any angle if they are; and the most that its own can be [rad].
+    rover: Cow<'a, Rover>,
+    most_steering: f64,
     settled_wheels: Cell<u64>,
     /// The place looked at last, and the wheels there.
     last: RefCell<Option<(Place, Vec<WheelReaction>)>>,
@@ -91,7 +106,44 @@ const MOST_SLIP: f64 = 0.999;
 
 impl<'a> Path<'a> {
     pub(super) fn new(study: &'a HeadingStudy, held: Held) -> Self {
-        Self { study, held, settled_wheels: Cell::new(0), last: RefCell::default() }
+        let (mut rover, mut most_steering) = (Cow::Borrowed(&study.rover), f64::INFINITY);
+        if held.is_steered() {
+            let limits = study.rover.mounts().iter().filter_map(|mount| mount.steering_axis);
+            most_steering = limits.map(|axis| axis.limit).fold(most_steering, f64::min);
+            rover = Cow::Owned(without_limits(&study.rover));
+        }
+        let (settled_wheels, last) = (Cell::new(0), RefCell::default());
+        Self { study, held, rover, most_steering, settled_wheels, last }
+    }
+
+    /// The rover with its wheels as they are at a crab angle [rad].
+    pub(super) fn rover(&self, crab: f64) -> Cow<'_, Rover> {
+        if !self.held.is_steered() {
+            return Cow::Borrowed(&self.rover);
+        }
+        let angle = crab.clamp(-FRAC_PI_2, FRAC_PI_2);
+        let mounts = self.rover.mounts().iter();
+        let angles: Vec<f64> =
+            mounts.map(|mount| mount.steering_axis.map_or(0.0, |_| angle)).collect();
+        let steered = self.rover.steered(&angles);
+        Cow::Owned(steered.expect("wheels without limits are steered by a quarter turn at most"))
+    }
+
+    /// The slip of each wheel at a place.
+    fn slips(&self, slip_ratio: f64, crab: f64) -> Vec<Slip> {
+        let turned = Slip::on_test_stand(slip_ratio, -crab);
+        if !self.held.is_steered() {
+            return vec![turned; self.rover.wheel_count()];
+        }
+        // At the speed of the other rims, a wheel that is not steered has the rover's whole speed.
+        let (rim, hub) = if slip_ratio >= 0.0 {
+            (1.0, (1.0 - slip_ratio) / cos(crab))
+        } else {
+            (1.0 + slip_ratio, 1.0 / cos(crab))
+        };
+        let straight = Slip::on_test_stand((rim - hub) / rim.max(hub), 0.0);
+        let mounts = self.rover.mounts().iter();
+        mounts.map(|mount| mount.steering_axis.map_or(straight, |_| turned)).collect()
     }
 
     /// How many wheels were settled so far.
@@ -107,10 +159,11 @@ impl<'a> Path<'a> {
     /// The wheels at a place, and the weight's pull there, in the body frame [N].
     fn reactions(&self, place: &Place) -> Result<(Vec<WheelReaction>, Vec2), ReactionError> {
         let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
-        let slips = vec![Slip::on_test_stand(slip_ratio, -crab); self.study.rover.wheel_count()];
+        let slips = self.slips(slip_ratio, crab);
         self.settled_wheels.set(self.settled_wheels.get() + slips.len() as u64);
         let site = self.study.site(slope);
-        let ground = self.study.ground(&site);
+        let rover = self.rover(crab);
+        let ground = Ground { rover: &rover, ..self.study.ground(&site) };
         let stance = ground.stance(&self.state(crab));
         let wheels = match &*self.last.borrow() {
             Some((last, wheels)) if (place - last).norm() < NEARBY => {
@@ -128,7 +181,7 @@ impl<'a> Path<'a> {
         let study = self.study;
         let (wheels, pull) = self.reactions(place)?;
         let (soil, _) =
-            dynamics::soil_resultant(&study.rover, forces_of(&wheels), study.own_moments);
+            dynamics::soil_resultant(&self.rover(place.y), forces_of(&wheels), study.own_moments);
         let left_over = (soil + pull) / (study.rover.mass() * study.gravity);
         Ok(([left_over.x, left_over.y], wheels))
     }
@@ -228,6 +281,9 @@ impl<'a> Path<'a> {
             };
             if next.place.x.abs() > MOST_SLIP {
                 return self.end_at_most_slip(points, &next.place);
+            }
+            if next.place.y > self.most_steering && next.place.z >= here.place.z {
+                return self.end_at_most_steering(points, &next.place);
             }
             if next.place.z < here.place.z {
                 self.end_at_fold(points, next);
@@ -358,6 +414,18 @@ impl<'a> Path<'a> {
         reason.into()
     }
 
+    /// Ends a curve where wheels are steered as far as they can.
+    ///
+    /// * `beyond`: a place past it
+    fn end_at_most_steering(&self, points: &mut Vec<Point>, beyond: &Place) -> String {
+        let here = &points[points.len() - 1];
+        let share = (self.most_steering - here.place.y) / (beyond.y - here.place.y);
+        let mut guess = here.place + (beyond - here.place) * share;
+        guess.y = self.most_steering;
+        points.extend(self.correct(&guess, &Vector3::y(), &here.gradients));
+        "where the wheels cannot be steered any further".into()
+    }
+
     /// Ends a curve at its highest point, which lies around the last of `points`.
     ///
     /// * `beyond`: a point past it
@@ -385,4 +453,13 @@ impl<'a> Path<'a> {
             points.push(top);
         }
     }
+}
+
+/// The same rover with wheels that are steered as far as a quarter turn.
+fn without_limits(rover: &Rover) -> Rover {
+    let mut mounts = rover.mounts().to_vec();
+    for axis in mounts.iter_mut().filter_map(|mount| mount.steering_axis.as_mut()) {
+        axis.limit = FRAC_PI_2;
+    }
+    Rover::new(*rover.body(), mounts).expect("limits of steering are no part of a stance")
 }

@@ -29,6 +29,32 @@ pub struct HeadingStudy {
     pub own_moments: OwnMoments,
     /// What is asked of the ground's own strength before a rover crosses it.
     pub stability: SlopeStability,
+    /// What is turned uphill to hold a course.
+    pub steering: Steering,
+}
+
+/// What a rover turns uphill to hold its course.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Steering {
+    /// Its nose: the wheels point straight ahead.
+    #[default]
+    None,
+    /// All wheels that are steered, by one angle; its nose points along the course.
+    Crab,
+}
+
+impl Steering {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::None, Self::Crab];
+
+    /// One word: `none`, `crab`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Crab => "crab",
+        }
+    }
 }
 
 /// The farthest course from the contour [rad]: straight up or down the slope. Beyond it a rover

@@ -1,0 +1,236 @@
+//! Wheels that are steered about their kingpins.
+
+use grouser::document::{Kind, Overrides, Source, read_rover};
+use grouser::simulation::Scenario;
+use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
+use grouser::units::{Vec2, deg};
+use grouser::vehicle::rover::USUAL_STEERING_RATE;
+use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, SteeringAxis};
+
+use super::given::{hakuto, run, traverse};
+use super::mounts::{changed, motley};
+
+/// How each wheel of the rovers of these tests is steered.
+const AXIS: SteeringAxis =
+    SteeringAxis { limit: 0.8, rate: USUAL_STEERING_RATE, kingpin_offset: Vec2::new(0.0, 0.0) };
+
+/// The source's rover, had it wheels that can be steered.
+pub(super) fn steerable() -> Rover {
+    changed(|_, mount| mount.steering_axis = Some(AXIS))
+}
+
+/// With kingpins beside its hubs, on the inner side.
+fn with_kingpins() -> Rover {
+    changed(|_, mount| {
+        let kingpin_offset = Vec2::new(0.01, -0.05 * mount.position.y.signum());
+        mount.steering_axis = Some(SteeringAxis { kingpin_offset, ..AXIS });
+    })
+}
+
+#[test]
+fn steering_angles_of_zero_change_no_bit() {
+    let on_slope = |rover: Rover| run(&Scenario { rover, ..traverse(deg(10.0), deg(5.0)) });
+    let fixed = on_slope(hakuto());
+    for rover in [steerable(), with_kingpins()] {
+        assert_eq!(on_slope(rover.clone()), fixed);
+        let there_and_back = rover.steered(&[0.3; 4]).and_then(|rover| rover.steered(&[0.0; 4]));
+        assert_eq!(on_slope(there_and_back.expect("angles within limits")), fixed);
+    }
+}
+
+/// Closed form: a hub goes round its kingpin, at the distance of the offset, and takes its mass with it.
+#[test]
+fn a_hub_moves_about_its_kingpin_and_its_mass_follows() {
+    let rover = with_kingpins();
+    let angles = [0.3, -0.2, 0.1, 0.8];
+    let steered = rover.steered(&angles).expect("angles within limits");
+    let mut moment = Vec2::zeros();
+    for ((before, after), angle) in rover.mounts().iter().zip(steered.mounts()).zip(angles) {
+        let offset = before.steering_axis.expect("it is steered").kingpin_offset;
+        let kingpin = before.position.xy() + offset;
+        let (sin, cos) = f64::sin_cos(angle);
+        let turned = Vec2::new(cos * offset.x - sin * offset.y, sin * offset.x + cos * offset.y);
+        assert!((after.position.xy() - (kingpin - turned)).norm() < 1e-15);
+        assert!((after.position.xy() - before.position.xy()).norm() > 0.004);
+        assert_eq!(after.position.z, before.position.z);
+        moment += after.unit.mass * after.position.xy();
+    }
+    assert!((steered.first_moment() - moment).norm() < 1e-12);
+    assert!((steered.mass() - rover.mass()).abs() < 1e-12);
+    assert_eq!(steered.steering_angles(), angles);
+    // Made from its wheels as they are, or seen in a mirror twice, it is the same rover.
+    let again = Rover::new(*steered.body(), steered.mounts().to_vec()).expect("a rover");
+    let back = again.steered(&[0.0; 4]).expect("angles within limits");
+    for (one, other) in back.mounts().iter().zip(rover.mounts()) {
+        assert!((one.position - other.position).norm() < 1e-15);
+    }
+    let mirrored = rover.mirrored().steered(&angles.map(|angle| -angle)).expect("as before");
+    for (one, other) in mirrored.mirrored().mounts().iter().zip(steered.mounts()) {
+        assert!((one.position - other.position).norm() < 1e-15);
+        assert_eq!(one.steering, other.steering);
+    }
+}
+
+#[test]
+fn angles_that_wheels_cannot_have_are_refused() {
+    let message = |rover: &Rover, angles: &[f64]| {
+        rover.steered(angles).expect_err("no rover has these angles").to_string()
+    };
+    let rover = steerable();
+    let beyond = message(&rover, &[0.0, deg(-50.0), 0.0, 0.0]);
+    for part in ["wheel 2", "-0.87", "0.800"] {
+        assert!(beyond.contains(part), "{beyond}");
+    }
+    assert!(message(&rover, &[0.0; 3]).contains("one for each wheel"));
+    assert!(message(&rover, &[f64::NAN, 0.0, 0.0, 0.0]).contains("finite"));
+    let fixed = message(&hakuto(), &[0.0, 0.0, 0.1, 0.0]);
+    assert!(fixed.contains("wheel 3") && fixed.contains("steering_limit_deg"), "{fixed}");
+    assert!(!hakuto().is_steerable() && rover.is_steerable());
+}
+
+#[test]
+fn documents_say_how_wheels_are_steered() {
+    let read = |name: &str, settings: &[&str]| {
+        let overrides = Overrides::parse(settings).expect("settings");
+        read_rover(&Source::find(Kind::Rover, name).expect("a preset"), &overrides)
+    };
+    let spirit = read("spirit", &[]).expect("a preset");
+    let axes = spirit.value.mounts().iter().map(|mount| mount.steering_axis);
+    let limits: Vec<f64> =
+        axes.map(|axis| axis.map_or(0.0, |axis| axis.limit.to_degrees().round())).collect();
+    assert_eq!(limits, [60.0, 0.0, 60.0, 60.0, 0.0, 60.0]);
+
+    let set = ["rover.mount.0.steering_rate_deg_s=4", "rover.mount.0.kingpin_offset_m=[0.0,-0.1]"];
+    let rover = read("spirit", &set).expect("settings of a wheel").value;
+    let axis = rover.mounts()[0].steering_axis.expect("it is steered");
+    assert!((axis.rate - deg(4.0)).abs() < 1e-15);
+    assert_eq!(axis.kingpin_offset, Vec2::new(0.0, -0.1));
+    let other = rover.mounts()[2].steering_axis.expect("it is steered");
+    assert_eq!(other.rate, USUAL_STEERING_RATE);
+
+    let message = |setting: &str| read("spirit", &[setting]).expect_err("no rover").to_string();
+    let beyond = message("rover.mount.0.steering_deg=61");
+    assert!(beyond.contains("front-left") && beyond.contains("60°"), "{beyond}");
+    let unsteered = message("rover.mount.1.kingpin_offset_m=[0.0,0.1]");
+    assert!(unsteered.contains("kingpin offset of `middle-left`"), "{unsteered}");
+}
+
+/// The order of the wheels is a matter of writing: results come in that order, and are the same to rounding.
+#[test]
+fn permuting_mounts_permutes_results() {
+    let order = [2, 0, 3, 1];
+    let rims = [0.05, 0.06, 0.07, 0.04];
+    let permuted = |rover: &Rover| {
+        let mounts: Vec<Mount> = order.map(|place| rover.mounts()[place].clone()).to_vec();
+        Rover::new(*rover.body(), mounts).expect("the same rover")
+    };
+    let on_slope = |rover: Rover, rims: [f64; 4]| {
+        let drive = DriveLaw::ConstantEach(rims.to_vec());
+        run(&Scenario { rover, drive, duration: 3.0, ..traverse(deg(10.0), deg(5.0)) })
+    };
+    let one = on_slope(motley(), rims);
+    let other = on_slope(permuted(&motley()), order.map(|place| rims[place]));
+    let (here, there) = (one.last(), other.last());
+    assert!((here.state.position - there.state.position).norm() < 1e-7);
+    assert!((here.state.yaw - there.state.yaw).abs() < 1e-7);
+    for (place, wheel) in order.iter().zip(&there.wheels) {
+        let same = &here.wheels[*place];
+        assert!((same.wheel_speed - wheel.wheel_speed).abs() < 1e-15);
+        let (one, other) = (same.reaction, wheel.reaction);
+        assert!((one.load / other.load - 1.0).abs() < 1e-6);
+        let [torque, there] = [one, other].map(|wheel| wheel.settled.forces.torque);
+        assert!((torque / there - 1.0).abs() < 1e-6);
+    }
+}
+
+fn study(rover: Rover, sharing: LoadSharing, own_moments: OwnMoments) -> HeadingStudy {
+    let scenario = Scenario { rover, sharing, own_moments, ..traverse(0.0, 0.0) };
+    HeadingStudy::of(&scenario)
+}
+
+fn crab(study: &HeadingStudy) -> HeadingCurve {
+    let study = HeadingStudy { steering: Steering::Crab, ..study.clone() };
+    study.curve().expect("a study")
+}
+
+/// A body that is turned, with its wheels steered back, moves as before, but for the load transfer: with loads
+/// alike, the wheels' crab angle is the body's heading offset, on every slope up to the same limit.
+#[test]
+fn with_loads_alike_wheels_crab_by_the_angle_that_the_nose_would_be_turned_by() {
+    for own_moments in [OwnMoments::Neglected, OwnMoments::Included] {
+        let study = study(steerable(), LoadSharing::Uniform, own_moments);
+        let (yaw, crab) = (study.curve().expect("a study"), crab(&study));
+        let [nose, wheels] = [&yaw, &crab].map(|curve| curve.limit().expect("it moves").0);
+        assert!((nose - wheels).abs() < 1e-7, "{nose} and {wheels}");
+        for slope in [3.0, 10.0, 17.0].map(deg) {
+            let (nose, wheels) = (yaw.at(slope).expect("held"), crab.at(slope).expect("held"));
+            let angle = wheels.steering.expect("wheels are steered");
+            assert!((nose.yaw - angle).abs() < 1e-8 && wheels.yaw == 0.0);
+            assert!((nose.slip_ratio - wheels.slip_ratio).abs() < 1e-8);
+            assert!((nose.torque() / wheels.torque() - 1.0).abs() < 1e-8);
+            let rover = steerable();
+            let [one, other] = [&nose, &wheels].map(|it| it.energy_per_metre(&rover));
+            assert!((one / other - 1.0).abs() < 1e-8, "{one} and {other} J/m");
+        }
+    }
+}
+
+/// What holds the contour in the study holds it in the equations of motion: along and across the contour nothing is
+/// left over of the forces of a rover whose wheels have the crab angle, and its yaw moment is the one reported.
+#[test]
+fn a_crab_angle_balances_the_forces_along_and_across_the_contour() {
+    for rover in [steerable(), with_kingpins(), six_wheels()] {
+        let study = study(rover.clone(), LoadSharing::Complete, OwnMoments::Included);
+        let found = crab(&study).at(deg(10.0)).expect("it holds the contour");
+        let angle = found.steering.expect("wheels are steered");
+        let angles = rover.mounts().iter().map(|mount| mount.steering_axis.map_or(0.0, |_| angle));
+        let steered = rover.steered(&angles.collect::<Vec<_>>()).expect("within limits");
+        let (mut force, mut moment) = (Vec2::zeros(), 0.0);
+        for (mount, wheel) in steered.mounts().iter().zip(&found.wheels) {
+            let forces = wheel.settled.forces;
+            let own = mount.body_from_wheel(Vec2::new(forces.drawbar_pull, forces.side_force));
+            let arm = mount.position.xy() - steered.centre_of_mass();
+            force += own;
+            moment += arm.perp(&own) + forces.aligning_moment;
+        }
+        let weight = rover.mass() * study.gravity;
+        let needed = Vec2::new(0.0, weight * f64::sin(deg(10.0)));
+        assert!((force - needed).norm() < 1e-8 * weight, "{force}");
+        assert!((moment - found.yaw_moment).abs() < 1e-9 * weight);
+        // All rims turn at one speed: v cos(angle)/(1 − s) is the same for each wheel.
+        let rim = |place: usize| {
+            let mount = &steered.mounts()[place];
+            f64::cos(mount.steering) / (1.0 - found.wheels[place].slip.ratio)
+        };
+        assert!((0..rover.wheel_count()).all(|place| (rim(place) / rim(0) - 1.0).abs() < 1e-9));
+    }
+}
+
+/// A six-wheel rover whose wheels at the corners are steered.
+fn six_wheels() -> Rover {
+    let rover = super::examples::own_rover::six_wheels(0.0).expect("a rover");
+    let mut mounts = rover.mounts().to_vec();
+    for mount in mounts.iter_mut().filter(|mount| mount.position.x.abs() > 0.1) {
+        mount.steering_axis = Some(AXIS);
+    }
+    Rover::new(*rover.body(), mounts).expect("the same rover")
+}
+
+#[test]
+fn a_curve_of_crab_angles_ends_where_wheels_turn_no_further() {
+    let limit = deg(6.0);
+    let rover = changed(|_, mount| {
+        mount.steering_axis = Some(SteeringAxis { limit, ..AXIS });
+    });
+    let study = study(rover, LoadSharing::QuasiStatic, OwnMoments::Neglected);
+    let curve = crab(&study);
+    let (steepest, reason) = curve.limit().expect("it moves");
+    assert!(reason.contains("steered any further"), "{reason}");
+    let last = curve.at(steepest).expect("it holds the contour");
+    assert!((last.steering.expect("wheels are steered") - limit).abs() < 1e-8);
+    assert!(curve.at(steepest + deg(0.1)).is_err());
+
+    let fixed = HeadingStudy { steering: Steering::Crab, rover: hakuto(), ..study };
+    let message = fixed.curve().expect_err("no wheel is steered").to_string();
+    assert!(message.contains("steering_limit_deg"), "{message}");
+}
