@@ -21,6 +21,7 @@ mod plan;
 mod report;
 mod route;
 mod run;
+mod steering;
 mod stop;
 mod turn;
 
@@ -28,7 +29,7 @@ pub use limits::Limits;
 pub use navigator::{Fix, Sensors};
 pub use path_run::{PathRun, PathTask};
 pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
-pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
+pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError, Steering};
 pub use report::{BackOut, LegOutcome, LegReport, MissionReport};
 pub use route::{BesideRoute, Route};
 pub use run::{MissionError, MissionRun};

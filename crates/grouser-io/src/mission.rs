@@ -2,7 +2,9 @@
 
 use super::columns::{ENERGY, Quantity, SLIP_RATIO, TIME, TORQUE, quantity};
 use super::unit::{DEG, M, ONE};
-use grouser_core::mission::{Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Stop};
+use grouser_core::mission::{
+    Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Steering, Stop,
+};
 use grouser_core::simulation::Scenario;
 use grouser_core::units::Vec2;
 use grouser_core::vehicle::drive::{SlipLimit, SlipTarget};
@@ -59,6 +61,8 @@ pub(crate) struct LegKeys {
     pub law: Option<LegLaw>,
     pub yaw: Option<f64>,
     pub held: Option<Held>,
+    pub crab: Option<f64>,
+    pub steering: Option<Steering>,
     pub toward: Option<Waypoint>,
     pub look_ahead: Option<f64>,
     pub stops: Vec<Stop>,
@@ -92,6 +96,7 @@ pub(crate) enum Held {
     Hold,
     Contour,
     Toward,
+    Crab,
 }
 
 impl Plan {
@@ -161,12 +166,14 @@ impl LegKeys {
             (Some(Held::Hold), _) => Heading::Hold,
             (Some(Held::Contour), _) => Heading::Contour,
             (Some(Held::Toward), Some(to)) => Heading::Toward(to.place),
+            (Some(Held::Crab), _) => Heading::Crab { angle: self.crab.unwrap_or(0.0) },
             _ => Heading::Free,
         };
         Leg {
             drive: speed.map_or(usual.drive, |speed| self.drive_at(speed)),
             yaw: self.yaw,
             heading,
+            steering: self.steering.unwrap_or_default(),
             stops: self.stops.clone(),
             look_ahead: self.look_ahead,
             ..usual
@@ -222,6 +229,13 @@ impl LegKeys {
                 "`drive_m`",
                 "leave it out: turns, arcs and ways to places have their own",
             );
+        }
+        if self.crab.is_some() && self.held != Some(Held::Crab) {
+            let what = "has an angle `crab_deg`, but not the heading \"crab\"".to_owned();
+            return Some(("crab_deg", what, "write heading = \"crab\", or leave the angle out"));
+        }
+        if self.steering.is_some() && manoeuvre != "arc" {
+            return only("steering", "`arc`", "leave it out; `drive_m` has the heading \"crab\"");
         }
         if self.reverse && !matches!(manoeuvre, "arc" | "goto") {
             return only("reverse", "`arc` and `goto`", "a `drive_m` below 0 is driven backward");

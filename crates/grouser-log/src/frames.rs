@@ -128,7 +128,7 @@ pub(crate) fn of_rover(
     let mut all = vec![transform(time, [SLOPE, BODY], pose.centre, yaw)];
     for (index, (mount, name)) in mounts.iter().zip(names).enumerate() {
         let hub = pose.hub_in_body(mount, index);
-        let steering = Quaternion::about(Vec3::z(), mount.steering);
+        let steering = Quaternion::about(Vec3::z(), pose.wheels[index].steering);
         all.push(transform(time, [BODY, &name.frame], hub, steering));
         // Rolling forward is turning about the axle, to the left, by the right-hand rule.
         let rolling = Quaternion::about(Vec3::y(), pose.wheels[index].turned);

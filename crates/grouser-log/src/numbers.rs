@@ -3,7 +3,9 @@
 use std::fmt;
 
 use grouser::document::columns::Column;
-use grouser::document::columns::run::{ELECTRICAL, ELECTRICAL_RECORD, RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{
+    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STEERING_RECORD, WHEEL_RECORD,
+};
 use grouser::document::columns::wheel::WHEEL;
 use grouser_core::contact::Settled;
 use grouser_core::simulation::{Record, WheelRecord};
@@ -48,7 +50,8 @@ pub(crate) fn of_rover(rover: &Rover) -> Numbers<Record> {
     Numbers { schema: "grouser.Rover", entries: all.collect() }
 }
 
-/// A wheel's, with what its motor takes where that is known of every wheel: all wheels have one type of messages.
+/// A wheel's, with what its motor takes where that is known of every wheel, and its steering angle where some wheel is
+/// steered: all wheels have one type of messages.
 pub(crate) fn of_wheel(rover: &Rover) -> Numbers<WheelRecord> {
     static MOTION: &[Column<WheelRecord>] = &WHEEL_RECORD;
     static SETTLED: &[Column<Settled>] = &WHEEL;
@@ -56,7 +59,9 @@ pub(crate) fn of_wheel(rover: &Rover) -> Numbers<WheelRecord> {
     static TAKEN: &[Column<WheelRecord>] = &ELECTRICAL;
     let has_all = rover.mounts().iter().all(|mount| mount.unit.motor.is_some());
     let taken = entries(if has_all { TAKEN } else { &[] }, |it: &WheelRecord| it);
-    let all = entries(MOTION, |it| it).chain(settled).chain(taken);
+    static ANGLE: &[Column<WheelRecord>] = &STEERING_RECORD;
+    let steered = entries(if rover.is_steerable() { ANGLE } else { &[] }, |it: &WheelRecord| it);
+    let all = entries(MOTION, |it| it).chain(settled).chain(taken).chain(steered);
     Numbers { schema: "grouser.Wheel", entries: all.collect() }
 }
 

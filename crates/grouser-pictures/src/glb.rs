@@ -193,6 +193,14 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
         });
         let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
         file.channel(steered, "translation", [input, output], "LINEAR");
+        if mount.steering_axis.is_some() {
+            let angles = poses.iter().flat_map(|pose| {
+                let [sin, cos] = half(pose.wheels[index].steering);
+                [0.0, 0.0, sin, cos]
+            });
+            let output = file.numbers("VEC4", &angles.collect::<Vec<_>>(), false, None);
+            file.channel(steered, "rotation", [input, output], "LINEAR");
+        }
         children.push(steered);
     }
     let node = file.node(json!({ "name": name, "mesh": body, "children": children }));

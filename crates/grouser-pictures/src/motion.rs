@@ -36,6 +36,8 @@ pub struct Pose {
 pub struct WheelPose {
     /// How far it has turned since the start [rad], positive forward.
     pub turned: f64,
+    /// Steering angle [rad], positive to the left.
+    pub steering: f64,
     /// Depth of its grouser tips [m].
     pub sinkage: f64,
     /// Slip ratio [-].
@@ -59,7 +61,10 @@ impl Follower {
     #[must_use]
     pub fn new(rover: &Rover) -> Self {
         let count = rover.wheel_count();
-        Self { wheels: vec![WheelPose::default(); count], speeds: vec![0.0; count], time: None }
+        let at_rest =
+            |mount: &Mount| WheelPose { steering: mount.steering, ..WheelPose::default() };
+        let wheels = rover.mounts().iter().map(at_rest).collect();
+        Self { wheels, speeds: vec![0.0; count], time: None }
     }
 
     /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the last.
@@ -74,6 +79,7 @@ impl Follower {
             let forces = &wheel.reaction.settled.forces;
             *pose = WheelPose {
                 turned: pose.turned + step * 0.5 * (*speed + wheel.wheel_speed),
+                steering: wheel.steering,
                 sinkage: wheel.reaction.settled.sinkage,
                 slip_ratio: wheel.reaction.slip.ratio,
                 force: Vec3::new(forces.drawbar_pull, forces.side_force, forces.normal_force),
@@ -146,6 +152,7 @@ impl Pose {
         let between = |a: f64, b: f64| a + share * (b - a);
         let wheels = self.wheels.iter().zip(&next.wheels).map(|(a, b)| WheelPose {
             turned: between(a.turned, b.turned),
+            steering: between(a.steering, b.steering),
             sinkage: between(a.sinkage, b.sinkage),
             slip_ratio: between(a.slip_ratio, b.slip_ratio),
             force: a.force + share * (b.force - a.force),
@@ -163,8 +170,10 @@ impl Pose {
     /// * `index`: of the mount
     #[must_use]
     pub fn hub_in_body(&self, mount: &Mount, index: usize) -> Vec3 {
-        let height = mount.shearing_radius() - self.wheels[index].sinkage - self.centre.z;
-        Vec3::new(mount.position.x, mount.position.y, height)
+        let WheelPose { sinkage, steering, .. } = self.wheels[index];
+        let height = mount.shearing_radius() - sinkage - self.centre.z;
+        let hub = mount.at_angle(steering).position;
+        Vec3::new(hub.x, hub.y, height)
     }
 
     /// The mean of a quantity over the wheels.

@@ -112,6 +112,7 @@ impl PlacedWheel {
     /// * `lane`: where the run's origin is [m]
     #[must_use]
     pub fn of(mount: &Mount, wheel: &WheelPose, pose: &Pose, lane: Vec3) -> Self {
+        let mount = &mount.at_angle(wheel.steering);
         let level = |vector: Vec2| {
             let turned = pose.slope_from_body(mount.body_from_wheel(vector));
             Vec3::new(turned.x, turned.y, 0.0)

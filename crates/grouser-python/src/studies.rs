@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD,
+    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, STEERING_RECORD, TIME_BAND,
+    WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
@@ -87,6 +88,11 @@ pub(crate) fn trajectory_to_python<'py>(
             electrical.set_item(one.name, values)?;
         }
         for one in &ELECTRICAL {
+            wheels.set_item(one.name, of_wheels(py, run, names.len(), |it| one.number(it))?)?;
+        }
+    }
+    if scenario.rover.is_steerable() {
+        for one in &STEERING_RECORD {
             wheels.set_item(one.name, of_wheels(py, run, names.len(), |it| one.number(it))?)?;
         }
     }

@@ -9,15 +9,19 @@
 //! w     = w_ff + K_γ (γ_set − γ) + I_γ ∫ (γ_set − γ) dt
 //! v_i   = ± v_drive,i − w y_i
 //! ```
+//!
+//! Where wheels crab, the outer law sets their steering angle δ in place of γ_set, and the inner one holds the yaw. On an arc
+//! with steered wheels *w* sets the circle that their axles point to the centre of, and rims are as fast as the hubs on it.
 
-use super::plan::{Heading, Leg, Manoeuvre};
+use super::plan::{Heading, Leg, Manoeuvre, Steering};
+use super::steering::{ackermann_angles, ackermann_motion, crab_angles, within_limits};
 use super::turn::Turn;
 use crate::elementary::wide;
 use crate::elementary::wide::atan2;
 use crate::simulation::{CONTROL_PERIOD, Controller, Observation};
 use crate::units::Vec2;
 use crate::vehicle::drive::slip_limited;
-use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::{DriveLaw, Mount, RoverState};
 
 /// Yaw rate that is asked for, per error of the yaw, *K_γ* [1/s]. Source: ours; a skid-steered rover on sand turns with
@@ -48,6 +52,10 @@ pub(super) struct Pilot {
     /// 1 forward, -1 backward, 0 on the spot.
     direction: f64,
     path: Path,
+    /// Steering angle of each wheel while nothing steers it [rad].
+    straight: Vec<f64>,
+    /// Yaw rate that was asked for at the last look [rad/s], and speed along the body [m/s].
+    asked: (f64, f64),
     /// Pose and velocities, as the rover knows them.
     pub(super) seen: RoverState,
     /// Way over the ground since the manoeuvre began [m], as the rover knows it.
@@ -70,7 +78,9 @@ enum Law {
     /// A line is followed.
     Follow(Line),
     /// A circle is followed.
-    Circle { yaw: f64, radius: f64, angle: f64 },
+    Circle { yaw: f64, radius: f64, angle: f64, steering: Steering },
+    /// A line is followed by the wheels' steering angle, from one [rad], and its yaw is held.
+    Crab { line: Line, angle: f64 },
 }
 
 /// A line on the ground, and the yaw with which a rover sets out along it.
@@ -150,36 +160,62 @@ impl Line {
 
 impl Pilot {
     /// * `path`: what it is meant to stay on
-    fn new(law: Law, drive: DriveLaw, direction: f64, path: Path, seen: &RoverState) -> Self {
+    /// * `straight`: steering angle of each wheel while nothing steers it [rad]
+    fn new(
+        law: Law,
+        drive: DriveLaw,
+        direction: f64,
+        path: Path,
+        seen: &RoverState,
+        straight: &[f64],
+    ) -> Self {
         let speed = drive.nominal_rim_speed().abs();
-        let (gone, yaw_integral, cross_integral) = (0.0, 0.0, 0.0);
-        let seen = *seen;
-        Self { law, drive, speed, direction, path, seen, gone, yaw_integral, cross_integral }
+        let rate = match law {
+            Law::Circle { radius, angle, .. } => angle.signum() * speed / radius,
+            _ => 0.0,
+        };
+        Self {
+            law,
+            drive,
+            speed,
+            direction,
+            path,
+            straight: straight.to_vec(),
+            asked: (rate, direction * speed),
+            seen: *seen,
+            gone: 0.0,
+            yaw_integral: 0.0,
+            cross_integral: 0.0,
+        }
     }
 
     /// For the manoeuvre of a leg that begins here.
-    pub(super) fn of_leg(leg: &Leg, state: &RoverState) -> Self {
+    pub(super) fn of_leg(leg: &Leg, state: &RoverState, straight: &[f64]) -> Self {
         let (direction, yaw) = (leg.manoeuvre.direction(), state.yaw);
         let law = match (leg.manoeuvre, leg.heading) {
             (Manoeuvre::Turn { angle }, _) => Law::Turn(Turn::new(yaw + angle, state)),
-            (Manoeuvre::Arc { radius, angle, .. }, _) => Law::Circle { yaw, radius, angle },
+            (Manoeuvre::Arc { radius, angle, .. }, _) => {
+                Law::Circle { yaw, radius, angle, steering: leg.steering }
+            }
+            (_, Heading::Crab { angle }) => Law::Crab { line: line_of(leg, state), angle },
             (Manoeuvre::Goto { .. }, _) | (_, Heading::Contour) => Law::Follow(line_of(leg, state)),
             (_, Heading::Hold) => Law::Hold { yaw },
             (_, Heading::Toward(place)) => Law::Toward { place },
             (_, Heading::Free) => Law::Free,
         };
-        Self::new(law, leg.drive.clone(), direction, Path::of_leg(leg, state), state)
+        Self::new(law, leg.drive.clone(), direction, Path::of_leg(leg, state), state, straight)
     }
 
     /// For a turn on the spot to a yaw [rad].
-    pub(super) fn to_yaw(yaw: f64, state: &RoverState, speed: f64) -> Self {
+    pub(super) fn to_yaw(yaw: f64, state: &RoverState, speed: f64, straight: &[f64]) -> Self {
         let (law, path) = (Law::Turn(Turn::new(yaw, state)), Path::ahead(state));
-        Self::new(law, DriveLaw::Constant(speed), 0.0, path, state)
+        Self::new(law, DriveLaw::Constant(speed), 0.0, path, state, straight)
     }
 
     /// For a way straight on, with all rims at one speed.
-    pub(super) fn straight(speed: f64, direction: f64, state: &RoverState) -> Self {
-        Self::new(Law::Free, DriveLaw::Constant(speed), direction, Path::ahead(state), state)
+    pub(super) fn ahead(speed: f64, direction: f64, state: &RoverState, straight: &[f64]) -> Self {
+        let (drive, path) = (DriveLaw::Constant(speed), Path::ahead(state));
+        Self::new(Law::Free, drive, direction, path, state, straight)
     }
 
     /// Whether the rims keep their speeds.
@@ -188,7 +224,7 @@ impl Pilot {
     }
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
-    fn steer(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
+    fn rate_and_speed(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
         let forward = self.direction * self.speed;
         let (yaw, ahead) = match &mut self.law {
             Law::Free => return (0.0, forward),
@@ -197,9 +233,10 @@ impl Pilot {
             Law::Toward { place } => (yaw_towards(*place, state, self.direction), 0.0),
             Law::Follow(line) => {
                 let line = *line;
-                (self.follow(&line, state), 0.0)
+                (line.yaw + self.towards(&line, state), 0.0)
             }
-            Law::Circle { yaw, radius, angle } => {
+            Law::Crab { line, .. } => (line.yaw, 0.0),
+            Law::Circle { yaw, radius, angle, .. } => {
                 (*yaw + angle.signum() * self.gone / *radius, angle.signum() * self.speed / *radius)
             }
         };
@@ -226,13 +263,13 @@ impl Pilot {
         turned(state.yaw - atan2(along.y, along.x))
     }
 
-    /// The yaw that leads back to a line [rad].
-    fn follow(&mut self, line: &Line, state: &RoverState) -> f64 {
+    /// How far nose or wheels are to be turned to the left to lead back to a line [rad].
+    fn towards(&mut self, line: &Line, state: &RoverState) -> f64 {
         let left = line.left_of(state.position);
         let most = MOST_CROSS_YAW / CROSS_TRACK_INTEGRAL;
         self.cross_integral = (self.cross_integral + CONTROL_PERIOD * left).clamp(-most, most);
         let yaw = CROSS_TRACK_GAIN * left + CROSS_TRACK_INTEGRAL * self.cross_integral;
-        line.yaw + yaw.clamp(-MOST_CROSS_YAW, MOST_CROSS_YAW)
+        yaw.clamp(-MOST_CROSS_YAW, MOST_CROSS_YAW)
     }
 }
 
@@ -241,8 +278,22 @@ impl Controller for Pilot {
         let rover = &seen.scenario().rover;
         let (mounts, state) = (rover.mounts(), self.seen);
         let slope = seen.scenario().site.terrain.slope;
-        let (rate, forward) = self.steer(&state, slope, reach(mounts));
-        let turned_by = |mount: &Mount| rate * mount.position.y;
+        let (rate, forward) = self.rate_and_speed(&state, slope, reach(mounts));
+        self.asked = (rate, forward);
+        let turned_by = |mount: &Mount| {
+            let arm = mount.position.xy();
+            -mount.wheel_from_body(rate * Vec2::new(-arm.y, arm.x)).x
+        };
+        // With axles that point to one centre, a rim is as fast as its hub about it.
+        let motion = match self.law {
+            Law::Circle { steering: Steering::Ackermann, .. } => {
+                Some(ackermann_motion(rover, [forward, rate]))
+            }
+            _ => None,
+        };
+        let rolled = |mount: &Mount, told: f64| {
+            motion.as_ref().map(|motion| told * (wheel_velocity(motion, mount).x / forward))
+        };
         match &self.drive {
             _ if self.direction == 0.0 => {
                 for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
@@ -252,7 +303,8 @@ impl Controller for Pilot {
             DriveLaw::SlipLimiting(limit) => {
                 let each = rim_speeds.iter_mut().zip(mounts).zip(self.slip_ratios(seen));
                 for (wheel, ((rim, mount), slip_ratio)) in each.enumerate() {
-                    let wanted = self.direction * limit.speed.of(wheel) - turned_by(mount);
+                    let told = self.direction * limit.speed.of(wheel);
+                    let wanted = rolled(mount, told).unwrap_or(told - turned_by(mount));
                     *rim = slip_limited(wanted, *rim, slip_ratio, limit.slip_ratio);
                 }
             }
@@ -262,10 +314,28 @@ impl Controller for Pilot {
                     self.slip_ratios(seen).iter().map(|slip| self.direction * slip).collect();
                 law.rim_speeds(rover, self.crab(&state), &slip_ratios, rim_speeds);
                 for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
-                    *rim = self.direction * *rim - turned_by(mount);
+                    let told = self.direction * *rim;
+                    *rim = rolled(mount, told).unwrap_or(told - turned_by(mount));
                 }
             }
         }
+    }
+
+    fn steer(&mut self, seen: &Observation<'_>, angles: &mut [f64]) {
+        let rover = &seen.scenario().rover;
+        let (rate, forward) = self.asked;
+        let mut wanted = match self.law {
+            Law::Crab { line, angle } => {
+                let state = self.seen;
+                crab_angles(rover, angle + self.towards(&line, &state))
+            }
+            Law::Circle { steering: Steering::Ackermann, .. } => {
+                ackermann_angles(rover, [forward, rate])
+            }
+            _ => self.straight.clone(),
+        };
+        within_limits(rover, &mut wanted);
+        angles.copy_from_slice(&wanted);
     }
 
     fn period(&self) -> Option<f64> {

@@ -1,6 +1,7 @@
 //! What a rover is to drive: legs and their manoeuvres.
 
 use super::navigator::Sensors;
+use super::steering::{ackermann_angles, crab_angles};
 use super::stop::Stop;
 use crate::error::{ParameterError, finite, not_negative, positive};
 use crate::simulation::Scenario;
@@ -54,6 +55,8 @@ pub struct Leg {
     pub yaw: Option<f64>,
     /// What is held on the way.
     pub heading: Heading,
+    /// What leads the rover round an arc.
+    pub steering: Steering,
     /// Limits of this leg alone.
     pub stops: Vec<Stop>,
     /// How far ahead the way is simulated before it is driven [m]: where a limit would be passed, the rover stops before.
@@ -122,6 +125,23 @@ pub enum Heading {
     Contour,
     /// The nose towards a place [m], or the tail where it drives backward.
     Toward(Vec2),
+    /// The yaw and the line with which the leg began: the sides hold the yaw, and all wheels that are steered turn uphill
+    /// together as far as the line needs. Along the contour, the body lies along it and wheels crab.
+    Crab {
+        /// Crab angle with which the leg begins, *δ* [rad], positive to the left.
+        angle: f64,
+    },
+}
+
+/// What leads a rover round an arc.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Steering {
+    /// The speeds of its sides: wheels slip sideways.
+    #[default]
+    Sides,
+    /// Wheels that are steered: the axle of each points to the centre of the circle, and rims are as fast as their distances
+    /// from there (Ackermann). Where some wheels are not steered, the centre lies beside the middle of these.
+    Ackermann,
 }
 
 /// The usual speed of the rims [m/s]. Source: [FourWheel], section 5.2.
@@ -187,6 +207,7 @@ impl Leg {
             drive: DriveLaw::Constant(USUAL_SPEED),
             yaw: None,
             heading: Heading::Free,
+            steering: Steering::Sides,
             stops: Vec::new(),
             look_ahead: None,
         }
@@ -211,6 +232,7 @@ impl Leg {
             finite("x of the place ahead [m]", place.x)?;
             finite("y of the place ahead [m]", place.y)?;
         }
+        self.check_steering(rover)?;
         let is_drive = matches!(self.manoeuvre, Manoeuvre::Drive { .. });
         if self.heading != Heading::Free && !is_drive {
             let expected =
@@ -218,6 +240,36 @@ impl Leg {
             return Err(ParameterError::new("heading of a leg", 1.0, expected));
         }
         self.stops.iter().try_for_each(Stop::check)
+    }
+}
+
+impl Leg {
+    /// That wheels can be steered as the leg needs.
+    fn check_steering(&self, rover: &Rover) -> Result<(), ParameterError> {
+        let is_ackermann = self.steering == Steering::Ackermann;
+        let is_crab = matches!(self.heading, Heading::Crab { .. });
+        if (is_ackermann || is_crab) && !rover.is_steerable() {
+            let name = "number of wheels that are steered";
+            let expected =
+                "one or more where a leg steers: `steering_limit_deg` says how far they turn";
+            return Err(ParameterError::new(name, 0.0, expected));
+        }
+        if let Heading::Crab { angle } = self.heading {
+            finite("crab angle of a leg [rad]", angle)?;
+            rover.check_steering(&crab_angles(rover, angle))?;
+        }
+        match self.manoeuvre {
+            Manoeuvre::Arc { radius, angle, .. } if is_ackermann => {
+                let forward = self.manoeuvre.direction() * self.speed();
+                let rate = angle.signum() * self.speed() / radius;
+                rover.check_steering(&ackermann_angles(rover, [forward, rate]))
+            }
+            _ if is_ackermann => {
+                let expected = "left out: `ackermann` goes with an arc";
+                Err(ParameterError::new("steering of a leg", 1.0, expected))
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -58,9 +58,10 @@ impl MissionRun {
         let start = Start { yaw: first.yaw.unwrap_or(start.yaw), ..*start };
         let scenario = Scenario { start, ..mission.scenario.clone() };
         let state = RoverState { yaw: start.yaw, ..RoverState::default() };
+        let straight = scenario.rover.steering_angles();
         let mut pilot = match turn_before(first, &state, true) {
-            Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed()),
-            None => Pilot::of_leg(first, &state),
+            Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed(), &straight),
+            None => Pilot::of_leg(first, &state, &straight),
         };
         let run = Run::with_controller(&scenario, &mut pilot)?;
         let mission = mission.clone();
@@ -141,10 +142,11 @@ impl MissionRun {
         let (time, energy) = (self.time(), self.energy());
         let is_first = self.reports.is_empty();
         let stops = self.mission.stops_of(leg);
+        let straight = self.mission.scenario.rover.steering_angles();
         let mut turned_to = End::Reached;
         if let Some(yaw) = turn_before(leg, self.navigator.seen(), is_first) {
             let seen = self.navigator.seen();
-            let pilot = Pilot::to_yaw(yaw, seen, leg.speed());
+            let pilot = Pilot::to_yaw(yaw, seen, leg.speed(), &straight);
             let goal = self.turn_to(yaw, leg);
             let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
             turned_to = self.drive_on(&mut turn, None, watch)?;
@@ -152,7 +154,7 @@ impl MissionRun {
         let (mut distance, mut slip_ratio) = (0.0, None);
         let end = match turned_to {
             End::Reached => {
-                let pilot = Pilot::of_leg(leg, self.navigator.seen());
+                let pilot = Pilot::of_leg(leg, self.navigator.seen(), &straight);
                 let goal = self.goal(leg);
                 let mut driven = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
                 let end = self.drive_on(&mut driven, leg.look_ahead, watch)?;
@@ -181,7 +183,8 @@ impl MissionRun {
             0.0 => -1.0,
             direction => -direction,
         };
-        let pilot = Pilot::straight(leg.speed(), direction, self.navigator.seen());
+        let straight = self.mission.scenario.rover.steering_angles();
+        let pilot = Pilot::ahead(leg.speed(), direction, self.navigator.seen(), &straight);
         let goal = (Goal::Ground(way), way / leg.speed());
         let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &[]);
         let outcome = self.drive_on(&mut back, None, watch)?.into();

@@ -40,6 +40,13 @@ pub trait Controller {
     /// it was told before.
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]);
 
+    /// Sets the steering angle *δ* that each wheel is to have [rad], in the mounts' order; they hold those that the wheels
+    /// have. Asked at each look after the start, before [`command`](Self::command), of a rover that has wheels
+    /// that are steered. These turn towards their angles no faster than their
+    /// [rate](crate::vehicle::SteeringAxis::rate) allows between two looks, and keep them to the next. Without this
+    /// method nothing is steered.
+    fn steer(&mut self, _seen: &Observation<'_>, _angles: &mut [f64]) {}
+
     /// Time between two looks [s]; none if one look at the start says all.
     fn period(&self) -> Option<f64> {
         Some(CONTROL_PERIOD)

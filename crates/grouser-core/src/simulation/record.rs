@@ -60,7 +60,8 @@ impl Record {
             .map(|((&reaction, &wheel_speed), mount)| {
                 let torque = reaction.settled.forces.torque;
                 let electrical = mount.unit.motor.map(|motor| motor.at(torque, wheel_speed));
-                WheelRecord { wheel_speed, reaction, electrical }
+                let steering = mount.steering;
+                WheelRecord { wheel_speed, steering, reaction, electrical }
             })
             .collect();
         Self { time, state, wheels, energy }
@@ -72,6 +73,8 @@ impl Record {
 pub struct WheelRecord {
     /// Angular speed, *ω* [rad/s].
     pub wheel_speed: f64,
+    /// Steering angle, *δ* [rad], positive to the left.
+    pub steering: f64,
     /// Slip, load, sinkage and forces.
     pub reaction: WheelReaction,
     /// What its motor takes, where that is known.

@@ -19,7 +19,7 @@ use super::work::Work;
 use crate::error::{ParameterError, positive};
 use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
-use crate::vehicle::{DriveLaw, WheelReaction};
+use crate::vehicle::{DriveLaw, Rover, WheelReaction};
 
 /// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
@@ -104,6 +104,9 @@ impl Run {
     #[must_use]
     pub fn resume(scenario: &Scenario, state: State) -> Self {
         let mut run = Self { scenario: scenario.clone(), state, records: Vec::new(), kept: 0 };
+        if let Some(steered) = &run.state.steered {
+            run.scenario.rover = Rover::clone(steered);
+        }
         run.record_now();
         run.kept = 1;
         run
@@ -260,7 +263,7 @@ impl Run {
         Trajectory { records: self.records, outcome, method, work }
     }
 
-    /// What is simulated.
+    /// What is simulated; of the rover, with its wheels as they are steered now.
     #[must_use]
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
@@ -312,6 +315,7 @@ impl Run {
         while led.is_ok() && self.state.outcome.is_none() && self.state.time < until {
             let mut is_new_command = controller.period().is_some();
             if is_asked {
+                is_new_command |= self.steer(controller)?;
                 let told = ask(controller, &self.scenario, &mut self.state)?;
                 is_new_command |= told != self.state.told;
                 self.state.turn(&self.scenario, &told);
@@ -325,6 +329,40 @@ impl Run {
             self.kept = self.records.len();
         }
         led
+    }
+
+    /// Steers the wheels as a controller says, as far as they come since they were last steered; whether any turns.
+    fn steer(&mut self, controller: &mut dyn Controller) -> Result<bool, RunError> {
+        let Self { scenario, state, .. } = self;
+        let span = state.time - state.steered_until;
+        state.steered_until = state.time;
+        if !scenario.rover.is_steerable() {
+            return Ok(false);
+        }
+        let before = scenario.rover.steering_angles();
+        let mut wanted = before.clone();
+        let seen = observation(scenario, state);
+        controller.steer(&seen, &mut wanted);
+        let work = seen.work.get();
+        state.work += work;
+        if wanted == before {
+            return Ok(false);
+        }
+        scenario.rover.check_steering(&wanted)?;
+        let each = scenario.rover.mounts().iter().zip(&wanted);
+        let angles: Vec<f64> = each
+            .map(|(mount, wanted)| {
+                let most = mount.steering_axis.map_or(0.0, |axis| span * axis.rate);
+                let way = wanted - mount.steering;
+                if way.abs() <= most { *wanted } else { mount.steering + way.clamp(-most, most) }
+            })
+            .collect();
+        if angles == before {
+            return Ok(false);
+        }
+        let rover = scenario.rover.steered(&angles)?;
+        state.steer(scenario, rover);
+        Ok(true)
     }
 
     /// Goes on to a time in legs, each of which ends where a prescribed yaw begins to turn otherwise.
@@ -375,20 +413,25 @@ impl Run {
     }
 }
 
-/// What a controller makes of a rover: the speed that each rim is told to have [m/s].
-fn ask(
-    controller: &mut dyn Controller,
-    scenario: &Scenario,
-    state: &mut State,
-) -> Result<Vec<f64>, RunError> {
-    let seen = Observation {
+/// What a controller sees of a rover.
+fn observation<'a>(scenario: &'a Scenario, state: &'a State) -> Observation<'a> {
+    Observation {
         scenario,
         time: state.time,
         rover: &state.point.state,
         rim_speeds: &state.rim_speeds,
         slip_ratios: &state.slip_ratios,
         work: Cell::new(Work::default()),
-    };
+    }
+}
+
+/// What a controller makes of a rover: the speed that each rim is told to have [m/s].
+fn ask(
+    controller: &mut dyn Controller,
+    scenario: &Scenario,
+    state: &mut State,
+) -> Result<Vec<f64>, RunError> {
+    let seen = observation(scenario, state);
     let mut told = state.told.clone();
     controller.command(&seen, &mut told);
     let work = seen.work.get();

@@ -1,5 +1,7 @@
 //! All that changes in a run.
 
+use std::sync::Arc;
+
 use super::integrate::{History, Point};
 use super::method::Method;
 use super::outcome::Outcome;
@@ -23,6 +25,10 @@ pub struct State {
     pub(super) told: Vec<f64>,
     /// The one that it has, *ω r_s* [m/s].
     pub(super) rim_speeds: Vec<f64>,
+    /// The rover with its wheels as they are steered now; none while they are as its document has them.
+    pub(super) steered: Option<Arc<Rover>>,
+    /// Until when wheels were steered, or could have been [s].
+    pub(super) steered_until: f64,
     /// Of each wheel, when the rover was last looked at.
     pub(super) slip_ratios: Vec<f64>,
     pub(super) outcome: Option<Outcome>,
@@ -48,6 +54,8 @@ impl State {
             slip_ratios: vec![0.0; rim_speeds.len()],
             told,
             rim_speeds,
+            steered: None,
+            steered_until: 0.0,
             outcome: None,
             method: match scenario.numerics.approach {
                 Approach::Dynamic => Method::Dynamic,
@@ -117,6 +125,22 @@ impl State {
     pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
         self.point.jump(rover, change);
         self.history.clear();
+    }
+
+    /// That wheels are steered: what follows has them so. What a hub beside its kingpin moves of the rover's energies, the
+    /// motors that steer give.
+    ///
+    /// * `scenario`: gets the rover with its wheels as they are steered
+    pub(super) fn steer(&mut self, scenario: &mut Scenario, rover: Rover) {
+        let state = &self.point.state;
+        let energy = |rover: &Rover| {
+            let potential = power::potential_energy(rover, &scenario.site, state);
+            power::kinetic_energy(rover, state) + potential
+        };
+        self.point.motors += energy(&rover) - energy(&scenario.rover);
+        self.history.clear();
+        self.steered = Some(Arc::new(rover.clone()));
+        scenario.rover = rover;
     }
 
     /// That the motors are told to turn the wheels at other speeds from now on.

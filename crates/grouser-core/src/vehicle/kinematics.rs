@@ -3,6 +3,7 @@
 use super::rover::{Mount, Rover};
 use super::state::RoverState;
 use crate::contact::Slip;
+use crate::elementary::wide::{asin, atan2};
 use crate::units::Vec2;
 
 /// Velocity of a hub, in the body frame [m/s]: v_x = u − γ' d_y, v_y = v + γ' d_x, with the yaw rate γ'.
@@ -17,6 +18,34 @@ pub fn hub_velocity(state: &RoverState, arm: Vec2) -> Vec2 {
 #[must_use]
 pub fn wheel_velocity(state: &RoverState, mount: &Mount) -> Vec2 {
     mount.wheel_from_body(hub_velocity(state, mount.position.xy()))
+}
+
+/// Steering angle at which a wheel rolls without sideslip, *δ* [rad], from −π/2 to π/2: its axle points to the centre about
+/// which the rover turns (Ackermann).
+///
+/// ```text
+/// |u| sin(φ − δ) = γ' k_x        u = (|u| cos φ, |u| sin φ)
+/// ```
+///
+/// with *u* the velocity of the kingpin, which does not move with δ, and *k* the kingpin offset: the hub's velocity then
+/// is along the wheel. A wheel that goes backward has its tail in that direction.
+///
+/// * `state`: of which the velocities count
+#[must_use]
+pub fn rolling_angle(state: &RoverState, mount: &Mount) -> f64 {
+    let (offset, shift) = mount.steering_axis.map_or((Vec2::zeros(), Vec2::zeros()), |axis| {
+        (axis.kingpin_offset, axis.hub_shift(mount.steering))
+    });
+    let kingpin = mount.position.xy() - shift + offset;
+    let velocity = hub_velocity(state, kingpin);
+    let sense = if velocity.x < 0.0 { -1.0 } else { 1.0 };
+    let speed = velocity.norm();
+    if speed == 0.0 {
+        return 0.0;
+    }
+    let direction = atan2(sense * velocity.y, sense * velocity.x);
+    let side = (sense * state.yaw_rate * offset.x / speed).clamp(-1.0, 1.0);
+    direction - asin(side)
 }
 
 /// Mean velocity of wheels that roll without slip, in the body frame [m/s].

@@ -157,6 +157,17 @@ impl Mount {
         self.turn().map_or(vector, |turn| turn * vector)
     }
 
+    /// The same mount with its wheel steered, whatever its limit; a wheel without an axis is turned about its hub.
+    ///
+    /// * `angle`: steering angle, *δ* [rad]
+    #[must_use]
+    pub fn at_angle(&self, angle: f64) -> Self {
+        let shift = |angle| self.steering_axis.map_or(Vec2::zeros(), |axis| axis.hub_shift(angle));
+        let way = shift(angle) - shift(self.steering);
+        let position = self.position + Vec3::new(way.x, way.y, 0.0);
+        Self { position, steering: angle, ..self.clone() }
+    }
+
     /// Where ground counts for the wheel.
     ///
     /// * `slope_from_body`: the rover's rotation

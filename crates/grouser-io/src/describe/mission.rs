@@ -11,7 +11,7 @@ use super::about::{assumed, notes, purpose, schema, source};
 use super::differences::{LARGEST_SEED, room};
 use super::run::{OfScenario, Run};
 use super::scenario::{self, FASTEST, PAPERS_SLIP, USUAL_LIMIT};
-use grouser_core::mission::{Limited, Measure, Sensors, Stop, Then};
+use grouser_core::mission::{Limited, Measure, Sensors, Steering, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 
@@ -205,6 +205,21 @@ static LEG: Table<LegKeys> = Table {
             Some(leg.wait.get_or_insert(0.0))
         })
         .optional(),
+        words(
+            "steering",
+            "What leads the rover round an `arc`; without it `sides`.",
+            &[
+                word("sides", "The speeds of its sides: wheels slip sideways.", |leg: &mut LegKeys| {
+                    leg.steering = Some(Steering::Sides);
+                }),
+                word(
+                    "ackermann",
+                    "The wheels that are steered: each axle points to the centre of the circle, and rims are as fast as their distances from there.",
+                    |leg: &mut LegKeys| leg.steering = Some(Steering::Ackermann),
+                ),
+            ],
+        )
+        .optional(),
         flag("reverse", "Whether an arc, or the way to a place, is driven backward.", |leg: &mut LegKeys, yes| {
             leg.reverse = yes;
         })
@@ -253,7 +268,20 @@ static LEG: Table<LegKeys> = Table {
                     "The nose, backward the tail, towards the place under `toward`.",
                     |leg: &mut LegKeys| leg.held = Some(Held::Toward),
                 ),
+                word(
+                    "crab",
+                    "The yaw and the line with which the leg begins: the sides hold the yaw, and the wheels that are steered turn uphill together as far as the line needs.",
+                    |leg: &mut LegKeys| leg.held = Some(Held::Crab),
+                ),
             ],
+        )
+        .optional(),
+        number(
+            "crab_deg",
+            DEG,
+            -90.0..=90.0,
+            "Crab angle with which a leg of heading `crab` begins, above 0 to the left; without it 0, and the rover learns it on the way",
+            |leg: &mut LegKeys| Some(leg.crab.get_or_insert(0.0)),
         )
         .optional(),
         table(

@@ -109,7 +109,7 @@ class Trajectory(_tables.Tabular):
     ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
     rover has just tipped over or sunk. Of a rover with motors it has ``current_a``, ``voltage_v``
-    and ``electrical_power_w``, too.
+    and ``electrical_power_w``, too, of one whose wheels are steered ``steering_deg``.
 
     Examples
     --------

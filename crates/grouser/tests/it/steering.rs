@@ -1,14 +1,18 @@
 //! Wheels that are steered about their kingpins.
 
 use grouser::document::{Kind, Overrides, Source, read_rover};
-use grouser::simulation::Scenario;
+use grouser::mission::{
+    Heading, Leg, Manoeuvre, Mission, MissionReport, MissionRun, Steering as ArcSteering,
+};
+use grouser::simulation::{CONTROL_PERIOD, Controller, Observation, Run, Scenario};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
 use grouser::units::{Vec2, deg};
+use grouser::vehicle::kinematics::{rolling_angle, wheel_velocity};
 use grouser::vehicle::rover::USUAL_STEERING_RATE;
-use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, SteeringAxis};
+use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState, SteeringAxis};
 
 use super::given::{hakuto, run, traverse};
-use super::mounts::{changed, motley};
+use super::mounts::{changed, firm, motley};
 
 /// How each wheel of the rovers of these tests is steered.
 const AXIS: SteeringAxis =
@@ -233,4 +237,197 @@ fn a_curve_of_crab_angles_ends_where_wheels_turn_no_further() {
     let fixed = HeadingStudy { steering: Steering::Crab, rover: hakuto(), ..study };
     let message = fixed.curve().expect_err("no wheel is steered").to_string();
     assert!(message.contains("steering_limit_deg"), "{message}");
+}
+
+/// A rover that is driven by legs, with the complete loads.
+fn mission(rover: Rover, slope: f64, legs: Vec<Leg>) -> Mission {
+    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
+    let scenario = Scenario { rover, sharing, own_moments, ..traverse(deg(slope), 0.0) };
+    Mission { scenario, legs, stops: Vec::new(), sensors: None }
+}
+
+fn driven(mission: &Mission) -> MissionReport {
+    MissionRun::new(mission).expect("a mission").to_end().expect("it can be computed")
+}
+
+fn crabbing(way: f64, angle: f64) -> Leg {
+    Leg { heading: Heading::Crab { angle }, ..Leg::new(Manoeuvre::drive(way)) }
+}
+
+/// Largest distance from the contour through the start, after a way along it [m].
+fn off_contour(report: &MissionReport, after: f64) -> f64 {
+    let records = report.trajectory.records.iter();
+    let later = records.filter(|record| record.state.position.x > after);
+    later.map(|record| record.state.position.y.abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn legs_that_do_not_steer_change_no_bit() {
+    let legs = || {
+        vec![
+            Leg { heading: Heading::Contour, ..Leg::new(Manoeuvre::drive(0.5)) },
+            Leg::new(Manoeuvre::Turn { angle: deg(20.0) }),
+            Leg::new(Manoeuvre::Arc { radius: 1.0, angle: deg(10.0), reverse: false }),
+        ]
+    };
+    let fixed = driven(&mission(hakuto(), 8.0, legs()));
+    let steered = driven(&mission(with_kingpins(), 8.0, legs()));
+    assert_eq!(fixed.trajectory.records, steered.trajectory.records);
+}
+
+/// The angle of the study holds the contour from the start; without it, the rover learns it on the way.
+#[test]
+fn a_crab_leg_stays_on_the_contour() {
+    for rover in [steerable(), six_wheels(), with_kingpins()] {
+        let study = study(rover.clone(), LoadSharing::Complete, OwnMoments::Included);
+        let angle = crab(&study).at(deg(10.0)).expect("held").steering.expect("steered");
+        let told = driven(&mission(rover.clone(), 10.0, vec![crabbing(4.0, angle)]));
+        let untold = driven(&mission(rover.clone(), 10.0, vec![crabbing(8.0, 0.0)]));
+        let off = [off_contour(&told, 0.0), off_contour(&untold, 0.0), off_contour(&untold, 7.5)];
+        assert!(off[0] < 0.003 && off[1] < 0.05 && off[2] < 0.003, "{off:?}");
+        for report in [&told, &untold] {
+            let end = report.last();
+            assert!(end.state.yaw.abs() < deg(0.5), "{}°", end.state.yaw.to_degrees());
+            assert!((end.wheels[0].steering - angle).abs() < deg(1.0));
+            let (error, energy) = (report.trajectory.energy_error(), report.energy());
+            assert!(error.abs() < 1e-4 * energy, "{error} of {energy} J");
+        }
+    }
+}
+
+#[test]
+fn wheels_turn_no_faster_and_no_further_than_they_can() {
+    let (limit, rate) = (deg(4.0), deg(2.0));
+    let slow = changed(|place, mount| {
+        let limit = if place == 1 { deg(3.0) } else { limit };
+        mount.steering_axis = Some(SteeringAxis { limit, rate, ..AXIS });
+    });
+    let legs = vec![crabbing(2.0, 0.0), Leg::new(Manoeuvre::drive(0.5))];
+    let report = driven(&mission(slow.clone(), 12.0, legs));
+    let records = &report.trajectory.records;
+    for pair in records.windows(2) {
+        // What wheels turn between two looks, they turn at the second.
+        let span = pair[1].time - pair[0].time + CONTROL_PERIOD;
+        for (before, after) in pair[0].wheels.iter().zip(&pair[1].wheels) {
+            let turned = (after.steering - before.steering).abs();
+            assert!(turned <= rate * span + 1e-9, "{turned} in {span} s");
+        }
+    }
+    let most = |wheel: usize| {
+        records.iter().map(|record| record.wheels[wheel].steering).fold(0.0, f64::max)
+    };
+    assert!((most(0) - limit).abs() < 1e-12 && (most(1) - deg(3.0)).abs() < 1e-12);
+    assert!(report.last().wheels.iter().all(|wheel| wheel.steering == 0.0), "straight again");
+
+    let refused = |leg: Leg| {
+        let error = MissionRun::new(&mission(slow.clone(), 0.0, vec![leg])).map(|_| ());
+        error.expect_err("it cannot be driven").to_string()
+    };
+    let message = refused(crabbing(1.0, deg(5.0)));
+    assert!(message.contains("leg 1: steering angle of wheel 1"), "{message}");
+    let arc = Leg::new(Manoeuvre::Arc { radius: 1.0, angle: 1.0, reverse: false });
+    let message = refused(Leg { steering: ArcSteering::Ackermann, ..arc.clone() });
+    assert!(message.contains("steering angle of wheel"), "{message}");
+    let fixed = mission(hakuto(), 0.0, vec![Leg { steering: ArcSteering::Ackermann, ..arc }]);
+    assert!(MissionRun::new(&fixed).is_err());
+}
+
+/// Closed form: the axle of every wheel points to the centre of the circle, and its rim is as fast as its distance from
+/// there.
+#[test]
+fn axles_of_an_arc_point_to_its_centre() {
+    for rover in [steerable(), with_kingpins(), six_wheels()] {
+        for (forward, rate) in [(0.06, 0.04), (0.06, -0.03), (-0.06, 0.05), (-0.05, -0.02)] {
+            let centre = Vec2::new(0.0, forward / rate);
+            let state = RoverState {
+                velocity: Vec2::new(forward, 0.0),
+                yaw_rate: rate,
+                ..RoverState::default()
+            };
+            for mount in rover.mounts().iter().filter(|mount| mount.steering_axis.is_some()) {
+                // From any angle that the wheel may have before.
+                for before in [0.0, 0.3] {
+                    let angle = rolling_angle(&state, &mount.at_angle(before));
+                    let steered = mount.at_angle(angle);
+                    let arm = centre - steered.position.xy();
+                    let along = steered.wheel_from_body(arm);
+                    assert!(along.x.abs() < 1e-12, "{forward} {rate}: {along}");
+                    let velocity = wheel_velocity(&state, &steered);
+                    assert!((velocity.x.abs() - rate.abs() * arm.norm()).abs() < 1e-12);
+                    assert!(velocity.y.abs() < 1e-12 && velocity.x * forward > 0.0);
+                }
+            }
+        }
+    }
+}
+
+/// On firm ground wheels that are steered round an arc roll: it is the circle, its slip that of a straight way, and it
+/// takes less work than an arc by the sides.
+#[test]
+fn a_steered_arc_is_its_circle() {
+    let (radius, angle) = (1.2, deg(60.0));
+    for (reverse, side) in [(false, 1.0), (false, -1.0), (true, 1.0)] {
+        let manoeuvre = Manoeuvre::Arc { radius, angle: side * angle, reverse };
+        let report = |rover: Rover, steering: ArcSteering| {
+            let leg = Leg { steering, ..Leg::new(manoeuvre) };
+            let mut mission = mission(rover, 0.0, vec![leg]);
+            mission.scenario.site = mission.scenario.site.with_soil(firm());
+            driven(&mission)
+        };
+        for rover in [steerable(), with_kingpins(), six_wheels()] {
+            let steered = report(rover.clone(), ArcSteering::Ackermann);
+            let end = steered.last();
+            assert!((end.state.yaw - side * angle).abs() < deg(2.0), "{}", end.state.yaw);
+            let centre = Vec2::new(0.0, if reverse { -side * radius } else { side * radius });
+            let records = steered.trajectory.records.iter();
+            let off = records.map(|it| ((it.state.position - centre).norm() - radius).abs());
+            let off = off.fold(0.0, f64::max);
+            let by_sides = report(rover, ArcSteering::Sides);
+            assert!(off < 0.01, "{off} m off the circle");
+            for wheel in &end.wheels {
+                let slip = wheel.reaction.slip;
+                assert!(slip.angle.abs() < deg(2.0), "{slip:?}");
+            }
+            assert!(2.0 * steered.energy() < by_sides.energy());
+        }
+    }
+}
+
+/// A controller of one's own steers, and a state goes on as it was.
+#[test]
+fn a_run_goes_on_from_a_state_with_steered_wheels() {
+    struct Slalom;
+    impl Controller for Slalom {
+        fn command(&mut self, _: &Observation<'_>, rim_speeds: &mut [f64]) {
+            rim_speeds.fill(0.06);
+        }
+
+        fn steer(&mut self, seen: &Observation<'_>, angles: &mut [f64]) {
+            let side = if (seen.time() / 2.0) as i64 % 2 == 0 { 1.0 } else { -1.0 };
+            angles.fill(side * 0.2);
+        }
+    }
+    let scenario = Scenario { rover: with_kingpins(), ..traverse(deg(8.0), 0.0) };
+    let mut one = Run::with_controller(&scenario, &mut Slalom).expect("a run");
+    one.advance(&mut Slalom, 3.0).expect("it goes on");
+    let mut other = Run::resume(&scenario, one.state().clone());
+    for run in [&mut one, &mut other] {
+        run.advance(&mut Slalom, 6.0).expect("it goes on");
+    }
+    assert_eq!(one.now(), other.now());
+    assert_ne!(one.now().wheels[0].steering, 0.0);
+    let end = one.finish();
+    assert!(end.energy_error().abs() < 1e-5 * end.last().energy.motors, "{} J", end.energy_error());
+
+    struct TooFar;
+    impl Controller for TooFar {
+        fn command(&mut self, _: &Observation<'_>, _: &mut [f64]) {}
+
+        fn steer(&mut self, _: &Observation<'_>, angles: &mut [f64]) {
+            angles[2] = 1.0;
+        }
+    }
+    let mut run = Run::with_controller(&scenario, &mut TooFar).expect("a run");
+    let error = run.advance(&mut TooFar, 1.0).expect_err("beyond the limit").to_string();
+    assert!(error.contains("wheel 3") && error.contains("0.800"), "{error}");
 }

@@ -8,7 +8,7 @@ use super::super::unit::M;
 use super::run::{DISTANCE, END, METHOD};
 use super::{Column, ENERGY, SLIP_RATIO, TIME, X, Y, YAW, maybe, text, whole};
 use crate::mission::{
-    Cause, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Stop, Stopped,
+    Cause, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop, Stopped,
 };
 use crate::studies::mission::{DrivenLeg, DrivenMission};
 
@@ -236,7 +236,9 @@ pub fn in_words(leg: &Leg) -> String {
         }
         Manoeuvre::Turn { angle } => format!("turn {} {}", deg(angle.abs()), side(angle)),
         Manoeuvre::Arc { radius, angle, reverse } => {
-            format!("arc {} {}, radius {radius} m{}", deg(angle.abs()), side(angle), back(reverse))
+            let steered = if leg.steering == Steering::Ackermann { ", wheels steered" } else { "" };
+            let (angle, side) = (deg(angle.abs()), side(angle));
+            format!("arc {angle} {side}, radius {radius} m{}{steered}", back(reverse))
         }
         Manoeuvre::Goto { place, reverse, .. } => {
             format!("go to {}, {} m{}", place.x, place.y, back(reverse))
@@ -248,6 +250,7 @@ pub fn in_words(leg: &Leg) -> String {
         Heading::Hold => ", yaw held".to_owned(),
         Heading::Contour => ", on the contour".to_owned(),
         Heading::Toward(place) => format!(", toward {}, {} m", place.x, place.y),
+        Heading::Crab { .. } => ", wheels crab".to_owned(),
     };
     let yaw = leg.yaw.map_or(String::new(), |yaw| format!(", from yaw {}", deg(yaw)));
     what + &yaw + &held

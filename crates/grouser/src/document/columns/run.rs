@@ -10,7 +10,7 @@ use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
     Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity, SINKAGE,
-    SLIP_ANGLE, SLIP_RATIO, TIME, X, Y, YAW, number, quantity, text, whole,
+    SLIP_ANGLE, SLIP_RATIO, STEERING, TIME, X, Y, YAW, number, quantity, text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -18,6 +18,7 @@ use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
 use crate::studies::drive::Drive;
 use crate::studies::traverse_band::{RunBand, TimeBand};
 use crate::studies::validity::{Raised, RoverOnSlope};
+use crate::vehicle::Mount;
 
 /// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
 /// frame.
@@ -64,6 +65,10 @@ pub const ELECTRICAL: [Column<WheelRecord>; 3] = [
 pub const ELECTRICAL_POWER: Quantity = quantity("electrical_power_w", W);
 /// Electrical energy.
 pub const BATTERY_ENERGY: Quantity = quantity("battery_energy_j", J);
+
+/// The steering angle of a wheel that is steered: beside [`WHEEL_RECORD`].
+pub const STEERING_RECORD: [Column<WheelRecord>; 1] =
+    [STEERING.number("Steering angle, positive to the left", |it| it.steering)];
 
 /// A wheel at one time, beside its results ([`WHEEL`]).
 pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
@@ -161,6 +166,9 @@ pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
         table = table.and_named(&prefix, results, &settled);
         if mount.unit.motor.is_some() {
             table = table.and_named(&prefix, &ELECTRICAL, &wheels);
+        }
+        if mount.steering_axis.is_some() {
+            table = table.and_named(&prefix, &STEERING_RECORD, &wheels);
         }
     }
     table
@@ -330,27 +338,29 @@ impl Serialize for RecordObject<'_> {
         let findings = RoverOnSlope::of(self.scenario).at(self.record);
         FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
         let wheels = self.record.wheels.iter().zip(self.scenario.rover.mounts());
-        let wheels: Vec<_> =
-            wheels.map(|(wheel, mount)| WheelObject { name: &mount.name, wheel }).collect();
+        let wheels: Vec<_> = wheels.map(|(wheel, mount)| WheelObject { mount, wheel }).collect();
         map.serialize_entry("wheels", &wheels)?;
         map.end()
     }
 }
 
 struct WheelObject<'a> {
-    name: &'a str,
+    mount: &'a Mount,
     wheel: &'a WheelRecord,
 }
 
 impl Serialize for WheelObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("wheel", self.name)?;
+        map.serialize_entry("wheel", &self.mount.name)?;
         WHEEL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
         let settled = &self.wheel.reaction.settled;
         WHEEL.iter().try_for_each(|column| column.write(&mut map, settled))?;
         if self.wheel.electrical.is_some() {
             ELECTRICAL.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
+        }
+        if self.mount.steering_axis.is_some() {
+            STEERING_RECORD.iter().try_for_each(|column| column.write(&mut map, self.wheel))?;
         }
         map.end()
     }
