@@ -1129,6 +1129,8 @@ class MissionLeg(TypedDict, total=False):
     that is not ahead."""
     wait_s: float
     """It stands so long [s]."""
+    steering: str
+    """What leads the rover round an `arc`; without it `sides`."""
     reverse: bool
     """Whether an arc, or the way to a place, is driven backward."""
     speed_m_s: float | tuple[float, ...]
@@ -1142,6 +1144,9 @@ class MissionLeg(TypedDict, total=False):
     held only where `heading` says so [°]."""
     heading: str
     """What `drive_m` holds on its way; without it nothing: the wheels keep one speed."""
+    crab_deg: float
+    """Crab angle with which a leg of heading `crab` begins, above 0 to the left; without it 0, and
+    the rover learns it on the way [°]."""
     toward: MissionLegToward
     """The place towards which the nose is held."""
     look_ahead_m: float

