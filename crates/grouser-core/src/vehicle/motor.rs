@@ -89,6 +89,34 @@ impl Motor {
         Electrical { current, voltage, power: (voltage * current).max(0.0) }
     }
 
+    /// Torque on the wheel, *T* [N·m], from the current: the inverse of [`at`](Self::at).
+    ///
+    /// ```text
+    /// τ = k i − τ_f sgn ω      T = N η τ  where the motor drives      T = N τ / η  where the wheel drives it
+    /// T = N (k i + τ_f sgn i) / η   where it stands and holds the wheel by its current
+    /// ```
+    ///
+    /// Nothing where the current does not depend on it: through a self-locking gear while the wheel would drive the motor, and at a
+    /// wheel that friction or such a gear holds.
+    ///
+    /// * `current`: *i* [A]
+    /// * `wheel_speed`: *ω* [rad/s]
+    #[must_use]
+    pub fn torque(&self, current: f64, wheel_speed: f64) -> Option<f64> {
+        let field = self.torque_constant * current;
+        if wheel_speed == 0.0 {
+            let is_held = self.is_self_locking || current == 0.0;
+            let holding = field + self.friction.copysign(current);
+            return (!is_held).then(|| self.gear_ratio * holding / self.efficiency);
+        }
+        let shaft = field - self.friction.copysign(wheel_speed);
+        if shaft * wheel_speed > 0.0 {
+            Some(self.gear_ratio * self.efficiency * shaft)
+        } else {
+            (!self.is_self_locking).then(|| self.gear_ratio * shaft / self.efficiency)
+        }
+    }
+
     /// Torque of the magnetic field on the shaft, k i [N·m].
     fn shaft_torque(&self, torque: f64, wheel_speed: f64) -> f64 {
         let at_shaft = torque / self.gear_ratio;
@@ -193,6 +221,33 @@ mod tests {
             "it stands on a slope for nothing"
         );
         assert!(MOTOR.at(-0.6, 0.5).power.abs() < 1e-15, "what it gives is not taken back");
+    }
+
+    /// The current that a torque takes gives the torque back, forward and backward, driving, driven and holding.
+    #[test]
+    fn a_current_gives_the_torque_that_takes_it() {
+        for torque in [-0.6, -0.1, -1e-6, 0.0, 1e-6, 0.2, 0.9] {
+            for speed in [-0.8, -1e-3, 1e-3, 0.5] {
+                let found = MOTOR.torque(MOTOR.at(torque, speed).current, speed);
+                let found = found.expect("the wheel reaches the motor");
+                assert!((found - torque).abs() < 1e-14, "{torque} N·m, {speed} rad/s: {found} N·m");
+            }
+        }
+        for torque in [-0.9, 0.6] {
+            let found = MOTOR.torque(MOTOR.at(torque, 0.0).current, 0.0).expect("it holds");
+            assert!((found - torque).abs() < 1e-14, "{torque} N·m held: {found} N·m");
+        }
+        assert_eq!(MOTOR.torque(MOTOR.at(0.1, 0.0).current, 0.0), None, "friction holds it");
+    }
+
+    #[test]
+    fn a_self_locking_gear_hides_the_wheel_that_would_drive_it() {
+        let locking = Motor { is_self_locking: true, ..MOTOR };
+        for (torque, speed) in [(-0.6, 0.5), (0.6, -0.5), (0.3, 0.0)] {
+            assert_eq!(locking.torque(locking.at(torque, speed).current, speed), None);
+        }
+        let found = locking.torque(locking.at(0.3, 0.5).current, 0.5).expect("it drives");
+        assert!((found - 0.3).abs() < 1e-14);
     }
 
     /// A motor that stands holds by friction what its friction can, and pays for the rest.
