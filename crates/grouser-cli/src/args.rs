@@ -9,6 +9,7 @@ mod heading;
 mod measurements;
 mod mission;
 mod new;
+mod slip_from_current;
 mod terminal;
 mod traverse;
 mod uncertainty;
@@ -36,6 +37,7 @@ pub(crate) use measurements::{
 };
 pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
+pub(crate) use slip_from_current::SlipFromCurrentArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
@@ -79,6 +81,8 @@ pub(crate) enum Command {
     Card(CardArgs),
     /// A rover on the Moon or Mars, from a soil measured on Earth: slip, drift, heading, power, with one error budget.
     Forecast(ForecastArgs),
+    /// Each wheel's slip from a log of its motor's current and speed, with its uncertainty.
+    SlipFromCurrent(SlipFromCurrentArgs),
     /// Compare a wheel-soil model with measured wheel tests, or rank all models.
     Validate(ValidateArgs),
     /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.

@@ -4,6 +4,7 @@ mod card;
 mod forecast;
 mod heading;
 pub(crate) mod mission;
+mod slip_from_current;
 mod stand;
 mod traverse;
 
@@ -17,6 +18,7 @@ use grouser::document::{
 pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
+pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::traverse::traverse;
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs};
@@ -86,15 +88,33 @@ fn balanced(
     balance: &BalanceArgs,
 ) -> Result<LoadedScenario, Failure> {
     let source = scenario_source(command, scenario)?;
+    let overrides = balanced_overrides(command, rover, soil, setting, balance)?;
+    Ok(document::read_scenario(&source, &overrides)?)
+}
+
+/// What flags change of a scenario whose rover, soil and load transfer alone count.
+fn balanced_overrides(
+    command: &str,
+    rover: Option<&String>,
+    soil: Option<&String>,
+    setting: &SettingArgs,
+    balance: &BalanceArgs,
+) -> Result<Overrides, Failure> {
     let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     overrides.refuse(
         Kind::Scenario,
         &["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"],
-        if command == "validate" {
-            "slopes are those of the rows; a heading offset has no drive, start or duration"
-        } else {
-            "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+        match command {
+            "validate" => {
+                "slopes are those of the rows; a heading offset has no drive, start or duration"
+            }
+            "slip-from-current" => {
+                "slopes are those of the log or of --slope-deg; the log has the drive"
+            }
+            _ => {
+                "slopes are given by --slope-deg; a heading offset has no drive, start or duration"
+            }
         },
     )?;
     scenario_settings(&mut overrides, Kind::Scenario, setting, balance)?;
@@ -105,7 +125,7 @@ fn balanced(
             overrides.flag_text(flag, key, value)?;
         }
     }
-    Ok(document::read_scenario(&source, &overrides)?)
+    Ok(overrides)
 }
 
 /// That samples of so many rows are not more than anyone can have meant.

@@ -64,6 +64,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::AttitudeMap(args) => commands::heading_map::run("attitude-map", args),
         Command::Card(args) => commands::card::run(args),
         Command::Forecast(args) => commands::forecast::run(args),
+        Command::SlipFromCurrent(args) => commands::slip_from_current::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Campaign(args) => commands::campaign::run(args),

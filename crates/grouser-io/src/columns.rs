@@ -12,7 +12,9 @@ pub mod wheel;
 use serde::ser::SerializeMap;
 
 use super::cell::{Cell, ColumnKind};
-use super::unit::{DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, S, UNITS, Unit, W};
+use super::unit::{
+    A, DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, RAD_S, S, UNITS, Unit, W,
+};
 use crate::statistics::{Band, Probability};
 
 /// A result, or a setting beside results, of rows of one type.
@@ -99,6 +101,10 @@ pub const LOAD: Quantity = quantity("load_n", N);
 pub const SLIP_RATIO: Quantity = quantity("slip_ratio", ONE);
 /// Slip angle.
 pub const SLIP_ANGLE: Quantity = quantity("slip_angle_deg", DEG);
+/// Angular speed of a wheel.
+pub const WHEEL_SPEED: Quantity = quantity("wheel_speed_rad_s", RAD_S);
+/// Current of a motor.
+pub const CURRENT: Quantity = quantity("current_a", A);
 /// Sinkage.
 pub const SINKAGE: Quantity = quantity("sinkage_mm", MM);
 /// Force along a wheel.

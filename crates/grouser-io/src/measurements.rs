@@ -11,7 +11,8 @@
 //! column, if they have the same wheel, slip angle and settings of rim speed and load; and without
 //! settings, if slip, slip angle and load are written alike.
 //!
-//! A rover on slopes has files of its own, which [`slope_tests`] reads.
+//! A rover on slopes has files of its own, which [`slope_tests`] reads, and so have logs of motors
+//! ([`motor_log`]).
 //!
 //! What `grouser wheel-test` writes is such a file. Rows whose `status` is not `ok` are left out.
 
@@ -20,6 +21,7 @@ mod condition;
 mod error;
 mod import;
 mod limits;
+pub mod motor_log;
 mod notes;
 mod row;
 pub mod slope_tests;

@@ -15,6 +15,7 @@
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
 //! | [`traverse_band`] | a traverse where soil and model are uncertain |
+//! | [`slip_from_current`] | each wheel's slip from its motor's current and speed |
 //! | [`mission`] | missions and their alternatives, leg by leg |
 //! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`lost_yaw`] | the yaw lost on the way: by loads, and by soil and motors that scatter |
@@ -33,6 +34,7 @@ pub mod lost_yaw;
 pub mod mission;
 pub mod reproduction;
 pub mod simulated_test;
+pub mod slip_from_current;
 pub mod slope_validation;
 pub mod traverse_band;
 pub mod validation;

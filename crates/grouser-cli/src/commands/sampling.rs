@@ -8,7 +8,7 @@ use crate::failure::Failure;
 use crate::output;
 
 /// The samples.
-pub(super) fn draw(inputs: &BandInputs, samples: u32, seed: u64) -> Result<Vec<Sample>, Failure> {
+pub(crate) fn draw(inputs: &BandInputs, samples: u32, seed: u64) -> Result<Vec<Sample>, Failure> {
     inputs.samples(seed, samples).map_err(|error| {
         Failure::Usage(format!(
             "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \

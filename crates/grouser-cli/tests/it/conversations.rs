@@ -80,6 +80,7 @@ fn help_of_each_command() {
         "heading-map",
         "card",
         "forecast",
+        "slip-from-current",
         "validate",
         "import",
         "check",

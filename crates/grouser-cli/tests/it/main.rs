@@ -21,6 +21,7 @@ mod program;
 mod reports;
 mod scrambled;
 mod simulated;
+mod slip_from_current;
 mod terminal;
 mod validate;
 mod validity;

@@ -3,9 +3,9 @@
 use crate::bad_input::check_is_refusal;
 use crate::program::{Place, changed_preset, keys, number};
 
-const MOTOR: &str = "torque_constant_nm_a = 0.01\ngear_ratio = 250.0\ngear_efficiency = 0.6\nfriction_torque_nm = 0.001\n";
+pub(crate) const MOTOR: &str = "torque_constant_nm_a = 0.01\ngear_ratio = 250.0\ngear_efficiency = 0.6\nfriction_torque_nm = 0.001\n";
 
-fn rover(motor: &str) -> String {
+pub(crate) fn rover(motor: &str) -> String {
     changed_preset("rover", "hakuto", "[body]", &format!("[motor]\n{motor}\n[body]"))
 }
 

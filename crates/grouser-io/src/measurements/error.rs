@@ -77,6 +77,26 @@ pub enum MeasurementProblem {
         /// The column.
         column: &'static str,
     },
+    /// A wheel that the rover does not have.
+    #[error("`{name}` is no wheel of the rover: its wheels are {}", wheels.join(", "))]
+    UnknownWheel {
+        /// What the file calls it.
+        name: String,
+        /// The names of the rover's wheels.
+        wheels: Vec<String>,
+    },
+    /// A current of a wheel whose motor is not known.
+    #[error("`{0}` has a current, but no motor in the rover's document")]
+    WheelWithoutMotor(String),
+    /// A wheel that has two rows for one time.
+    #[error("`{wheel}` has two rows for one time")]
+    RepeatedReading {
+        /// Its name.
+        wheel: String,
+    },
+    /// A log without a single reading of a motor.
+    #[error("has no reading: no row has both a current and a wheel speed")]
+    NoMotorReadings,
     /// Two columns of one name.
     #[error("the column `{0}` is there twice")]
     RepeatedColumn(String),

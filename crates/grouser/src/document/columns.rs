@@ -8,6 +8,7 @@ pub mod forecast;
 pub mod heading;
 pub mod mission;
 pub mod run;
+pub mod slip_from_current;
 pub mod slope;
 pub mod stand;
 pub mod wheel_speeds;

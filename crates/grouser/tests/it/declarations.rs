@@ -128,12 +128,13 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 6] = [
+const OTHER_PLACES: [(&str, &str); 7] = [
     // Plates sink, too, in files and results of their own.
     ("sinkage_mm", "document/plates.rs"),
     ("sinkage_mm", "document/calibration/plates.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
+    ("course_deg", "src/args/slip_from_current.rs"),
     ("course_deg", "commands/heading_map.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),
     ("sinkage_mm", "grouser-python/src/wheels.rs"),

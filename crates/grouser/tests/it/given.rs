@@ -131,6 +131,14 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
     }
 }
 
+/// The same under the complete wrench of every wheel.
+///
+/// * `slope`, `yaw`: [°]
+pub(crate) fn complete_traverse(slope: f64, yaw: f64) -> Scenario {
+    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
+    Scenario { sharing, own_moments, ..traverse(deg(slope), deg(yaw)) }
+}
+
 /// The run of a scenario that can be computed.
 pub(crate) fn run(scenario: &Scenario) -> Trajectory {
     let run = Run::new(scenario).expect("the scenario is a run");

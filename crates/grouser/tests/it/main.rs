@@ -40,6 +40,7 @@ mod runs;
 mod ruts;
 mod simulated;
 mod slip_checks;
+mod slip_from_current;
 mod small_wheel;
 mod steering;
 mod stepping;

@@ -9,7 +9,7 @@ use super::given::{RIM_SPEED, linear, run, traverse};
 use super::mounts::firm;
 
 /// A micro rover's: of the size that theory gives for one.
-const MOTOR: Motor = Motor {
+pub(crate) const MOTOR: Motor = Motor {
     resistance: 10.0,
     torque_constant: 0.010,
     gear_ratio: 250.0,
@@ -18,7 +18,7 @@ const MOTOR: Motor = Motor {
     is_self_locking: false,
 };
 
-fn with(motor: Motor, scenario: Scenario) -> Scenario {
+pub(crate) fn with(motor: Motor, scenario: Scenario) -> Scenario {
     let mut parts = scenario.rover.parts().clone();
     parts.wheel_unit.motor = Some(motor);
     Scenario { rover: Rover::draft(parts).checked().expect("a rover"), ..scenario }

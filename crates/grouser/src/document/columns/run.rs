@@ -4,13 +4,14 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
 use super::super::table::Table;
-use super::super::unit::{A, DEG_S, J, M, M_PER_M, M_S, RAD_S, V, W};
+use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, V, W};
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
-    Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity, SINKAGE,
-    SLIP_ANGLE, SLIP_RATIO, STEERING, TIME, X, Y, YAW, number, quantity, text, whole,
+    CURRENT, Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity,
+    SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TIME, WHEEL_SPEED, X, Y, YAW, number, quantity,
+    text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -52,7 +53,7 @@ pub const ELECTRICAL_RECORD: [Column<Record>; 2] = [
 
 /// What a wheel's motor takes, where that is known: beside [`WHEEL_RECORD`].
 pub const ELECTRICAL: [Column<WheelRecord>; 3] = [
-    quantity("current_a", A)
+    CURRENT
         .maybe("Current of its motor, negative where it brakes", |it| Some(it.electrical?.current)),
     quantity("voltage_v", V)
         .maybe("Voltage of its motor, negative backward", |it| Some(it.electrical?.voltage)),
@@ -72,7 +73,7 @@ pub const STEERING_RECORD: [Column<WheelRecord>; 1] =
 
 /// A wheel at one time, beside its results ([`WHEEL`]).
 pub const WHEEL_RECORD: [Column<WheelRecord>; 5] = [
-    number("wheel_speed_rad_s", RAD_S, "Angular speed", |it| it.wheel_speed),
+    WHEEL_SPEED.number("Angular speed", |it| it.wheel_speed),
     SLIP_RATIO.number("Slip ratio", |it| it.reaction.slip.ratio),
     SLIP_ANGLE.number("Slip angle", |it| it.reaction.slip.angle),
     LOAD.number("Load", |it| it.reaction.load),

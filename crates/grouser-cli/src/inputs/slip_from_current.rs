@@ -1,0 +1,102 @@
+//! The inputs of slip from currents.
+
+use std::ops::RangeInclusive;
+
+use grouser::document::measurements::motor_log::{LogChoice, MotorLog, read_motor_log};
+use grouser::document::measurements::read_bytes;
+use grouser::document::unit::DEG;
+use grouser::document::{self, LoadedScenario, escape};
+use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings, TorqueNoise};
+
+use super::{balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source, single};
+use crate::args::SlipFromCurrentArgs;
+use crate::commands::sampling;
+use crate::failure::Failure;
+use crate::list::Numbers;
+
+/// The inputs of slip from currents.
+pub(crate) struct SlipInputs {
+    pub(crate) scenario: LoadedScenario,
+    pub(crate) band: BandInputs,
+    pub(crate) settings: SlipSettings,
+    pub(crate) estimator: SlipEstimator,
+    pub(crate) log: MotorLog,
+    /// The log as it was read.
+    pub(crate) bytes: Vec<u8>,
+}
+
+/// Noise that flags may state, as a share and in N·m.
+const NOISE: RangeInclusive<f64> = 0.0..=100.0;
+/// Yaws and courses that flags may state [°].
+const TURN_DEG: RangeInclusive<f64> = -180.0..=180.0;
+
+pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs, Failure> {
+    const COMMAND: &str = "slip-from-current";
+    let (parts, setting) = (&args.parts, &args.setting);
+    let (rover, soil) = (parts.rover.as_ref(), parts.soil.as_ref());
+    let mut overrides = balanced_overrides(COMMAND, rover, soil, setting, &args.balance)?;
+    let level = args.scenario.is_none().then(|| "0".to_owned());
+    if let Some(slope) = args.slope_deg.clone().or(level) {
+        overrides.flag("--slope-deg", "scenario.slope_deg", &slope)?;
+    }
+    let source = scenario_source("--scenario", args.scenario.as_deref())?;
+    let scenario = document::read_scenario(&source, &overrides)?;
+    let settings = settings(args)?;
+    let band = BandInputs::of_scenario(&scenario);
+    let samples = if args.uncertainty.sampling.uncertainty {
+        refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        sampling::draw(&band, args.uncertainty.sampling.samples, args.uncertainty.seed)?
+    } else {
+        Vec::new()
+    };
+    let estimator = SlipEstimator::new(&scenario.value, samples, settings);
+    let estimator = estimator.map_err(|error| match error {
+        NoEstimator::NoMotor => {
+            let name = scenario.document.text("rover.name").unwrap_or("without a name");
+            Failure::Usage(format!(
+                "rover {}: {error}\nhint: docs/models/rover.md has an example of a [motor]",
+                escape::line(name)
+            ))
+        }
+        NoEstimator::Parameter(error) => error.into(),
+    })?;
+    let choice = choice(args)?;
+    let bytes = read_bytes(&args.log, choice.limits)?;
+    let label = escape::path(&args.log);
+    let log = read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?;
+    Ok(SlipInputs { scenario, band, settings, estimator, log, bytes })
+}
+
+fn settings(args: &SlipFromCurrentArgs) -> Result<SlipSettings, Failure> {
+    let noise = TorqueNoise {
+        relative: single("--relative-noise", &args.relative_noise, &NOISE)?,
+        absolute: single("--noise-nm", &args.noise_nm, &NOISE)?,
+    };
+    let [low, high] = args.slip_ratio.0[..] else {
+        return Err(Failure::Usage(
+            "--slip-ratio: expected two values, the lowest and the highest".to_owned(),
+        ));
+    };
+    check_numbers("--slip-ratio", &args.slip_ratio, &(-1.0..=1.0))?;
+    let settings = SlipSettings { noise, slips: [low, high] };
+    settings.check()?;
+    Ok(settings)
+}
+
+fn choice(args: &SlipFromCurrentArgs) -> Result<LogChoice, Failure> {
+    let angle = |flag: &str, numbers: &Option<Numbers>, range| {
+        let number = numbers.as_ref().map(|numbers| single(flag, numbers, range)).transpose()?;
+        Ok::<_, Failure>(number.map(|number| DEG.to_si(number)))
+    };
+    let mut choice = LogChoice {
+        yaw: angle("--yaw-deg", &args.yaw_deg, &TURN_DEG)?,
+        course: angle("--course-deg", &args.course_deg, &TURN_DEG)?,
+        limits: args.read.limits(),
+        ..LogChoice::default()
+    };
+    for name in &args.ignore {
+        choice.ignore(name.trim()).map_err(|text| Failure::Usage(format!("--ignore {text}")))?;
+    }
+    Ok(choice)
+}
