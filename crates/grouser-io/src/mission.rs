@@ -223,7 +223,8 @@ impl LegKeys {
         if self.by.is_some() && !drives {
             return only("by", "`drive_m`", "leave it out");
         }
-        if self.held.is_some() && !drives {
+        let crabs_to_place = self.held == Some(Held::Crab) && manoeuvre == "goto";
+        if self.held.is_some() && !drives && !crabs_to_place {
             return only(
                 "heading",
                 "`drive_m`",

@@ -80,7 +80,7 @@ def test_alternatives_are_the_programs(program: Program) -> None:
     data = found.alternatives.to_xarray()
     assert data.slip_ratio.sel(alternative="switchback") == found.alternatives["switchback"].slip_ratio
     assert data.energy_j.units == "J"
-    assert len(found.alternatives.plot().lines) == 3
+    assert len(found.alternatives.plot().lines) == 4
 
 
 def test_legs_join_to_the_whole(short: gr.DrivenMission) -> None:

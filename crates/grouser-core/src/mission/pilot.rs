@@ -79,8 +79,8 @@ enum Law {
     Follow(Line),
     /// A circle is followed.
     Circle { yaw: f64, radius: f64, angle: f64, steering: Steering },
-    /// A line is followed by the wheels' steering angle, from one [rad], and its yaw is held.
-    Crab { line: Line, angle: f64 },
+    /// A line is followed by the wheels' steering angle, from one [rad], and a yaw is held [rad].
+    Crab { line: Line, yaw: f64, angle: f64 },
 }
 
 /// A line on the ground, and the yaw with which a rover sets out along it.
@@ -197,7 +197,11 @@ impl Pilot {
             (Manoeuvre::Arc { radius, angle, .. }, _) => {
                 Law::Circle { yaw, radius, angle, steering: leg.steering }
             }
-            (_, Heading::Crab { angle }) => Law::Crab { line: line_of(leg, state), angle },
+            (Manoeuvre::Goto { .. }, Heading::Crab { angle }) => {
+                let line = line_of(leg, state);
+                Law::Crab { line, yaw, angle: angle + turned(line.yaw - yaw) }
+            }
+            (_, Heading::Crab { angle }) => Law::Crab { line: line_of(leg, state), yaw, angle },
             (Manoeuvre::Goto { .. }, _) | (_, Heading::Contour) => Law::Follow(line_of(leg, state)),
             (_, Heading::Hold) => Law::Hold { yaw },
             (_, Heading::Toward(place)) => Law::Toward { place },
@@ -235,7 +239,7 @@ impl Pilot {
                 let line = *line;
                 (line.yaw + self.towards(&line, state), 0.0)
             }
-            Law::Crab { line, .. } => (line.yaw, 0.0),
+            Law::Crab { yaw, .. } => (*yaw, 0.0),
             Law::Circle { yaw, radius, angle, .. } => {
                 (*yaw + angle.signum() * self.gone / *radius, angle.signum() * self.speed / *radius)
             }
@@ -325,7 +329,7 @@ impl Controller for Pilot {
         let rover = &seen.scenario().rover;
         let (rate, forward) = self.asked;
         let mut wanted = match self.law {
-            Law::Crab { line, angle } => {
+            Law::Crab { line, angle, .. } => {
                 let state = self.seen;
                 crab_angles(rover, angle + self.towards(&line, &state))
             }

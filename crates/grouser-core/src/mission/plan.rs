@@ -126,9 +126,11 @@ pub enum Heading {
     /// The nose towards a place [m], or the tail where it drives backward.
     Toward(Vec2),
     /// The yaw and the line with which the leg began: the sides hold the yaw, and all wheels that are steered turn uphill
-    /// together as far as the line needs. Along the contour, the body lies along it and wheels crab.
+    /// together as far as the line needs. Along the contour, the body lies along it and wheels crab; to a place, they point
+    /// there, without a turn of the nose, as far as their limits allow.
     Crab {
-        /// Crab angle with which the leg begins, *δ* [rad], positive to the left.
+        /// Crab angle with which the leg begins, *δ* [rad], positive to the left, on the way to a place from the direction in
+        /// which it lies.
         angle: f64,
     },
 }
@@ -234,7 +236,11 @@ impl Leg {
         }
         self.check_steering(rover)?;
         let is_drive = matches!(self.manoeuvre, Manoeuvre::Drive { .. });
-        if self.heading != Heading::Free && !is_drive {
+        let crabs_to_place = matches!(
+            (self.manoeuvre, self.heading),
+            (Manoeuvre::Goto { .. }, Heading::Crab { .. })
+        );
+        if self.heading != Heading::Free && !is_drive && !crabs_to_place {
             let expected =
                 "left out: it goes with a drive; turns, arcs, waypoints and waits have their own";
             return Err(ParameterError::new("heading of a leg", 1.0, expected));

@@ -4,7 +4,7 @@ use super::driven::{Driven, End, Goal};
 use super::look_ahead::Ahead;
 use super::navigator::Navigator;
 use super::pilot::{Pilot, line_of, reach, turned};
-use super::plan::{Leg, Manoeuvre, Measure, Mission, PlanError};
+use super::plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
 use super::report::{BackOut, LegOutcome, LegReport, MissionReport};
 use super::stop::Then;
 use crate::simulation::{Method, Record, Run, RunError, Scenario, Start};
@@ -261,6 +261,10 @@ fn turn_before(leg: &Leg, state: &RoverState, is_first: bool) -> Option<f64> {
         // The first leg begins with its yaw.
         (Some(_), _) if is_first => return None,
         (Some(yaw), _) => yaw,
+        // Its wheels turn in place of its nose.
+        (None, Manoeuvre::Goto { .. }) if matches!(leg.heading, Heading::Crab { .. }) => {
+            return None;
+        }
         // Where it already is, no direction leads there.
         (None, Manoeuvre::Goto { place, within, .. })
             if (place - state.position).norm() <= within =>

@@ -253,7 +253,7 @@ static LEG: Table<LegKeys> = Table {
         .optional(),
         words(
             "heading",
-            "What `drive_m` holds on its way; without it nothing: the wheels keep one speed.",
+            "What `drive_m` holds on its way; without it nothing: the wheels keep one speed. `goto` knows `crab` alone.",
             &[
                 word("hold", "The yaw with which the leg begins.", |leg: &mut LegKeys| {
                     leg.held = Some(Held::Hold);
@@ -270,7 +270,7 @@ static LEG: Table<LegKeys> = Table {
                 ),
                 word(
                     "crab",
-                    "The yaw and the line with which the leg begins: the sides hold the yaw, and the wheels that are steered turn uphill together as far as the line needs.",
+                    "The yaw and the line with which the leg begins: the sides hold the yaw, and the wheels that are steered turn together as far as the line needs; with `goto`, towards its place.",
                     |leg: &mut LegKeys| leg.held = Some(Held::Crab),
                 ),
             ],
@@ -280,7 +280,7 @@ static LEG: Table<LegKeys> = Table {
             "crab_deg",
             DEG,
             -90.0..=90.0,
-            "Crab angle with which a leg of heading `crab` begins, above 0 to the left; without it 0, and the rover learns it on the way",
+            "Crab angle with which a leg of heading `crab` begins, above 0 to the left, of a `goto` beyond the direction of its place; without it 0, and the rover learns it on the way",
             |leg: &mut LegKeys| Some(leg.crab.get_or_insert(0.0)),
         )
         .optional(),

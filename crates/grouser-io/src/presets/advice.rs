@@ -131,9 +131,10 @@ const SOILS: [(&str, &str, &str); 30] = [
     ("mit-rig-b", "earth", "the wheel mit-rig, the softer of two sets; second-hand"),
 ];
 
-const ROVERS: [(&str, &str, &str); 12] = [
+const ROVERS: [(&str, &str, &str); 13] = [
     ("hakuto", "earth", "to start with: the paper's rover; the size of its wheels is assumed"),
     ("hakuto-flight", "moon", "the lighter flight model; masses scaled"),
+    ("hakuto-steered", "earth", "the paper's rover with steered wheels, which it has not"),
     ("el-dorado-2", "earth", "a larger rover of the same laboratory; its mass and size are known"),
     ("mgru3", "earth", "VIPER's test rover, 88 kg; mass, size and wheels are known"),
     ("viper", "moon", "430 kg on the wheels of its test rover, which are known"),

@@ -1143,10 +1143,11 @@ class MissionLeg(TypedDict, total=False):
     """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
     held only where `heading` says so [°]."""
     heading: str
-    """What `drive_m` holds on its way; without it nothing: the wheels keep one speed."""
+    """What `drive_m` holds on its way; without it nothing: the wheels keep one speed. `goto` knows
+    `crab` alone."""
     crab_deg: float
-    """Crab angle with which a leg of heading `crab` begins, above 0 to the left; without it 0, and
-    the rover learns it on the way [°]."""
+    """Crab angle with which a leg of heading `crab` begins, above 0 to the left, of a `goto`
+    beyond the direction of its place; without it 0, and the rover learns it on the way [°]."""
     toward: MissionLegToward
     """The place towards which the nose is held."""
     look_ahead_m: float

@@ -269,12 +269,12 @@ def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
 
     Examples
     --------
-    How much slip does a climb of 2 m cost, forward, backward and by a switchback?
+    How much slip does a climb of 2 m cost, forward, backward, by a switchback and crabbing?
 
     >>> import grouser as gr
     >>> found = gr.mission("two-steps-forward", simulation="quasi-steady")
     >>> tuple(found.alternatives)
-    ('forward', 'backward', 'switchback')
+    ('forward', 'backward', 'switchback', 'crab')
     >>> slip = {name: way.slip_ratio for name, way in found.alternatives.items()}
     >>> slip["switchback"] < slip["forward"]
     True

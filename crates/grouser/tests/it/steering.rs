@@ -431,3 +431,22 @@ fn a_run_goes_on_from_a_state_with_steered_wheels() {
     let error = run.advance(&mut TooFar, 1.0).expect_err("beyond the limit").to_string();
     assert!(error.contains("wheel 3") && error.contains("0.800"), "{error}");
 }
+
+/// To a place beside its nose a crabbing rover goes without turning it.
+#[test]
+fn wheels_point_to_a_place_beside_the_nose() {
+    for (place, reverse) in [((1.2, 0.8), false), ((1.0, -0.7), false), ((-1.0, 0.6), true)] {
+        let place = Vec2::new(place.0, place.1);
+        let manoeuvre = Manoeuvre::Goto { place, within: 0.02, reverse };
+        let leg = Leg { heading: Heading::Crab { angle: 0.0 }, ..Leg::new(manoeuvre) };
+        let mut mission = mission(steerable(), 0.0, vec![leg]);
+        mission.scenario.site = mission.scenario.site.with_soil(firm());
+        let end = driven(&mission);
+        assert_eq!(end.legs.len(), 1);
+        let last = end.last();
+        assert!((last.state.position - place).norm() < 0.021, "{}", last.state.position);
+        assert!(last.state.yaw.abs() < deg(1.0), "{}", last.state.yaw);
+        let direction = (place.y / place.x).atan();
+        assert!((last.wheels[0].steering - direction).abs() < deg(3.0));
+    }
+}
