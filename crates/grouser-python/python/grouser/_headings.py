@@ -207,7 +207,7 @@ def heading(
     >>> import grouser as gr
     >>> round(float(gr.heading(slope_deg=[10.0]).yaw_deg[0]), 1)
     5.0
-    >>> crab = gr.heading(rover="spirit", soil="mars-sand", slope_deg=[10.0], steering="crab")
+    >>> crab = gr.heading(rover="hakuto-steered", slope_deg=[10.0], steering="crab")
     >>> bool(crab.steering_deg[0] > 0.0 and crab.yaw_deg[0] == 0.0)
     True
     >>> level = gr.heading(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
@@ -215,9 +215,9 @@ def heading(
     True
     """
     if steering not in ("none", "crab"):
-        raise ParameterError(f'steering is {steering!r}, it must be "none" or "crab"')
+        raise ParameterError(f'steering is {steering!r}, it must be "none" or "crab"', "steering")
     if uncertainty and steering == "crab":
-        raise ParameterError('uncertainty goes with steering="none"')
+        raise ParameterError('uncertainty goes with steering="none"', "uncertainty")
     if model == "all":
         settings: dict[str, Any] = {
             "slope_deg": slope_deg,
