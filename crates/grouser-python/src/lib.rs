@@ -2,7 +2,8 @@
 //!
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
-//! ([`simulators`], on [`paths`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
+//! ([`simulators`], on [`paths`]), reads slip from currents
+//! ([`slip_from_current`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
 //! [`ground`] under their wheels) and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
@@ -22,6 +23,7 @@ mod missions;
 mod paths;
 mod rollouts;
 mod simulators;
+mod slip_from_current;
 mod studies;
 mod style;
 mod threads;
@@ -66,6 +68,8 @@ mod _core {
     use super::rollouts::rollout;
     #[pymodule_export]
     use super::simulators::{Simulators, path_columns, simulator_columns};
+    #[pymodule_export]
+    use super::slip_from_current::SlipFromCurrent;
     #[pymodule_export]
     use super::studies::{
         card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,

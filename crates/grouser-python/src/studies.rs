@@ -529,14 +529,14 @@ fn scaling_of(name: &str) -> PyResult<GravityScaling> {
 const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
 
 /// Why there is no band.
-enum Problem {
+pub(crate) enum Problem {
     Sampling(NothingAccepted),
     Parameter(ParameterError),
     Run(RunError),
 }
 
 impl Problem {
-    fn raised(&self) -> PyErr {
+    pub(crate) fn raised(&self) -> PyErr {
         match self {
             Self::Sampling(error) => {
                 let message = format!("the soil's uncertainty reaches too far: {error}");

@@ -5,7 +5,7 @@
 `rollout`, `heading`, `heading_map` and `wheel_speeds` compute the motion of a rover, `mission`
 drives it through legs with limits at which it stops, `wheel_test` simulates a wheel on a test
 stand, and `validate` and `calibrate` compare models with measurements, which
-`import_wheel_tests` converts. `card` is the operator's card, `forecast` predicts under another
+`import_wheel_tests` converts. `SlipEstimator` reads slip from motor currents. `card` is the operator's card, `forecast` predicts under another
 gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
 are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
 on one machine or on many.
@@ -56,6 +56,7 @@ from ._missions import Alternatives, DrivenMission, Legs, mission
 from ._rollouts import Rollout, rollout
 from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
+from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
 from ._validation import (
     Ranking,
@@ -115,6 +116,7 @@ __all__ = [
     "SimulatedWheelTest",
     "SimulationError",
     "Site",
+    "SlipEstimator",
     "Soil",
     "Trajectory",
     "TraverseBand",

@@ -21,6 +21,7 @@ __all__ = [
     "REST_SPEED_M_S",
     "SINKAGE_DAMPING_S_M",
     "Simulators",
+    "SlipFromCurrent",
     "SteppingWheels",
     "__version__",
     "animation",
@@ -159,6 +160,22 @@ class SteppingWheels:
         held: _Floats,
         with_moments: bool,
     ) -> tuple[_Floats, _Floats, float]: ...
+
+@final
+class SlipFromCurrent:
+    def __new__(
+        cls,
+        scenario: Document,
+        noise: Sequence[float],
+        slips: Sequence[float],
+        samples: int,
+        seed: int,
+    ) -> SlipFromCurrent: ...
+    @property
+    def wheel_names(self) -> list[str]: ...
+    def estimate(
+        self, of_wheels: Sequence[_Floats], of_records: Sequence[_Floats]
+    ) -> dict[str, Any]: ...
 
 _Stop = dict[str, Any]
 

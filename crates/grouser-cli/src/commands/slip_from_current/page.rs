@@ -1,7 +1,7 @@
 //! The page of slip from currents: each wheel's slip over time, and what it comes to.
 
 use grouser::document::columns::slip_from_current::{
-    self as columns, SHARE_HELD, TRUE_SLIP, WHEEL, brief,
+    self as columns, ESTIMATE, SHARE_HELD, TRUE_SLIP, WHEEL, brief,
 };
 use grouser::document::columns::{SLIP_RATIO, STATUS, TIME};
 use grouser::document::table::Table;
@@ -45,8 +45,9 @@ pub(super) fn html(
     page.list(states.lines());
     page.heading("Every reading");
     page.rows("Readings and slip", &tables.rows, &brief(&tables.rows));
-    let of_columns = meanings(&columns::of_reading()).into_iter();
-    let of_columns: Vec<_> = of_columns.chain(meanings(&columns::of_truth())).collect();
+    let of_columns =
+        [meanings(&columns::of_reading()), meanings(&ESTIMATE), meanings(&columns::of_truth())];
+    let of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
     answer::close(page, &[], &of_columns, &basis(args, inputs))
 }
 

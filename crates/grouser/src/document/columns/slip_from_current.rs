@@ -38,37 +38,33 @@ impl OfReading<'_> {
     }
 }
 
-/// The columns of [`table`] that every log has.
+/// What was read, of every log.
 #[must_use]
-pub const fn of_reading<'a>() -> [Column<OfReading<'a>>; 11] {
+pub const fn of_reading<'a>() -> [Column<OfReading<'a>>; 4] {
     [
         TIME.number("Time of the reading", |it| it.time),
         text(WHEEL, "The wheel", |it| Some(it.wheel.to_owned())),
         CURRENT.number("Current of its motor, negative where it brakes", |it| it.reading.current),
         WHEEL_SPEED.number("Angular speed", |it| it.reading.wheel_speed),
-        TORQUE.maybe(
-            "Torque on the wheel, from the current; none where it says nothing of it",
-            |it| it.estimate.torque,
-        ),
-        LOAD.maybe("Load: as read, or from the load transfer", |it| it.estimate.load),
-        SLIP_ANGLE.number("Slip angle: as read, or of the yaw against the course", |it| {
-            it.estimate.slip_angle
-        }),
-        SLIP_RATIO.band("Slip ratio: the median and the ends of the 95 % interval", |it| {
-            it.estimate.slip_ratio
-        }),
-        WIDTH.maybe("Width of that interval: `ill-posed` above 0.2", |it| it.estimate.width()),
-        text(
-            STATUS,
-            "`ok`, `ill-posed`, or why the current does not say anything of the slip",
-            |it| Some(it.estimate.status.name().to_owned()),
-        ),
-        text(REASON, "What the status means; none for `ok`", |it| {
-            let status = it.estimate.status;
-            (status != SlipStatus::Ok).then(|| status.meaning().to_owned())
-        }),
     ]
 }
+
+/// What a current says of a wheel's slip.
+pub const ESTIMATE: [Column<SlipEstimate>; 7] = [
+    TORQUE.maybe("Torque on the wheel, from the current; none where it says nothing of it", |it| {
+        it.torque
+    }),
+    LOAD.maybe("Load: as read, or from the load transfer", |it| it.load),
+    SLIP_ANGLE.number("Slip angle: as read, or of the yaw against the course", |it| it.slip_angle),
+    SLIP_RATIO.band("Slip ratio: the median and the ends of the 95 % interval", |it| it.slip_ratio),
+    WIDTH.maybe("Width of that interval: `ill-posed` above 0.2", SlipEstimate::width),
+    text(STATUS, "`ok`, `ill-posed`, or why the current does not say anything of the slip", |it| {
+        Some(it.status.name().to_owned())
+    }),
+    text(REASON, "What the status means; none for `ok`", |it| {
+        (it.status != SlipStatus::Ok).then(|| it.status.meaning().to_owned())
+    }),
+];
 
 /// Those beside slip that was measured by other means.
 #[must_use]
@@ -95,7 +91,8 @@ pub fn table(rover: &Rover, log: &MotorLog, estimates: &[Vec<Option<SlipEstimate
         })
     });
     let rows: Vec<OfReading<'_>> = rows.collect();
-    let table = Table::of(&of_reading(), &rows);
+    let estimates: Vec<_> = rows.iter().map(|row| Some(&row.estimate)).collect();
+    let table = Table::of(&of_reading(), &rows).and(&ESTIMATE, &estimates);
     if rows.iter().all(|row| row.reading.slip_ratio.is_none()) {
         return table;
     }
