@@ -3,8 +3,7 @@
 use super::limits::{Known, Limits};
 use super::navigator::Navigator;
 use super::odometer::mean_speed;
-use super::pilot::{Line, Path, Pilot};
-use super::plan::Leg;
+use super::pilot::{Line, Pilot};
 use super::stop::{Limited, Stop, Stopped};
 use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
@@ -51,7 +50,6 @@ pub(super) struct Driven {
     pilot: Pilot,
     limits: Limits,
     goal: Goal,
-    path: Path,
     /// Way over the ground as the rover knew it at the start [m].
     start_ground: f64,
     /// How far it really came [m].
@@ -65,14 +63,12 @@ pub(super) struct Driven {
 impl Driven {
     /// A manoeuvre that begins here.
     ///
-    /// * `leg`: whose path it is meant to stay on
     /// * `nominal`: how long it would take without slip [s]
     pub(super) fn new(
         run: &Run,
         navigator: &Navigator,
         pilot: Pilot,
         (goal, nominal): (Goal, f64),
-        leg: &Leg,
         stops: &[Stop],
     ) -> Self {
         let mut stops = stops.to_vec();
@@ -84,7 +80,6 @@ impl Driven {
             pilot,
             limits: Limits::begun(run, seen.position, stops),
             goal,
-            path: Path::of_leg(leg, seen),
             start_ground: navigator.ground(),
             gone: 0.0,
             rims_at_fix: 0.0,
@@ -213,7 +208,7 @@ impl Driven {
 
     /// The first limit that is passed now.
     fn passed(&self, run: &Run, seen: &RoverState) -> Option<Stopped> {
-        let (off_path, is_drive) = (self.path.off(seen.position), self.is_drive());
+        let (off_path, is_drive) = (self.pilot.path().off(seen.position), self.is_drive());
         self.limits.passed_as(run, Known { seen, off_path, is_drive })
     }
 }

@@ -47,8 +47,6 @@ const MOST_STEER: f64 = 0.75;
 pub(super) struct Pilot {
     law: Law,
     drive: DriveLaw,
-    /// Speed of the fastest rims [m/s], above 0.
-    speed: f64,
     /// 1 forward, -1 backward, 0 on the spot.
     direction: f64,
     path: Path,
@@ -104,7 +102,7 @@ pub(super) enum Path {
 
 impl Path {
     /// Of the manoeuvre of a leg that begins here.
-    pub(super) fn of_leg(leg: &Leg, state: &RoverState) -> Self {
+    fn of_leg(leg: &Leg, state: &RoverState) -> Self {
         let Manoeuvre::Arc { radius, angle, reverse } = leg.manoeuvre else {
             return Self::Line(line_of(leg, state));
         };
@@ -177,7 +175,6 @@ impl Pilot {
         Self {
             law,
             drive,
-            speed,
             direction,
             path,
             straight: straight.to_vec(),
@@ -222,6 +219,16 @@ impl Pilot {
         Self::new(Law::Free, drive, direction, path, state, straight)
     }
 
+    /// What the rover is meant to stay on.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Speed of the fastest rims [m/s], above 0.
+    fn speed(&self) -> f64 {
+        self.drive.nominal_rim_speed().abs()
+    }
+
     /// Whether the rims keep their speeds.
     pub(super) fn is_steady(&self) -> bool {
         matches!(self.law, Law::Free) && !self.drive.varies()
@@ -229,22 +236,22 @@ impl Pilot {
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
     fn rate_and_speed(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
-        let forward = self.direction * self.speed;
+        let speed = self.speed();
+        let forward = self.direction * speed;
         let (yaw, ahead) = match &mut self.law {
             Law::Free => return (0.0, forward),
-            Law::Turn(turn) => return turn.steer(state, slope, [self.speed, reach]),
-            Law::Hold { yaw } => (*yaw, 0.0),
+            Law::Turn(turn) => return turn.steer(state, slope, [speed, reach]),
+            Law::Hold { yaw } | Law::Crab { yaw, .. } => (*yaw, 0.0),
             Law::Toward { place } => (yaw_towards(*place, state, self.direction), 0.0),
             Law::Follow(line) => {
                 let line = *line;
                 (line.yaw + self.towards(&line, state), 0.0)
             }
-            Law::Crab { yaw, .. } => (*yaw, 0.0),
             Law::Circle { yaw, radius, angle, .. } => {
-                (*yaw + angle.signum() * self.gone / *radius, angle.signum() * self.speed / *radius)
+                (*yaw + angle.signum() * self.gone / *radius, angle.signum() * speed / *radius)
             }
         };
-        let most = MOST_STEER * self.speed / reach;
+        let most = MOST_STEER * speed / reach;
         let error = yaw - state.yaw;
         self.yaw_integral += CONTROL_PERIOD * error;
         self.yaw_integral = self.yaw_integral.clamp(-most / YAW_INTEGRAL, most / YAW_INTEGRAL);

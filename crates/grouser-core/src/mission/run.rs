@@ -148,7 +148,7 @@ impl MissionRun {
             let seen = self.navigator.seen();
             let pilot = Pilot::to_yaw(yaw, seen, leg.speed(), &straight);
             let goal = self.turn_to(yaw, leg);
-            let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
+            let mut turn = Driven::new(&self.run, &self.navigator, pilot, goal, &stops);
             turned_to = self.drive_on(&mut turn, None, watch)?;
         }
         let (mut distance, mut slip_ratio) = (0.0, None);
@@ -156,7 +156,7 @@ impl MissionRun {
             End::Reached => {
                 let pilot = Pilot::of_leg(leg, self.navigator.seen(), &straight);
                 let goal = self.goal(leg);
-                let mut driven = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &stops);
+                let mut driven = Driven::new(&self.run, &self.navigator, pilot, goal, &stops);
                 let end = self.drive_on(&mut driven, leg.look_ahead, watch)?;
                 (distance, slip_ratio) = (driven.gone(), driven.slip_ratio());
                 end
@@ -186,7 +186,7 @@ impl MissionRun {
         let straight = self.mission.scenario.rover.steering_angles();
         let pilot = Pilot::ahead(leg.speed(), direction, self.navigator.seen(), &straight);
         let goal = (Goal::Ground(way), way / leg.speed());
-        let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, leg, &[]);
+        let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, &[]);
         let outcome = self.drive_on(&mut back, None, watch)?.into();
         let distance = back.gone();
         Ok(BackOut { outcome, distance, time: self.time() - time, energy: self.energy() - energy })

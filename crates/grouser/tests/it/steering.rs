@@ -4,7 +4,9 @@ use grouser::document::{Kind, Overrides, Source, read_rover};
 use grouser::mission::{
     Heading, Leg, Manoeuvre, Mission, MissionReport, MissionRun, Steering as ArcSteering,
 };
-use grouser::simulation::{CONTROL_PERIOD, Controller, Observation, Run, Scenario};
+use grouser::simulation::{
+    Approach, CONTROL_PERIOD, Controller, Numerics, Observation, PrescribedYaw, Run, Scenario,
+};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::kinematics::{rolling_angle, wheel_velocity};
@@ -448,5 +450,39 @@ fn wheels_point_to_a_place_beside_the_nose() {
         assert!(last.state.yaw.abs() < deg(1.0), "{}", last.state.yaw);
         let direction = (place.y / place.x).atan();
         assert!((last.wheels[0].steering - direction).abs() < deg(3.0));
+    }
+}
+
+/// A body that is turned by 90°, with its wheels steered back by as much, moves as before where loads are alike: over
+/// time, along the same way, with the same work.
+#[test]
+fn a_body_turned_by_90_degrees_with_its_wheels_steered_back_moves_as_before() {
+    let quarter = deg(90.0);
+    let axis = SteeringAxis { limit: quarter, ..AXIS };
+    let rover = changed(|_, mount| mount.steering_axis = Some(axis));
+    let across = rover.steered(&[-quarter; 4]).expect("a quarter turn");
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let end = |rover: &Rover, yaw: f64| {
+            let base = traverse(deg(10.0), yaw);
+            let scenario = Scenario {
+                rover: rover.clone(),
+                sharing: LoadSharing::Uniform,
+                // Its yaw moment, which the places of its wheels decide, is held.
+                yaw: Some(PrescribedYaw { points: vec![(0.0, yaw), (5.0, yaw)] }),
+                numerics: Numerics { approach, ..base.numerics },
+                duration: 5.0,
+                ..base
+            };
+            run(&scenario)
+        };
+        let (along, across) = (end(&rover, deg(4.0)), end(&across, deg(4.0) + quarter));
+        let (one, other) = (along.last(), across.last());
+        assert!((one.state.position - other.state.position).norm() < 1e-8);
+        assert!((one.energy.motors / other.energy.motors - 1.0).abs() < 1e-7);
+        for (one, other) in one.wheels.iter().zip(&other.wheels) {
+            let [one, other] = [one, other].map(|wheel| wheel.reaction.slip);
+            assert!((one.ratio - other.ratio).abs() < 1e-7, "{one:?} {other:?}");
+            assert!((one.angle - other.angle).abs() < 1e-7, "{one:?} {other:?}");
+        }
     }
 }
