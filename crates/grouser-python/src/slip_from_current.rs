@@ -2,7 +2,7 @@
 
 use grouser::document::columns::slip_from_current::ESTIMATE;
 use grouser::document::columns::{
-    COURSE, CURRENT, LOAD, Quantity, SLIP_ANGLE, SLOPE, WHEEL_SPEED, YAW,
+    COURSE, CURRENT, LOAD, Quantity, SLIP_ANGLE, SLOPE, STEERING, WHEEL_SPEED, YAW,
 };
 use grouser::document::measurements::motor_log::COLUMNS;
 use grouser::document::table::Table;
@@ -69,22 +69,25 @@ impl SlipFromCurrent {
     /// Columns of [`ESTIMATE`], a row for each record and wheel in turn. What is NaN was not read; a row without current or
     /// speed is NaN and None.
     ///
-    /// * `of_wheels`: current, speed, load and slip angle: a row for each record, a column for each wheel
+    /// * `of_wheels`: current, speed, load, slip angle and steering angle: a row for each record, a column for each wheel
     /// * `of_records`: slope, yaw and course
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     fn estimate<'py>(
         &self,
         py: Python<'py>,
-        of_wheels: [OfWheels<'py>; 4],
+        of_wheels: [OfWheels<'py>; 5],
         of_records: [OfRecords<'py>; 3],
     ) -> PyResult<Bound<'py, PyDict>> {
-        for (quantity, array) in [CURRENT, WHEEL_SPEED, LOAD, SLIP_ANGLE].iter().zip(&of_wheels) {
+        for (quantity, array) in
+            [CURRENT, WHEEL_SPEED, LOAD, SLIP_ANGLE, STEERING].iter().zip(&of_wheels)
+        {
             check(*quantity, array.as_slice()?)?;
         }
         for (quantity, array) in [SLOPE, YAW, COURSE].iter().zip(&of_records) {
             check(*quantity, array.as_slice()?)?;
         }
-        let [currents, speeds, loads, angles] = of_wheels.each_ref().map(|it| it.as_array());
+        let [currents, speeds, loads, angles, steerings] =
+            of_wheels.each_ref().map(|it| it.as_array());
         let [slopes, yaws, courses] = of_records.each_ref().map(|it| it.as_array());
         let (count, wheels) = (currents.shape()[0], self.estimator.rover().mounts().len());
         let known = |number: f64, quantity: Quantity| {
@@ -99,6 +102,7 @@ impl SlipFromCurrent {
                 wheel_speed: at(&speeds, WHEEL_SPEED, record, wheel)?,
                 load: at(&loads, LOAD, record, wheel),
                 slip_angle: at(&angles, SLIP_ANGLE, record, wheel),
+                steering: at(&steerings, STEERING, record, wheel),
                 slip_ratio: None,
             })
         };

@@ -22,7 +22,7 @@ use crate::list::{self, Numbers};
 pub(crate) struct SlipFromCurrentArgs {
     /// The log (CSV): `time_s`, and `current_a` and `wheel_speed_rad_s` of each wheel, as
     /// `front-left.current_a` or in rows with the name in `wheel`. It may have `load_n`, `slip_angle_deg`,
-    /// `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio` measured by other means.
+    /// `steering_deg`, `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio` measured by other means.
     #[arg(value_name = "LOG.csv")]
     pub(crate) log: PathBuf,
     /// A scenario's file or preset, for its rover, soil, load transfer and slope; without it the default

@@ -125,7 +125,7 @@ fn notes(inputs: &SlipInputs) -> Vec<String> {
         notes.push(if some(|record| record.course.is_some()) {
             "slip angles are those of the yaw against the course".to_owned()
         } else {
-            "slip angles are 0: the rover goes where it points; --course-deg 0 if it holds the contour"
+            "slip angles are those of a rover that goes where it points; --course-deg 0 if it holds the contour"
                 .to_owned()
         });
     }

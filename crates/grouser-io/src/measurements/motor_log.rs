@@ -12,7 +12,8 @@ use grouser_core::vehicle::Rover;
 
 use super::super::check::nearest;
 use super::super::columns::{
-    COURSE, CURRENT, LOAD, Quantity, SLIP_ANGLE, SLIP_RATIO, SLOPE, TIME, WHEEL_SPEED, YAW,
+    COURSE, CURRENT, LOAD, Quantity, SLIP_ANGLE, SLIP_RATIO, SLOPE, STEERING, TIME, WHEEL_SPEED,
+    YAW,
 };
 use super::super::escape;
 use super::super::unit::Unit;
@@ -57,6 +58,8 @@ pub struct MotorReading {
     pub load: Option<f64>,
     /// Slip angle, *β* [rad].
     pub slip_angle: Option<f64>,
+    /// Steering angle, *δ* [rad].
+    pub steering: Option<f64>,
     /// Slip ratio measured by other means, *s* [-].
     pub slip_ratio: Option<f64>,
 }
@@ -79,7 +82,7 @@ pub struct LogColumn {
 const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
 
 /// Every column that is known.
-pub const COLUMNS: [LogColumn; 9] = [
+pub const COLUMNS: [LogColumn; 10] = [
     column(TIME, false, "time", ANY),
     column(CURRENT, true, "current of the motor, negative where it brakes", -1e5..=1e5),
     column(WHEEL_SPEED, true, "angular speed of the wheel, negative backward", -1e4..=1e4),
@@ -87,8 +90,14 @@ pub const COLUMNS: [LogColumn; 9] = [
     column(
         SLIP_ANGLE,
         true,
-        "slip angle; without it that of the yaw against the course, or 0",
+        "slip angle; without it that of the yaw and the steering angle against the course, or 0",
         -90.0..=90.0,
+    ),
+    column(
+        STEERING,
+        true,
+        "steering angle, positive to the left; without it that of the rover's document",
+        -180.0..=180.0,
     ),
     column(
         SLIP_RATIO,
@@ -367,6 +376,7 @@ impl<'a> Header<'a> {
             wheel_speed,
             load: number(LOAD)?,
             slip_angle: number(SLIP_ANGLE)?,
+            steering: number(STEERING)?,
             slip_ratio: number(SLIP_RATIO)?,
         }))
     }

@@ -128,6 +128,7 @@ class SlipEstimator:
         wheel: str | None = None,
         load_n: ArrayLike | None = None,
         slip_angle_deg: ArrayLike | None = None,
+        steering_deg: ArrayLike | None = None,
         slope_deg: ArrayLike | None = None,
         yaw_deg: ArrayLike | None = None,
         course_deg: ArrayLike | None = None,
@@ -147,8 +148,10 @@ class SlipEstimator:
             Loads on the wheels [N]. Without them they follow from slope, yaw and the torques of all
             wheels that were read, in steady motion.
         slip_angle_deg : array_like, optional
-            Slip angles [°], positive where the hub moves to the left; without them those of yaw
-            and course.
+            Slip angles [°], positive where the hub moves to the left; without them those of yaw,
+            steering and course.
+        steering_deg : array_like, optional
+            Steering angles [°], positive to the left; without them those of the rover.
         slope_deg : array_like, optional
             Slope [°]; by default the scenario's. This and the next two broadcast with the currents,
             but for the axis of the wheels.
@@ -173,6 +176,7 @@ class SlipEstimator:
             "wheel_speed_rad_s": wheel_speed_rad_s,
             "load_n": np.nan if load_n is None else load_n,
             "slip_angle_deg": np.nan if slip_angle_deg is None else slip_angle_deg,
+            "steering_deg": np.nan if steering_deg is None else steering_deg,
         }
         rovers = {
             "slope_deg": np.nan if slope_deg is None else slope_deg,

@@ -18,6 +18,8 @@ mod agreement;
 mod posterior;
 mod torque_table;
 
+use std::borrow::Cow;
+
 pub use self::agreement::Agreement;
 use self::posterior::{Posterior, posterior};
 use self::torque_table::TorqueTable;
@@ -30,7 +32,7 @@ use crate::simulation::Scenario;
 use crate::site::Site;
 use crate::units::Vec2;
 use crate::vehicle::load::{self, Tipping};
-use crate::vehicle::{LoadSharing, OwnMoments, Rover, RoverState};
+use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, RoverState, SteeringAxis};
 pub use grouser_io::measurements::motor_log::{MotorLog, MotorReading, MotorRecord};
 
 /// Standard deviation of a torque that a current gives: σ(T)² = (q T)² + σ_0².
@@ -305,7 +307,7 @@ impl SlipEstimator {
     ///
     /// Where a reading has no load, that follows from the slope and yaw of the record and the torques of all wheels, in
     /// steady motion. Where it has no slip angle, that follows from yaw and course; without a course the rover goes where it
-    /// points.
+    /// points. A steering angle beyond its wheel's limit counts as the limit, and one of a wheel that is not steered as none.
     #[must_use]
     pub fn estimate(&self, record: &MotorRecord) -> Vec<Option<SlipEstimate>> {
         let mut felt = self.felt(record);
@@ -343,10 +345,11 @@ impl SlipEstimator {
     /// What each wheel feels, without what the soil makes of it.
     fn felt(&self, record: &MotorRecord) -> Vec<Option<Felt>> {
         let slope = record.slope.unwrap_or(self.site.terrain.slope);
-        let loads = self.loads(record, slope);
-        let wheels = self.rover.mounts().iter().enumerate().map(|(place, mount)| {
+        let rover = self.steered(record);
+        let loads = self.loads(&rover, record, slope);
+        let wheels = rover.mounts().iter().enumerate().map(|(place, mount)| {
             let (motor, reading) = (mount.unit.motor?, (*record.wheels.get(place)?)?);
-            let slip_angle = reading.slip_angle.unwrap_or_else(|| self.slip_angle(record, place));
+            let slip_angle = reading.slip_angle.unwrap_or_else(|| slip_angle(mount, record));
             let load = reading.load.or(loads.as_ref().ok().map(|loads| loads[place]));
             let torque = motor.torque(reading.current, reading.wheel_speed);
             let status = if reading.wheel_speed.abs() * mount.shearing_radius() < STANDS {
@@ -412,8 +415,8 @@ impl SlipEstimator {
     /// The law of the scenario shares the weight. Its torques are those of the motors, and its forces equal shares of what
     /// holds the pull; a wheel whose torque is not known has that of its force. Overturning moments are those of forces in
     /// the contact plane.
-    fn loads(&self, record: &MotorRecord, slope: f64) -> Result<Vec<f64>, Tipping> {
-        let (rover, site) = (&self.rover, self.site.with_slope(slope));
+    fn loads(&self, rover: &Rover, record: &MotorRecord, slope: f64) -> Result<Vec<f64>, Tipping> {
+        let site = self.site.with_slope(slope);
         let state = RoverState { yaw: record.yaw.unwrap_or(0.0), ..RoverState::default() };
         let pull = load::slope_pull(rover, &site, &state);
         let share = -pull / rover.mounts().len() as f64;
@@ -438,14 +441,34 @@ impl SlipEstimator {
         load::wheel_loads(rover, self.sharing, weight.into, moments)
     }
 
-    /// Slip angle of a wheel whose rover holds a course without turning [rad].
-    fn slip_angle(&self, record: &MotorRecord, place: usize) -> f64 {
-        let yaw = record.yaw.unwrap_or(0.0);
-        let crab = record.course.map_or(0.0, |course| course - yaw);
-        let (sin, cos) = wide::sin_cos(crab);
-        let hub = self.rover.mounts()[place].wheel_from_body(Vec2::new(cos, sin));
-        Slip::of_motion(hub.x, hub).angle
+    /// The rover with its wheels steered as in a record.
+    fn steered(&self, record: &MotorRecord) -> Cow<'_, Rover> {
+        let read = |place: usize| (*record.wheels.get(place)?)?.steering;
+        let mounts = self.rover.mounts();
+        let angles: Vec<f64> = (0..mounts.len())
+            .map(|place| {
+                let Mount { steering, steering_axis, .. } = &mounts[place];
+                let within = |axis: &SteeringAxis| {
+                    read(place).map(|angle| angle.clamp(-axis.limit, axis.limit))
+                };
+                steering_axis.as_ref().and_then(within).unwrap_or(*steering)
+            })
+            .collect();
+        if angles == self.rover.steering_angles() {
+            return Cow::Borrowed(&self.rover);
+        }
+        // Within its limits a rover can be steered.
+        self.rover.steered(&angles).map_or(Cow::Borrowed(&self.rover), Cow::Owned)
     }
+}
+
+/// Slip angle of a wheel whose rover holds a course without turning [rad].
+fn slip_angle(mount: &Mount, record: &MotorRecord) -> f64 {
+    let yaw = record.yaw.unwrap_or(0.0);
+    let crab = record.course.map_or(0.0, |course| course - yaw);
+    let (sin, cos) = wide::sin_cos(crab);
+    let hub = mount.wheel_from_body(Vec2::new(cos, sin));
+    Slip::of_motion(hub.x, hub).angle
 }
 
 /// Rims that are slower than this stand [m/s]: 0.1 mm/s.

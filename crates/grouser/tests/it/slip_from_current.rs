@@ -12,7 +12,7 @@ use grouser::studies::slip_from_current::{
     SlipSettings, SlipStatus, TorqueNoise, WIDEST,
 };
 use grouser::units::{EARTH_GRAVITY, deg};
-use grouser::vehicle::Motor;
+use grouser::vehicle::{Motor, Rover};
 
 use super::given::{complete_traverse, hakuto_wheel, linear, run, toyoura};
 use super::motors::{MOTOR, with};
@@ -45,6 +45,7 @@ fn log_of(run: &Trajectory, scenario: &Scenario, noise: f64, has_loads: bool) ->
                 wheel_speed: wheel.wheel_speed,
                 load: has_loads.then_some(reaction.load),
                 slip_angle: Some(reaction.slip.angle),
+                steering: None,
                 slip_ratio: Some(reaction.slip.ratio),
             })
         });
@@ -80,7 +81,8 @@ fn of_torque(
 ) -> SlipEstimate {
     let current = MOTOR.at(torque, wheel_speed).current;
     let (load, slip_angle) = (Some(load), Some(slip_angle));
-    let reading = MotorReading { current, wheel_speed, load, slip_angle, slip_ratio: None };
+    let reading =
+        MotorReading { current, wheel_speed, load, slip_angle, ..MotorReading::default() };
     let record = MotorRecord { wheels: vec![Some(reading)], ..MotorRecord::default() };
     estimator.estimate(&record)[0].expect("a reading")
 }
@@ -269,6 +271,31 @@ fn a_course_gives_the_slip_angle() {
     assert_eq!(angle(&record), 0.0);
     let held = MotorRecord { course: Some(0.0), ..record };
     assert!((angle(&held) + deg(5.0)).abs() < 1e-12);
+}
+
+/// With its wheels at the crab angle and its body on the contour a rover's wheels see what they see with the body turned.
+#[test]
+fn a_steering_angle_counts_against_the_course() {
+    let mut scenario = drive(10.0, 0.0);
+    let mut parts = scenario.rover.parts().clone();
+    parts.steering.limit = Some(deg(30.0));
+    scenario.rover = Rover::draft(parts).checked().expect("a rover");
+    let estimator = estimator(&scenario, SlipSettings::USUAL);
+    let steered = |steering: f64| {
+        let reading = MotorReading {
+            current: 0.25,
+            wheel_speed: 0.5,
+            steering: Some(deg(steering)),
+            ..MotorReading::default()
+        };
+        let wheels = vec![Some(reading); 4];
+        let record = MotorRecord { course: Some(0.0), wheels, ..MotorRecord::default() };
+        estimator.estimate(&record)[0].expect("a reading")
+    };
+    assert!((steered(5.0).slip_angle + deg(5.0)).abs() < 1e-12);
+    assert_eq!(steered(0.0).slip_angle, 0.0);
+    assert_eq!(steered(40.0), steered(30.0), "beyond the limit");
+    assert_ne!(steered(5.0).load, steered(0.0).load);
 }
 
 /// Both layouts of a log are the same log.
