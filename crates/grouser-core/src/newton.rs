@@ -1,15 +1,19 @@
-//! The zero of three functions of three unknowns, near a guess.
+//! The zero of as many functions as there are unknowns, near a guess.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector, U1};
 
 /// A zero, and what was learnt on the way to it.
-pub struct Zero<T> {
+pub struct Zero<T, D: Dim>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
     /// Where it is.
-    pub at: Vector3<f64>,
+    pub at: OVector<f64, D>,
     /// What the functions come from there.
     pub value: T,
     /// The inverse Jacobian, as far as it was needed.
-    pub inverse: Matrix3<f64>,
+    pub inverse: OMatrix<f64, D, D>,
 }
 
 /// Steps after which a search is given up.
@@ -22,17 +26,20 @@ const MOST_STEPS: usize = 12;
 /// * `f`: their values, and what those come from
 /// * `size`: of a step
 /// * `is_zero`: gets the values and the step that they would lead to
-pub fn zero_near<T>(
-    f: impl Fn(&Vector3<f64>) -> Option<(Vector3<f64>, T)>,
-    guess: &Vector3<f64>,
-    mut inverse: Matrix3<f64>,
-    size: impl Fn(&Vector3<f64>) -> f64,
+pub fn zero_near<T, D: Dim>(
+    f: impl Fn(&OVector<f64, D>) -> Option<(OVector<f64, D>, T)>,
+    guess: &OVector<f64, D>,
+    mut inverse: OMatrix<f64, D, D>,
+    size: impl Fn(&OVector<f64, D>) -> f64,
     longest: f64,
-    is_zero: impl Fn(&Vector3<f64>, &Vector3<f64>) -> bool,
-) -> Option<Zero<T>> {
-    let mut at = *guess;
+    is_zero: impl Fn(&OVector<f64, D>, &OVector<f64, D>) -> bool,
+) -> Option<Zero<T, D>>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
+{
+    let mut at = guess.clone();
     let (mut here, mut value) = f(&at)?;
-    let mut step = -(inverse * here);
+    let mut step = -(&inverse * &here);
     for _ in 0..MOST_STEPS {
         if is_zero(&here, &step) {
             return Some(Zero { at, value, inverse });
@@ -41,11 +48,11 @@ pub fn zero_near<T>(
         if length.is_nan() || length > longest {
             return None;
         }
-        at += step;
+        at += &step;
         let (there, value_there) = f(&at)?;
-        inverse = updated(&inverse, &step, &(there - here))?;
+        inverse = updated(&inverse, &step, &(&there - &here))?;
         (here, value) = (there, value_there);
-        step = -(inverse * here);
+        step = -(&inverse * &here);
         if size(&step) >= length {
             // As near as rounding lets it come, or going away.
             return is_zero(&here, &step).then_some(Zero { at, value, inverse });
@@ -59,11 +66,14 @@ pub fn zero_near<T>(
 /// ```text
 /// B' = B + (Δx − B Δf) (Δxᵀ B) / (Δxᵀ B Δf)                            Broyden (1965)
 /// ```
-fn updated(
-    inverse: &Matrix3<f64>,
-    step: &Vector3<f64>,
-    change: &Vector3<f64>,
-) -> Option<Matrix3<f64>> {
+fn updated<D: Dim>(
+    inverse: &OMatrix<f64, D, D>,
+    step: &OVector<f64, D>,
+    change: &OVector<f64, D>,
+) -> Option<OMatrix<f64, D, D>>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
+{
     let predicted = inverse * change;
     let divisor = step.dot(&predicted);
     let is_sound = divisor != 0.0 && divisor.is_finite();
@@ -72,6 +82,8 @@ fn updated(
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Matrix3, Vector3};
+
     use super::*;
 
     fn curved(x: &Vector3<f64>) -> Vector3<f64> {

@@ -20,6 +20,7 @@ pub mod motor;
 pub mod reaction;
 pub mod rover;
 pub mod ruts;
+pub mod speed_control;
 pub mod state;
 pub mod support_polygon;
 
@@ -32,4 +33,5 @@ pub use rover::{
     Body, Inertia, Mount, MountParts, Rover, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
 pub use ruts::Ruts;
+pub use speed_control::{Drive, Driven, MotorLimits, SpeedControl};
 pub use state::{Acceleration, RoverState, roll_and_pitch};

@@ -2,8 +2,10 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::integrate::Point;
 use super::power;
 use super::scenario::Scenario;
+use super::turning::Turning;
 use super::work::Work;
 use crate::contact::Slip;
 use crate::site::Site;
@@ -12,19 +14,25 @@ use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
-    Acceleration, OwnMoments, ReactionError, Rover, RoverState, Stance, WheelReaction, dynamics,
-    reaction::Ground,
+    Acceleration, Drive, Driven, MotorLimits, OwnMoments, ReactionError, Rover, RoverState, Stance,
+    WheelReaction, dynamics, reaction::Ground,
 };
 
-/// The equations of motion of a rover whose wheels turn at given speeds.
+/// The equations of motion of a rover whose motors are set to given speeds.
 pub struct Equations<'a> {
     ground: Ground<'a>,
     rim_speeds: &'a [f64],
     wheel_speeds: Vec<f64>,
+    /// Whether the speed of some wheel depends on its load.
+    droops: bool,
+    /// What each motor may take at most besides its own limits; nothing where there are no others.
+    limits: &'a [MotorLimits],
     /// The yaw rate that is held, if one is [rad/s].
     held_yaw_rate: Option<f64>,
     work: Cell<Work>,
     failure: RefCell<Option<ReactionError>>,
+    /// The last evaluation of wheels whose speeds depend on their loads: an integral alone changes nothing of it.
+    last: RefCell<Option<(RoverState, Vec<f64>, Evaluation)>>,
 }
 
 /// One evaluation of the motion: its rates, and the wheels that they come from.
@@ -77,12 +85,15 @@ impl<'a> Equations<'a> {
     pub fn new(ground: Ground<'a>, rim_speeds: &'a [f64]) -> Self {
         let wheel_speeds = ground.rover.wheel_speeds(rim_speeds).collect();
         Self {
+            droops: ground.rover.has_droop(),
+            limits: &[],
             ground,
             rim_speeds,
             wheel_speeds,
             held_yaw_rate: None,
             work: Cell::default(),
             failure: RefCell::new(None),
+            last: RefCell::new(None),
         }
     }
 
@@ -91,27 +102,45 @@ impl<'a> Equations<'a> {
         Self { held_yaw_rate: yaw_rate, ..self }
     }
 
+    /// The same for motors that may take less than their own limits allow.
+    ///
+    /// * `limits`: of each motor; nothing where there are no others
+    pub(super) fn limited(self, limits: &'a [MotorLimits]) -> Self {
+        Self { limits, ..self }
+    }
+
     /// The soil's reaction on each wheel: kinematics, slip, loads, sinkage, forces.
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
-        self.reactions_at(state, &self.ground.stance(state))
+        self.reactions_at(state, &self.ground.stance(state), self.rim_speeds)
+    }
+
+    /// The same at a point of a run, whose wheels may turn at other speeds than they are set to.
+    pub(super) fn reactions_of(&self, point: &Point) -> Result<Vec<WheelReaction>, ReactionError> {
+        self.reactions_at(&point.state, &self.ground.stance(&point.state), self.turning(point))
+    }
+
+    /// The rim speeds of the wheels at a point of a run [m/s].
+    pub(super) fn turning<'p>(&'p self, point: &'p Point) -> &'p [f64] {
+        point.turning.as_ref().map_or(self.rim_speeds, Turning::rim_speeds)
     }
 
     fn reactions_at(
         &self,
         state: &RoverState,
         stance: &Stance,
+        rim_speeds: &[f64],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let slips: Vec<Slip> = self.slips(state).collect();
+        let slips: Vec<Slip> = wheel_slips(self.ground.rover, state, rim_speeds).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
         self.ground.reactions(stance, &slips)
     }
 
-    /// The slip of every wheel, from the motion alone.
-    pub fn slips<'s>(&'s self, state: &'s RoverState) -> impl Iterator<Item = Slip> + 's {
-        wheel_slips(self.ground.rover, state, self.rim_speeds)
+    /// The slip of every wheel at a point of a run, from the motion alone.
+    pub(super) fn slips<'s>(&'s self, point: &'s Point) -> impl Iterator<Item = Slip> + 's {
+        wheel_slips(self.ground.rover, &point.state, self.turning(point))
     }
 
     /// The rates at a state.
@@ -127,9 +156,21 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// As [`rates`](Self::rates).
     pub fn evaluate(&self, state: &RoverState) -> Result<Evaluation, ReactionError> {
+        self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds)
+    }
+
+    /// The same for wheels that turn at other speeds than they are set to.
+    ///
+    /// * `rim_speeds`, `wheel_speeds`: of each wheel [m/s, rad/s]
+    fn evaluate_with(
+        &self,
+        state: &RoverState,
+        rim_speeds: &[f64],
+        wheel_speeds: &[f64],
+    ) -> Result<Evaluation, ReactionError> {
         let Ground { rover, own_moments, .. } = self.ground;
         let stance = self.ground.stance(state);
-        let wheels = self.reactions_at(state, &stance)?;
+        let wheels = self.reactions_at(state, &stance, rim_speeds)?;
         let forces = forces_of(&wheels);
         let (acceleration, holding_moment) = match self.held_yaw_rate {
             None => (dynamics::acceleration(rover, stance.pull, state, forces, own_moments), 0.0),
@@ -142,14 +183,14 @@ impl<'a> Equations<'a> {
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =
-            power::powers(&wheels, &self.wheel_speeds, hubs, aligning_work_rate);
+            power::powers(&wheels, wheel_speeds, hubs, aligning_work_rate);
         let rates = Rates {
             velocity_slope: stance.slope_from_body * state.velocity,
             yaw_rate: state.yaw_rate,
             acceleration,
             motor_power: motor_power + holding_moment * state.yaw_rate,
             soil_power,
-            electrical_power: power::electrical_power(rover, &wheels, &self.wheel_speeds),
+            electrical_power: power::electrical_power(rover, &wheels, wheel_speeds),
         };
         Ok(Evaluation { rates, wheels })
     }
@@ -171,13 +212,13 @@ impl<'a> Equations<'a> {
         self.ground.site
     }
 
-    /// The wheels' rim speeds, *ω r_s* [m/s].
+    /// The rim speeds that the wheels are set to, *ω_0 r_s* [m/s].
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
         self.rim_speeds
     }
 
-    /// The wheels' angular speeds, *ω* [rad/s].
+    /// The wheels' angular speeds that they are set to, *ω_0* [rad/s].
     #[must_use]
     pub fn wheel_speeds(&self) -> &[f64] {
         &self.wheel_speeds
@@ -188,6 +229,95 @@ impl<'a> Equations<'a> {
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
         self.count(|work| work.evaluations += 1);
         self.evaluate(state).map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
+    }
+
+    /// The same for wheels whose speeds depend on their loads: how these change, too.
+    pub(super) fn attempt_turning(
+        &self,
+        state: &RoverState,
+        turning: &Turning,
+    ) -> Option<(Rates, Turning)> {
+        let rover = self.ground.rover;
+        let rim_speeds = turning.rim_speeds();
+        let Evaluation { mut rates, wheels } = self.attempt_at(state, rim_speeds)?;
+        let mut changes = Turning::at(&vec![0.0; rim_speeds.len()]);
+        for (wheel, mount) in rover.mounts().iter().enumerate() {
+            let Some(driven) = self.driven(wheel, turning) else { continue };
+            let torque = wheels[wheel].settled.forces.torque;
+            let spin_rate = (driven.torque - torque) / mount.unit.inertia.yy;
+            changes.set(wheel, mount.shearing_radius() * spin_rate, driven.integral_rate);
+            rates.electrical_power += driven.electrical.power
+                - power::electrical(mount, torque, rim_speeds[wheel] / mount.shearing_radius())
+                    .map_or(0.0, |it| it.power);
+        }
+        Some((rates, changes))
+    }
+
+    /// As [`attempt`](Self::attempt), for wheels that turn at other speeds than they are set to.
+    ///
+    /// * `rim_speeds`: of each wheel [m/s]
+    pub(super) fn attempt_at(&self, state: &RoverState, rim_speeds: &[f64]) -> Option<Evaluation> {
+        if let Some((known_state, known_rims, evaluation)) = &*self.last.borrow()
+            && (known_state, known_rims.as_slice()) == (state, rim_speeds)
+        {
+            return Some(evaluation.clone());
+        }
+        self.count(|work| work.evaluations += 1);
+        let wheel_speeds: Vec<f64> = self.ground.rover.wheel_speeds(rim_speeds).collect();
+        let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds);
+        let evaluated = evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure));
+        let evaluation = evaluated.ok()?;
+        *self.last.borrow_mut() = Some((*state, rim_speeds.to_vec(), evaluation.clone()));
+        Some(evaluation)
+    }
+
+    /// The rim speed at which a wheel's motor turns it in the end under the soil's torque [m/s].
+    pub(super) fn rim_speed_under(&self, wheel: usize, reaction: &WheelReaction) -> f64 {
+        let mount = &self.ground.rover.mounts()[wheel];
+        let Some(motor) = mount.unit.motor else { return self.rim_speeds[wheel] };
+        let (set, torque) = (self.wheel_speeds[wheel], reaction.settled.forces.torque);
+        mount.shearing_radius() * motor.speed_under(torque, set, self.limits_of(wheel))
+    }
+
+    /// What the integral of a wheel's controller adds to the voltage in the end [V].
+    ///
+    /// * `rim_speed`: of the wheel [m/s]
+    pub(super) fn settled_integral(
+        &self,
+        wheel: usize,
+        rim_speed: f64,
+        reaction: &WheelReaction,
+    ) -> f64 {
+        let mount = &self.ground.rover.mounts()[wheel];
+        let (motor, torque) = (mount.unit.motor, reaction.settled.forces.torque);
+        let (set, speed) = (self.wheel_speeds[wheel], rim_speed / mount.shearing_radius());
+        motor.map_or(0.0, |motor| motor.settled_integral(torque, set, speed))
+    }
+
+    /// What a wheel's motor does, where its speed depends on its load.
+    ///
+    /// * `wheel`: its place among the mounts
+    pub(super) fn driven(&self, wheel: usize, turning: &Turning) -> Option<Driven> {
+        let mount = &self.ground.rover.mounts()[wheel];
+        let motor = mount.unit.motor.filter(|motor| motor.control.is_some())?;
+        let speed = turning.rim_speeds()[wheel] / mount.shearing_radius();
+        let (set, integral) = (self.wheel_speeds[wheel], turning.integral(wheel));
+        Some(motor.driven(Drive { set, speed, integral }, self.limits_of(wheel)))
+    }
+
+    /// What a wheel's motor may take at most besides its own limits.
+    pub(super) fn limits_of(&self, wheel: usize) -> MotorLimits {
+        self.limits.get(wheel).copied().unwrap_or(MotorLimits::NONE)
+    }
+
+    /// Whether the speed of some wheel depends on its load.
+    pub(super) fn droops(&self) -> bool {
+        self.droops
+    }
+
+    /// How many numbers of motors move.
+    pub(super) fn moving_motors(&self) -> usize {
+        if self.droops { 2 * self.ground.rover.wheel_count() } else { 0 }
     }
 
     /// Why the last failed attempt failed.

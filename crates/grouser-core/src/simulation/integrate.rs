@@ -20,11 +20,14 @@ pub(super) use runge_kutta::rk4;
 
 use super::equations::{Equations, Rates};
 use super::power;
+use super::turning::{MOST_WHEELS, Turning};
 use crate::units::Vec2;
 use crate::vehicle::{Acceleration, Rover, RoverState};
 
 /// How many numbers move: pose, velocities, and the three energies.
 const SIZE: usize = 9;
+/// And with motors whose speed depends on their load: for each wheel its speed and its controller's integral.
+const WITH_MOTORS: usize = SIZE + 2 * MOST_WHEELS;
 
 /// What is integrated: the rover's state, the motors' work, the work on the soil, and the electrical energy [J].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,9 +36,27 @@ pub(super) struct Point {
     pub(super) motors: f64,
     pub(super) soil: f64,
     pub(super) electrical: f64,
+    /// How the wheels turn, where that is not as they are set to.
+    pub(super) turning: Option<Turning>,
 }
 
 impl Point {
+    /// The start of a run.
+    pub(super) fn start(rover: &Rover, state: RoverState, turning: Option<Turning>) -> Self {
+        let mut point = Self { state, motors: 0.0, soil: 0.0, electrical: 0.0, turning };
+        point.start_work(rover);
+        point
+    }
+
+    /// That the motors have done no work so far. Of wheels whose speed depends on their load a record adds the spin, which
+    /// is therefore taken off here.
+    pub(super) fn start_work(&mut self, rover: &Rover) {
+        self.motors = self.turning.map_or(0.0, |turning| {
+            let wheel_speeds: Vec<f64> = rover.wheel_speeds(turning.rim_speeds()).collect();
+            -power::spin_energy(rover, &wheel_speeds)
+        });
+    }
+
     /// Changes pose and velocities at once. What that changes in kinetic energy counts as work of the motors.
     pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
         let before = power::kinetic_energy(rover, &self.state);
@@ -43,7 +64,9 @@ impl Point {
         self.motors += power::kinetic_energy(rover, &self.state) - before;
     }
 
-    fn from_array(y: &[f64; SIZE]) -> Self {
+    /// * `more`: how many numbers motors have
+    fn from_array<const N: usize>(y: &[f64; N], more: usize) -> Self {
+        let (of_motors, energies) = y[STATE..].split_at(more);
         Self {
             state: RoverState {
                 position: Vec2::new(y[0], y[1]),
@@ -51,43 +74,54 @@ impl Point {
                 velocity: Vec2::new(y[3], y[4]),
                 yaw_rate: y[5],
             },
-            motors: y[6],
-            soil: y[7],
-            electrical: y[8],
+            motors: energies[0],
+            soil: energies[1],
+            electrical: energies[2],
+            turning: (more > 0).then(|| Turning::of(of_motors)),
         }
     }
 
-    fn to_array(self) -> [f64; SIZE] {
+    fn to_array<const N: usize>(self) -> [f64; N] {
         let RoverState { position, yaw, velocity, yaw_rate } = self.state;
-        [
-            position.x,
-            position.y,
-            yaw,
-            velocity.x,
-            velocity.y,
-            yaw_rate,
-            self.motors,
-            self.soil,
-            self.electrical,
-        ]
+        let moving = [position.x, position.y, yaw, velocity.x, velocity.y, yaw_rate];
+        let of_motors = self.turning.as_ref();
+        laid_out(moving, of_motors, [self.motors, self.soil, self.electrical])
     }
 }
 
 impl Rates {
-    fn to_array(self) -> [f64; SIZE] {
+    fn to_array<const N: usize>(self, of_motors: Option<&Turning>) -> [f64; N] {
         let Acceleration { velocity_rate, yaw_acceleration } = self.acceleration;
-        [
+        let moving = [
             self.velocity_slope.x,
             self.velocity_slope.y,
             self.yaw_rate,
             velocity_rate.x,
             velocity_rate.y,
             yaw_acceleration,
-            self.motor_power,
-            self.soil_power,
-            self.electrical_power,
-        ]
+        ];
+        laid_out(moving, of_motors, [self.motor_power, self.soil_power, self.electrical_power])
     }
+}
+
+/// How many numbers pose and velocities have.
+const STATE: usize = 6;
+
+/// All numbers in their order: pose and velocities, what motors have, energies.
+fn laid_out<const N: usize>(
+    moving: [f64; STATE],
+    of_motors: Option<&Turning>,
+    energies: [f64; 3],
+) -> [f64; N] {
+    let mut all = [0.0; N];
+    all[..STATE].copy_from_slice(&moving);
+    let mut next = STATE;
+    for numbers in of_motors.iter().flat_map(|motors| motors.numbers()) {
+        all[next..next + numbers.len()].copy_from_slice(numbers);
+        next += numbers.len();
+    }
+    all[next..next + energies.len()].copy_from_slice(&energies);
+    all
 }
 
 /// Why time did not go on.
@@ -104,7 +138,14 @@ pub(super) type OnSample<'a> = dyn FnMut(f64, &Point) -> ControlFlow<()> + 'a;
 
 /// The rates at a point; none where the rover tips over or a wheel does not settle. An integrator may
 /// try points that no rover can reach, and steps back from there.
-fn rates_at(equations: &Equations<'_>, y: &[f64; SIZE]) -> Option<[f64; SIZE]> {
-    let rates = equations.attempt(&Point::from_array(y).state)?.rates.to_array();
+fn rates_at<const N: usize>(equations: &Equations<'_>, y: &[f64; N]) -> Option<[f64; N]> {
+    let point = Point::from_array(y, equations.moving_motors());
+    let rates: [f64; N] = match point.turning {
+        None => equations.attempt(&point.state)?.rates.to_array(None),
+        Some(turning) => {
+            let (rates, of_motors) = equations.attempt_turning(&point.state, &turning)?;
+            rates.to_array(Some(&of_motors))
+        }
+    };
     rates.iter().all(|rate| rate.is_finite()).then_some(rates)
 }

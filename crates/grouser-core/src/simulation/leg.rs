@@ -16,7 +16,7 @@ use super::scenario::{Integrator, Scenario};
 use super::state::State;
 use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
-use super::watch::WATCH_PERIOD;
+use super::watch::{self, WATCH_PERIOD};
 use crate::contact::SettleError;
 use crate::vehicle::{ReactionError, WheelReaction};
 
@@ -95,7 +95,7 @@ impl Leg<'_> {
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
             // A run starts steady: what its start would cost the motors is not in the energy balance.
-            point.motors = 0.0;
+            point.start_work(&self.scenario.rover);
             let wheels = || Ok(motion.wheels(&point));
             let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
         }
@@ -119,7 +119,7 @@ impl Leg<'_> {
         let mut history = std::mem::take(&mut self.state.history);
         let mut failed = None;
         let mut on_sample = |now: f64, reached: &Point| {
-            let wheels = || equations.reactions(&reached.state);
+            let wheels = || equations.reactions_of(reached);
             self.look(equations, now, reached, &wheels).unwrap_or_else(|error| {
                 failed = Some(error);
                 ControlFlow::Break(())
@@ -170,10 +170,17 @@ impl Leg<'_> {
         let state = &mut *self.state;
         (state.time, state.point) = (now, *reached);
         state.slip_ratios.clear();
-        state.slip_ratios.extend(equations.slips(rover).map(|slip| slip.ratio));
+        state.slip_ratios.extend(equations.slips(reached).map(|slip| slip.ratio));
+        if reached.turning.is_some() {
+            state.turning.copy_from_slice(equations.turning(reached));
+        }
         if is_multiple(now, WATCH_PERIOD) {
-            let (slip_ratios, rim_speeds) = (&state.slip_ratios, equations.rim_speeds());
-            state.outcome = state.watch.look(self.scenario, now, rover, slip_ratios, rim_speeds);
+            let turning = watch::Wheels {
+                slip_ratios: &state.slip_ratios,
+                rim_speeds: &state.turning,
+                set: equations.rim_speeds(),
+            };
+            state.outcome = state.watch.look(self.scenario, now, rover, turning);
         }
         let is_due = match self.record_only_at {
             None => {

@@ -31,6 +31,8 @@ pub enum StuckBecause {
     WheelsSpin,
     /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the rims'.
     NoProgress,
+    /// The motors stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the speeds that they are set to.
+    MotorsStall,
     /// A wheel sank to its axle.
     SunkToAxle {
         /// Its name.
@@ -63,6 +65,10 @@ impl Outcome {
                 StuckBecause::WheelsSpin => "the wheels spin without moving the rover".into(),
                 StuckBecause::NoProgress => {
                     "the rover gets ahead by less than 1 % of its rims".into()
+                }
+                StuckBecause::MotorsStall => {
+                    "its motors stall: they turn at less than 1 % of the speed that they are set to"
+                        .into()
                 }
                 StuckBecause::SunkToAxle { wheel, load, capacity } => format!(
                     "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries {capacity:.3} N"

@@ -4,7 +4,7 @@ use crate::site::Site;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 use crate::vehicle::load;
-use crate::vehicle::{Rover, RoverState, WheelReaction};
+use crate::vehicle::{Electrical, Mount, Rover, RoverState, WheelReaction};
 
 /// Energy since the start of a run [J].
 ///
@@ -54,9 +54,15 @@ pub fn powers(
 pub fn electrical_power(rover: &Rover, wheels: &[WheelReaction], wheel_speeds: &[f64]) -> f64 {
     let each = rover.mounts().iter().zip(wheels).zip(wheel_speeds);
     each.filter_map(|((mount, wheel), speed)| {
-        Some(mount.unit.motor?.at(wheel.settled.forces.torque, *speed).power)
+        Some(electrical(mount, wheel.settled.forces.torque, *speed)?.power)
     })
     .sum()
+}
+
+/// What a wheel's motor takes, where that is known, at a torque [N·m] and a speed of the wheel [rad/s].
+#[must_use]
+pub fn electrical(mount: &Mount, torque: f64, wheel_speed: f64) -> Option<Electrical> {
+    Some(mount.unit.motor?.at(torque, wheel_speed))
 }
 
 /// Kinetic energy of the rover as one rigid body [J], without the wheels' spin.

@@ -16,6 +16,7 @@ use nalgebra::Vector3;
 use super::equations::Equations;
 use super::integrate::Point;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
+use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{rolling_velocity, wheel_slips};
@@ -111,7 +112,8 @@ impl<'a> QuasiSteady<'a> {
 
     /// The wheels at a point of the motion.
     pub(super) fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
-        let slips = wheel_slips(self.equations.rover(), &point.state, self.equations.rim_speeds());
+        let rim_speeds = self.equations.turning(point);
+        let slips = wheel_slips(self.equations.rover(), &point.state, rim_speeds);
         let weights = self.stretch.weights(point.state.yaw);
         slips
             .enumerate()
@@ -173,6 +175,7 @@ impl<'a> QuasiSteady<'a> {
 
     /// Sets velocities to their steady state, which itself leaves nothing over to accelerate with.
     fn set_velocities(&mut self, point: &mut Point) {
+        point.turning = self.stretch.turning(point.state.yaw);
         let velocities = self.stretch.velocities(point.state.yaw);
         point.jump(self.equations.rover(), |state| {
             state.velocity = velocities.xy();
@@ -278,6 +281,19 @@ impl Stretch {
     fn velocities(&self, yaw: f64) -> Vector3<f64> {
         let weighted = self.nodes.iter().zip(self.weights(yaw));
         weighted.map(|(node, weight)| node.velocities * weight).sum()
+    }
+
+    /// How the wheels turn, where that is not as they are set to.
+    fn turning(&self, yaw: f64) -> Option<Turning> {
+        let first = self.nodes[0].turning?;
+        let mut sum = vec![0.0; 2 * first.rim_speeds().len()];
+        for (node, weight) in self.nodes.iter().zip(self.weights(yaw)) {
+            let numbers = node.turning.as_ref().map(Turning::numbers)?;
+            for (sum, number) in sum.iter_mut().zip(numbers.into_iter().flatten()) {
+                *sum += weight * number;
+            }
+        }
+        Some(Turning::of(&sum))
     }
 
     fn rates(&self, yaw: f64) -> PoseRates {

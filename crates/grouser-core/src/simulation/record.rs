@@ -45,25 +45,24 @@ impl Record {
         wheels: &[WheelReaction],
     ) -> Self {
         let (rover, site, state) = (equations.rover(), equations.site(), point.state);
-        let wheel_speeds = equations.wheel_speeds();
+        let wheel_speeds: Vec<f64> = rover.wheel_speeds(equations.turning(point)).collect();
+        let spin = power::spin_energy(rover, &wheel_speeds);
         let energy = EnergyBalance {
-            motors: point.motors,
+            // A spin that depends on the load is no jump: what it takes is seen by what it is.
+            motors: point.motors + if point.turning.is_some() { spin } else { 0.0 },
             soil: point.soil,
-            kinetic: power::kinetic_energy(rover, &state) + power::spin_energy(rover, wheel_speeds),
+            kinetic: power::kinetic_energy(rover, &state) + spin,
             potential: power::potential_energy(rover, site, &state),
             electrical: point.electrical,
         };
-        let wheels = wheels
-            .iter()
-            .zip(wheel_speeds)
-            .zip(rover.mounts())
-            .map(|((&reaction, &wheel_speed), mount)| {
-                let torque = reaction.settled.forces.torque;
-                let electrical = mount.unit.motor.map(|motor| motor.at(torque, wheel_speed));
-                let steering = mount.steering;
-                WheelRecord { wheel_speed, steering, reaction, electrical }
-            })
-            .collect();
+        let each = wheels.iter().zip(wheel_speeds).zip(rover.mounts()).enumerate();
+        let wheels = each.map(|(wheel, ((&reaction, wheel_speed), mount))| {
+            let driven = point.turning.and_then(|turning| equations.driven(wheel, &turning));
+            let steady = || power::electrical(mount, reaction.settled.forces.torque, wheel_speed);
+            let electrical = driven.map(|driven| driven.electrical).or_else(steady);
+            WheelRecord { wheel_speed, steering: mount.steering, reaction, electrical }
+        });
+        let wheels = wheels.collect();
         Self { time, state, wheels, energy }
     }
 }

@@ -194,7 +194,7 @@ impl Run {
     /// The wheels now; none where they do not settle.
     pub(crate) fn wheels(&self) -> Vec<WheelReaction> {
         let equations = Equations::of(&self.scenario, &self.state.rim_speeds);
-        equations.reactions(&self.state.point.state).unwrap_or_default()
+        equations.reactions_of(&self.state.point).unwrap_or_default()
     }
 
     /// Turns the wheels at the given speeds for a while. At its beginning they take them at once, and
@@ -408,7 +408,7 @@ impl Run {
             return;
         }
         let equations = Equations::of(&self.scenario, rim_speeds);
-        let wheels = equations.reactions(&point.state).unwrap_or_default();
+        let wheels = equations.reactions_of(point).unwrap_or_default();
         self.records.push(Record::new(&equations, *time, point, &wheels));
     }
 }
@@ -419,7 +419,7 @@ fn observation<'a>(scenario: &'a Scenario, state: &'a State) -> Observation<'a> 
         scenario,
         time: state.time,
         rover: &state.point.state,
-        rim_speeds: &state.rim_speeds,
+        rim_speeds: &state.turning,
         slip_ratios: &state.slip_ratios,
         work: Cell::new(Work::default()),
     }

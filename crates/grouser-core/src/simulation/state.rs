@@ -7,7 +7,8 @@ use super::method::Method;
 use super::outcome::Outcome;
 use super::power;
 use super::quasi_steady::Carried;
-use super::scenario::{Approach, Scenario};
+use super::scenario::{Approach, Motion, Scenario};
+use super::turning::Turning;
 use super::watch::Watch;
 use super::work::Work;
 use crate::vehicle::{Rover, RoverState};
@@ -23,8 +24,10 @@ pub struct State {
     pub(super) point: Point,
     /// The rim speed that each wheel is told to have [m/s].
     pub(super) told: Vec<f64>,
-    /// The one that it has, *ω r_s* [m/s].
+    /// The one that its motor is set to, *ω_0 r_s* [m/s].
     pub(super) rim_speeds: Vec<f64>,
+    /// The one that it has, *ω r_s* [m/s], when the rover was last looked at.
+    pub(super) turning: Vec<f64>,
     /// The rover with its wheels as they are steered now; none while they are as its document has them.
     pub(super) steered: Option<Arc<Rover>>,
     /// Until when wheels were steered, or could have been [s].
@@ -48,11 +51,17 @@ impl State {
     pub(super) fn new(scenario: &Scenario, told: Vec<f64>) -> Self {
         let rim_speeds = scenario.rim_speeds(&told);
         let state = scenario.start_state(&rim_speeds);
+        let rover = &scenario.rover;
+        let turning = rover.has_droop().then(|| match scenario.start.motion {
+            Motion::Rolling => Turning::at(&rim_speeds),
+            Motion::Rest => Turning::at(&vec![0.0; rim_speeds.len()]),
+        });
         Self {
             time: 0.0,
-            point: Point { state, motors: 0.0, soil: 0.0, electrical: 0.0 },
+            point: Point::start(rover, state, turning),
             slip_ratios: vec![0.0; rim_speeds.len()],
             told,
+            turning: turning.map_or_else(|| rim_speeds.clone(), |it| it.rim_speeds().to_vec()),
             rim_speeds,
             steered: None,
             steered_until: 0.0,
@@ -83,7 +92,7 @@ impl State {
     /// The wheels' rim speeds, *ω r_s* [m/s].
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
-        &self.rim_speeds
+        &self.turning
     }
 
     /// Work of the motors so far [J].
@@ -148,6 +157,21 @@ impl State {
     /// * `told`: of each rim [m/s]
     pub(super) fn turn(&mut self, scenario: &Scenario, told: &[f64]) {
         let (rover, rim_speeds) = (&scenario.rover, scenario.rim_speeds(told));
+        if let Some(turning) = &mut self.point.turning {
+            // Their motors follow in their time; where one holds every speed, at once.
+            let each = rover.mounts().iter().zip(&rim_speeds).enumerate();
+            for (wheel, (mount, rim_speed)) in each {
+                if mount.unit.motor.is_none_or(|motor| motor.control.is_none()) {
+                    turning.set(wheel, *rim_speed, 0.0);
+                }
+            }
+            self.told.copy_from_slice(told);
+            if rim_speeds != self.rim_speeds {
+                self.history.clear();
+                self.rim_speeds = rim_speeds;
+            }
+            return;
+        }
         let spin_energy = |rims: &[f64]| {
             let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
             power::spin_energy(rover, &wheel_speeds)
@@ -157,6 +181,7 @@ impl State {
         self.told.copy_from_slice(told);
         if rim_speeds != self.rim_speeds {
             self.history.clear();
+            self.turning.clone_from(&rim_speeds);
             self.rim_speeds = rim_speeds;
         }
     }

@@ -57,7 +57,7 @@ impl SteadyMotion {
         yaw: f64,
     ) -> Result<Self, NotSteady> {
         let here = Vector3::new(self.velocity.x, self.velocity.y, self.yaw_rate);
-        Self::near(&Equations::new(ground, rim_speeds), yaw, &here, self.memory)
+        Self::near(&Equations::new(ground, rim_speeds), yaw, &here, self.memory.clone())
             .or_else(|_| Self::of(ground, rim_speeds, yaw))
     }
 

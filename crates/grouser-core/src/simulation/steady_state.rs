@@ -11,9 +11,10 @@
 //! fade, which go the way that the rover would go. The Jacobian says how fast, and whether, a
 //! rover settles on its steady state.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
+use super::turning::Turning;
 use crate::newton;
 use crate::units::Vec2;
 use crate::vehicle::load;
@@ -71,6 +72,8 @@ pub(super) struct SteadyState {
     pub(super) powers: [f64; 3],
     /// The wheels.
     pub(super) wheels: Vec<WheelReaction>,
+    /// How they turn, where that is not as they are set to.
+    pub(super) turning: Option<Turning>,
 }
 
 /// Finds steady states, each from the one before.
@@ -84,10 +87,12 @@ pub(super) struct SteadySolver<'a> {
 }
 
 /// What the last steady state teaches about the next one.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Memory {
     /// Inverse Jacobian, (∂a/∂V)⁻¹ [s].
     inverse: Option<Matrix3<f64>>,
+    /// The same of the motors' balances, too, and how the wheels turned.
+    with_motors: Option<(DMatrix<f64>, Turning)>,
     /// Where stability was last looked at, and the settling time there [s].
     checked: Option<(f64, Vector3<f64>, f64)>,
 }
@@ -95,6 +100,8 @@ pub(super) struct Memory {
 /// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed [-]:
 /// a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
+/// Step of differences over the fastest rim's speed [-]: forces are exact to 1e-12.
+const STEP: f64 = 1e-6;
 
 /// Wheels that slip more than this on the mean all but spin [-]. Source: ours; the thrust of sand
 /// has then long stopped growing with slip.
@@ -114,7 +121,7 @@ impl<'a> SteadySolver<'a> {
 
     /// What to begin the next search with.
     pub(super) fn memory(&self) -> Memory {
-        self.memory
+        self.memory.clone()
     }
 
     /// Whether the ground is level.
@@ -139,12 +146,16 @@ impl<'a> SteadySolver<'a> {
         if self.scale == 0.0 {
             return Err(NotSteady::NoSteadyState);
         }
+        if self.equations.droops() {
+            return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
+        }
         if let Some(inverse) = self.memory.inverse
             && let Some(steady) = self.correct(yaw, guess, inverse)
         {
             return Ok(steady);
         }
-        let fresh = self.evaluate(yaw, guess).and_then(|here| self.jacobian(yaw, guess, &here));
+        let fresh =
+            self.evaluate(yaw, guess).and_then(|here| self.jacobian(yaw, guess, &here, None));
         if let Some(inverse) = fresh.and_then(Matrix3::try_inverse)
             && let Some(steady) = self.correct(yaw, guess, inverse)
         {
@@ -171,7 +182,93 @@ impl<'a> SteadySolver<'a> {
             |_, step| self.size(step) <= CLOSE,
         )?;
         self.memory.inverse = Some(zero.inverse);
-        Some(steady_state_at(yaw, zero.at, zero.value))
+        Some(steady_state_at(yaw, zero.at, zero.value, None))
+    }
+
+    /// The steady state of wheels whose speeds depend on their loads: their speeds are sought with the velocities.
+    fn find_turning(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
+        let known = self.memory.with_motors.take();
+        let set = Turning::at(self.equations.rim_speeds());
+        let turning = known.as_ref().map_or(set, |(_, turning)| *turning);
+        let near = joined(guess, turning.rim_speeds());
+        if let Some((inverse, _)) = known
+            && let Some(steady) = self.correct_turning(yaw, &near, inverse)
+        {
+            return Some(steady);
+        }
+        if let Some(steady) = self.find_turning_anew(yaw, &near) {
+            return Some(steady);
+        }
+        // From where motors would lead that hold their speeds.
+        let held = self.settle(yaw, guess)?;
+        self.find_turning_anew(yaw, &joined(&held.velocities, set.rim_speeds()))
+    }
+
+    fn find_turning_anew(&mut self, yaw: f64, near: &DVector<f64>) -> Option<SteadyState> {
+        let inverse = self.jacobian_turning(yaw, near)?.try_inverse()?;
+        self.correct_turning(yaw, near, inverse)
+    }
+
+    /// The steady state nearest to the guess, and how the wheels turn in it.
+    fn correct_turning(
+        &mut self,
+        yaw: f64,
+        guess: &DVector<f64>,
+        inverse: DMatrix<f64>,
+    ) -> Option<SteadyState> {
+        /// As in [`correct`](Self::correct).
+        const LONGEST: f64 = 0.5;
+        let size = |step: &DVector<f64>| {
+            let rims = step.rows(3, step.len() - 3).amax() / self.scale;
+            self.size(&step.fixed_rows::<3>(0).into()).max(rims)
+        };
+        let zero = newton::zero_near(
+            |unknown| self.imbalance(yaw, unknown),
+            guess,
+            inverse,
+            size,
+            LONGEST,
+            |_, step| size(step) <= CLOSE,
+        )?;
+        let (velocities, rim_speeds) = parted(&zero.at);
+        let turning = self.turning_at(&rim_speeds, &zero.value);
+        self.memory.with_motors = Some((zero.inverse, turning));
+        Some(steady_state_at(yaw, velocities, zero.value, Some(turning)))
+    }
+
+    /// Accelerations, and how far each rim is from the speed at which its motor turns it under the soil's torque [m/s].
+    fn imbalance(&self, yaw: f64, unknown: &DVector<f64>) -> Option<(DVector<f64>, Evaluation)> {
+        let (velocities, rim_speeds) = parted(unknown);
+        let here = self.equations.attempt_at(&state_of(yaw, &velocities), &rim_speeds)?;
+        let turned = rim_speeds.iter().zip(&here.wheels).enumerate();
+        let off: Vec<f64> = turned
+            .map(|(wheel, (rim, it))| rim - self.equations.rim_speed_under(wheel, it))
+            .collect();
+        Some((joined(&acceleration_of(&here), &off), here))
+    }
+
+    fn jacobian_turning(&self, yaw: f64, near: &DVector<f64>) -> Option<DMatrix<f64>> {
+        self.equations.count(|work| work.jacobians += 1);
+        let (here, _) = self.imbalance(yaw, near)?;
+        let mut jacobian = DMatrix::zeros(near.len(), near.len());
+        for axis in 0..near.len() {
+            let size = if axis == 2 { self.scale / self.reach } else { self.scale };
+            let mut beside = near.clone();
+            beside[axis] += STEP * size;
+            let (there, _) = self.imbalance(yaw, &beside)?;
+            jacobian.set_column(axis, &((there - &here) / (STEP * size)));
+        }
+        Some(jacobian)
+    }
+
+    /// Wheels at these rim speeds [m/s], with controllers whose integrals have settled.
+    fn turning_at(&self, rim_speeds: &[f64], here: &Evaluation) -> Turning {
+        let mut turning = Turning::at(rim_speeds);
+        for (wheel, reaction) in here.wheels.iter().enumerate() {
+            let integral = self.equations.settled_integral(wheel, rim_speeds[wheel], reaction);
+            turning.set(wheel, rim_speeds[wheel], integral);
+        }
+        turning
     }
 
     /// Implicit Euler steps from the guess, linear in each, as long as the accelerations allow.
@@ -184,12 +281,12 @@ impl<'a> SteadySolver<'a> {
         let mut span = FIRST_STEP;
         for _ in 0..MOST_STEPS {
             let acceleration = acceleration_of(&here);
-            let jacobian = self.jacobian(yaw, &velocities, &here)?;
+            let jacobian = self.jacobian(yaw, &velocities, &here, None)?;
             if let Some(inverse) = jacobian.try_inverse()
                 && self.size(&(inverse * acceleration)) <= CLOSE
             {
                 self.memory.inverse = Some(inverse);
-                return Some(steady_state_at(yaw, velocities, here));
+                return Some(steady_state_at(yaw, velocities, here, None));
             }
             let implicit = Matrix3::identity() / span - jacobian;
             let step = implicit.try_inverse()? * acceleration;
@@ -225,10 +322,7 @@ impl<'a> SteadySolver<'a> {
         if slip_ratio > MOST_SLIP {
             return Err(NotSteady::Spinning { slip_ratio });
         }
-        let jacobian = self
-            .evaluate(steady.yaw, &steady.velocities)
-            .and_then(|here| self.jacobian(steady.yaw, &steady.velocities, &here))
-            .ok_or(NotSteady::NoSteadyState)?;
+        let jacobian = self.jacobian_of(steady).ok_or(NotSteady::NoSteadyState)?;
         self.memory.inverse = jacobian.try_inverse();
         let slowest = jacobian
             .complex_eigenvalues()
@@ -246,8 +340,30 @@ impl<'a> SteadySolver<'a> {
         Ok(time)
     }
 
+    /// ∂a/∂V at a steady state whose wheels keep their speeds.
+    fn jacobian_of(&self, steady: &SteadyState) -> Option<Matrix3<f64>> {
+        let (yaw, velocities) = (steady.yaw, &steady.velocities);
+        let rims = steady.turning.as_ref().map(Turning::rim_speeds);
+        let here = self.evaluate_at(yaw, velocities, rims)?;
+        self.jacobian(yaw, velocities, &here, rims)
+    }
+
     fn evaluate(&self, yaw: f64, velocities: &Vector3<f64>) -> Option<Evaluation> {
-        self.equations.attempt(&state_of(yaw, velocities))
+        self.evaluate_at(yaw, velocities, None)
+    }
+
+    /// * `rims`: speeds at which they turn [m/s], if not as they are set to
+    fn evaluate_at(
+        &self,
+        yaw: f64,
+        velocities: &Vector3<f64>,
+        rims: Option<&[f64]>,
+    ) -> Option<Evaluation> {
+        let state = state_of(yaw, velocities);
+        match rims {
+            None => self.equations.attempt(&state),
+            Some(rims) => self.equations.attempt_at(&state, rims),
+        }
     }
 
     /// ∂a/∂V, by forward differences.
@@ -256,16 +372,15 @@ impl<'a> SteadySolver<'a> {
         yaw: f64,
         velocities: &Vector3<f64>,
         here: &Evaluation,
+        rims: Option<&[f64]>,
     ) -> Option<Matrix3<f64>> {
-        /// Step over the fastest rim's speed [-]: forces are exact to 1e-12.
-        const STEP: f64 = 1e-6;
         self.equations.count(|work| work.jacobians += 1);
         let steps = [self.scale, self.scale, self.scale / self.reach].map(|size| STEP * size);
         let mut jacobian = Matrix3::zeros();
         for (axis, step) in steps.into_iter().enumerate() {
             let mut beside = *velocities;
             beside[axis] += step;
-            let there = self.evaluate(yaw, &beside)?;
+            let there = self.evaluate_at(yaw, &beside, rims)?;
             let change = acceleration_of(&there) - acceleration_of(here);
             jacobian.set_column(axis, &(change / step));
         }
@@ -285,8 +400,23 @@ fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {
     Vector3::new(rate.x, rate.y, acceleration.yaw_acceleration)
 }
 
-fn steady_state_at(yaw: f64, velocities: Vector3<f64>, evaluation: Evaluation) -> SteadyState {
+/// Velocities and the wheels' numbers in one list.
+fn joined(velocities: &Vector3<f64>, of_wheels: &[f64]) -> DVector<f64> {
+    DVector::from_iterator(3 + of_wheels.len(), velocities.iter().chain(of_wheels).copied())
+}
+
+/// Such a list apart again.
+fn parted(all: &DVector<f64>) -> (Vector3<f64>, Vec<f64>) {
+    (all.fixed_rows::<3>(0).into(), all.rows(3, all.len() - 3).iter().copied().collect())
+}
+
+fn steady_state_at(
+    yaw: f64,
+    velocities: Vector3<f64>,
+    evaluation: Evaluation,
+    turning: Option<Turning>,
+) -> SteadyState {
     let Evaluation { rates, wheels } = evaluation;
     let powers = [rates.motor_power, rates.soil_power, rates.electrical_power];
-    SteadyState { yaw, velocities, powers, wheels }
+    SteadyState { yaw, velocities, powers, wheels, turning }
 }

@@ -24,21 +24,29 @@ pub const SLIDING_SPEED: f64 = 1e-3;
 pub(super) struct Watch {
     spinning: Option<f64>,
     without_progress: Option<f64>,
+    stalled: Option<f64>,
     sliding: Option<f64>,
+}
+
+/// How wheels turn.
+#[derive(Clone, Copy)]
+pub(super) struct Wheels<'a> {
+    /// Slip ratio of each [-].
+    pub(super) slip_ratios: &'a [f64],
+    /// Rim speed of each, *ω r_s* [m/s].
+    pub(super) rim_speeds: &'a [f64],
+    /// What its motor is set to [m/s].
+    pub(super) set: &'a [f64],
 }
 
 impl Watch {
     /// Looks at a rover; says what became of it once that is certain.
-    ///
-    /// * `slip_ratios`: of each wheel [-]
-    /// * `rim_speeds`: ω r_s of each wheel [m/s]
     pub(super) fn look(
         &mut self,
         scenario: &Scenario,
         time: f64,
         state: &RoverState,
-        slip_ratios: &[f64],
-        rim_speeds: &[f64],
+        Wheels { slip_ratios, rim_speeds, set }: Wheels<'_>,
     ) -> Option<Outcome> {
         let rim_sum: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
         let fastest_rim = rim_speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
@@ -59,6 +67,8 @@ impl Watch {
             .map(|(rim, mount)| rim.signum() * wheel_velocity(state, mount).x)
             .sum();
         let turns = rim_sum > 0.0;
+        let set_sum: f64 = set.iter().map(|speed| speed.abs()).sum();
+        let as_set: f64 = set.iter().zip(rim_speeds).map(|(set, rim)| set.signum() * rim).sum();
 
         let certain = |since: &mut Option<f64>, holds: bool| {
             *since = if holds { since.or(Some(time)) } else { None };
@@ -68,8 +78,11 @@ impl Watch {
         let spins = certain(&mut self.spinning, turns && mean_slip > SPINNING_SLIP);
         let stands =
             certain(&mut self.without_progress, turns && along_rims < LEAST_PROGRESS * rim_sum);
+        let stalls = certain(&mut self.stalled, set_sum > 0.0 && as_set < LEAST_PROGRESS * set_sum);
         if slides {
             Some(Outcome::Sliding { time })
+        } else if stalls {
+            Some(Outcome::Immobilised { time, because: StuckBecause::MotorsStall })
         } else if spins {
             Some(Outcome::Immobilised { time, because: StuckBecause::WheelsSpin })
         } else if stands {

@@ -11,6 +11,7 @@
 //! The torque constant *k* [N·m/A] is the constant of the voltage that turning induces, too [V·s/rad]. A self-locking gear
 //! lets no torque of the wheel through to the motor. Power that a driven motor gives is not taken back.
 
+use super::speed_control::SpeedControl;
 use crate::error::{ParameterError, not_negative, positive};
 
 /// A DC motor behind a gear.
@@ -27,6 +28,7 @@ use crate::error::{ParameterError, not_negative, positive};
 ///     efficiency: 0.6,
 ///     friction: 1e-3,
 ///     is_self_locking: false,
+///     control: None,
 /// };
 /// let taken = motor.at(0.4, 0.55);
 /// assert_eq!(format!("{:.0} mA at {:.2} V", 1e3 * taken.current, taken.voltage), "367 mA at 5.04 V");
@@ -46,6 +48,8 @@ pub struct Motor {
     pub friction: f64,
     /// Whether the wheel cannot turn the gear.
     pub is_self_locking: bool,
+    /// How it keeps its speed under load; without it, always.
+    pub control: Option<SpeedControl>,
 }
 
 /// What a motor takes.
@@ -74,7 +78,7 @@ impl Motor {
             let expected = "above 0 and at most 1";
             return Err(ParameterError::new("efficiency of a gear", self.efficiency, expected));
         }
-        Ok(())
+        self.control.map_or(Ok(()), |control| control.check())
     }
 
     /// What it takes to turn a wheel.
@@ -178,6 +182,7 @@ mod tests {
         efficiency: 0.6,
         friction: 1e-3,
         is_self_locking: false,
+        control: None,
     };
 
     /// The power goes to the wheel, to the gear, to friction and to heat, and nowhere else.

@@ -612,6 +612,14 @@ impl Rover {
         self.mounts.iter().any(|mount| mount.unit.motor.is_some())
     }
 
+    /// Whether the speed of some wheel depends on its load: its motor has a [speed controller](super::SpeedControl).
+    #[must_use]
+    pub fn has_droop(&self) -> bool {
+        self.mounts
+            .iter()
+            .any(|mount| mount.unit.motor.is_some_and(|motor| motor.control.is_some()))
+    }
+
     /// How many wheels there are.
     #[must_use]
     pub fn wheel_count(&self) -> usize {

@@ -9,7 +9,7 @@ use super::about::{assumed, name, notes, schema, source};
 use super::wheel::{self, WHEEL};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::{
-    Body, Inertia, Motor, MountParts, RoverParts, SteeringParts, WheelUnit,
+    Body, Inertia, Motor, MountParts, RoverParts, SpeedControl, SteeringParts, WheelUnit,
 };
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
@@ -140,6 +140,7 @@ const NO_MOTOR: Motor = Motor {
     efficiency: 0.0,
     friction: 0.0,
     is_self_locking: false,
+    control: None,
 };
 
 static MOTOR: Table<Motor> = Table {

@@ -1,11 +1,14 @@
 //! Motors that turn as fast as they are told, and what they take from the battery.
 
-use grouser::simulation::{Approach, Numerics, Scenario};
+use grouser::simulation::{
+    Approach, EnergyBalance, Integrator, Motion, Numerics, Outcome, Record, Run, Scenario,
+    StuckBecause, Trajectory,
+};
 use grouser::soil::{Shear, Soil};
 use grouser::units::deg;
-use grouser::vehicle::{LoadSharing, Motor, OwnMoments, Rover};
+use grouser::vehicle::{DriveLaw, LoadSharing, Motor, OwnMoments, Rover, SpeedControl};
 
-use super::given::{RIM_SPEED, linear, run, traverse};
+use super::given::{RIM_SPEED, hakuto_wheel, linear, run, traverse};
 use super::mounts::firm;
 
 /// A micro rover's: of the size that theory gives for one.
@@ -16,6 +19,7 @@ pub(crate) const MOTOR: Motor = Motor {
     efficiency: 0.6,
     friction: 1e-3,
     is_self_locking: false,
+    control: None,
 };
 
 pub(crate) fn with(motor: Motor, scenario: Scenario) -> Scenario {
@@ -112,4 +116,235 @@ fn a_wheel_may_have_the_only_motor() {
     parts.mounts[2].motor = Some(Motor { efficiency: 0.0, ..MOTOR });
     let error = Rover::draft(parts).checked().expect_err("no gear is as bad as that");
     assert!(error.to_string().contains("efficiency of a gear"), "{error}");
+}
+
+/// A controller without an integral, of which 12 % of the speed is missing at 1 N·m.
+const PROPORTIONAL: SpeedControl =
+    SpeedControl { gain: 97.5, integral: 0.0, voltage: None, current: None };
+
+fn controlled(control: SpeedControl) -> Motor {
+    Motor { control: Some(control), ..MOTOR }
+}
+
+/// Rim speed of each wheel over the one that is set [-].
+fn shares(record: &Record) -> Vec<f64> {
+    let radius = hakuto_wheel().shearing_radius();
+    record.wheels.iter().map(|wheel| wheel.wheel_speed * radius / RIM_SPEED).collect()
+}
+
+/// Closed form of the droop, under the torque that each wheel takes; with an integral nothing is missing.
+#[test]
+fn wheels_turn_at_the_speed_at_which_motor_and_soil_agree() {
+    let integral = SpeedControl { integral: 975.0, ..PROPORTIONAL };
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        for control in [PROPORTIONAL, integral] {
+            let mut scenario = with(controlled(control), across(12.0));
+            scenario.numerics.approach = approach;
+            let run = run(&scenario);
+            let radius = hakuto_wheel().shearing_radius();
+            for wheel in &run.last().wheels {
+                let torque = wheel.reaction.settled.forces.torque;
+                let current = (torque / (250.0 * 0.6) + 1e-3) / 0.010;
+                let missing =
+                    if control.integral > 0.0 { 0.0 } else { 10.0 * current / (2.5 + 97.5) };
+                let expected = RIM_SPEED / radius - missing;
+                let off = wheel.wheel_speed / expected - 1.0;
+                // An integral runs after a torque that grows as the nose falls.
+                let close = if control.integral > 0.0 { 2e-5 } else { 2e-7 };
+                assert!(off.abs() < close, "{approach:?}, {control:?}: {off:e}");
+                let electrical = wheel.electrical.expect("a motor");
+                assert!((electrical.current / current - 1.0).abs() < 1e-5, "{electrical:?}");
+            }
+        }
+    }
+}
+
+/// The integrated speeds and those of the balance are two ways to one motion.
+#[test]
+fn droop_is_the_same_dynamically_and_quasi_steadily() {
+    let ends = [Approach::Dynamic, Approach::QuasiSteady].map(|approach| {
+        let mut scenario = with(controlled(PROPORTIONAL), across(10.0));
+        scenario.numerics.approach = approach;
+        let run = run(&scenario);
+        let name = if approach == Approach::Dynamic { "dynamic" } else { "quasi-steady" };
+        assert_eq!(run.method.name(), name);
+        let EnergyBalance { motors, soil, kinetic, potential, .. } = run.last().energy;
+        let start = run.records[0].energy;
+        let left = motors - soil - (kinetic - start.kinetic) - (potential - start.potential);
+        assert!((left / motors).abs() < 1e-6, "{approach:?}: {left:e} J of {motors} J");
+        assert!(start.motors.abs() < 1e-15);
+        (run.last().state, run.last().energy.electrical)
+    });
+    let [dynamic, steady] = ends;
+    assert!((dynamic.0.position - steady.0.position).norm() < 1e-4);
+    assert!((dynamic.0.yaw - steady.0.yaw).abs() < 2e-5);
+    assert!((dynamic.1 / steady.1 - 1.0).abs() < 2e-3, "{} J, {} J", dynamic.1, steady.1);
+}
+
+/// Motors stiff and without losses drive as those that hold every speed.
+#[test]
+fn stiff_motors_without_losses_give_the_ideal_drive() {
+    let stiff = SpeedControl { gain: 1e7, ..PROPORTIONAL };
+    let lossless = Motor { efficiency: 1.0, friction: 0.0, ..controlled(stiff) };
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let with_approach = |mut scenario: Scenario| {
+            scenario.numerics.approach = approach;
+            run(&scenario)
+        };
+        let ideal = with_approach(across(10.0)).last().state;
+        let stiff = with_approach(with(lossless, across(10.0))).last().state;
+        let way = ideal.position.norm();
+        assert!((ideal.position - stiff.position).norm() < 1e-6 * way, "{approach:?}");
+        assert!((ideal.yaw - stiff.yaw).abs() < 1e-6, "{approach:?}");
+        assert!((ideal.velocity - stiff.velocity).norm() < 1e-6 * RIM_SPEED, "{approach:?}");
+    }
+}
+
+/// Downhill wheels carry more, turn slower, and let the nose fall: by how much more than with motors that hold their speed,
+/// in 20 s, for a tenth of the speed at 1 N·m.
+#[test]
+fn droop_of_a_tenth_at_a_newton_metre_lets_the_nose_fall_further() {
+    // R/(k N η (k N + K_p)) = 0.1 ω_0.
+    let tenth = 10.0 / (2.5 * 0.6 * 0.1 * (RIM_SPEED / 0.11)) - 2.5;
+    let control = SpeedControl { gain: tenth, ..PROPORTIONAL };
+    for (slope, expected) in [(5.0, 0.14), (10.0, 0.34), (15.0, 0.57), (20.0, 0.82)] {
+        let end = |scenario: Scenario| -> f64 {
+            let scenario = Scenario { duration: 20.0, ..scenario };
+            run(&scenario).last().state.yaw.to_degrees()
+        };
+        let further = end(across(slope)) - end(with(controlled(control), across(slope)));
+        assert!((further - expected).abs() < 0.01, "{slope}°: {further:.3}°");
+    }
+}
+
+fn stalled(run: &Trajectory) -> bool {
+    matches!(run.outcome, Outcome::Immobilised { because: StuckBecause::MotorsStall, .. })
+}
+
+/// A limit of the current is a limit of the torque: below what the wheels need on level ground they stall, above it they
+/// turn as they are set to; on a slope between both, too, one stalls and the other climbs.
+#[test]
+fn wheels_stall_whose_motors_may_not_give_what_the_slope_takes() {
+    let up = |slope: f64, current: f64| {
+        let control = SpeedControl { current: Some(current), integral: 975.0, ..PROPORTIONAL };
+        let mut scenario = with(controlled(control), across(slope));
+        scenario.start.yaw = deg(90.0);
+        run(&scenario)
+    };
+    let free = up(10.0, 10.0);
+    let needs: f64 = free
+        .last()
+        .wheels
+        .iter()
+        .map(|it| it.electrical.expect("a motor").current)
+        .fold(0.0, f64::max);
+    let enough = up(10.0, 1.02 * needs);
+    assert_eq!(enough.outcome, Outcome::Completed);
+    assert!((enough.last().state.position - free.last().state.position).norm() < 1e-3);
+    let less = up(10.0, 0.6 * needs);
+    assert!(stalled(&less), "{:?}", less.outcome);
+    for record in &less.records {
+        for wheel in &record.wheels {
+            let current = wheel.electrical.expect("a motor").current;
+            assert!(current.abs() < 0.6 * needs * (1.0 + 1e-9), "{current} A");
+        }
+    }
+}
+
+/// At the voltage of half the no-load speed the wheels turn at most so fast, and take no more voltage.
+#[test]
+fn a_limit_of_the_voltage_is_a_limit_of_the_speed() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let mut ends = Vec::new();
+        for integral in [0.0, 975.0] {
+            let control = SpeedControl { voltage: Some(2.8), integral, ..PROPORTIONAL };
+            let mut scenario = with(controlled(control), across(5.0));
+            scenario.numerics.approach = approach;
+            let run = run(&scenario);
+            for wheel in &run.last().wheels {
+                let electrical = wheel.electrical.expect("a motor");
+                assert!((electrical.voltage - 2.8).abs() < 1e-6, "{approach:?}: {electrical:?}");
+                let (torque, control) = (wheel.reaction.settled.forces.torque, None);
+                let closed = Motor { control, ..MOTOR }.speed(2.8, torque);
+                assert!((wheel.wheel_speed / closed - 1.0).abs() < 1e-5);
+            }
+            ends.push(shares(run.last()));
+        }
+        let alike = ends[0].iter().zip(&ends[1]).all(|(one, other)| (one - other).abs() < 1e-5);
+        assert!(alike && ends[0].iter().all(|share| *share < 0.95), "{approach:?}: {ends:?}");
+    }
+}
+
+/// An integral does not wind up at a limit: when the set speed comes back within it, the wheels follow within its time.
+#[test]
+fn a_controller_comes_back_from_its_limit_without_winding_up() {
+    let control = SpeedControl { voltage: Some(4.0), integral: 975.0, ..PROPORTIONAL };
+    let mut run = Run::new(&with(controlled(control), across(0.0))).expect("a run");
+    run.step(&[2.0 * RIM_SPEED; 4], 20.0).expect("at the limit");
+    assert!(run.state().rim_speeds()[0] < 1.8 * RIM_SPEED);
+    let slow = 0.5 * RIM_SPEED;
+    run.step(&[slow; 4], 0.5).expect("within it");
+    for rim in run.state().rim_speeds() {
+        assert!((rim / slow - 1.0).abs() < 0.02, "{rim} m/s");
+    }
+}
+
+/// Set to stand on a slope, a wheel with a self-locking gear stands; one without creeps as its short-circuited winding lets
+/// it, and friction above what the slope asks for holds it, too.
+#[test]
+fn a_rover_that_is_set_to_stand_holds_by_its_gear_or_by_friction() {
+    let open = SpeedControl { gain: 0.0, ..PROPORTIONAL };
+    let downhill = |motor: Motor| {
+        let mut scenario = with(motor, across(10.0));
+        scenario.start.yaw = deg(90.0);
+        scenario.start.motion = Motion::Rest;
+        scenario.drive = DriveLaw::Constant(0.0);
+        let run = run(&scenario);
+        -run.last().state.position.y
+    };
+    let locking = downhill(Motor { is_self_locking: true, ..controlled(open) });
+    let rubbing = downhill(Motor { friction: 4e-3, ..controlled(open) });
+    let rolling = downhill(Motor { friction: 0.0, ..controlled(open) });
+    assert!(locking.abs() < 1e-3, "{locking} m");
+    assert!(rubbing.abs() < 1e-3, "{rubbing} m");
+    assert!(rolling > 0.02, "{rolling} m");
+}
+
+/// An independent integrator, and steps that hold: the same motion while the motors' speeds settle.
+#[test]
+fn motors_settle_alike_by_small_explicit_steps() {
+    let control = SpeedControl { integral: 975.0, ..PROPORTIONAL };
+    let ends = [Integrator::Adaptive { tolerance: 1e-8 }, Integrator::Rk4 { step: 2e-5 }].map(
+        |integrator| {
+            let mut scenario = with(controlled(control), across(10.0));
+            scenario.duration = 0.3;
+            scenario.numerics.integrator = integrator;
+            *run(&scenario)
+                .last()
+                .wheels
+                .iter()
+                .map(|wheel| wheel.wheel_speed)
+                .chain([run(&scenario).last().state.position.x])
+                .collect::<Vec<f64>>()
+                .first_chunk::<5>()
+                .expect("four wheels and a place")
+        },
+    );
+    for (one, other) in ends[0].iter().zip(&ends[1]) {
+        assert!((one / other - 1.0).abs() < 1e-6, "{one}, {other}");
+    }
+}
+
+/// A run in pieces is the run, bit for bit, with motors as without.
+#[test]
+fn a_run_with_motors_goes_on_where_it_paused() {
+    let scenario = with(controlled(PROPORTIONAL), across(10.0));
+    let whole = run(&scenario);
+    let mut run = Run::new(&scenario).expect("a run");
+    for time in [2.5, 7.3, 10.0] {
+        run.advance(&mut scenario.drive.clone(), time).expect("it goes on");
+    }
+    let pieces = run.finish();
+    assert_eq!(whole.last().state, pieces.last().state);
+    assert_eq!(whole.last().wheels, pieces.last().wheels);
 }

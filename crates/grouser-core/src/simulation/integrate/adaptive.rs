@@ -12,27 +12,37 @@ use std::ops::Range;
 use super::dormand_prince::{ExplicitStep, explicit_step};
 use super::rosenbrock::{Linear, implicit_step};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
-use super::{OnSample, Point, SIZE, Stalled, rates_at};
+use super::{OnSample, Point, SIZE, Stalled, WITH_MOTORS, rates_at};
 use crate::elementary::pow;
 use crate::simulation::equations::Equations;
 
 /// Smallest error that a step may leave, besides the relative tolerance times the value, over that
 /// tolerance: lengths [m], angles [rad] and speeds [m/s] far below what a rover notices, and
-/// energies [J] to match.
-const SMALL: Numbers = [1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-2, 1e-2, 1e-2];
-
-/// So many numbers decide how long a step is: all but the electrical energy, which goes with the motors' work.
-const DECIDING: usize = SIZE - 1;
+/// energies [J] to match, as the voltage [V] that a controller's integral adds.
+///
+/// * `coupled`: the components that the rates depend on; energies come after them
+const fn small(index: usize, coupled: &Range<usize>) -> f64 {
+    if index < coupled.end { 1e-3 } else { 1e-2 }
+}
 
 /// What an unfinished motion knows: the step it is in, which may reach beyond the last time that was
 /// asked for. While the wheels keep their speeds it goes on there, as if it had never paused.
 #[derive(Clone, Default)]
-pub(in crate::simulation) struct History(Option<Way>);
+pub(in crate::simulation) struct History(Known);
+
+/// What is known of a motion, by how many numbers move.
+#[derive(Clone, Default)]
+enum Known {
+    #[default]
+    Nothing,
+    Ideal(Way<SIZE>),
+    WithMotors(Box<Way<WITH_MOTORS>>),
+}
 
 impl History {
     /// Forgets it: what comes is another motion.
     pub(in crate::simulation) fn clear(&mut self) {
-        self.0 = None;
+        self.0 = Known::Nothing;
     }
 }
 
@@ -51,10 +61,37 @@ pub(in crate::simulation) fn adaptive(
     history: &mut History,
     on_sample: &mut OnSample<'_>,
 ) -> Result<(), Stalled> {
+    let known = std::mem::take(&mut history.0);
+    history.0 = if start.turning.is_none() {
+        let known = if let Known::Ideal(way) = known { Some(way) } else { None };
+        let from = (start_time, start.to_array::<SIZE>());
+        let led = led(equations, from, known, times, tolerance, on_sample)?;
+        led.map_or(Known::Nothing, Known::Ideal)
+    } else {
+        let known = if let Known::WithMotors(way) = known { Some(*way) } else { None };
+        let from = (start_time, start.to_array::<WITH_MOTORS>());
+        let led = led(equations, from, known, times, tolerance, on_sample)?;
+        led.map_or(Known::Nothing, |way| Known::WithMotors(Box::new(way)))
+    };
+    Ok(())
+}
+
+/// The same by how many numbers move; the way on which it may go on, unless it was ended.
+fn led<const N: usize>(
+    equations: &Equations<'_>,
+    from: (f64, Numbers<N>),
+    known: Option<Way<N>>,
+    times: &[f64],
+    tolerance: f64,
+    on_sample: &mut OnSample<'_>,
+) -> Result<Option<Way<N>>, Stalled> {
+    let more = equations.moving_motors();
     let coupled = if equations.is_uneven() { COUPLED_BY_PLACE } else { COUPLED };
-    let motion = Motion { rates_at: |y: &Numbers| rates_at(equations, y), coupled, tolerance };
-    let from = (start_time, start.to_array());
-    let mut way = history.0.take().filter(|way| way.seen == from);
+    let coupled = coupled.start..coupled.end + more;
+    let deciding = SIZE - 1 + more;
+    let rates_at = |y: &Numbers<N>| rates_at(equations, y);
+    let motion = Motion { rates_at, coupled, deciding, tolerance };
+    let mut way = known.filter(|way| way.seen == from);
     for &time in times {
         let mut here = motion.reach(&from, way, time, &|step| {
             equations.count(|work| {
@@ -64,32 +101,31 @@ pub(in crate::simulation) fn adaptive(
         })?;
         let point = here.look(time);
         way = Some(here);
-        if on_sample(time, &Point::from_array(&point)).is_break() {
-            return Ok(());
+        if on_sample(time, &Point::from_array(&point, more)).is_break() {
+            return Ok(None);
         }
     }
-    history.0 = way;
-    Ok(())
+    Ok(way)
 }
 
 /// A motion on its way.
 #[derive(Clone, Copy)]
-struct Way {
+struct Way<const N: usize> {
     /// The last step: when it began [s], how long it is [s], where it led, and how.
     start: f64,
     span: f64,
-    step: Step,
+    step: Step<N>,
     implicit: bool,
-    next: Outlook,
+    next: Outlook<N>,
     /// When and where the motion was last looked at.
-    seen: (f64, Numbers),
+    seen: (f64, Numbers<N>),
 }
 
 /// What is known of the next step.
 #[derive(Clone, Copy)]
-struct Outlook {
+struct Outlook<const N: usize> {
     /// The rates at its start, if they were needed already.
-    rates: Option<Numbers>,
+    rates: Option<Numbers<N>>,
     /// How long it should be [s], and whether implicit.
     span: f64,
     implicit: bool,
@@ -98,7 +134,7 @@ struct Outlook {
     stagnant: (u32, f64),
 }
 
-impl Outlook {
+impl<const N: usize> Outlook<N> {
     fn first(span: f64, implicit: bool) -> Self {
         Self { rates: None, span, implicit, stagnant: (0, span) }
     }
@@ -121,13 +157,13 @@ impl Outlook {
     }
 }
 
-impl Way {
+impl<const N: usize> Way<N> {
     fn end(&self) -> f64 {
         self.start + self.span
     }
 
     /// The point at a time [s] within the last step.
-    fn look(&mut self, time: f64) -> Numbers {
+    fn look(&mut self, time: f64) -> Numbers<N> {
         let share = if time == self.end() { 1.0 } else { (time - self.start) / self.span };
         let point = self.step.at(share);
         self.seen = (time, point);
@@ -169,23 +205,25 @@ const LONGER: f64 = 1.5;
 const SETTLING: f64 = 0.5;
 
 /// A motion by its rates, to a tolerance.
-struct Motion<F> {
+struct Motion<F, const N: usize> {
     rates_at: F,
     /// The components that the rates depend on.
     coupled: Range<usize>,
+    /// How many decide how long a step is: all but the electrical energy, which goes with the motors' work, and comes last.
+    deciding: usize,
     tolerance: f64,
 }
 
 /// A step that was tried.
-struct Attempt {
-    step: Step,
+struct Attempt<const N: usize> {
+    step: Step<N>,
     /// The rates at its end, if they were needed.
-    rates: Option<Numbers>,
+    rates: Option<Numbers<N>>,
     /// The fastest rate of the motion near it [1/s].
     fastest: f64,
 }
 
-impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
+impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
     /// As many steps as it takes to reach a time [s], at least one in all.
     ///
     /// * `start`: when [s] and where the motion begins
@@ -193,11 +231,11 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
     /// * `on_step`: called for each new step
     fn reach(
         &self,
-        start: &(f64, Numbers),
-        mut way: Option<Way>,
+        start: &(f64, Numbers<N>),
+        mut way: Option<Way<N>>,
         time: f64,
-        on_step: &dyn Fn(&Way),
-    ) -> Result<Way, Stalled> {
+        on_step: &dyn Fn(&Way<N>),
+    ) -> Result<Way<N>, Stalled> {
         let mut steps = 0;
         loop {
             if let Some(way) = way.filter(|way| way.end() >= time) {
@@ -219,7 +257,7 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
     ///
     /// * `start`: when [s] and where the motion begins
     /// * `way`: how far it has come
-    fn step(&self, start: &(f64, Numbers), way: Option<&Way>) -> Result<Way, Stalled> {
+    fn step(&self, start: &(f64, Numbers<N>), way: Option<&Way<N>>) -> Result<Way<N>, Stalled> {
         let (now, from) = way.map_or(*start, |way| (way.end(), way.step.to));
         let stalled = |reason: &str| Stalled { time: now, reason: reason.to_owned() };
         let nowhere = || stalled("the rates of the motion have no value there");
@@ -264,41 +302,41 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
     /// A step by the one or the other method; none where a stage has no rates.
     fn attempt(
         &self,
-        from: &Numbers,
-        rates: Numbers,
-        linear: Option<&Linear>,
+        from: &Numbers<N>,
+        rates: Numbers<N>,
+        linear: Option<&Linear<N>>,
         span: f64,
-    ) -> Option<Attempt> {
+    ) -> Option<Attempt<N>> {
         if let Some(linear) = linear {
             let step = implicit_step(from, linear, span, &self.rates_at)?;
             return Some(Attempt { step, rates: None, fastest: linear.fastest() });
         }
         let ExplicitStep { step, rates, fastest } =
-            explicit_step(from, rates, span, &self.rates_at)?;
+            explicit_step(from, rates, span, COUPLED.start..self.coupled.end, &self.rates_at)?;
         Some(Attempt { step, rates: Some(rates), fastest })
     }
 
     /// A step's error over what is allowed, as a root mean square over the components that decide.
-    fn miss(&self, step: &Step) -> f64 {
+    fn miss(&self, step: &Step<N>) -> f64 {
         let part = |i: usize| {
-            let size = step.from[i].abs().max(step.to[i].abs()) + SMALL[i];
+            let size = step.from[i].abs().max(step.to[i].abs()) + small(i, &self.coupled);
             let miss = step.error[i] / (EMBEDDED_EXCESS * self.tolerance * size);
             miss * miss
         };
-        ((0..DECIDING).map(part).sum::<f64>() / DECIDING as f64).sqrt()
+        ((0..self.deciding).map(part).sum::<f64>() / self.deciding as f64).sqrt()
     }
 
     /// How long the first step of a motion should be. What the wheels' new speeds disturb dies out
     /// at a rate λ, the second derivative over the first, from a size |f| / λ, and a step of order
     /// 4 misses a share c (λ h)⁵ of that.
-    fn first_outlook(&self, from: &Numbers, rates: &Numbers) -> Outlook {
+    fn first_outlook(&self, from: &Numbers<N>, rates: &Numbers<N>) -> Outlook<N> {
         /// *c* [-]: the explicit method's greatest breach of a condition of order 5, in its embedded
         /// step.
         const SHARE: f64 = 1e-3;
         /// Length of the trial that finds the second derivative, over the size of the motion [-].
         const TRIAL: f64 = 1e-3;
-        let size = |rates: &Numbers| {
-            let part = |i: usize| rates[i].abs() / (from[i].abs() + SMALL[i]);
+        let size = |rates: &Numbers<N>| {
+            let part = |i: usize| rates[i].abs() / (from[i].abs() + small(i, &self.coupled));
             self.coupled.clone().map(part).fold(0.0, f64::max)
         };
         let first = size(rates);
@@ -325,14 +363,16 @@ impl<F: Fn(&Numbers) -> Option<Numbers>> Motion<F> {
 mod tests {
     use super::*;
 
-    /// Numbers that couple: the first two components that may.
-    fn pair(one: f64, other: f64) -> Numbers {
+    const DECIDING: usize = SIZE - 1;
+
+    /// Numbers<SIZE> that couple: the first two components that may.
+    fn pair(one: f64, other: f64) -> Numbers<SIZE> {
         let mut numbers = [0.0; SIZE];
         (numbers[COUPLED.start], numbers[COUPLED.start + 1]) = (one, other);
         numbers
     }
 
-    fn of(numbers: &Numbers) -> (f64, f64) {
+    fn of(numbers: &Numbers<SIZE>) -> (f64, f64) {
         (numbers[COUPLED.start], numbers[COUPLED.start + 1])
     }
 
@@ -384,7 +424,7 @@ mod tests {
     }
 
     impl Problem {
-        fn rates(&self) -> impl Fn(&Numbers) -> Option<Numbers> + '_ {
+        fn rates(&self) -> impl Fn(&Numbers<SIZE>) -> Option<Numbers<SIZE>> + '_ {
             |numbers| {
                 let (one, other) = of(numbers);
                 let (one, other) = (self.rates)(one, other);
@@ -392,20 +432,21 @@ mod tests {
             }
         }
 
-        fn start(&self) -> (f64, Numbers) {
+        fn start(&self) -> (f64, Numbers<SIZE>) {
             (0.0, pair(self.start.0, self.start.1))
         }
 
-        fn miss(&self, numbers: &Numbers) -> f64 {
+        fn miss(&self, numbers: &Numbers<SIZE>) -> f64 {
             let (one, other) = of(numbers);
             (one - self.end.0).abs().max((other - self.end.1).abs())
         }
 
         /// Where it is led, in how many explicit and implicit steps.
-        fn led(&self, tolerance: f64) -> (Numbers, [u32; 2]) {
-            let motion = Motion { rates_at: self.rates(), coupled: COUPLED, tolerance };
+        fn led(&self, tolerance: f64) -> (Numbers<SIZE>, [u32; 2]) {
+            let motion =
+                Motion { rates_at: self.rates(), coupled: COUPLED, deciding: DECIDING, tolerance };
             let counts = std::cell::Cell::new([0, 0]);
-            let count = |way: &Way| {
+            let count = |way: &Way<SIZE>| {
                 let mut now = counts.get();
                 now[usize::from(way.implicit)] += 1;
                 counts.set(now);
@@ -425,7 +466,7 @@ mod tests {
                         Linear::at(&now, rates, COUPLED, &self.rates()).expect("it has rates");
                     implicit_step(&now, &linear, span, &self.rates())
                 } else {
-                    explicit_step(&now, rates, span, &self.rates()).map(|it| it.step)
+                    explicit_step(&now, rates, span, COUPLED, &self.rates()).map(|it| it.step)
                 };
                 now = step.expect("it has rates").to;
             }
@@ -498,7 +539,7 @@ mod tests {
                         Linear::at(&from, rates, COUPLED, &problem.rates()).expect("it has rates");
                     implicit_step(&from, &linear, span, &problem.rates())
                 } else {
-                    explicit_step(&from, rates, span, &problem.rates()).map(|it| it.step)
+                    explicit_step(&from, rates, span, COUPLED, &problem.rates()).map(|it| it.step)
                 };
                 let step = step.expect("it has rates");
                 let (one, other) = of(&step.to);
@@ -517,7 +558,12 @@ mod tests {
     #[test]
     fn points_on_the_way_are_as_near() {
         let problem = kaps(1e-4);
-        let motion = Motion { rates_at: problem.rates(), coupled: COUPLED, tolerance: 1e-6 };
+        let motion = Motion {
+            rates_at: problem.rates(),
+            coupled: COUPLED,
+            deciding: DECIDING,
+            tolerance: 1e-6,
+        };
         let mut way = None;
         for time in (1..=100).map(|count| 0.01 * f64::from(count)) {
             let mut here = motion.reach(&problem.start(), way, time, &|_| {}).expect("it is led");
@@ -532,20 +578,25 @@ mod tests {
     #[test]
     fn motions_that_end_say_when_and_why() {
         let ends = |x: f64| (x < 1.0).then(|| pair(1.0, 0.0));
-        let rates_at = |numbers: &Numbers| ends(of(numbers).0);
-        let motion = Motion { rates_at, coupled: COUPLED, tolerance: 1e-6 };
+        let rates_at = |numbers: &Numbers<SIZE>| ends(of(numbers).0);
+        let motion = Motion { rates_at, coupled: COUPLED, deciding: DECIDING, tolerance: 1e-6 };
         let stalled = motion.reach(&(0.0, [0.0; SIZE]), None, 2.0, &|_| {}).err().expect("it ends");
         assert!((stalled.time - 1.0).abs() < 1e-6, "{stalled:?}");
         let from_nowhere = motion.reach(&(0.5, pair(3.0, 0.0)), None, 2.0, &|_| {});
         assert_eq!(from_nowhere.err().map(|stalled| stalled.time), Some(0.5));
         for wild in [f64::NAN, f64::INFINITY, f64::MAX] {
-            let rates_at = |numbers: &Numbers| Some(pair(wild * (1.0 + of(numbers).0), wild));
-            let motion = Motion { rates_at, coupled: COUPLED, tolerance: 1e-6 };
+            let rates_at = |numbers: &Numbers<SIZE>| Some(pair(wild * (1.0 + of(numbers).0), wild));
+            let motion = Motion { rates_at, coupled: COUPLED, deciding: DECIDING, tolerance: 1e-6 };
             assert!(motion.reach(&(0.0, [0.0; SIZE]), None, 1.0, &|_| {}).is_err(), "{wild}");
         }
         for tolerance in [f64::MIN_POSITIVE, 1e300] {
             let problem = kaps(1e-3);
-            let motion = Motion { rates_at: problem.rates(), coupled: COUPLED, tolerance };
+            let motion = Motion {
+                rates_at: problem.rates(),
+                coupled: COUPLED,
+                deciding: DECIDING,
+                tolerance,
+            };
             let led = motion.reach(&problem.start(), None, 1.0, &|_| {});
             assert_eq!(led.is_ok(), tolerance > 1.0, "a tolerance of {tolerance:e}");
         }

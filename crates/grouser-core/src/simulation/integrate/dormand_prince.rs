@@ -6,8 +6,9 @@
 //! Shampine's, as in Hairer, Norsett and Wanner (1993), Solving Ordinary Differential Equations I,
 //! section II.6. The tests below hold the coefficients to the order conditions.
 
-use super::SIZE;
-use super::step::{COUPLED, Numbers, Step, length, sum};
+use std::ops::Range;
+
+use super::step::{Numbers, Step, length, sum};
 
 const STAGES: usize = 7;
 
@@ -45,22 +46,25 @@ const D: [f64; STAGES] = [
 ];
 
 /// A step, and what was seen at its end.
-pub(super) struct ExplicitStep {
-    pub(super) step: Step,
+pub(super) struct ExplicitStep<const N: usize> {
+    pub(super) step: Step<N>,
     /// The rates there.
-    pub(super) rates: Numbers,
+    pub(super) rates: Numbers<N>,
     /// The fastest rate at which the motion near it grows or dies out [1/s]: from two points of the
     /// same time. Source: Hairer and Wanner (1996), section IV.2.
     pub(super) fastest: f64,
 }
 
 /// A step of a span [s] from a point with its rates; None where a stage has no rates.
-pub(super) fn explicit_step(
-    from: &Numbers,
-    rates: Numbers,
+///
+/// * `coupled`: the components whose fastest rate counts
+pub(super) fn explicit_step<const N: usize>(
+    from: &Numbers<N>,
+    rates: Numbers<N>,
     span: f64,
-    rates_at: &impl Fn(&Numbers) -> Option<Numbers>,
-) -> Option<ExplicitStep> {
+    coupled: Range<usize>,
+    rates_at: &impl Fn(&Numbers<N>) -> Option<Numbers<N>>,
+) -> Option<ExplicitStep<N>> {
     // Each is a change over the whole span.
     let mut stages = [rates.map(|rate| span * rate); STAGES];
     let (mut to, mut before) = (*from, *from);
@@ -69,16 +73,16 @@ pub(super) fn explicit_step(
         to = sum(from, &A[stage], &stages[..stage]);
         stages[stage] = rates_at(&to)?.map(|rate| span * rate);
     }
-    let error = sum(&[0.0; SIZE], &E, &stages);
-    let last = sum(&[0.0; SIZE], &D, &stages);
+    let error = sum(&[0.0; N], &E, &stages);
+    let last = sum(&[0.0; N], &D, &stages);
     let [first, .., next_to_last, end] = stages;
-    let one: Numbers = std::array::from_fn(|i| first[i] - (to[i] - from[i]));
+    let one: Numbers<N> = std::array::from_fn(|i| first[i] - (to[i] - from[i]));
     let two = std::array::from_fn(|i| to[i] - from[i] - end[i] - one[i] + last[i]);
     let bends = [one, two, last.map(|part| -part)];
     // Places count for little within the time in which slip settles.
-    let apart = |one: &Numbers, other: &Numbers| {
-        let difference: Numbers = std::array::from_fn(|i| one[i] - other[i]);
-        length(&difference[COUPLED])
+    let apart = |one: &Numbers<N>, other: &Numbers<N>| {
+        let difference: Numbers<N> = std::array::from_fn(|i| one[i] - other[i]);
+        length(&difference[coupled.clone()])
     };
     let turned = apart(&end, &next_to_last) / span;
     let apart = apart(&to, &before);
