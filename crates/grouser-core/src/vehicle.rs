@@ -10,6 +10,7 @@
 //! forward, y left and z up, its origin at the centre of mass of the body without its wheels; a
 //! `wheel` frame is the body's, turned to the left by the wheel's steering angle, at its hub.
 
+pub mod battery;
 pub mod by_wheel;
 pub mod drive;
 pub mod dynamics;
@@ -23,7 +24,9 @@ pub mod ruts;
 pub mod speed_control;
 pub mod state;
 pub mod support_polygon;
+pub mod winding;
 
+pub use battery::{Battery, Terminals};
 pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
 pub use load::{LoadSharing, OwnMoments};
@@ -35,3 +38,4 @@ pub use rover::{
 pub use ruts::Ruts;
 pub use speed_control::{Drive, Driven, MotorLimits, SpeedControl};
 pub use state::{Acceleration, RoverState, roll_and_pitch};
+pub use winding::Winding;

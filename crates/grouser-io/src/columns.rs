@@ -13,7 +13,7 @@ use serde::ser::SerializeMap;
 
 use super::cell::{Cell, ColumnKind};
 use super::unit::{
-    A, DEG, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, RAD_S, S, UNITS, Unit, W,
+    A, DEG, DEG_C, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, RAD_S, S, UNITS, Unit, W,
 };
 use crate::statistics::{Band, Probability};
 
@@ -103,8 +103,6 @@ pub const SLIP_RATIO: Quantity = quantity("slip_ratio", ONE);
 pub const SLIP_ANGLE: Quantity = quantity("slip_angle_deg", DEG);
 /// Angular speed of a wheel.
 pub const WHEEL_SPEED: Quantity = quantity("wheel_speed_rad_s", RAD_S);
-/// Current of a motor.
-pub const CURRENT: Quantity = quantity("current_a", A);
 /// Sinkage.
 pub const SINKAGE: Quantity = quantity("sinkage_mm", MM);
 /// Force along a wheel.
@@ -113,6 +111,10 @@ pub const DRAWBAR_PULL: Quantity = quantity("drawbar_pull_n", N);
 pub const SIDE_FORCE: Quantity = quantity("side_force_n", N);
 /// Torque.
 pub const TORQUE: Quantity = quantity("torque_nm", NM);
+/// Current of a motor.
+pub const CURRENT: Quantity = quantity("current_a", A);
+/// Temperature of a motor's winding.
+pub const TEMPERATURE: Quantity = quantity("winding_temperature_degc", DEG_C);
 /// Power of motors.
 pub const POWER: Quantity = quantity("power_w", W);
 /// Work of motors.

@@ -6,6 +6,7 @@ pub(crate) mod data_set;
 pub(crate) mod data_sheet;
 mod differences;
 pub(crate) mod mission;
+mod power;
 pub(crate) mod prior;
 pub(crate) mod rover;
 pub(crate) mod run;

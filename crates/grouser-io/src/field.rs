@@ -11,8 +11,8 @@ use serde_json::Value as Json;
 use super::kind::Kind;
 use super::tree::Node;
 pub(crate) use super::unit::{
-    DEG, DEG_S, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N, NM, NM_A, OF_KEY,
-    OHM, ONE, S, Unit,
+    A, DEG, DEG_C, DEG_S, J_K, K_W, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N,
+    NM, NM_A, OF_KEY, OHM, ONE, S, Unit, V, V_RAD, V_S_RAD, W, WH,
 };
 
 /// The keys of a document, or of a table in it, in the order in which they are written.

@@ -1,6 +1,6 @@
 //! Missions as documents say them: legs with keys, each of which becomes a leg with a manoeuvre.
 
-use super::columns::{ENERGY, Quantity, SLIP_RATIO, TIME, TORQUE, quantity};
+use super::columns::{CURRENT, ENERGY, Quantity, SLIP_RATIO, TEMPERATURE, TIME, TORQUE, quantity};
 use super::unit::{DEG, M, ONE};
 use grouser_core::mission::{
     Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Steering, Stop,
@@ -41,6 +41,9 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
         Limited::Time => TIME,
         Limited::Energy => ENERGY,
         Limited::OffPath => quantity("off_path_m", M),
+        Limited::Current => CURRENT,
+        Limited::Temperature => TEMPERATURE,
+        Limited::Discharge => quantity("depth_of_discharge", ONE),
     }
 }
 

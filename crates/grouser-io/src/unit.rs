@@ -16,6 +16,8 @@ enum Scale {
     Kilo,
     /// A thousandth of the SI unit.
     Milli,
+    /// Hours for seconds.
+    Hours,
     /// Degrees for radians.
     Degrees,
 }
@@ -38,6 +40,7 @@ impl Unit {
             Scale::Same => value,
             Scale::Kilo => value * 1e3,
             Scale::Milli => value * 1e-3,
+            Scale::Hours => value * 3600.0,
             Scale::Degrees => value.to_radians(),
         }
     }
@@ -49,6 +52,7 @@ impl Unit {
             Scale::Same => value,
             Scale::Kilo => value * 1e-3,
             Scale::Milli => value * 1e3,
+            Scale::Hours => value / 3600.0,
             Scale::Degrees => value.to_degrees(),
         }
     }
@@ -113,10 +117,22 @@ pub const OHM: Unit = Unit::si("Ω");
 pub const A: Unit = Unit::si("A");
 /// Volts.
 pub const V: Unit = Unit::si("V");
+/// Volt seconds per radian: the gain of a speed controller.
+pub const V_S_RAD: Unit = Unit::si("V·s/rad");
+/// Volts per radian: the integral gain of a speed controller.
+pub const V_RAD: Unit = Unit::si("V/rad");
+/// Degrees Celsius.
+pub const DEG_C: Unit = Unit::si("°C");
+/// Kelvins per watt.
+pub const K_W: Unit = Unit::si("K/W");
+/// Joules per kelvin.
+pub const J_K: Unit = Unit::si("J/K");
 /// Watts.
 pub const W: Unit = Unit::si("W");
 /// Joules.
 pub const J: Unit = Unit::si("J");
+/// Watt-hours.
+pub const WH: Unit = Unit::scaled("W·h", Scale::Hours);
 /// Joules per metre.
 pub const J_PER_M: Unit = Unit::si("J/m");
 /// Of a number without a unit.
@@ -126,7 +142,7 @@ pub const OF_KEY: Unit = Unit::si("");
 
 /// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
 /// Python package asks this table; a test compares it with that of `docs/conventions.md`.
-pub const UNITS: [(&str, Unit); 30] = [
+pub const UNITS: [(&str, Unit); 36] = [
     ("_m_per_m", M_PER_M),
     ("_deg_per_m", DEG_PER_M),
     ("_j_per_m", J_PER_M),
@@ -140,6 +156,11 @@ pub const UNITS: [(&str, Unit); 30] = [
     ("_kg_m3", KG_M3),
     ("_nm_a", NM_A),
     ("_ohm", OHM),
+    ("_v_s_rad", V_S_RAD),
+    ("_v_rad", V_RAD),
+    ("_degc", DEG_C),
+    ("_k_w", K_W),
+    ("_j_k", J_K),
     ("_m_s2", M_S2),
     ("_rad_s", RAD_S),
     ("_deg_s", DEG_S),
@@ -150,6 +171,7 @@ pub const UNITS: [(&str, Unit); 30] = [
     ("_kg", KG),
     ("_mm", MM),
     ("_nm", NM),
+    ("_wh", WH),
     ("_n", N),
     ("_m", M),
     ("_s", S),

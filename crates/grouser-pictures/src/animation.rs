@@ -243,7 +243,8 @@ fn outcome(outcome: &Outcome) -> Option<(f64, String)> {
         Outcome::Completed => return None,
         Outcome::Immobilised { time, .. }
         | Outcome::Sliding { time }
-        | Outcome::TippedOver { time } => *time,
+        | Outcome::TippedOver { time }
+        | Outcome::BrownOut { time, .. } => *time,
     };
     let name = outcome.name().replace('_', " ");
     let reason = outcome.reason().unwrap_or_default();

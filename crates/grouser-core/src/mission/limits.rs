@@ -62,7 +62,7 @@ impl Limits {
     /// # Errors
     /// [`ParameterError`] for a limit that is none.
     pub fn new(run: &Run, stops: &[Stop]) -> Result<Self, ParameterError> {
-        stops.iter().try_for_each(Stop::check)?;
+        stops.iter().try_for_each(|stop| stop.check(&run.scenario().rover))?;
         Ok(Self::begun(run, run.state().rover().position, stops.to_vec()))
     }
 
@@ -107,7 +107,7 @@ impl Limits {
 
     /// The same by what a rover knows of itself.
     pub(super) fn passed_as(&self, run: &Run, known: Known<'_>) -> Option<Stopped> {
-        let [sinkage, torque] = self.of_wheels(run);
+        let [sinkage, torque, current] = self.of_wheels(run);
         let state = run.state();
         let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, known.seen.yaw);
         let value = |stop: &Stop| match stop.limited {
@@ -120,6 +120,9 @@ impl Limits {
             Limited::Torque => Some(torque),
             Limited::Time => Some(state.time() - self.start_time),
             Limited::Energy => Some(state.motor_work() - self.start_work),
+            Limited::Current => Some(current),
+            Limited::Temperature => state.warmest(),
+            Limited::Discharge => Some(1.0 - state.battery()?.charge),
         };
         let is_looked_at = |stop: &&Stop| known.is_drive || !stop.limited.is_of_a_drive();
         self.stops.iter().filter(is_looked_at).find_map(|stop| {
@@ -144,15 +147,17 @@ impl Limits {
         self.odometer.lay_anew(since);
     }
 
-    /// Largest sinkage over the shearing radius [-] and largest torque [N·m] of a wheel, if some limit needs them.
-    fn of_wheels(&self, run: &Run) -> [f64; 2] {
+    /// Largest sinkage over the shearing radius [-], largest torque [N·m] and largest current [A] of a wheel, if some limit
+    /// needs them.
+    fn of_wheels(&self, run: &Run) -> [f64; 3] {
         if !self.stops.iter().any(|stop| stop.limited.needs_wheels()) {
-            return [0.0; 2];
+            return [0.0; 3];
         }
         let radii = run.scenario().rover.mounts().iter().map(Mount::shearing_radius);
-        let each = run.wheels().into_iter().zip(radii).map(|(wheel, radius)| {
-            [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs()]
+        let each = run.wheels().into_iter().zip(radii).map(|((wheel, taken), radius)| {
+            let current = taken.map_or(0.0, |taken| taken.current.abs());
+            [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs(), current]
         });
-        each.fold([0.0, 0.0], |most, one| [most[0].max(one[0]), most[1].max(one[1])])
+        each.fold([0.0; 3], |most, one| [0, 1, 2].map(|i| f64::max(most[i], one[i])))
     }
 }

@@ -245,7 +245,7 @@ impl Leg {
                 "left out: it goes with a drive; turns, arcs, waypoints and waits have their own";
             return Err(ParameterError::new("heading of a leg", 1.0, expected));
         }
-        self.stops.iter().try_for_each(Stop::check)
+        self.stops.iter().try_for_each(|stop| stop.check(rover))
     }
 }
 
@@ -294,7 +294,8 @@ impl Mission {
                 expected,
             )));
         }
-        self.stops.iter().try_for_each(Stop::check).map_err(whole)?;
+        let rover = &self.scenario.rover;
+        self.stops.iter().try_for_each(|stop| stop.check(rover)).map_err(whole)?;
         self.sensors.map_or(Ok(()), |sensors| sensors.check()).map_err(whole)?;
         let mut legs = self.legs.iter().enumerate();
         legs.try_for_each(|(place, leg)| {

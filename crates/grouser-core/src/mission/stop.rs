@@ -2,6 +2,7 @@
 
 use crate::error::{ParameterError, finite, positive};
 use crate::simulation::Outcome;
+use crate::vehicle::{Mount, Rover};
 
 /// A limit on one number.
 ///
@@ -40,6 +41,12 @@ pub enum Limited {
     Energy,
     /// Distance from the straight line of the leg [m].
     OffPath,
+    /// Largest current of a motor, driving or braking [A].
+    Current,
+    /// Highest temperature of a motor's winding [°C].
+    Temperature,
+    /// Depth of discharge of the battery: 1 less its state of charge [-].
+    Discharge,
 }
 
 /// What a rover does once it has stopped.
@@ -103,7 +110,7 @@ impl Stopped {
 
 impl Limited {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 12] = [
         Self::SlipRatio,
         Self::Drift,
         Self::Sinkage,
@@ -113,6 +120,9 @@ impl Limited {
         Self::Time,
         Self::Energy,
         Self::OffPath,
+        Self::Current,
+        Self::Temperature,
+        Self::Discharge,
     ];
 
     /// Whether it is taken over a way.
@@ -128,7 +138,7 @@ impl Limited {
 
     /// Whether the wheels' forces and sinkage must be known for it.
     pub(super) fn needs_wheels(self) -> bool {
-        matches!(self, Self::Sinkage | Self::Torque)
+        matches!(self, Self::Sinkage | Self::Torque | Self::Current)
     }
 
     /// How it is known that it was passed, on the way.
@@ -147,7 +157,31 @@ impl Stop {
         Self { limited, above, over: 1.0, then: Then::End }
     }
 
-    pub(super) fn check(&self) -> Result<(), ParameterError> {
+    /// That it can be passed by a rover: what it limits has to be known of it.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where it is not.
+    fn check_on(&self, rover: &Rover) -> Result<(), ParameterError> {
+        let winding = |mount: &Mount| mount.unit.motor.is_some_and(|it| it.winding.is_some());
+        let [name, expected] = match self.limited {
+            Limited::Current if !rover.has_motors() => {
+                ["limit of the current [A]", "left out for a rover whose motors are not known"]
+            }
+            Limited::Temperature if !rover.mounts().iter().any(winding) => [
+                "limit of the winding's temperature [°C]",
+                "left out for a rover whose motors' windings are not known",
+            ],
+            Limited::Discharge if rover.battery().is_none() => [
+                "limit of the depth of discharge",
+                "left out for a rover whose battery is not known",
+            ],
+            _ => return Ok(()),
+        };
+        Err(ParameterError::new(name, self.above, expected))
+    }
+
+    pub(super) fn check(&self, rover: &Rover) -> Result<(), ParameterError> {
+        self.check_on(rover)?;
         finite("limit at which to stop", self.above)?;
         if self.limited.is_of_a_way() {
             positive("way over which a limit holds [m]", self.over)?;

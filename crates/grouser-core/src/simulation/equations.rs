@@ -14,8 +14,8 @@ use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
-    Acceleration, Drive, Driven, MotorLimits, OwnMoments, ReactionError, Rover, RoverState, Stance,
-    WheelReaction, dynamics, reaction::Ground,
+    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, ReactionError, Rover,
+    RoverState, Stance, WheelReaction, dynamics, reaction::Ground,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -303,6 +303,21 @@ impl<'a> Equations<'a> {
         let speed = turning.rim_speeds()[wheel] / mount.shearing_radius();
         let (set, integral) = (self.wheel_speeds[wheel], turning.integral(wheel));
         Some(motor.driven(Drive { set, speed, integral }, self.limits_of(wheel)))
+    }
+
+    /// What each motor takes whose winding is at 20 °C, where that is known.
+    ///
+    /// * `wheels`: of the rover at the point, or none
+    pub(super) fn taken(&self, point: &Point, wheels: &[WheelReaction]) -> Vec<Option<Electrical>> {
+        let rover = self.ground.rover;
+        let speeds = rover.wheel_speeds(self.turning(point));
+        let each = wheels.iter().zip(speeds).zip(rover.mounts()).enumerate();
+        each.map(|(wheel, ((reaction, speed), mount))| {
+            let driven = point.turning.and_then(|turning| self.driven(wheel, &turning));
+            let steady = || power::electrical(mount, reaction.settled.forces.torque, speed);
+            driven.map(|driven| driven.electrical).or_else(steady)
+        })
+        .collect()
     }
 
     /// What a wheel's motor may take at most besides its own limits.

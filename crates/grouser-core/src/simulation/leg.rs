@@ -58,7 +58,9 @@ impl Leg<'_> {
     fn go_through(&mut self, times: &[f64]) -> Result<(), RunError> {
         let rim_speeds = std::mem::take(&mut self.state.rim_speeds);
         let yaw_rate = self.scenario.yaw.as_ref().map(|yaw| yaw.rate_from(self.state.time));
-        let equations = Equations::of(self.scenario, &rim_speeds).holding(yaw_rate);
+        let limits = self.state.supply.as_ref().map_or(Vec::new(), |it| it.limits().to_vec());
+        let equations =
+            Equations::of(self.scenario, &rim_speeds).holding(yaw_rate).limited(&limits);
         let mut times = times;
         let mut done = Ok(());
         if self.state.method == Method::QuasiSteady {
@@ -174,6 +176,13 @@ impl Leg<'_> {
         if reached.turning.is_some() {
             state.turning.copy_from_slice(equations.turning(reached));
         }
+        let mut without_power = None;
+        if let Some(supply) = &mut state.supply
+            && let Ok(wheels) = wheels()
+        {
+            let taken = equations.taken(reached, &wheels);
+            without_power = supply.look(equations.rover(), now, &taken);
+        }
         if is_multiple(now, WATCH_PERIOD) {
             let turning = watch::Wheels {
                 slip_ratios: &state.slip_ratios,
@@ -182,6 +191,7 @@ impl Leg<'_> {
             };
             state.outcome = state.watch.look(self.scenario, now, rover, turning);
         }
+        state.outcome = state.outcome.take().or(without_power);
         let is_due = match self.record_only_at {
             None => {
                 let interval = self.scenario.numerics.sample_interval;
@@ -191,9 +201,13 @@ impl Leg<'_> {
         };
         if state.outcome.is_some() || is_due {
             match wheels() {
-                Ok(wheels) => self.records.push(Record::new(equations, now, reached, &wheels)),
+                Ok(wheels) => {
+                    let supply = state.supply.as_ref();
+                    self.records.push(Record::new(equations, now, reached, &wheels, supply));
+                }
                 Err(error) => {
-                    self.records.push(Record::new(equations, now, reached, &[]));
+                    let supply = state.supply.as_ref();
+                    self.records.push(Record::new(equations, now, reached, &[], supply));
                     state.outcome = Some(outcome_of(now, error)?);
                 }
             }

@@ -22,6 +22,13 @@ pub enum Outcome {
         /// When [s].
         time: f64,
     },
+    /// Its battery no longer gave what motors and electronics drew.
+    BrownOut {
+        /// When [s].
+        time: f64,
+        /// Voltage at the battery's terminals [V].
+        voltage: f64,
+    },
 }
 
 /// What stopped a rover.
@@ -45,7 +52,7 @@ pub enum StuckBecause {
 }
 
 impl Outcome {
-    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`.
+    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -53,6 +60,7 @@ impl Outcome {
             Self::Immobilised { .. } => "immobilised",
             Self::Sliding { .. } => "sliding",
             Self::TippedOver { .. } => "tipped_over",
+            Self::BrownOut { .. } => "brown_out",
         }
     }
 
@@ -76,6 +84,9 @@ impl Outcome {
             }),
             Self::Sliding { .. } => Some("it slides downhill faster than its wheels turn".into()),
             Self::TippedOver { .. } => Some("its weight falls outside its wheels".into()),
+            Self::BrownOut { voltage, .. } => Some(format!(
+                "its battery fails at {voltage:.2} V: it is empty, or cannot give what motors and electronics draw"
+            )),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::equations::Equations;
 use super::integrate::Point;
 use super::power::{self, EnergyBalance};
+use super::supply::{Charge, Supply};
 use crate::vehicle::{Electrical, RoverState, WheelReaction};
 
 /// The rover at one time.
@@ -34,6 +35,8 @@ pub struct Record {
     pub wheels: Vec<WheelRecord>,
     /// Energy since the start.
     pub energy: EnergyBalance,
+    /// The battery, where it is known.
+    pub battery: Option<Charge>,
 }
 
 impl Record {
@@ -43,6 +46,7 @@ impl Record {
         time: f64,
         point: &Point,
         wheels: &[WheelReaction],
+        supply: Option<&Supply>,
     ) -> Self {
         let (rover, site, state) = (equations.rover(), equations.site(), point.state);
         let wheel_speeds: Vec<f64> = rover.wheel_speeds(equations.turning(point)).collect();
@@ -53,17 +57,23 @@ impl Record {
             soil: point.soil,
             kinetic: power::kinetic_energy(rover, &state) + spin,
             potential: power::potential_energy(rover, site, &state),
-            electrical: point.electrical,
+            electrical: point.electrical + supply.map_or(0.0, Supply::beside),
         };
-        let each = wheels.iter().zip(wheel_speeds).zip(rover.mounts()).enumerate();
-        let wheels = each.map(|(wheel, ((&reaction, wheel_speed), mount))| {
-            let driven = point.turning.and_then(|turning| equations.driven(wheel, &turning));
-            let steady = || power::electrical(mount, reaction.settled.forces.torque, wheel_speed);
-            let electrical = driven.map(|driven| driven.electrical).or_else(steady);
-            WheelRecord { wheel_speed, steering: mount.steering, reaction, electrical }
+        let taken = equations.taken(point, wheels);
+        let warm = supply.map(|supply| {
+            let taken: Vec<_> = taken.iter().map(|it| it.unwrap_or_default()).collect();
+            supply.warm(rover, &taken)
+        });
+        let each = wheels.iter().zip(wheel_speeds).zip(taken).enumerate();
+        let wheels = each.map(|(wheel, ((&reaction, wheel_speed), cold))| WheelRecord {
+            wheel_speed,
+            steering: rover.mounts()[wheel].steering,
+            reaction,
+            electrical: cold.map(|cold| warm.as_ref().map_or(cold, |warm| warm[wheel].taken)),
+            temperature: supply.and_then(|supply| supply.temperature(wheel)),
         });
         let wheels = wheels.collect();
-        Self { time, state, wheels, energy }
+        Self { time, state, wheels, energy, battery: supply.and_then(Supply::battery) }
     }
 }
 
@@ -78,6 +88,8 @@ pub struct WheelRecord {
     pub reaction: WheelReaction,
     /// What its motor takes, where that is known.
     pub electrical: Option<Electrical>,
+    /// Temperature of its motor's winding, where that is known [°C].
+    pub temperature: Option<f64>,
 }
 
 impl WheelRecord {

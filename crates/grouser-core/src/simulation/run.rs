@@ -12,14 +12,15 @@ use super::quasi_steady::Carried;
 use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Motion, ROLLING_SHARE, Scenario};
 use super::state::State;
-use super::times::{is_same_time, multiple_after, snapped};
+use super::supply::LIMIT_PERIOD;
+use super::times::{is_same_time, multiple_after, multiples_between, snapped};
 use super::trajectory::Trajectory;
 use super::watch::{LEAST_PROGRESS, WATCH_PERIOD};
 use super::work::Work;
 use crate::error::{ParameterError, positive};
 use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
-use crate::vehicle::{DriveLaw, Rover, WheelReaction};
+use crate::vehicle::{DriveLaw, Electrical, Rover, WheelReaction};
 
 /// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
@@ -191,10 +192,12 @@ impl Run {
         std::mem::take(&mut self.records)
     }
 
-    /// The wheels now; none where they do not settle.
-    pub(crate) fn wheels(&self) -> Vec<WheelReaction> {
+    /// The wheels now, and what their motors take; none where they do not settle.
+    pub(crate) fn wheels(&self) -> Vec<(WheelReaction, Option<Electrical>)> {
         let equations = Equations::of(&self.scenario, &self.state.rim_speeds);
-        equations.reactions_of(&self.state.point).unwrap_or_default()
+        let wheels = equations.reactions_of(&self.state.point).unwrap_or_default();
+        let taken = equations.taken(&self.state.point, &wheels);
+        wheels.into_iter().zip(taken).collect()
     }
 
     /// Turns the wheels at the given speeds for a while. At its beginning they take them at once, and
@@ -374,10 +377,17 @@ impl Run {
     ) -> Result<(), RunError> {
         let time = self.state.time;
         let turns = self.scenario.yaw.iter().flat_map(|yaw| yaw.turns_between(time, until));
-        let ends: Vec<f64> = turns.chain([until]).collect();
+        let mut ends: Vec<f64> = turns.chain([until]).collect();
+        let is_limited = self.state.supply.is_some() && self.scenario.rover.has_droop();
+        if is_limited {
+            ends.extend(multiples_between(time, until, LIMIT_PERIOD));
+            ends.sort_by(f64::total_cmp);
+            ends.dedup_by(|later, earlier| is_same_time(*later, *earlier));
+        }
         let mut is_new_command = is_new_command;
         for end in ends {
             is_new_command |= self.state.follow_yaw(&self.scenario);
+            is_new_command |= is_limited && self.state.renew_limits(&self.scenario.rover);
             // A prescribed yaw may turn otherwise where this stretch ends.
             let kept_until = if end < until { end } else { kept_until };
             self.leg(is_new_command, kept_until, only_at).go_to(end)?;
@@ -407,9 +417,11 @@ impl Run {
         if self.records.last().is_some_and(|last| is_same_time(last.time, *time)) {
             return;
         }
-        let equations = Equations::of(&self.scenario, rim_speeds);
+        let supply = self.state.supply.as_ref();
+        let equations = Equations::of(&self.scenario, rim_speeds)
+            .limited(supply.map_or(&[], |supply| supply.limits()));
         let wheels = equations.reactions_of(point).unwrap_or_default();
-        self.records.push(Record::new(&equations, *time, point, &wheels));
+        self.records.push(Record::new(&equations, *time, point, &wheels, supply));
     }
 }
 

@@ -8,6 +8,8 @@ use super::outcome::Outcome;
 use super::power;
 use super::quasi_steady::Carried;
 use super::scenario::{Approach, Motion, Scenario};
+use super::supply::{Charge, LIMIT_PERIOD, Supply};
+use super::times::is_multiple;
 use super::turning::Turning;
 use super::watch::Watch;
 use super::work::Work;
@@ -38,6 +40,8 @@ pub struct State {
     pub(super) method: Method,
     pub(super) work: Work,
     pub(super) watch: Watch,
+    /// Battery and windings, where they are known.
+    pub(super) supply: Option<Supply>,
     /// Of the dynamic motion while the wheels keep their speeds.
     pub(super) history: History,
     /// Of the quasi-steady motion so far.
@@ -72,6 +76,7 @@ impl State {
             },
             work: Work::default(),
             watch: Watch::default(),
+            supply: Supply::of(rover),
             history: History::default(),
             carried: Carried::default(),
         }
@@ -101,6 +106,18 @@ impl State {
         self.point.motors
     }
 
+    /// The battery, where it is known.
+    #[must_use]
+    pub fn battery(&self) -> Option<Charge> {
+        self.supply.as_ref()?.battery()
+    }
+
+    /// Temperature of the warmest winding of a motor, where some are known [°C].
+    #[must_use]
+    pub fn warmest(&self) -> Option<f64> {
+        self.supply.as_ref()?.warmest()
+    }
+
     /// What became of the rover, if that is known already.
     #[must_use]
     pub fn outcome(&self) -> Option<&Outcome> {
@@ -128,6 +145,18 @@ impl State {
         let (angle, rate) = (yaw.at(self.time), yaw.rate_from(self.time));
         self.jump(&scenario.rover, |state| (state.yaw, state.yaw_rate) = (angle, rate));
         true
+    }
+
+    /// That the motors' limits are as battery and windings allow, at each [`LIMIT_PERIOD`]; whether that changes what some
+    /// motor does.
+    pub(super) fn renew_limits(&mut self, rover: &Rover) -> bool {
+        let is_due = is_multiple(self.time, LIMIT_PERIOD);
+        let Some(supply) = self.supply.as_mut().filter(|_| is_due) else { return false };
+        let matters = supply.renew_limits(rover);
+        if matters {
+            self.history.clear();
+        }
+        matters
     }
 
     /// Changes pose and velocities at once, as [`Point::jump`]: the motion before says nothing of the one after.

@@ -12,6 +12,7 @@
 //! lets no torque of the wheel through to the motor. Power that a driven motor gives is not taken back.
 
 use super::speed_control::SpeedControl;
+use super::winding::Winding;
 use crate::error::{ParameterError, not_negative, positive};
 
 /// A DC motor behind a gear.
@@ -29,6 +30,7 @@ use crate::error::{ParameterError, not_negative, positive};
 ///     friction: 1e-3,
 ///     is_self_locking: false,
 ///     control: None,
+///     winding: None,
 /// };
 /// let taken = motor.at(0.4, 0.55);
 /// assert_eq!(format!("{:.0} mA at {:.2} V", 1e3 * taken.current, taken.voltage), "367 mA at 5.04 V");
@@ -50,6 +52,8 @@ pub struct Motor {
     pub is_self_locking: bool,
     /// How it keeps its speed under load; without it, always.
     pub control: Option<SpeedControl>,
+    /// How warm it becomes, where that is known.
+    pub winding: Option<Winding>,
 }
 
 /// What a motor takes.
@@ -77,6 +81,12 @@ impl Motor {
         if self.efficiency > 1.0 {
             let expected = "above 0 and at most 1";
             return Err(ParameterError::new("efficiency of a gear", self.efficiency, expected));
+        }
+        self.winding.map_or(Ok(()), |winding| winding.check())?;
+        let current = self.control.and_then(|control| control.current);
+        if current.is_none() && self.winding.is_some_and(|winding| winding.derated_from.is_some()) {
+            let expected = "given where a winding derates its motor: that is what becomes less";
+            return Err(ParameterError::new("current limit of a motor [A]", 0.0, expected));
         }
         self.control.map_or(Ok(()), |control| control.check())
     }
@@ -183,6 +193,7 @@ mod tests {
         friction: 1e-3,
         is_self_locking: false,
         control: None,
+        winding: None,
     };
 
     /// The power goes to the wheel, to the gear, to friction and to heat, and nowhere else.

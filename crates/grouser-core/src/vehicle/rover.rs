@@ -4,6 +4,7 @@
 
 use nalgebra::Rotation2;
 
+use super::battery::Battery;
 use super::motor::Motor;
 use super::state::rotation;
 use super::support_polygon::SupportPolygon;
@@ -198,6 +199,8 @@ pub struct RoverParts {
     pub steering: SteeringParts,
     /// Where the wheels sit.
     pub mounts: Vec<MountParts>,
+    /// Its battery, where that is known.
+    pub battery: Option<Battery>,
 }
 
 /// How far and how fast wheels are steered, as far as that is known.
@@ -325,7 +328,10 @@ pub struct Rover {
 /// Two rovers are one if they have the same body, and on it the same wheels.
 impl PartialEq for Rover {
     fn eq(&self, other: &Self) -> bool {
-        self.parts.body == other.parts.body && self.mounts == other.mounts
+        let (one, other_parts) = (&self.parts, &other.parts);
+        one.body == other_parts.body
+            && one.battery == other_parts.battery
+            && self.mounts == other.mounts
     }
 }
 
@@ -363,7 +369,7 @@ impl Rover {
         };
         let mounts = mounts.into_iter().map(parts).collect();
         let steering = SteeringParts::default();
-        Self::draft(RoverParts { body, wheel_unit, steering, mounts }).checked()
+        Self::draft(RoverParts { body, wheel_unit, steering, mounts, battery: None }).checked()
     }
 
     /// A rover of which nothing but the parts is known: to be filled in, and then
@@ -415,6 +421,14 @@ impl Rover {
         for (unit, _) in &alike {
             unit.wheel.check()?;
             unit.motor.map_or(Ok(()), |motor| motor.check())?;
+        }
+        if let Some(battery) = parts.battery {
+            battery.check()?;
+            if mounts.iter().all(|mount| mount.unit.motor.is_none()) {
+                let expected =
+                    "left out, or one that feeds known motors: what they draw is not known";
+                return Err(ParameterError::new("battery", battery.capacity, expected));
+            }
         }
         check_stance(&mounts)?;
         parts.check_axes(&mounts)?;
@@ -604,6 +618,19 @@ impl Rover {
     pub fn mean_axle_height(&self) -> f64 {
         let radii = self.mounts.iter().map(Mount::shearing_radius);
         radii.sum::<f64>() / self.mounts.len() as f64
+    }
+
+    /// The battery, where that is known.
+    #[must_use]
+    pub fn battery(&self) -> Option<&Battery> {
+        self.parts.battery.as_ref()
+    }
+
+    /// Whether more of its power is known than what motors take: its battery, or how warm motors become.
+    #[must_use]
+    pub fn has_supply(&self) -> bool {
+        let warms = |mount: &Mount| mount.unit.motor.is_some_and(|motor| motor.winding.is_some());
+        self.battery().is_some() || self.mounts.iter().any(warms)
     }
 
     /// Whether some wheel's motor is known.

@@ -33,6 +33,7 @@ use crate::error::{ParameterError, not_negative, positive};
 ///     friction: 1e-3,
 ///     is_self_locking: false,
 ///     control: Some(open),
+///     winding: None,
 /// };
 /// let under_load = |motor: Motor| motor.speed_under(0.4, 1.5, MotorLimits::NONE);
 /// assert_eq!(format!("{:.3} rad/s", under_load(motor)), "0.033 rad/s");

@@ -420,6 +420,17 @@ static STOPS: Table<Vec<Stop>> = Table {
             "Distance from the straight line, or the circle, of the leg.",
             &OFF_PATH,
         ),
+        limit(
+            Limited::Current,
+            "Largest current of a wheel's motor, driving or braking.",
+            &CURRENT,
+        ),
+        limit(Limited::Temperature, "Highest temperature of a motor's winding.", &TEMPERATURE),
+        limit(
+            Limited::Discharge,
+            "Depth of discharge: 1 less the battery's state of charge.",
+            &DISCHARGE,
+        ),
     ],
 };
 
@@ -481,6 +492,18 @@ static ENERGY: At<Vec<Stop>, Stop> = At {
 static OFF_PATH: At<Vec<Stop>, Stop> = At {
     inner: &Table { doc: LIMIT, fields: &[above(Limited::OffPath, LONGEST_WAY), THEN, BACK_OUT] },
     at: |stops| of(stops, Limited::OffPath),
+};
+static CURRENT: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Current, 1e5), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Current),
+};
+static TEMPERATURE: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Temperature, 1e3), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Temperature),
+};
+static DISCHARGE: At<Vec<Stop>, Stop> = At {
+    inner: &Table { doc: LIMIT, fields: &[above(Limited::Discharge, 1.0), THEN, BACK_OUT] },
+    at: |stops| of(stops, Limited::Discharge),
 };
 
 const LIMIT: &str = "A limit: above which number, and what the rover does then.";

@@ -1,16 +1,15 @@
 //! `rover/1`: a body and its wheels.
 
 use super::super::field::{
-    At, DEG, DEG_S, Each, Field, Form, Inner, KG, KG_M2, M, NM, NM_A, OHM, ONE, Reach, Table, flag,
-    list, number, numbers, part, positive, table, text,
+    At, DEG, DEG_S, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers,
+    part, positive, table, text,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, name, notes, schema, source};
+use super::power::{BATTERY, MOTOR, NO_BATTERY, NO_MOTOR};
 use super::wheel::{self, WHEEL};
 use grouser_core::units::{Vec2, Vec3};
-use grouser_core::vehicle::{
-    Body, Inertia, Motor, MountParts, RoverParts, SpeedControl, SteeringParts, WheelUnit,
-};
+use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, SteeringParts, WheelUnit};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
@@ -20,6 +19,7 @@ pub(crate) const BLANK: RoverParts = RoverParts {
     wheel_unit: WheelUnit { mass: 0.0, inertia: NO_INERTIA, wheel: wheel::BLANK, motor: None },
     steering: NO_STEERING,
     mounts: Vec::new(),
+    battery: None,
 };
 
 const NO_STEERING: SteeringParts = SteeringParts { limit: None, rate: None };
@@ -59,6 +59,15 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         steering_rate(
             "How fast every wheel is steered; left out, 10 °/s (assumed)",
             |rover: &mut RoverParts| Some(rover.steering.rate.get_or_insert(0.0)),
+        )
+        .optional(),
+        table(
+            "battery",
+            "The battery, and what the electronics draw from it; without it nothing is known of its voltage and charge.",
+            &At {
+                inner: &BATTERY,
+                at: |rover: &mut RoverParts| rover.battery.get_or_insert(NO_BATTERY),
+            },
         )
         .optional(),
         list(
@@ -130,56 +139,6 @@ static WHEEL_UNIT: Table<WheelUnit> = Table {
             "Its geometry: a preset's name, a path from this document's folder, or a wheel's keys.",
             &At { inner: &WHEEL, at: |unit: &mut WheelUnit| &mut unit.wheel },
         ),
-    ],
-};
-
-const NO_MOTOR: Motor = Motor {
-    resistance: 0.0,
-    torque_constant: 0.0,
-    gear_ratio: 0.0,
-    efficiency: 0.0,
-    friction: 0.0,
-    is_self_locking: false,
-    control: None,
-};
-
-static MOTOR: Table<Motor> = Table {
-    doc: "A DC motor behind a gear. It turns as fast as it is told, and takes the current that this needs.",
-    fields: &[
-        positive("resistance_ohm", OHM, 1e6, "Resistance of the winding, R", |motor: &mut Motor| {
-            Some(&mut motor.resistance)
-        }),
-        positive(
-            "torque_constant_nm_a",
-            NM_A,
-            1e4,
-            "Torque constant, k, which is that of the induced voltage, too",
-            |motor: &mut Motor| Some(&mut motor.torque_constant),
-        ),
-        positive(
-            "gear_ratio",
-            ONE,
-            1e6,
-            "Turns of the motor for one of the wheel, N",
-            |motor: &mut Motor| Some(&mut motor.gear_ratio),
-        ),
-        number("gear_efficiency", ONE, 0.01..=1.0, "Efficiency of the gear, η", |motor: &mut Motor| {
-            Some(&mut motor.efficiency)
-        }),
-        number(
-            "friction_torque_nm",
-            NM,
-            0.0..=1e3,
-            "Torque of friction at the motor's shaft, τ_f",
-            |motor: &mut Motor| Some(&mut motor.friction),
-        )
-        .or(0.0),
-        flag(
-            "self_locking",
-            "Whether the wheel cannot turn the gear: then the motor holds a slope without current, and brakes with none.",
-            |motor: &mut Motor, yes| motor.is_self_locking = yes,
-        )
-        .optional(),
     ],
 };
 

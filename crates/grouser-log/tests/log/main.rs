@@ -203,6 +203,8 @@ fn what_motors_take_is_logged() -> Outcomes {
         efficiency: 0.6,
         friction: 1e-3,
         is_self_locking: false,
+        control: None,
+        winding: None,
     };
     for (place, has_all) in [(None, true), (Some(2), false)] {
         let mut parts = hakuto::rover().expect("a rover").parts().clone();

@@ -68,6 +68,8 @@ pub struct RunBand {
     pub sliding: usize,
     /// Samples that tipped over.
     pub tipped_over: usize,
+    /// Samples whose battery failed.
+    pub brown_out: usize,
 }
 
 /// The rover at one time in one sample.
@@ -268,6 +270,7 @@ impl RunBand {
             immobilised: count(|outcome| matches!(outcome, Outcome::Immobilised { .. })),
             sliding: count(|outcome| matches!(outcome, Outcome::Sliding { .. })),
             tipped_over: count(|outcome| matches!(outcome, Outcome::TippedOver { .. })),
+            brown_out: count(|outcome| matches!(outcome, Outcome::BrownOut { .. })),
         }
     }
 }

@@ -6,7 +6,9 @@ use grouser::simulation::{
 };
 use grouser::soil::{Shear, Soil};
 use grouser::units::deg;
-use grouser::vehicle::{DriveLaw, LoadSharing, Motor, OwnMoments, Rover, SpeedControl};
+use grouser::vehicle::{
+    Battery, DriveLaw, LoadSharing, Motor, OwnMoments, Rover, SpeedControl, Winding,
+};
 
 use super::given::{RIM_SPEED, hakuto_wheel, linear, run, traverse};
 use super::mounts::firm;
@@ -20,6 +22,7 @@ pub(crate) const MOTOR: Motor = Motor {
     friction: 1e-3,
     is_self_locking: false,
     control: None,
+    winding: None,
 };
 
 pub(crate) fn with(motor: Motor, scenario: Scenario) -> Scenario {
@@ -347,4 +350,168 @@ fn a_run_with_motors_goes_on_where_it_paused() {
     let pieces = run.finish();
     assert_eq!(whole.last().state, pieces.last().state);
     assert_eq!(whole.last().wheels, pieces.last().wheels);
+}
+
+const WINDING: Winding = Winding {
+    thermal_resistance: 20.0,
+    heat_capacity: 2.0,
+    surroundings: 20.0,
+    highest: 125.0,
+    derated_from: None,
+};
+
+/// Two small cells.
+const BATTERY: Battery = Battery {
+    capacity: 20.0 * 3600.0,
+    full_voltage: 8.4,
+    empty_voltage: 6.4,
+    resistance: 0.3,
+    cutoff_voltage: 5.5,
+    electronics: 3.0,
+    charge: 1.0,
+};
+
+fn powered(motor: Motor, battery: Battery, scenario: Scenario) -> Scenario {
+    let mut parts = scenario.rover.parts().clone();
+    (parts.wheel_unit.motor, parts.battery) = (Some(motor), Some(battery));
+    Scenario { rover: Rover::draft(parts).checked().expect("a rover"), ..scenario }
+}
+
+/// Closed form: a nearly steady current warms a winding to θ_0 + R(θ) i² R_th with its time constant; on level ground the
+/// current is steady, and R(θ) is that of copper.
+#[test]
+fn windings_warm_by_their_current() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let motor = Motor { winding: Some(WINDING), ..MOTOR };
+        let mut scenario = with(motor, across(0.0));
+        scenario.numerics.approach = approach;
+        scenario.duration = 200.0;
+        let run = run(&scenario);
+        for (wheel, record) in run.last().wheels.iter().enumerate() {
+            let current = record.electrical.expect("a motor").current;
+            // θ = 20 + x: x = R_th R (1 + α x) i².
+            let heat = 20.0 * 10.0 * current * current;
+            let settled = heat / (1.0 - 0.003_93 * heat);
+            let warm = record.temperature.expect("a winding") - 20.0;
+            assert!((warm / settled - 1.0).abs() < 0.01, "{approach:?}: {warm} K, {settled} K");
+            let early = run.records[100].wheels[wheel].temperature.expect("a winding") - 20.0;
+            let rise = 1.0 - (-10.0 / 40.0 * (1.0 - 0.003_93 * heat)).exp();
+            let off = early / settled / rise - 1.0;
+            assert!(off.abs() < 0.03, "{approach:?}: {early} K of {settled} K: {off}");
+            let volts = record.electrical.expect("a motor").voltage;
+            let speed = record.wheel_speed;
+            let ohms = 10.0 * (1.0 + 0.003_93 * warm);
+            assert!((volts - ohms * current - 2.5 * speed).abs() < 1e-9);
+        }
+    }
+}
+
+/// The energy is the integral of all that is drawn, and the charge falls by it and by what the battery loses itself.
+#[test]
+fn a_battery_gives_what_motors_and_electronics_draw() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let motor = Motor { winding: Some(WINDING), ..MOTOR };
+        let mut scenario = powered(motor, BATTERY, across(10.0));
+        scenario.numerics.approach = approach;
+        scenario.duration = 60.0;
+        let run = run(&scenario);
+        let power = |record: &Record| -> f64 {
+            let wheels = record.wheels.iter().map(|wheel| wheel.electrical.expect("one").power);
+            wheels.sum::<f64>() + 3.0
+        };
+        let (mut energy, mut charge) = (0.0, 1.0);
+        for pair in run.records.windows(2) {
+            let span = pair[1].time - pair[0].time;
+            energy += 0.5 * span * (power(&pair[0]) + power(&pair[1]));
+            let [one, other] = [&pair[0], &pair[1]].map(|record| {
+                let battery = record.battery.expect("a battery");
+                let open = 6.4 + 2.0 * battery.charge;
+                let (u, i) = (battery.terminals.voltage, battery.terminals.current);
+                assert!((u * i - power(record)).abs() < 1e-9 && (open - 0.3 * i - u).abs() < 1e-3);
+                open * i
+            });
+            charge -= 0.5 * span * (one + other) / BATTERY.capacity;
+        }
+        let last = run.last();
+        let battery = last.battery.expect("a battery");
+        assert!((last.energy.electrical / energy - 1.0).abs() < 1e-3, "{approach:?}");
+        assert!((battery.charge - charge).abs() < 1e-6, "{} and {charge}", battery.charge);
+        assert!(energy / BATTERY.capacity < 1.0 - charge, "some is lost in the battery");
+    }
+}
+
+/// What a battery or a winding is changes nothing of a rover whose motors hold their speed.
+#[test]
+fn battery_and_windings_change_no_bit_of_an_ideal_drive() {
+    let plain = run(&across(10.0));
+    let motor = Motor { winding: Some(WINDING), ..MOTOR };
+    let powered = run(&powered(motor, BATTERY, across(10.0)));
+    assert_eq!(plain.records.len(), powered.records.len());
+    let states = |run: &Trajectory| -> Vec<_> { run.records.iter().map(|it| it.state).collect() };
+    assert_eq!(states(&plain), states(&powered));
+}
+
+/// An empty battery, and one that cannot give the power, end the run; one at the end of its charge slows the motors.
+#[test]
+fn a_battery_that_fails_is_an_outcome() {
+    let ends = |battery: Battery| {
+        let run = run(&powered(MOTOR, battery, across(10.0)));
+        (run.outcome.clone(), run.last().time)
+    };
+    assert_eq!(ends(BATTERY).0, Outcome::Completed);
+    let (empty, time) = ends(Battery { capacity: 40.0, ..BATTERY });
+    assert!(matches!(empty, Outcome::BrownOut { .. }), "{empty:?}");
+    // 40 J at 3 W and what the motors take, three watts or so.
+    assert!((4.0..10.0).contains(&time), "{time} s");
+    let (weak, time) = ends(Battery { resistance: 5.0, ..BATTERY });
+    let Outcome::BrownOut { voltage, .. } = weak else { panic!("{weak:?}") };
+    assert!(time < 0.2 && voltage < 5.5, "{time} s, {voltage} V");
+}
+
+/// A hot winding lets through less current, until its rover stalls; the current never passes what is allowed.
+#[test]
+fn a_derated_motor_stalls_before_it_burns() {
+    let control = SpeedControl { integral: 975.0, current: Some(0.6), ..PROPORTIONAL };
+    let winding =
+        Winding { derated_from: Some(30.0), highest: 50.0, heat_capacity: 0.5, ..WINDING };
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let mut scenario =
+            with(Motor { winding: Some(winding), ..controlled(control) }, across(12.0));
+        scenario.start.yaw = deg(90.0);
+        scenario.duration = 60.0;
+        scenario.numerics.approach = approach;
+        let run = run(&scenario);
+        assert!(stalled(&run), "{approach:?}: {:?}", run.outcome);
+        for wheel in run.records.iter().flat_map(|record| &record.wheels) {
+            assert!(wheel.temperature.expect("a winding") < 50.0);
+            assert!(wheel.electrical.expect("a motor").current < 0.6 * (1.0 + 1e-3));
+        }
+    }
+}
+
+/// As the battery empties its voltage falls, and with it the speed of motors that have no other limit.
+#[test]
+fn motors_slow_down_as_the_battery_empties() {
+    let control = SpeedControl { integral: 975.0, ..PROPORTIONAL };
+    let battery = Battery {
+        full_voltage: 4.2,
+        empty_voltage: 2.2,
+        cutoff_voltage: 2.0,
+        resistance: 0.02,
+        capacity: 2000.0,
+        ..BATTERY
+    };
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let mut scenario = powered(controlled(control), battery, across(5.0));
+        scenario.duration = 200.0;
+        scenario.numerics.approach = approach;
+        let run = run(&scenario);
+        let at = |time: f64| shares(&run.records[(time * 10.0) as usize])[0];
+        assert!((at(5.0) - 1.0).abs() < 1e-3, "{approach:?}: {}", at(5.0));
+        assert!(at(180.0) < 0.99 && at(190.0) < at(180.0), "{}, {}", at(180.0), at(190.0));
+        let late = run.last();
+        let volts = late.wheels[0].electrical.expect("a motor").voltage;
+        let given = late.battery.expect("a battery").terminals.voltage;
+        assert!((volts / given - 1.0).abs() < 0.01, "{approach:?}: {volts} V of {given} V");
+    }
 }

@@ -46,7 +46,7 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
 
     @property
     def outcome(self) -> str | None:
-        """``immobilised``, ``sliding`` or ``tipped_over``, of a path also ``completed`` or
+        """``immobilised``, ``sliding``, ``tipped_over`` or ``brown_out``, of a path also ``completed`` or
         ``stopped``; None during the run."""
         return self._rovers.outcome(0)
 

@@ -70,7 +70,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg))),
     text(
         OUTCOME,
-        "`completed`, `stopped` by a limit, `immobilised`, `sliding` or `tipped_over`",
+        "`completed`, `stopped` by a limit, `immobilised`, `sliding`, `tipped_over` or `brown_out`",
         |it| Some(it.report.outcome.name().into()),
     ),
     DISTANCE.number(

@@ -4,14 +4,14 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
 use super::super::table::Table;
-use super::super::unit::{DEG_S, J, M, M_PER_M, M_S, V, W};
+use super::super::unit::{A, DEG_S, J, M, M_PER_M, M_S, ONE, V, W};
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
     CURRENT, Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity,
-    SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TIME, WHEEL_SPEED, X, Y, YAW, number, quantity,
-    text, whole,
+    SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TEMPERATURE, TIME, WHEEL_SPEED, X, Y, YAW, number,
+    quantity, text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -43,16 +43,24 @@ pub const RECORD: [Column<Record>; 12] = [
 ];
 
 /// What motors take, of a rover whose motors are known: beside [`RECORD`].
-pub const ELECTRICAL_RECORD: [Column<Record>; 2] = [
-    ELECTRICAL_POWER.number("Electrical power of all motors", |it| {
+pub const ELECTRICAL_RECORD: [Column<Record>; 5] = [
+    ELECTRICAL_POWER.number("Electrical power of all motors, without the electronics", |it| {
         it.wheels.iter().filter_map(|wheel| Some(wheel.electrical?.power)).sum()
     }),
-    BATTERY_ENERGY
-        .number("Electrical energy that the motors took so far", |it| it.energy.electrical),
+    BATTERY_ENERGY.number(
+        "Electrical energy that motors, and with a battery the electronics, took so far",
+        |it| it.energy.electrical,
+    ),
+    quantity("battery_voltage_v", V)
+        .maybe("Voltage at the battery's terminals", |it| Some(it.battery?.terminals.voltage)),
+    quantity("battery_current_a", A)
+        .maybe("Current of the battery", |it| Some(it.battery?.terminals.current)),
+    quantity("state_of_charge", ONE)
+        .maybe("State of charge of the battery", |it| Some(it.battery?.charge)),
 ];
 
 /// What a wheel's motor takes, where that is known: beside [`WHEEL_RECORD`].
-pub const ELECTRICAL: [Column<WheelRecord>; 3] = [
+pub const ELECTRICAL: [Column<WheelRecord>; 4] = [
     CURRENT
         .maybe("Current of its motor, negative where it brakes", |it| Some(it.electrical?.current)),
     quantity("voltage_v", V)
@@ -60,6 +68,7 @@ pub const ELECTRICAL: [Column<WheelRecord>; 3] = [
     ELECTRICAL_POWER.maybe("Electrical power of its motor; none is taken back", |it| {
         Some(it.electrical?.power)
     }),
+    TEMPERATURE.maybe("Temperature of its motor's winding", |it| it.temperature),
 ];
 
 /// Electrical power of motors.
@@ -88,7 +97,7 @@ pub const DISTANCE: Quantity = quantity("distance_m", M);
 
 /// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
-    text("outcome", "`completed`, `immobilised`, `sliding` or `tipped_over`", |it| {
+    text("outcome", "`completed`, `immobilised`, `sliding`, `tipped_over` or `brown_out`", |it| {
         Some(it.outcome.name().into())
     }),
     text("reason", "What that means here; none for a completed run", |it| it.outcome.reason()),
@@ -188,7 +197,7 @@ pub const TIME_BAND: [Column<TimeBand>; 7] = [
 ];
 
 /// A run in a few numbers over samples of soil and model. Means are over the scenario's whole duration.
-pub const RUN_BAND: [Column<RunBand>; 13] = [
+pub const RUN_BAND: [Column<RunBand>; 14] = [
     X.band("Along the contour, at the end", |it| it.x),
     Y.band("Uphill, at the end", |it| it.y),
     YAW.band("Yaw at the end", |it| it.yaw),
@@ -207,6 +216,7 @@ pub const RUN_BAND: [Column<RunBand>; 13] = [
     whole("draws_immobilised", "Samples in which the rover gets stuck", |it| Some(it.immobilised)),
     whole("draws_sliding", "Samples in which it slides downhill", |it| Some(it.sliding)),
     whole("draws_tipped_over", "Samples in which it tips over", |it| Some(it.tipped_over)),
+    whole("draws_brown_out", "Samples in which its battery fails", |it| Some(it.brown_out)),
     whole(DRAWS, "All samples", |it| Some(it.completed.trials)),
 ];
 
@@ -310,7 +320,7 @@ impl Serialize for RunObject<'_> {
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
         if self.scenario.rover.has_motors() {
-            let [_, energy] = &ELECTRICAL_RECORD;
+            let [_, energy, ..] = &ELECTRICAL_RECORD;
             energy.write(&mut map, self.run.last())?;
         }
         let over = RoverOnSlope::of(self.scenario).over(self.run);
