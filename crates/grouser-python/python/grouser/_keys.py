@@ -559,12 +559,44 @@ class RoverWheelUnit(TypedDict, total=False):
     """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
 
 
+class RoverMotorControl(TypedDict, total=False):
+    """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
+    fast as it is set to, whatever that takes."""
+
+    gain_v_s_rad: float
+    """Voltage that it adds to that of the set speed for each rad/s that the wheel is too slow, K_p
+    [V·s/rad]."""
+    integral_v_rad: float
+    """Voltage that it adds for each radian that the wheel is behind, K_i; 0 leaves an error under
+    load, the droop [V/rad]."""
+    voltage_limit_v: float
+    """The most voltage that it gives; left out, as much as the battery has, or any [V]."""
+    current_limit_a: float
+    """The most current that it gives; left out, any [A]."""
+
+
+class RoverMotorWinding(TypedDict, total=False):
+    """How warm its winding becomes; left out, nothing is said of that."""
+
+    thermal_resistance_k_w: float
+    """From the winding to its surroundings, R_th [K/W]."""
+    heat_capacity_j_k: float
+    """Heat capacity, C: the thermal time constant over R_th [J/K]."""
+    surroundings_degc: float
+    """Temperature of its surroundings, and its own at the start [°C]."""
+    highest_degc: float
+    """The highest temperature that it stands [°C]."""
+    derated_from_degc: float
+    """Temperature from which on the current limit falls, to nothing at the highest; left out, it
+    does not [°C]."""
+
+
 class RoverMotor(TypedDict, total=False):
     """The motor of every wheel whose mount has no other; without it nothing is said of current and
     battery."""
 
     resistance_ohm: float
-    """Resistance of the winding, R [Ω]."""
+    """Resistance of the winding at 20 °C, R [Ω]."""
     torque_constant_nm_a: float
     """Torque constant, k, which is that of the induced voltage, too [N·m/A]."""
     gear_ratio: float
@@ -576,6 +608,32 @@ class RoverMotor(TypedDict, total=False):
     self_locking: bool
     """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
     brakes with none."""
+    control: RoverMotorControl
+    """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
+    fast as it is set to, whatever that takes."""
+    winding: RoverMotorWinding
+    """How warm its winding becomes; left out, nothing is said of that."""
+
+
+class RoverBattery(TypedDict, total=False):
+    """The battery, and what the electronics draw from it; without it nothing is known of its
+    voltage and charge."""
+
+    capacity_wh: float
+    """Energy that it holds when it is full [W·h]."""
+    full_voltage_v: float
+    """Open-circuit voltage when it is full [V]."""
+    empty_voltage_v: float
+    """Open-circuit voltage when it is empty; it falls in a line [V]."""
+    internal_resistance_ohm: float
+    """Internal resistance, R_b [Ω]."""
+    cutoff_voltage_v: float
+    """Voltage at its terminals below which the electronics switch off: the rover stops with
+    `brown_out` [V]."""
+    electronics_w: float
+    """Power that the electronics draw all the time [W]."""
+    state_of_charge: float
+    """State of charge at the start [-]."""
 
 
 class RoverMountInertiaKgM2(TypedDict, total=False):
@@ -616,7 +674,7 @@ class RoverMountMotor(TypedDict, total=False):
     """The motor of this wheel, instead of the rover's."""
 
     resistance_ohm: float
-    """Resistance of the winding, R [Ω]."""
+    """Resistance of the winding at 20 °C, R [Ω]."""
     torque_constant_nm_a: float
     """Torque constant, k, which is that of the induced voltage, too [N·m/A]."""
     gear_ratio: float
@@ -628,6 +686,11 @@ class RoverMountMotor(TypedDict, total=False):
     self_locking: bool
     """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
     brakes with none."""
+    control: RoverMotorControl
+    """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
+    fast as it is set to, whatever that takes."""
+    winding: RoverMotorWinding
+    """How warm its winding becomes; left out, nothing is said of that."""
 
 
 class RoverMount(TypedDict, total=False):
@@ -718,6 +781,12 @@ class RoverKeys:
         @property
         def steering_rate_deg_s(self) -> float:
             """How fast every wheel is steered; left out, 10 °/s (assumed) [°/s]."""
+            ...
+
+        @property
+        def battery(self) -> RoverBattery:
+            """The battery, and what the electronics draw from it; without it nothing is known of
+            its voltage and charge."""
             ...
 
         @property
@@ -1005,6 +1074,39 @@ class MissionStopOffPathM(TypedDict, total=False):
     """How far it backs out, where `then` says so [m]."""
 
 
+class MissionStopCurrentA(TypedDict, total=False):
+    """Largest current of a wheel's motor, driving or braking."""
+
+    above: float
+    """The rover stops above this [A]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopWindingTemperatureDegc(TypedDict, total=False):
+    """Highest temperature of a motor's winding."""
+
+    above: float
+    """The rover stops above this [°C]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopDepthOfDischarge(TypedDict, total=False):
+    """Depth of discharge: 1 less the battery's state of charge."""
+
+    above: float
+    """The rover stops above this [-]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
 class MissionStop(TypedDict, total=False):
     """Limits at which the rover stops in every leg that has none of its own for the same
     number."""
@@ -1027,6 +1129,12 @@ class MissionStop(TypedDict, total=False):
     """Work of the motors since the leg began."""
     off_path_m: MissionStopOffPathM
     """Distance from the straight line, or the circle, of the leg."""
+    current_a: MissionStopCurrentA
+    """Largest current of a wheel's motor, driving or braking."""
+    winding_temperature_degc: MissionStopWindingTemperatureDegc
+    """Highest temperature of a motor's winding."""
+    depth_of_discharge: MissionStopDepthOfDischarge
+    """Depth of discharge: 1 less the battery's state of charge."""
 
 
 class MissionSensors(TypedDict, total=False):
@@ -1110,6 +1218,12 @@ class MissionLegStop(TypedDict, total=False):
     """Work of the motors since the leg began."""
     off_path_m: MissionStopOffPathM
     """Distance from the straight line, or the circle, of the leg."""
+    current_a: MissionStopCurrentA
+    """Largest current of a wheel's motor, driving or braking."""
+    winding_temperature_degc: MissionStopWindingTemperatureDegc
+    """Highest temperature of a motor's winding."""
+    depth_of_discharge: MissionStopDepthOfDischarge
+    """Depth of discharge: 1 less the battery's state of charge."""
 
 
 class MissionLeg(TypedDict, total=False):
