@@ -3,7 +3,9 @@
 
 use grouser::contact::validity::Finding;
 use grouser::document::Loaded;
-use grouser::document::columns::run::{ELECTRICAL, ELECTRICAL_RECORD, RECORD, WHEEL_RECORD};
+use grouser::document::columns::run::{
+    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STEERING_RECORD, WHEEL_RECORD,
+};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, Quantity, TIME};
 use grouser::document::table::Table;
@@ -102,6 +104,7 @@ pub(crate) fn run_meanings(rover: &Rover) -> Vec<Meaning> {
         meanings(&WHEEL_RECORD),
         meanings(&WHEEL),
         electrical(meanings(&ELECTRICAL)),
+        if rover.is_steerable() { meanings(&STEERING_RECORD) } else { Vec::new() },
     ]
     .into_iter()
     .flatten()
@@ -122,6 +125,7 @@ pub(crate) fn over_time(page: &mut Page, table: &Table, rover: &Rover) {
     page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));
     page.charts(&by_part(table, TIME, &wheels, &WHEEL));
     page.charts(&by_part(table, TIME, &wheels, &ELECTRICAL));
+    page.charts(&by_part(table, TIME, &wheels, &STEERING_RECORD));
 }
 
 /// A chart for each unit of some columns over another: columns of one unit share an axis.

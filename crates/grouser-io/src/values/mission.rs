@@ -5,8 +5,10 @@ use super::super::document::Document;
 use super::super::error::Problem;
 use super::super::field::Inner;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
+use super::super::unit::DEG;
 use super::{Described, Misfit};
 use grouser_core::mission::{Mission, PlanError, Stop, Then};
+use grouser_core::vehicle::{Mount, Rover};
 
 /// That alternatives have names of their own, and stand in place of legs.
 fn check_alternatives(plan: &Plan) -> Result<(), Misfit> {
@@ -42,7 +44,8 @@ pub(crate) fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
 /// That legs can be driven.
 ///
 /// * `within`: the key under which they stand
-fn check_legs(legs: &[LegKeys], within: &str) -> Result<(), Misfit> {
+/// * `rover`: that drives them
+fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfit> {
     let mut speed = None;
     for (place, leg) in legs.iter().enumerate() {
         speed = leg.speed.as_ref().or(speed);
@@ -51,6 +54,19 @@ fn check_legs(legs: &[LegKeys], within: &str) -> Result<(), Misfit> {
             return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
         }
         check_stops(&leg.stops, &format!("{within}.{place}."))?;
+        let angle = leg.crab.unwrap_or(0.0);
+        let is_beyond =
+            |mount: &&Mount| mount.steering_axis.is_some_and(|axis| angle.abs() > axis.limit);
+        if let Some(mount) = rover.mounts().iter().find(is_beyond) {
+            let limit = DEG.as_given(mount.steering_axis.map_or(0.0, |axis| axis.limit));
+            let what = format!(
+                "has `crab_deg` = {}, but wheel `{}` turns up to {limit}° to either side",
+                DEG.as_given(angle),
+                mount.name
+            );
+            let problem = Problem::Leg { number: place + 1, what };
+            return Err(Misfit::new(format!("{within}.{place}.crab_deg"), problem));
+        }
     }
     Ok(())
 }
@@ -91,7 +107,7 @@ impl Described for Plan {
         check_stops(&plan.stops, "")?;
         check_alternatives(&plan)?;
         for (within, legs) in plan.all_legs() {
-            check_legs(legs, &within)?;
+            check_legs(legs, &within, &plan.scenario.rover)?;
             if plan.alternatives.is_empty() || within != "leg" {
                 check_mission(&plan.mission_of(legs), &within)?;
             }

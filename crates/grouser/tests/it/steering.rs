@@ -1,6 +1,6 @@
 //! Wheels that are steered about their kingpins.
 
-use grouser::document::{Kind, Overrides, Source, read_rover};
+use grouser::document::{Kind, Overrides, Source, read_mission, read_rover};
 use grouser::mission::{
     Heading, Leg, Manoeuvre, Mission, MissionReport, MissionRun, Steering as ArcSteering,
 };
@@ -485,4 +485,41 @@ fn a_body_turned_by_90_degrees_with_its_wheels_steered_back_moves_as_before() {
             assert!((one.angle - other.angle).abs() < 1e-7, "{one:?} {other:?}");
         }
     }
+}
+
+#[test]
+fn documents_of_missions_steer() {
+    let read = |legs: &str| {
+        let text = format!(
+            "schema = \"mission/1\"\nrover = \"hakuto-steered\"\nsoil = \"toyoura\"\nslope_deg = 5\n{legs}"
+        );
+        read_mission(&Source::text("a mission", text), &Overrides::none())
+    };
+    let legs = "[[leg]]\ndrive_m = 1\nheading = \"crab\"\ncrab_deg = 4\n\
+        [[leg]]\ngoto = { x_m = 1, y_m = 1 }\nheading = \"crab\"\n\
+        [[leg]]\narc = { radius_m = 2, angle_deg = 30 }\nsteering = \"ackermann\"\n";
+    let loaded = read(legs).expect("a mission");
+    let [drive, goto, arc] = &loaded.value.mission().legs[..] else { panic!("three legs") };
+    assert_eq!(drive.heading, Heading::Crab { angle: deg(4.0) });
+    assert_eq!(goto.heading, Heading::Crab { angle: 0.0 });
+    assert_eq!(arc.steering, ArcSteering::Ackermann);
+    let again = read_mission(&Source::text("again", loaded.to_toml()), &Overrides::none());
+    assert_eq!(again.expect("it was written").value, loaded.value);
+
+    for (leg, part) in [
+        ("drive_m = 1\ncrab_deg = 4", "not the heading \"crab\""),
+        ("drive_m = 1\nsteering = \"ackermann\"", "goes with `arc` only"),
+        ("turn_deg = 1\nheading = \"crab\"", "goes with `drive_m` only"),
+        ("drive_m = 1\nheading = \"crab\"\ncrab_deg = 61", "`front-left` turns up to 60°"),
+        ("arc = { radius_m = 0.2, angle_deg = 9 }\nsteering = \"ackermann\"", "steering angle of"),
+    ] {
+        let message = read(&format!("[[leg]]\n{leg}\n")).expect_err("no leg").to_string();
+        assert!(message.contains(part), "{message}");
+    }
+    let fixed = format!(
+        "schema = \"mission/1\"\nrover = \"hakuto\"\nsoil = \"toyoura\"\nslope_deg = 5\n{legs}"
+    );
+    let message = read_mission(&Source::text("fixed", fixed), &Overrides::none());
+    let message = message.expect_err("no wheel is steered").to_string();
+    assert!(message.contains("steering_limit_deg"), "{message}");
 }
