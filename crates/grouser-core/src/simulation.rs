@@ -36,7 +36,7 @@ mod yaw;
 pub use controller::{CONTROL_PERIOD, Controller, Observation};
 pub use error::RunError;
 pub use method::Method;
-pub use outcome::{Outcome, StuckBecause};
+pub use outcome::{Outcome, PowerLost, StuckBecause};
 pub use power::EnergyBalance;
 pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};

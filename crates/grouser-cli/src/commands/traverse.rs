@@ -237,8 +237,13 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
         let last = samples.numbers(quantity.name).last().copied().flatten();
         four_digits(last.unwrap_or(f64::NAN))
     });
+    let battery = if scenario.value.rover.has_motors() {
+        format!(", {} J from the battery", four_digits(end.energy.electrical))
+    } else {
+        String::new()
+    };
     let outcome = format!(
-        "{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{simulation}\n",
+        "{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{battery}{simulation}\n",
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),

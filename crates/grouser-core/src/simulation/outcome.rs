@@ -26,8 +26,27 @@ pub enum Outcome {
     BrownOut {
         /// When [s].
         time: f64,
-        /// Voltage at the battery's terminals [V].
+        /// What its battery lacks.
+        because: PowerLost,
+    },
+}
+
+/// Why a battery no longer gave what was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PowerLost {
+    /// It is empty.
+    Empty,
+    /// The voltage at its terminals is below that at which the electronics switch off.
+    BelowCutoff {
+        /// The voltage [V].
         voltage: f64,
+        /// That at which they switch off [V].
+        cutoff: f64,
+    },
+    /// No current of it has the power that is drawn.
+    TooMuchDrawn {
+        /// The power [W].
+        power: f64,
     },
 }
 
@@ -84,9 +103,17 @@ impl Outcome {
             }),
             Self::Sliding { .. } => Some("it slides downhill faster than its wheels turn".into()),
             Self::TippedOver { .. } => Some("its weight falls outside its wheels".into()),
-            Self::BrownOut { voltage, .. } => Some(format!(
-                "its battery fails at {voltage:.2} V: it is empty, or cannot give what motors and electronics draw"
-            )),
+            Self::BrownOut { because, .. } => Some(match because {
+                PowerLost::Empty => "its battery is empty".into(),
+                PowerLost::BelowCutoff { voltage, cutoff } => format!(
+                    "its battery falls to {voltage:.2} V, below the {cutoff:.2} V at which the electronics switch off"
+                ),
+                PowerLost::TooMuchDrawn { power } => {
+                    format!(
+                        "its battery cannot give the {power:.1} W that motors and electronics draw"
+                    )
+                }
+            }),
         }
     }
 }

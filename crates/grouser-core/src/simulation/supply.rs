@@ -4,9 +4,9 @@
 //! [a tenth of a second](super::watch::WATCH_PERIOD) later, by the mean of what motors take at both. What that leaves of
 //! voltage and current limits the motors from the next [`LIMIT_PERIOD`] on.
 
-use super::outcome::Outcome;
+use super::outcome::{Outcome, PowerLost};
 use super::times::is_same_time;
-use crate::vehicle::{Battery, Electrical, MotorLimits, Rover, Terminals};
+use crate::vehicle::{Electrical, MotorLimits, Rover, Terminals};
 
 /// Time between two changes of the motors' limits [s]. Source: ours; the windings of the smallest motors take ten times as
 /// long to warm.
@@ -115,15 +115,20 @@ impl Supply {
         if let Some(last) = self.last.take() {
             self.go_on(rover, &last, &now);
         }
-        let terminals = self.drawn(rover, &self.warm(rover, &now.taken));
+        let warm = self.warm(rover, &now.taken);
+        let terminals = self.drawn(rover, &warm);
         self.last = Some(now);
-        let battery = rover.battery()?;
-        let held = terminals.filter(|it| it.voltage >= battery.cutoff_voltage);
+        let cutoff = rover.battery()?.cutoff_voltage;
+        let because = match terminals {
+            _ if self.charge == 0.0 => Some(PowerLost::Empty),
+            None => Some(PowerLost::TooMuchDrawn { power: power_of(rover, &warm) }),
+            Some(Terminals { voltage, .. }) if voltage < cutoff => {
+                Some(PowerLost::BelowCutoff { voltage, cutoff })
+            }
+            Some(_) => None,
+        };
         self.terminals = terminals.or(self.terminals);
-        if held.is_some() && self.charge > 0.0 {
-            return None;
-        }
-        Some(Outcome::BrownOut { time, voltage: brown(battery, terminals, self.charge) })
+        because.map(|because| Outcome::BrownOut { time, because })
     }
 
     /// What is seen with windings as warm, and a battery as full, as at the look before.
@@ -222,9 +227,4 @@ fn is_near(taken: &Electrical, limits: MotorLimits) -> bool {
     /// So much of it [-].
     const NEAR: f64 = 0.98;
     taken.voltage.abs() >= NEAR * limits.voltage || taken.current.abs() >= NEAR * limits.current
-}
-
-/// The voltage at which the power went: of the terminals, or where they cannot give it, half the open-circuit one.
-fn brown(battery: &Battery, terminals: Option<Terminals>, charge: f64) -> f64 {
-    terminals.map_or_else(|| 0.5 * battery.open_voltage(charge), |terminals| terminals.voltage)
 }

@@ -1,8 +1,8 @@
 //! Motors that turn as fast as they are told, and what they take from the battery.
 
 use grouser::simulation::{
-    Approach, EnergyBalance, Integrator, Motion, Numerics, Outcome, Record, Run, Scenario,
-    StuckBecause, Trajectory,
+    Approach, EnergyBalance, Integrator, Motion, Numerics, Outcome, PowerLost, Record, Run,
+    Scenario, StuckBecause, Trajectory,
 };
 use grouser::soil::{Shear, Soil};
 use grouser::units::deg;
@@ -460,12 +460,20 @@ fn a_battery_that_fails_is_an_outcome() {
     };
     assert_eq!(ends(BATTERY).0, Outcome::Completed);
     let (empty, time) = ends(Battery { capacity: 40.0, ..BATTERY });
-    assert!(matches!(empty, Outcome::BrownOut { .. }), "{empty:?}");
+    assert!(matches!(empty, Outcome::BrownOut { because: PowerLost::Empty, .. }), "{empty:?}");
     // 40 J at 3 W and what the motors take, three watts or so.
     assert!((4.0..10.0).contains(&time), "{time} s");
     let (weak, time) = ends(Battery { resistance: 5.0, ..BATTERY });
-    let Outcome::BrownOut { voltage, .. } = weak else { panic!("{weak:?}") };
-    assert!(time < 0.2 && voltage < 5.5, "{time} s, {voltage} V");
+    assert!(
+        matches!(weak, Outcome::BrownOut { because: PowerLost::TooMuchDrawn { power }, .. } if power > 3.0),
+        "{weak:?}"
+    );
+    assert!(time < 0.2, "{time} s");
+    let (low, _) = ends(Battery { cutoff_voltage: 8.3, ..BATTERY });
+    let Outcome::BrownOut { because: PowerLost::BelowCutoff { voltage, .. }, .. } = low else {
+        panic!("{low:?}")
+    };
+    assert!(voltage < 8.3);
 }
 
 /// A hot winding lets through less current, until its rover stalls; the current never passes what is allowed.
