@@ -523,3 +523,28 @@ fn motors_slow_down_as_the_battery_empties() {
         assert!((volts / given - 1.0).abs() < 0.01, "{approach:?}: {volts} V of {given} V");
     }
 }
+
+/// What motors cost whose speed depends on their load: wheels that are settled in a dynamic run of 20 s, and evaluations of a
+/// quasi-steady one of ten minutes, over those of a rover whose motors hold their speed.
+#[test]
+fn motors_cost_at_most_twice_a_dynamic_run() {
+    let integral = SpeedControl { integral: 975.0, ..PROPORTIONAL };
+    let stiff = SpeedControl { gain: 1000.0, ..PROPORTIONAL };
+    let cases = [
+        (Approach::Dynamic, 20.0, [(PROPORTIONAL, 1.7), (stiff, 1.7), (integral, 2.1)]),
+        (Approach::QuasiSteady, 600.0, [(PROPORTIONAL, 1.4), (stiff, 1.3), (integral, 1.1)]),
+    ];
+    for (approach, duration, controls) in cases {
+        let work = |mut scenario: Scenario| {
+            scenario.duration = duration;
+            scenario.numerics.approach = approach;
+            let work = run(&scenario).work;
+            if approach == Approach::Dynamic { work.settled_wheels } else { work.evaluations }
+        };
+        let ideal = work(across(10.0)) as f64;
+        for (control, most) in controls {
+            let ratio = work(with(controlled(control), across(10.0))) as f64 / ideal;
+            assert!(ratio < most, "{approach:?}, {control:?}: {ratio:.2}");
+        }
+    }
+}

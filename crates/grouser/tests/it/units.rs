@@ -21,7 +21,10 @@ fn every_end_of_a_word_finds_its_own_unit() {
 
 /// The unit that a quantity has inside the library, by that in its name.
 fn inside(unit: &str) -> String {
-    unit.replace('°', "rad").replace("kPa", "Pa").replace("mm", "m")
+    if unit == "°C" {
+        return unit.to_owned();
+    }
+    unit.replace('°', "rad").replace("kPa", "Pa").replace("mm", "m").replace("W·h", "J")
 }
 
 #[test]
