@@ -246,6 +246,8 @@ pub enum NoEstimator {
 ///     efficiency: 0.6,
 ///     friction: 1e-3,
 ///     is_self_locking: false,
+///     control: None,
+///     winding: None,
 /// });
 /// scenario.rover = Rover::draft(parts).checked()?;
 ///
