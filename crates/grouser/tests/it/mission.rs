@@ -6,18 +6,12 @@ use grouser::mission::{
 };
 use grouser::simulation::{Approach, CONTROL_PERIOD, Method, Numerics, Outcome, Record, Scenario};
 use grouser::units::{Vec2, deg};
-use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover};
+use grouser::vehicle::{DriveLaw, Rover};
 
-use super::given::{RIM_SPEED, run, traverse};
-
-/// With the complete loads: freely the nose falls.
-fn on(slope: f64, yaw: f64) -> Scenario {
-    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
-    Scenario { sharing, own_moments, ..traverse(deg(slope), deg(yaw)) }
-}
+use super::given::{RIM_SPEED, complete_traverse, run};
 
 fn mission(slope: f64, legs: Vec<Leg>) -> Mission {
-    Mission { scenario: on(slope, 0.0), legs, stops: Vec::new(), sensors: None }
+    Mission { scenario: complete_traverse(slope, 0.0), legs, stops: Vec::new(), sensors: None }
 }
 
 fn driven(mission: &Mission) -> MissionReport {
@@ -45,7 +39,7 @@ fn a_straight_leg_is_a_traverse() {
         let leg = &report.legs[0];
         assert_eq!(leg.outcome, LegOutcome::Completed, "{slope}°");
         assert!((leg.distance - 1.0).abs() < 1e-6, "{slope}°: {} m", leg.distance);
-        let traverse = run(&Scenario { duration: leg.time, ..on(slope, yaw) });
+        let traverse = run(&Scenario { duration: leg.time, ..complete_traverse(slope, yaw) });
         let (end, expected) = (&report.last().state, &traverse.last().state);
         assert!((end.position - expected.position).norm() < 1e-9, "{slope}°, {yaw}°");
         assert!((end.yaw - expected.yaw).abs() < 1e-9, "{slope}°, {yaw}°");
@@ -94,8 +88,10 @@ fn a_rover_that_is_turned_round_reverses_the_same_way() {
             Leg::new(Manoeuvre::Arc { radius: 1.5, angle: deg(20.0), reverse }),
         ]
     };
-    let forward = Mission { scenario: on(10.0, 15.0), ..mission(10.0, legs(1.0, false)) };
-    let mut backward = Mission { scenario: on(10.0, -165.0), ..mission(10.0, legs(-1.0, true)) };
+    let forward =
+        Mission { scenario: complete_traverse(10.0, 15.0), ..mission(10.0, legs(1.0, false)) };
+    let mut backward =
+        Mission { scenario: complete_traverse(10.0, -165.0), ..mission(10.0, legs(-1.0, true)) };
     let mut parts = backward.scenario.rover.parts().clone();
     for mount in &mut parts.mounts {
         (mount.position.x, mount.position.y) = (-mount.position.x, -mount.position.y);
@@ -392,7 +388,7 @@ fn off_the_path_of_an_arc_is_off_its_circle() {
 }
 
 /// Heading noise of 1° and visual odometry each half metre with 2 %.
-const SENSORS: Sensors = Sensors {
+pub(crate) const SENSORS: Sensors = Sensors {
     heading_deviation: 0.017_453,
     heading_interval: 1.0,
     heading_delay: 0.0,

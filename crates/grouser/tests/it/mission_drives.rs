@@ -1,20 +1,15 @@
 //! What turns the wheels of a leg: laws of slip and speeds of each wheel, against runs and closed forms.
 
 use grouser::mission::{Heading, Leg, Manoeuvre, Mission, MissionReport, MissionRun};
-use grouser::simulation::{Motion, Scenario, Start};
+use grouser::simulation::Scenario;
 use grouser::units::deg;
 use grouser::vehicle::drive::{SlipLimit, SlipTarget};
-use grouser::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, PerWheel};
+use grouser::vehicle::{ByWheel, DriveLaw, PerWheel};
 
-use super::given::{RIM_SPEED, run, traverse};
+use super::given::{RIM_SPEED, complete_traverse, run};
 
 const TARGET: SlipTarget = SlipTarget { speed: RIM_SPEED, slip_ratio: 0.2 };
 const LIMIT: SlipLimit = SlipLimit { speed: PerWheel::All(RIM_SPEED), slip_ratio: 0.2 };
-
-fn on(slope: f64, yaw: f64) -> Scenario {
-    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
-    Scenario { sharing, own_moments, ..traverse(deg(slope), deg(yaw)) }
-}
 
 fn driven(scenario: Scenario, legs: Vec<Leg>) -> MissionReport {
     let mission = Mission { scenario, legs, stops: Vec::new(), sensors: None };
@@ -37,9 +32,12 @@ fn a_straight_leg_with_any_law_is_a_traverse() {
     ];
     for drive in laws {
         let leg = with(drive.clone(), Manoeuvre::drive(0.8));
-        let report = driven(on(10.0, 0.0), vec![leg]);
-        let traverse =
-            run(&Scenario { duration: report.legs[0].time, drive: drive.clone(), ..on(10.0, 0.0) });
+        let report = driven(complete_traverse(10.0, 0.0), vec![leg]);
+        let traverse = run(&Scenario {
+            duration: report.legs[0].time,
+            drive: drive.clone(),
+            ..complete_traverse(10.0, 0.0)
+        });
         let (end, expected) = (&report.last().state, &traverse.last().state);
         let close = if drive.varies() { 5e-4 } else { 1e-9 };
         assert!(
@@ -68,7 +66,7 @@ fn by_eq_18_a_rover_keeps_its_speed_over_the_ground() {
         (10.0, contour(-1.5)),
     ];
     for (slope, leg) in cases {
-        let report = driven(on(slope, 0.0), vec![leg.clone()]);
+        let report = driven(complete_traverse(slope, 0.0), vec![leg.clone()]);
         let leg_report = &report.legs[0];
         let speed = leg_report.distance / leg_report.time;
         assert!((speed / RIM_SPEED - 1.0).abs() < 0.02, "{leg:?}: {speed} m/s");
@@ -83,8 +81,7 @@ fn by_eq_18_a_rover_keeps_its_speed_over_the_ground() {
 fn a_wheel_that_runs_away_is_held_at_the_limit() {
     let speed = PerWheel::Each(vec![1.0, 1.0, 2.0, 1.0]);
     let by_wheel = ByWheel { speed, ..ByWheel::ALIKE };
-    let base =
-        Scenario { by_wheel, start: Start { yaw: 0.0, motion: Motion::Rolling }, ..on(0.0, 0.0) };
+    let base = Scenario { by_wheel, ..complete_traverse(0.0, 0.0) };
     let hold = |drive| Leg { heading: Heading::Hold, ..with(drive, Manoeuvre::drive(1.0)) };
     let constant = driven(base.clone(), vec![hold(DriveLaw::Constant(RIM_SPEED))]);
     let limited = driven(base, vec![hold(DriveLaw::SlipLimiting(LIMIT))]);
@@ -98,8 +95,7 @@ fn a_wheel_that_runs_away_is_held_at_the_limit() {
 /// for more slip than is allowed, a limit makes it slower and nothing else.
 #[test]
 fn a_limit_of_slip_does_not_help_up_a_plane() {
-    let start = Start { yaw: deg(90.0), motion: Motion::Rolling };
-    let base = Scenario { start, ..on(9.0, 90.0) };
+    let base = complete_traverse(9.0, 90.0);
     let free =
         driven(base.clone(), vec![with(DriveLaw::Constant(RIM_SPEED), Manoeuvre::drive(0.3))]);
     let limited = driven(base, vec![with(DriveLaw::SlipLimiting(LIMIT), Manoeuvre::drive(0.3))]);
@@ -112,7 +108,7 @@ fn a_limit_of_slip_does_not_help_up_a_plane() {
 /// Slower on its right a rover turns to its right, and backward it comes back the way it went.
 #[test]
 fn speeds_of_each_wheel_steer_a_rover_there_and_back() {
-    let base = on(0.0, 0.0);
+    let base = complete_traverse(0.0, 0.0);
     let mounts = base.rover.mounts();
     let speeds = mounts.iter().map(|mount| if mount.position.y < 0.0 { 0.04 } else { 0.06 });
     let drive = DriveLaw::ConstantEach(speeds.collect());

@@ -6,11 +6,9 @@ use grouser::simulation::{
 };
 use grouser::soil::{Shear, Soil};
 use grouser::units::deg;
-use grouser::vehicle::{
-    Battery, DriveLaw, LoadSharing, Motor, OwnMoments, Rover, SpeedControl, Winding,
-};
+use grouser::vehicle::{Battery, DriveLaw, Motor, Rover, SpeedControl, Winding};
 
-use super::given::{RIM_SPEED, hakuto_wheel, linear, run, traverse};
+use super::given::{RIM_SPEED, complete_traverse, hakuto_wheel, linear, run};
 use super::mounts::firm;
 
 /// A micro rover's: of the size that theory gives for one.
@@ -32,8 +30,7 @@ pub(crate) fn with(motor: Motor, scenario: Scenario) -> Scenario {
 }
 
 fn across(slope: f64) -> Scenario {
-    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
-    Scenario { sharing, own_moments, duration: 10.0, ..traverse(deg(slope), deg(3.0)) }
+    Scenario { duration: 10.0, ..complete_traverse(slope, 3.0) }
 }
 
 /// What a motor takes changes nothing of what its wheel does.

@@ -5,34 +5,20 @@ use grouser::mission::{
 };
 use grouser::simulation::{Approach, Numerics, Record};
 use grouser::units::deg;
-use grouser::vehicle::{LoadSharing, OwnMoments};
 use rayon::prelude::*;
 
-use super::given::{RIM_SPEED, traverse};
+use super::given::{RIM_SPEED, complete_traverse};
+use super::mission::SENSORS;
 
 /// Limit of slip over a metre of the rims' way.
 const LIMIT: f64 = 0.4;
 /// Three standard deviations of slip over a metre, of which two fixes say each half with 2 %: 3 (1 - 0.4) 0.02/√2.
 const ERROR: f64 = 0.026;
 
-/// Visual odometry each half metre with 2 %, heading with 1°.
-fn sensors(seed: u64) -> Sensors {
-    Sensors {
-        heading_deviation: deg(1.0),
-        heading_interval: 1.0,
-        heading_delay: 0.0,
-        odometry_deviation: 0.02,
-        odometry_interval: 0.5,
-        seed,
-    }
-}
-
 fn checked_drive(slope: f64, way: f64, seed: u64) -> Mission {
     let stops = vec![Stop::above(Limited::SlipRatio, LIMIT)];
     let leg = Leg { yaw: Some(deg(90.0)), stops, ..Leg::new(Manoeuvre::drive(way)) };
-    let mut scenario = traverse(deg(slope), 0.0);
-    (scenario.sharing, scenario.own_moments) = (LoadSharing::Complete, OwnMoments::Included);
-    let sensors = Some(sensors(seed));
+    let (scenario, sensors) = (complete_traverse(slope, 0.0), Some(Sensors { seed, ..SENSORS }));
     Mission { scenario, legs: vec![leg], stops: Vec::new(), sensors }
 }
 

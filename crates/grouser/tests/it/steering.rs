@@ -13,7 +13,7 @@ use grouser::vehicle::kinematics::{rolling_angle, wheel_velocity};
 use grouser::vehicle::rover::USUAL_STEERING_RATE;
 use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState, SteeringAxis};
 
-use super::given::{hakuto, run, traverse};
+use super::given::{complete_traverse, hakuto, run, traverse};
 use super::mounts::{changed, firm, motley};
 
 /// How each wheel of the rovers of these tests is steered.
@@ -243,8 +243,7 @@ fn a_curve_of_crab_angles_ends_where_wheels_turn_no_further() {
 
 /// A rover that is driven by legs, with the complete loads.
 fn mission(rover: Rover, slope: f64, legs: Vec<Leg>) -> Mission {
-    let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
-    let scenario = Scenario { rover, sharing, own_moments, ..traverse(deg(slope), 0.0) };
+    let scenario = Scenario { rover, ..complete_traverse(slope, 0.0) };
     Mission { scenario, legs, stops: Vec::new(), sensors: None }
 }
 
