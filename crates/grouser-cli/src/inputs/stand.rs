@@ -2,6 +2,7 @@
 
 use grouser::contact::Theory;
 use grouser::document::{self, Kind, Overrides, Source};
+use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
 
 use super::{
@@ -55,15 +56,16 @@ pub(crate) fn soil(
     let overrides = Overrides::parse_flags("--set", &setting.settings)?;
     overrides.check_kinds(&[Kind::Soil])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
-    let mut scenario = Overrides::none();
-    scenario_settings(
-        &mut scenario,
-        Kind::Scenario,
-        setting,
-        &BalanceArgs { load_transfer: None, wheel_moments: None },
-    )?;
-    let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
+    let run = default_run(setting)?;
     Ok((soil, run.site.gravity))
+}
+
+/// The default scenario with the gravity and the model of a setting: they are keys of scenarios, and are checked as such.
+fn default_run(setting: &SettingArgs) -> Result<Scenario, Failure> {
+    let mut overrides = Overrides::none();
+    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
+    scenario_settings(&mut overrides, Kind::Scenario, setting, &balance)?;
+    Ok(document::read_scenario(&Source::default_scenario(), &overrides)?.value)
 }
 
 /// That a simulated stand does what a stand can do.
@@ -86,15 +88,7 @@ pub(crate) fn stand(
     overrides.check_kinds(&[Kind::Soil, Kind::Wheel])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
-    // Gravity and model are keys of scenarios: read them as such, to check them as such.
-    let mut scenario = Overrides::none();
-    scenario_settings(
-        &mut scenario,
-        Kind::Scenario,
-        setting,
-        &BalanceArgs { load_transfer: None, wheel_moments: None },
-    )?;
-    let run = document::read_scenario(&Source::default_scenario(), &scenario)?.value;
+    let run = default_run(setting)?;
     let chosen = setting.model.as_ref().map(|_| run.theory);
     let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
     let band = BandInputs::of_soil(&soil, chosen);
