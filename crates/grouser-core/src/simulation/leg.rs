@@ -56,7 +56,7 @@ impl Leg<'_> {
 
     /// Goes on through the given times and looks at the rover at each; with none, at the start.
     fn go_through(&mut self, times: &[f64]) -> Result<(), RunError> {
-        let rim_speeds = std::mem::take(&mut self.state.rim_speeds);
+        let rim_speeds = std::mem::take(&mut self.state.set_speeds);
         let yaw_rate = self.scenario.yaw.as_ref().map(|yaw| yaw.rate_from(self.state.time));
         let limits = self.state.supply.as_ref().map_or(Vec::new(), |it| it.limits().to_vec());
         let equations =
@@ -79,7 +79,7 @@ impl Leg<'_> {
             done = self.go_dynamically(&equations, times);
         }
         self.state.work += equations.work();
-        self.state.rim_speeds = rim_speeds;
+        self.state.set_speeds = rim_speeds;
         done
     }
 
@@ -174,7 +174,7 @@ impl Leg<'_> {
         state.slip_ratios.clear();
         state.slip_ratios.extend(equations.slips(reached).map(|slip| slip.ratio));
         if reached.turning.is_some() {
-            state.turning.copy_from_slice(equations.turning(reached));
+            state.rim_speeds.copy_from_slice(equations.turning(reached));
         }
         let mut without_power = None;
         if let Some(supply) = &mut state.supply
@@ -186,7 +186,7 @@ impl Leg<'_> {
         if is_multiple(now, WATCH_PERIOD) {
             let turning = watch::Wheels {
                 slip_ratios: &state.slip_ratios,
-                rim_speeds: &state.turning,
+                rim_speeds: &state.rim_speeds,
                 set: equations.rim_speeds(),
             };
             state.outcome = state.watch.look(self.scenario, now, rover, turning);

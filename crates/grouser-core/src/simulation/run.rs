@@ -15,6 +15,7 @@ use super::state::State;
 use super::supply::LIMIT_PERIOD;
 use super::times::{is_same_time, multiple_after, multiples_between, snapped};
 use super::trajectory::Trajectory;
+use super::turning::Turning;
 use super::watch::{LEAST_PROGRESS, WATCH_PERIOD};
 use super::work::Work;
 use crate::error::{ParameterError, positive};
@@ -166,8 +167,8 @@ impl Run {
     /// * `before`: speeds of the rims before [m/s]
     pub(crate) fn set_off(&mut self, before: &[f64]) {
         let mounts = self.scenario.rover.mounts();
-        let State { rim_speeds, point, .. } = &self.state;
-        let [old, new] = [before, rim_speeds].map(|rims| rolling_velocity(mounts, rims));
+        let State { set_speeds, point, .. } = &self.state;
+        let [old, new] = [before, set_speeds].map(|rims| rolling_velocity(mounts, rims));
         let follows = point.state.velocity.dot(&new) > LEAST_PROGRESS * new.norm_squared();
         let is_new = old.dot(&new) <= 0.0 && new != Vec2::zeros();
         if !is_new || follows || self.scenario.start.motion == Motion::Rest {
@@ -178,6 +179,8 @@ impl Run {
             state.yaw_rate = 0.0;
         });
         self.state.carried = Carried::default();
+        let State { set_speeds, point, .. } = &mut self.state;
+        point.turning = point.turning.map(|_| Turning::at(set_speeds));
     }
 
     /// Records where the run has come to.
@@ -194,7 +197,7 @@ impl Run {
 
     /// The wheels now, and what their motors take; none where they do not settle.
     pub(crate) fn wheels(&self) -> Vec<(WheelReaction, Option<Electrical>)> {
-        let equations = Equations::of(&self.scenario, &self.state.rim_speeds);
+        let equations = Equations::of(&self.scenario, &self.state.set_speeds);
         let wheels = equations.reactions_of(&self.state.point).unwrap_or_default();
         let taken = equations.taken(&self.state.point, &wheels);
         wheels.into_iter().zip(taken).collect()
@@ -237,7 +240,7 @@ impl Run {
         if self.state.outcome.is_some() {
             return Ok(());
         }
-        let mut is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.rim_speeds;
+        let mut is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.set_speeds;
         if is_new_command {
             self.state.turn(&self.scenario, rim_speeds);
         }
@@ -413,12 +416,12 @@ impl Run {
     /// Records where the run has come to, if that is not done; without wheels where those do not
     /// settle.
     fn record_now(&mut self) {
-        let State { time, point, rim_speeds, .. } = &self.state;
+        let State { time, point, set_speeds, .. } = &self.state;
         if self.records.last().is_some_and(|last| is_same_time(last.time, *time)) {
             return;
         }
         let supply = self.state.supply.as_ref();
-        let equations = Equations::of(&self.scenario, rim_speeds)
+        let equations = Equations::of(&self.scenario, set_speeds)
             .limited(supply.map_or(&[], |supply| supply.limits()));
         let wheels = equations.reactions_of(point).unwrap_or_default();
         self.records.push(Record::new(&equations, *time, point, &wheels, supply));
@@ -431,7 +434,7 @@ fn observation<'a>(scenario: &'a Scenario, state: &'a State) -> Observation<'a> 
         scenario,
         time: state.time,
         rover: &state.point.state,
-        rim_speeds: &state.turning,
+        rim_speeds: &state.rim_speeds,
         slip_ratios: &state.slip_ratios,
         work: Cell::new(Work::default()),
     }

@@ -27,9 +27,9 @@ pub struct State {
     /// The rim speed that each wheel is told to have [m/s].
     pub(super) told: Vec<f64>,
     /// The one that its motor is set to, *ω_0 r_s* [m/s].
-    pub(super) rim_speeds: Vec<f64>,
+    pub(super) set_speeds: Vec<f64>,
     /// The one that it has, *ω r_s* [m/s], when the rover was last looked at.
-    pub(super) turning: Vec<f64>,
+    pub(super) rim_speeds: Vec<f64>,
     /// The rover with its wheels as they are steered now; none while they are as its document has them.
     pub(super) steered: Option<Arc<Rover>>,
     /// Until when wheels were steered, or could have been [s].
@@ -65,8 +65,8 @@ impl State {
             point: Point::start(rover, state, turning),
             slip_ratios: vec![0.0; rim_speeds.len()],
             told,
-            turning: turning.map_or_else(|| rim_speeds.clone(), |it| it.rim_speeds().to_vec()),
-            rim_speeds,
+            rim_speeds: turning.map_or_else(|| rim_speeds.clone(), |it| it.rim_speeds().to_vec()),
+            set_speeds: rim_speeds,
             steered: None,
             steered_until: 0.0,
             outcome: None,
@@ -97,7 +97,7 @@ impl State {
     /// The wheels' rim speeds, *ω r_s* [m/s].
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
-        &self.turning
+        &self.rim_speeds
     }
 
     /// Work of the motors so far [J].
@@ -185,33 +185,27 @@ impl State {
     ///
     /// * `told`: of each rim [m/s]
     pub(super) fn turn(&mut self, scenario: &Scenario, told: &[f64]) {
-        let (rover, rim_speeds) = (&scenario.rover, scenario.rim_speeds(told));
+        let (rover, set_speeds) = (&scenario.rover, scenario.rim_speeds(told));
         if let Some(turning) = &mut self.point.turning {
-            // Their motors follow in their time; where one holds every speed, at once.
-            let each = rover.mounts().iter().zip(&rim_speeds).enumerate();
-            for (wheel, (mount, rim_speed)) in each {
+            // Motors with a controller follow in their time, others at once.
+            for (wheel, mount) in rover.mounts().iter().enumerate() {
                 if mount.unit.motor.is_none_or(|motor| motor.control.is_none()) {
-                    turning.set(wheel, *rim_speed, 0.0);
+                    turning.set(wheel, set_speeds[wheel], 0.0);
                 }
             }
-            self.told.copy_from_slice(told);
-            if rim_speeds != self.rim_speeds {
-                self.history.clear();
-                self.rim_speeds = rim_speeds;
-            }
-            return;
+        } else {
+            let spin_energy = |rims: &[f64]| {
+                let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
+                power::spin_energy(rover, &wheel_speeds)
+            };
+            // The motors change the spin at once; the energy balance must not lose that work.
+            self.point.motors += spin_energy(&set_speeds) - spin_energy(&self.set_speeds);
+            self.rim_speeds.clone_from(&set_speeds);
         }
-        let spin_energy = |rims: &[f64]| {
-            let wheel_speeds: Vec<f64> = rover.wheel_speeds(rims).collect();
-            power::spin_energy(rover, &wheel_speeds)
-        };
-        // The motors change the spin at once; the energy balance must not lose that work.
-        self.point.motors += spin_energy(&rim_speeds) - spin_energy(&self.rim_speeds);
         self.told.copy_from_slice(told);
-        if rim_speeds != self.rim_speeds {
+        if set_speeds != self.set_speeds {
             self.history.clear();
-            self.turning.clone_from(&rim_speeds);
-            self.rim_speeds = rim_speeds;
+            self.set_speeds = set_speeds;
         }
     }
 }

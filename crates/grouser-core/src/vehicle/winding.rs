@@ -66,7 +66,7 @@ impl Winding {
             return Err(ParameterError::new(name, self.surroundings, expected));
         }
         if let Some(from) = self.derated_from
-            && !(from < self.highest)
+            && (from.is_nan() || from >= self.highest)
         {
             let name = "temperature from which on a motor is derated [°C]";
             return Err(ParameterError::new(name, from, "below the highest temperature"));

@@ -511,9 +511,10 @@ fn motors_slow_down_as_the_battery_empties() {
         scenario.duration = 200.0;
         scenario.numerics.approach = approach;
         let run = run(&scenario);
-        let at = |time: f64| shares(&run.records[(time * 10.0) as usize])[0];
-        assert!((at(5.0) - 1.0).abs() < 1e-3, "{approach:?}: {}", at(5.0));
-        assert!(at(180.0) < 0.99 && at(190.0) < at(180.0), "{}, {}", at(180.0), at(190.0));
+        // Ten records a second.
+        let at = |time: usize| shares(&run.records[10 * time])[0];
+        assert!((at(5) - 1.0).abs() < 1e-3, "{approach:?}: {}", at(5));
+        assert!(at(180) < 0.99 && at(190) < at(180), "{}, {}", at(180), at(190));
         let late = run.last();
         let volts = late.wheels[0].electrical.expect("a motor").voltage;
         let given = late.battery.expect("a battery").terminals.voltage;

@@ -35,7 +35,7 @@ pub(in crate::simulation) struct History(Known);
 enum Known {
     #[default]
     Nothing,
-    Ideal(Way<SIZE>),
+    Ideal(Box<Way<SIZE>>),
     WithMotors(Box<Way<WITH_MOTORS>>),
 }
 
@@ -63,10 +63,10 @@ pub(in crate::simulation) fn adaptive(
 ) -> Result<(), Stalled> {
     let known = std::mem::take(&mut history.0);
     history.0 = if start.turning.is_none() {
-        let known = if let Known::Ideal(way) = known { Some(way) } else { None };
+        let known = if let Known::Ideal(way) = known { Some(*way) } else { None };
         let from = (start_time, start.to_array::<SIZE>());
         let led = led(equations, from, known, times, tolerance, on_sample)?;
-        led.map_or(Known::Nothing, Known::Ideal)
+        led.map_or(Known::Nothing, |way| Known::Ideal(Box::new(way)))
     } else {
         let known = if let Known::WithMotors(way) = known { Some(*way) } else { None };
         let from = (start_time, start.to_array::<WITH_MOTORS>());
