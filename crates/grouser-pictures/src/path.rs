@@ -1,6 +1,7 @@
 //! The path of a mission from above, to scale, leg by leg.
 
 use grouser_core::mission::{LegOutcome, MissionReport};
+use grouser_core::simulation::Record;
 use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Rover, RoverState};
 use grouser_page::{Anchor, Colour, Place, Shape, Sheet, Stroke, Text};
@@ -31,13 +32,14 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
     let at = |place: Vec2| map.at(place);
     let first = report.trajectory.records.first();
     if let Some(first) = first {
-        rover_at(&mut sheet, &first.state, rover, &at, Role::Other.on(Ground::Light));
+        let rover = as_steered(rover, Some(first));
+        rover_at(&mut sheet, &first.state, &rover, &at, Role::Other.on(Ground::Light));
     }
     for (place, (leg, records)) in report.legs_with_records().into_iter().enumerate() {
         let colour = colour_of(place);
         let path = records.iter().map(|record| at(record.state.position));
         sheet.draw(Shape::line(path, Stroke::new(0.7, colour).rounded()));
-        rover_at(&mut sheet, &leg.end, rover, &at, colour);
+        rover_at(&mut sheet, &leg.end, &as_steered(rover, records.last()), &at, colour);
         if leg.outcome != LegOutcome::Completed {
             cross(&mut sheet, at(leg.end.position));
         }
@@ -45,6 +47,13 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
     let ends: Vec<Vec2> = report.legs.iter().map(|leg| leg.end.position).collect();
     numbers(&mut sheet, &map, &ends);
     on_both_grounds(&sheet)
+}
+
+/// The rover with its wheels as a record has them steered.
+fn as_steered(rover: &Rover, record: Option<&Record>) -> Rover {
+    let wheels = record.map_or(&[][..], |record| &record.wheels);
+    let angles: Vec<f64> = wheels.iter().map(|wheel| wheel.steering).collect();
+    rover.steered(&angles).unwrap_or_else(|_| rover.clone())
 }
 
 /// Black is for text.

@@ -87,6 +87,7 @@ impl Run {
         let told = ask(controller, scenario, &mut state)?;
         let work = state.work;
         state = State { work, ..State::new(scenario, told) };
+        state.settle_motors(scenario);
         let kept_until = if controller.period().is_some() { 0.0 } else { scenario.duration };
         let mut records = Vec::new();
         let leg = Leg {

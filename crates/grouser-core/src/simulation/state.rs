@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::equations::Equations;
 use super::integrate::{History, Point};
 use super::method::Method;
 use super::outcome::Outcome;
@@ -80,6 +81,25 @@ impl State {
             history: History::default(),
             carried: Carried::default(),
         }
+    }
+
+    /// That the controllers of motors have settled under the load with which a rolling start begins: nothing else is said of
+    /// a rover that is on its way.
+    pub(super) fn settle_motors(&mut self, scenario: &Scenario) {
+        let rolling = scenario.start.motion == Motion::Rolling;
+        let Some(mut turning) = self.point.turning.filter(|_| rolling) else { return };
+        let limits = self.supply.as_ref().map_or(&[][..], |supply| supply.limits());
+        let equations = Equations::of(scenario, &self.set_speeds).limited(limits);
+        let Ok(wheels) = equations.reactions_of(&self.point) else { return };
+        for (wheel, (reaction, set)) in wheels.iter().zip(&self.set_speeds).enumerate() {
+            // Wheels that are to stall stall on the way.
+            let rim_speed =
+                equations.rim_speed_under(wheel, reaction).clamp(set.min(0.0), set.max(0.0));
+            turning.set(wheel, rim_speed, equations.settled_integral(wheel, rim_speed, reaction));
+        }
+        self.point.turning = Some(turning);
+        self.point.start_work(&scenario.rover);
+        self.rim_speeds.copy_from_slice(turning.rim_speeds());
     }
 
     /// Time since the start [s].
