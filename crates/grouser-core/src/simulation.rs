@@ -16,6 +16,7 @@ mod integrate;
 mod leg;
 mod method;
 mod outcome;
+mod point;
 pub mod power;
 pub mod quasi_steady;
 mod record;

@@ -13,6 +13,7 @@
 pub mod battery;
 pub mod by_wheel;
 pub mod drive;
+pub mod drive_unit;
 pub mod dynamics;
 pub mod estimate;
 pub mod kinematics;
@@ -29,6 +30,7 @@ pub mod winding;
 pub use battery::{Battery, Terminals};
 pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
+pub use drive_unit::{Drive, Driven};
 pub use load::{LoadSharing, OwnMoments};
 pub use motor::{Electrical, Motor};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
@@ -36,6 +38,6 @@ pub use rover::{
     Body, Inertia, Mount, MountParts, Rover, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
 pub use ruts::Ruts;
-pub use speed_control::{Drive, Driven, MotorLimits, SpeedControl};
+pub use speed_control::{MotorLimits, SpeedControl};
 pub use state::{Acceleration, RoverState, roll_and_pitch};
 pub use winding::Winding;

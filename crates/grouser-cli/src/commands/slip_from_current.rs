@@ -1,21 +1,22 @@
 //! `grouser slip-from-current`: the slip of each wheel from a log of its motor's current and speed.
 
 mod page;
+mod tables;
 
 use grouser::document::columns::slip_from_current as columns;
-use grouser::document::columns::{COURSE, SLOPE, STATUS};
+use grouser::document::columns::{COURSE, SLOPE};
 use grouser::document::table::Table;
-use grouser::studies::slip_from_current::{MotorReading, MotorRecord, SlipStatus};
+use grouser::studies::slip_from_current::{MotorReading, MotorRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::tables::Tables;
 use super::{Answer, sampling};
 use crate::args::SlipFromCurrentArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, SlipInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, four_digits};
-use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
 
@@ -52,53 +53,11 @@ pub(crate) fn run(args: &SlipFromCurrentArgs) -> Result<(), Failure> {
     }
 }
 
-/// The readings, and what they come to for each wheel.
-struct Tables {
-    rows: Table,
-    wheels: Table,
-}
-
 #[derive(Serialize)]
 struct Results<'a> {
     wheels: &'a Table,
     rows: &'a Table,
     notes: &'a [String],
-}
-
-impl Tables {
-    /// For reading: some of the readings, then each wheel.
-    fn text(&self, notes: &[String]) -> Text {
-        let rows = self.rows.rows();
-        let shown: Vec<usize> =
-            (0..rows.min(ROWS)).map(|row| row * rows / rows.min(ROWS)).collect();
-        let some = Rows::of_table(&self.rows.rows_at(&shown));
-        let left = if rows > ROWS {
-            format!("{ROWS} of {rows} readings; --format csv prints all\n")
-        } else {
-            String::new()
-        };
-        let names: Vec<&String> = self.wheels.columns.iter().map(|(name, _)| name).collect();
-        let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
-        some.to_table(&columns::brief(&self.rows))
-            + left
-            + meanings(&self.rows)
-            + "\n"
-            + Rows::of_table(&self.wheels).to_table(&names)
-            + format!("\n{notes}")
-    }
-}
-
-/// Readings that a terminal shows: of four wheels at three times.
-const ROWS: usize = 12;
-
-/// What the words in the column of states mean, a line for each that is not `ok`.
-fn meanings(rows: &Table) -> String {
-    let states = rows.texts(STATUS);
-    let is_there =
-        |status: &SlipStatus| states.iter().any(|name| name.as_deref() == Some(status.name()));
-    let others = SlipStatus::ALL.into_iter().filter(|status| *status != SlipStatus::Ok);
-    let lines = others.filter(is_there);
-    lines.map(|status| format!("{}: {}\n", status.name(), status.meaning())).collect()
 }
 
 /// Where loads and slip angles come from.

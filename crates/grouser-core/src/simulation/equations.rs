@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use super::integrate::Point;
+use super::point::Point;
 use super::power;
 use super::scenario::Scenario;
 use super::turning::Turning;

@@ -7,9 +7,10 @@ use std::ops::ControlFlow;
 
 use super::equations::Equations;
 use super::error::RunError;
-use super::integrate::{self, Point, Stalled};
+use super::integrate::{self, Stalled};
 use super::method::Method;
 use super::outcome::{Outcome, StuckBecause};
+use super::point::Point;
 use super::quasi_steady::{Carried, QuasiSteady};
 use super::record::Record;
 use super::scenario::{Integrator, Scenario};

@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 
 use super::equations::Equations;
-use super::integrate::Point;
+use super::point::Point;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::contact::WheelForces;

@@ -1,7 +1,7 @@
 //! One look at the rover in time.
 
 use super::equations::Equations;
-use super::integrate::Point;
+use super::point::Point;
 use super::power::{self, EnergyBalance};
 use super::supply::{Charge, Supply};
 use crate::vehicle::{Electrical, RoverState, WheelReaction};

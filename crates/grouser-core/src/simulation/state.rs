@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::equations::Equations;
-use super::integrate::{History, Point};
+use super::integrate::History;
 use super::method::Method;
 use super::outcome::Outcome;
+use super::point::Point;
 use super::power;
 use super::quasi_steady::Carried;
 use super::scenario::{Approach, Motion, Scenario};

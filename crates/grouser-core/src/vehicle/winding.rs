@@ -9,7 +9,6 @@
 //! A step of current warms it to θ_0 + R i² R_th with the time R_th C, as long as R stays. Source of α:
 //! [IEC60028], standard annealed copper at 20 °C.
 
-use super::motor::Motor;
 use crate::elementary::exp;
 use crate::error::{ParameterError, finite, positive};
 
@@ -44,10 +43,6 @@ pub struct Winding {
     pub derated_from: Option<f64>,
 }
 
-/// Change of copper's resistance with temperature, *α* [1/K].
-const COPPER: f64 = 0.003_93;
-/// The temperature of a data sheet's resistance [°C].
-const REFERENCE: f64 = 20.0;
 /// The coldest that there is [°C].
 const ABSOLUTE_ZERO: f64 = -273.15;
 
@@ -91,15 +86,6 @@ impl Winding {
     pub fn allowed(&self, temperature: f64) -> f64 {
         let Some(from) = self.derated_from else { return 1.0 };
         ((self.highest - temperature) / (self.highest - from)).clamp(0.0, 1.0)
-    }
-}
-
-impl Motor {
-    /// The same motor with its winding at a temperature [°C]: its resistance is another.
-    #[must_use]
-    pub fn at_temperature(&self, temperature: f64) -> Self {
-        let factor = (1.0 + COPPER * (temperature - REFERENCE)).max(f64::MIN_POSITIVE);
-        Self { resistance: self.resistance * factor, ..*self }
     }
 }
 

@@ -8,7 +8,7 @@ use grouser::document::table::Table;
 use grouser::studies::slip_from_current::SlipStatus;
 use grouser::vehicle::Rover;
 
-use super::Tables;
+use super::tables::{self, Tables};
 use crate::args::SlipFromCurrentArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
@@ -41,7 +41,7 @@ pub(super) fn html(
     page.heading("What it comes to");
     let names: Vec<String> = tables.wheels.columns.iter().map(|(name, _)| name.clone()).collect();
     page.rows("Each wheel, and all of them", &tables.wheels, &names);
-    let states = super::meanings(&tables.rows);
+    let states = tables::meanings(&tables.rows);
     page.list(states.lines());
     page.heading("Every reading");
     page.rows("Readings and slip", &tables.rows, &brief(&tables.rows));
