@@ -6,7 +6,7 @@ pub(crate) mod data_set;
 pub(crate) mod data_sheet;
 mod differences;
 pub(crate) mod mission;
-mod power;
+pub(crate) mod power;
 pub(crate) mod prior;
 pub(crate) mod rover;
 pub(crate) mod run;
@@ -25,6 +25,7 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
     match kind {
         Kind::Soil => &soil::SOIL,
         Kind::Wheel => &wheel::WHEEL,
+        Kind::Motor => &power::MOTOR,
         Kind::Rover => &rover::ROVER,
         Kind::Scenario => &scenario::SCENARIO,
         Kind::Mission => &mission::MISSION,

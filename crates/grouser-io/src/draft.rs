@@ -106,7 +106,9 @@ impl Draft {
             Kind::Wheel => wheel::usual,
             Kind::Soil => soil::usual,
             Kind::Scenario => scenario::usual,
-            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => return None,
+            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => {
+                return None;
+            }
         };
         Some(Self { answers: Answers { kind, given: Map::new(), usual } })
     }
@@ -119,7 +121,7 @@ impl Draft {
             Kind::Wheel => &wheel::KEYS,
             Kind::Soil => &soil::KEYS,
             Kind::Scenario => &scenario::KEYS,
-            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => &[],
+            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => &[],
         }
     }
 
@@ -220,7 +222,9 @@ impl Draft {
             Kind::Wheel => Ok(self.answers.wheel()),
             Kind::Soil => Ok(self.answers.soil()),
             Kind::Scenario => Ok(self.answers.scenario()),
-            Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => Ok(String::new()),
+            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => {
+                Ok(String::new())
+            }
         }
     }
 

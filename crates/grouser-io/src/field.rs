@@ -378,6 +378,14 @@ pub(crate) const fn part<T>(
     field(key, doc, Shape::Part(kind, inner))
 }
 
+/// The name of the document that one of its kind starts from; it is gone once that was read.
+pub(crate) const fn preset<T>(doc: &'static str) -> Field<T> {
+    note(PRESET, doc).optional()
+}
+
+/// The key of the document that one of its kind starts from.
+pub(crate) const PRESET: &str = "preset";
+
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
     Field { key, formerly: None, in_thousands: None, doc, presence: Presence::Needed, shape }
 }

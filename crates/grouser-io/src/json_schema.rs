@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::field::{Field, Form, Keyword, Laws, Number, Presence, Shape, Table, Text, Whole};
+use super::field::{
+    Field, Form, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
+};
 
 /// The remark on a key that the soil's priors have a value for. The reader asks for the key where they have none.
 pub(crate) const FROM_PRIOR: &str = "from the soil's priors where it is left out";
@@ -49,6 +51,29 @@ const IN_THOUSANDS: &str = "x-in-thousands";
 /// The key of the number that another key of the same table gives in thousands of its unit.
 pub(crate) fn of_thousands<'s>(table: &'s Json, key: &str) -> Option<&'s str> {
     table.get(IN_THOUSANDS)?.get(key)?.as_str()
+}
+
+/// The schema for editors: a table that may start from a preset needs no key if it does. (The reader has put the
+/// preset's keys into it before it checks.)
+pub(crate) fn with_presets(schema: &mut Json) {
+    match schema {
+        Json::Array(all) => all.iter_mut().for_each(with_presets),
+        Json::Object(keys) => {
+            keys.values_mut().for_each(with_presets);
+            let has_preset = keys.get("properties").is_some_and(|of| of.get(PRESET).is_some());
+            if has_preset && let Some(Json::Array(needed)) = keys.get_mut("required") {
+                let (tag, others): (Vec<_>, Vec<_>) =
+                    std::mem::take(needed).into_iter().partition(|key| key == "schema");
+                *needed = tag;
+                if needed.is_empty() {
+                    keys.shift_remove("required");
+                }
+                keys.insert("if".to_owned(), json!({ "not": { "required": [PRESET] } }));
+                keys.insert("then".to_owned(), json!({ "required": others }));
+            }
+        }
+        _ => {}
+    }
 }
 
 /// The schema for editors: where numbers may stand in thousands of a unit, with those keys too. (The reader has turned

@@ -19,6 +19,8 @@ pub enum Kind {
     Soil,
     /// A wheel, `wheel/1`.
     Wheel,
+    /// A motor with its gear, `motor/1`.
+    Motor,
     /// A rover, `rover/1`.
     Rover,
     /// A run, `scenario/1`.
@@ -35,9 +37,10 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Soil,
         Self::Wheel,
+        Self::Motor,
         Self::Rover,
         Self::Scenario,
         Self::Mission,
@@ -52,6 +55,7 @@ impl Kind {
         match self {
             Self::Soil => "soil",
             Self::Wheel => "wheel",
+            Self::Motor => "motor",
             Self::Rover => "rover",
             Self::Scenario => "scenario",
             Self::Mission => "mission",
@@ -67,6 +71,7 @@ impl Kind {
         match self {
             Self::Soil => "soil/1",
             Self::Wheel => "wheel/1",
+            Self::Motor => "motor/1",
             Self::Rover => "rover/1",
             Self::Scenario => "scenario/1",
             Self::Mission => "mission/1",
@@ -81,7 +86,12 @@ impl Kind {
         match self {
             Self::Soil => Some(""),
             Self::Scenario | Self::Mission => Some("soil"),
-            Self::Wheel | Self::Rover | Self::DataSet | Self::Campaign | Self::Prior => None,
+            Self::Wheel
+            | Self::Motor
+            | Self::Rover
+            | Self::DataSet
+            | Self::Campaign
+            | Self::Prior => None,
         }
     }
 
@@ -89,13 +99,15 @@ impl Kind {
     /// not.
     pub(super) const fn parts(self) -> &'static [Part] {
         match self {
-            Self::Wheel | Self::DataSet | Self::Prior => &[],
+            Self::Wheel | Self::Motor | Self::DataSet | Self::Prior => &[],
             Self::Soil => {
                 &[Part { kind: Self::Prior, path: &[PRIORS_KEY], default: Some(DEFAULT_PRIORS) }]
             }
             Self::Rover => &[
                 Part { kind: Self::Wheel, path: &["wheel_unit", "wheel"], default: None },
                 Part { kind: Self::Wheel, path: &["mount", EACH, "wheel"], default: None },
+                Part { kind: Self::Motor, path: &["motor"], default: None },
+                Part { kind: Self::Motor, path: &["mount", EACH, "motor"], default: None },
             ],
             Self::Scenario | Self::Mission => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },

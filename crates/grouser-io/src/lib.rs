@@ -31,6 +31,7 @@
 //! # Ok::<(), grouser_io::DocumentError>(())
 //! ```
 
+mod base;
 pub mod campaign;
 mod cell;
 mod check;
@@ -86,8 +87,9 @@ pub use overrides::Overrides;
 pub use presets::{Advice, Preset, preset, presets};
 pub use priors::{Assumed, assumed, stated_by_priors, with_priors_held, without_priors_of};
 pub use read::{
-    LoadedMission, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written, kind_of_source,
-    place_of, read_mission, read_priors, read_rover, read_scenario, read_soil, read_wheel, written,
+    LoadedMission, LoadedMotor, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written,
+    kind_of_source, place_of, read_mission, read_motor, read_priors, read_rover, read_scenario,
+    read_soil, read_wheel, written,
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};

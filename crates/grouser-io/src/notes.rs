@@ -114,7 +114,7 @@ pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
     put(tree, &assumed);
 }
 
-fn assumed(tree: &Node) -> Vec<String> {
+pub(crate) fn assumed(tree: &Node) -> Vec<String> {
     let Some(Value::List(nodes)) = tree.entry("assumed").map(|entry| &entry.node.value) else {
         return Vec::new();
     };
@@ -125,7 +125,7 @@ fn assumed(tree: &Node) -> Vec<String> {
     texts.collect()
 }
 
-fn put(tree: &mut Node, assumed: &[String]) {
+pub(crate) fn put(tree: &mut Node, assumed: &[String]) {
     let origin = tree.origin.clone();
     let text = |text: &String| Node { value: Value::String(text.clone()), origin: origin.clone() };
     let node =

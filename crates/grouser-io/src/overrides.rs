@@ -167,9 +167,14 @@ impl Overrides {
     /// # Errors
     /// [`DocumentError`] for the first that does not.
     pub fn check_kinds(&self, kinds: &[Kind]) -> Result<(), DocumentError> {
-        // What reads a soil reads its priors.
+        // What reads a soil reads its priors, and what reads a rover its motors.
         let is_read = |kind: Kind| {
-            kinds.contains(&kind) || (kind == Kind::Prior && kinds.contains(&Kind::Soil))
+            let holder = match kind {
+                Kind::Prior => Kind::Soil,
+                Kind::Motor => Kind::Rover,
+                _ => kind,
+            };
+            kinds.contains(&kind) || kinds.contains(&holder)
         };
         match self.all.iter().find(|one| !is_read(one.kind)) {
             None => Ok(()),
@@ -235,7 +240,10 @@ impl Overrides {
         let path: Vec<_> = steps.collect();
         if path.is_empty() {
             let problem = Problem::Malformed("a document is not set as a whole, only its keys");
-            let hint = format!("for instance {kind}.KEY=VALUE, or another {kind} by its name");
+            let hint = match kind {
+                Kind::Motor => "for instance motor.KEY=VALUE, or rover.motor=NAME".to_owned(),
+                _ => format!("for instance {kind}.KEY=VALUE, or another {kind} by its name"),
+            };
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
         }
         if path.is_empty() || path.iter().any(String::is_empty) {
@@ -290,6 +298,11 @@ impl Overrides {
             one.put(&path, tree)?;
         }
         Ok(())
+    }
+
+    /// Where the first key of a kind of document was set.
+    pub(crate) fn first_key_of(&self, kind: Kind) -> Option<&Origin> {
+        self.all.iter().find(|one| one.kind == kind).map(|one| &one.key_origin)
     }
 
     /// The values set in a document that states its source.

@@ -2,9 +2,10 @@
 
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
-use grouser_core::vehicle::Rover;
+use grouser_core::vehicle::{Motor, Rover};
 use grouser_core::wheel::Wheel;
 
+use super::base;
 use super::check;
 use super::describe;
 use super::document::Document;
@@ -28,6 +29,8 @@ use super::values::Described;
 pub type LoadedSoil = Loaded<Soil>;
 /// A wheel that was read.
 pub type LoadedWheel = Loaded<Wheel>;
+/// A motor with its gear that was read.
+pub type LoadedMotor = Loaded<Motor>;
 /// A rover that was read.
 pub type LoadedRover = Loaded<Rover>;
 /// A scenario that was read.
@@ -49,6 +52,27 @@ pub fn read_soil(source: &Source, overrides: &Overrides) -> Result<LoadedSoil, D
 /// [`DocumentError`] for whatever is wrong first.
 pub fn read_wheel(source: &Source, overrides: &Overrides) -> Result<LoadedWheel, DocumentError> {
     read(Kind::Wheel, source, overrides)
+}
+
+/// Reads a motor with its gear.
+///
+/// At which speed does a wheel turn without load, behind a motor of a data sheet?
+///
+/// ```
+/// use grouser_io::{Kind, Overrides, Source, read_motor};
+///
+/// let motor = Source::find(Kind::Motor, "maxon-re-25")?;
+/// let slower = Overrides::parse(["motor.gear_ratio=500"])?;
+/// let speed = |motor: grouser_io::LoadedMotor| motor.value.no_load_speed(12.0);
+/// assert_eq!(format!("{:.2} rad/s", speed(read_motor(&motor, &Overrides::none())?)), "2.07 rad/s");
+/// assert_eq!(format!("{:.2} rad/s", speed(read_motor(&motor, &slower)?)), "1.02 rad/s");
+/// # Ok::<(), grouser_io::DocumentError>(())
+/// ```
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_motor(source: &Source, overrides: &Overrides) -> Result<LoadedMotor, DocumentError> {
+    read(Kind::Motor, source, overrides)
 }
 
 /// Reads a rover with its wheel.
@@ -211,6 +235,9 @@ fn complete(
     overrides.apply(kind, tree)?;
     // What was set may be a keyword, or a table, of an earlier version.
     describe::rows(kind).rename(tree, Names::Today);
+    if kind == Kind::Motor {
+        base::take(tree)?;
+    }
     if kind == Kind::Mission {
         legs_file::put_in(tree)?;
     }
@@ -259,7 +286,16 @@ fn fetch(
     let prefix = &within(key);
     let origin = table.origin.clone();
     let Some(entry) = table.entry_mut(key) else {
-        let (Some(default), Value::Table(entries)) = (part.default, &mut table.value) else {
+        let Value::Table(entries) = &mut table.value else { return Ok(()) };
+        let Some(default) = part.default else {
+            // A motor of which keys are set, but not all, is not to be left out in silence.
+            if part.kind == Kind::Motor
+                && let Some(origin) = overrides.first_key_of(part.kind)
+            {
+                let mut node = Node { value: Value::Table(Vec::new()), origin: origin.clone() };
+                complete(part.kind, &mut node, overrides, prefix)?;
+                entries.push(Entry { key: (*key).to_owned(), key_origin: origin.clone(), node });
+            }
             return Ok(());
         };
         let source = Source::find(part.kind, default)?;
@@ -287,7 +323,7 @@ fn fetch(
 }
 
 /// That a document says it is of the kind that is needed.
-fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
+pub(super) fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
     let found = kind_of(tree).map_err(|error| match error.problem() {
         Problem::MissingKey { .. } => {
             let hint = format!("a {expected} document starts with schema = \"{}\"", expected.tag());

@@ -16,6 +16,7 @@ use super::kind::Kind;
 pub fn schema(kind: Kind) -> String {
     let mut root = root(kind).clone();
     json_schema::with_thousands(&mut root);
+    json_schema::with_presets(&mut root);
     let mut text = format!("{root:#}");
     text.push('\n');
     text

@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 
 use super::campaign::{Settings, Stand};
 use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
+use super::describe::power::{MOTOR, NO_MOTOR};
 use super::describe::run::ROVER_OF_PARTS;
 use super::describe::scenario::SCENARIO;
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
@@ -25,7 +26,7 @@ use grouser_core::contact::{Theory, validity};
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
-use grouser_core::vehicle::{Inertia, LoadSharing, Mount, OwnMoments, Rover};
+use grouser_core::vehicle::{Inertia, LoadSharing, Motor, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
 /// Values that are valid one by one, but not together.
@@ -233,6 +234,21 @@ impl Described for Wheel {
 
     fn blank() -> Self {
         wheel::BLANK
+    }
+
+    fn settled(self) -> Result<Self, Misfit> {
+        self.check().map_err(Misfit::at(""))?;
+        Ok(self)
+    }
+}
+
+impl Described for Motor {
+    fn table() -> &'static dyn Inner<Self> {
+        &MOTOR
+    }
+
+    fn blank() -> Self {
+        NO_MOTOR
     }
 
     fn settled(self) -> Result<Self, Misfit> {

@@ -52,6 +52,7 @@ pub fn checked(source: &Source) -> Result<Checked, DocumentError> {
         Kind::Scenario => read_scenario(source, &overrides)?.assumed,
         Kind::Mission => read_mission(source, &overrides)?.assumed,
         Kind::Wheel => read_wheel(source, &overrides)?.assumed,
+        Kind::Motor => read_motor(source, &overrides)?.assumed,
         Kind::Rover => read_rover(source, &overrides)?.assumed,
         Kind::DataSet => read_data_set(source, &overrides)?.assumed,
         Kind::Campaign => read_campaign(source, &overrides).map(|_| Vec::new())?,

@@ -66,6 +66,7 @@ pub(crate) struct CompletionsArgs {
 pub(crate) enum KindChoice {
     Soil,
     Wheel,
+    Motor,
     Rover,
     Scenario,
     Mission,
@@ -79,6 +80,7 @@ impl From<KindChoice> for Kind {
         match word {
             KindChoice::Soil => Self::Soil,
             KindChoice::Wheel => Self::Wheel,
+            KindChoice::Motor => Self::Motor,
             KindChoice::Rover => Self::Rover,
             KindChoice::Scenario => Self::Scenario,
             KindChoice::Mission => Self::Mission,

@@ -1,13 +1,14 @@
-//! Motors and the battery of `rover/1`.
+//! `motor/1`: a motor with its gear; and the battery of `rover/1`.
 
 use super::super::field::{
     A, At, DEG_C, J_K, K_W, NM, NM_A, OHM, ONE, Table, V, V_RAD, V_S_RAD, W, WH, flag, number,
-    positive, table,
+    positive, preset, table,
 };
+use super::about::{assumed, name, notes, schema, source};
 use grouser_core::vehicle::{Battery, Motor, SpeedControl, Winding};
 
 /// A motor before its numbers are put in.
-pub(super) const NO_MOTOR: Motor = Motor {
+pub(crate) const NO_MOTOR: Motor = Motor {
     resistance: 0.0,
     torque_constant: 0.0,
     gear_ratio: 0.0,
@@ -40,9 +41,15 @@ pub(super) const NO_BATTERY: Battery = Battery {
     charge: 1.0,
 };
 
-pub(super) static MOTOR: Table<Motor> = Table {
+pub(crate) static MOTOR: Table<Motor> = Table {
     doc: "A DC motor behind a gear. Without a speed controller it turns as fast as it is set to, and takes the current that this needs.",
     fields: &[
+        schema("motor/1"),
+        name(),
+        source(),
+        notes(),
+        assumed(),
+        preset("A preset whose keys it takes where it has none of its own: those of the motor and the gear of a data sheet."),
         positive("resistance_ohm", OHM, 1e6, "Resistance of the winding at 20 °C, R", |motor: &mut Motor| {
             Some(&mut motor.resistance)
         }),

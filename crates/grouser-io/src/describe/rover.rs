@@ -42,9 +42,10 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
             "A wheel with its motor: that of every mount that has no other.",
             &At { inner: &WHEEL_UNIT, at: |rover: &mut RoverParts| &mut rover.wheel_unit },
         ),
-        table(
+        part(
             "motor",
-            "The motor of every wheel whose mount has no other; without it nothing is said of current and battery.",
+            Kind::Motor,
+            "The motor of every wheel whose mount has no other: a preset's name, a path from this document's folder, or a motor's keys; without it nothing is said of current and battery.",
             &At {
                 inner: &MOTOR,
                 at: |rover: &mut RoverParts| rover.wheel_unit.motor.get_or_insert(NO_MOTOR),
@@ -217,9 +218,10 @@ static MOUNT: Table<MountParts> = Table {
             },
         )
         .optional(),
-        table(
+        part(
             "motor",
-            "The motor of this wheel, instead of the rover's.",
+            Kind::Motor,
+            "The motor of this wheel, instead of the rover's: a preset's name, a path from this document's folder, or a motor's keys.",
             &At {
                 inner: &MOTOR,
                 at: |mount: &mut MountParts| mount.motor.get_or_insert(NO_MOTOR),

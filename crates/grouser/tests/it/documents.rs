@@ -36,6 +36,7 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
     match kind {
         Kind::Soil => read!(read_soil),
         Kind::Wheel => read!(read_wheel),
+        Kind::Motor => read!(read_motor),
         Kind::Rover => read!(read_rover),
         Kind::Scenario => read!(read_scenario),
         Kind::Mission => read!(read_mission),
@@ -89,6 +90,7 @@ fn every_file_of_the_data_is_a_preset() {
     for (folder, kind) in [
         ("soils", Kind::Soil),
         ("wheels", Kind::Wheel),
+        ("motors", Kind::Motor),
         ("rovers", Kind::Rover),
         ("scenarios", Kind::Scenario),
         ("missions", Kind::Mission),

@@ -28,6 +28,7 @@ mod messages;
 mod million;
 mod mission;
 mod mission_drives;
+mod motor_presets;
 mod motors;
 mod mounts;
 mod paper;
