@@ -97,7 +97,7 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
     New(NewArgs),
-    /// Check documents: soils, wheels, rovers, scenarios, missions, data sets, campaigns, priors.
+    /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns, priors.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),

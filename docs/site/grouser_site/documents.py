@@ -42,7 +42,8 @@ class Kind:
 
     def table(self, section: dict[str, Any], path: str) -> None:
         """The keys of a table, and then the tables below it."""
-        needed = section.get("required", [])
+        # A table that may start from a preset needs no key where it does.
+        needed = section.get("required", []) + section.get("then", {}).get("required", [])
         rows = ["| key | takes | default | meaning |", "|---|---|---|---|"]
         below = []
         for key, value in section["properties"].items():

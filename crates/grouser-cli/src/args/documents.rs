@@ -11,7 +11,7 @@ use crate::output::Format;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Documents to check: soils, wheels, rovers, scenarios, data sets, campaigns or priors, each by its
+    /// Documents to check: soils, wheels, motors, rovers, scenarios, data sets, campaigns or priors, each by its
     /// `schema`.
     #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,

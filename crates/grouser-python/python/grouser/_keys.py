@@ -592,9 +592,22 @@ class RoverMotorWinding(TypedDict, total=False):
 
 
 class RoverMotor(TypedDict, total=False):
-    """The motor of every wheel whose mount has no other; without it nothing is said of current and
-    battery."""
+    """The motor of every wheel whose mount has no other: a preset's name, a path from this
+    document's folder, or a motor's keys; without it nothing is said of current and battery."""
 
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the values come from."""
+    notes: str
+    """Anything else worth knowing."""
+    assumed: tuple[str, ...]
+    """Values that the source does not give, each as `key: why this value`."""
+    preset: str
+    """A preset whose keys it takes where it has none of its own: those of the motor and the gear
+    of a data sheet."""
     resistance_ohm: float
     """Resistance of the winding at 20 °C, R [Ω]."""
     torque_constant_nm_a: float
@@ -671,8 +684,22 @@ class RoverMountWheel(TypedDict, total=False):
 
 
 class RoverMountMotor(TypedDict, total=False):
-    """The motor of this wheel, instead of the rover's."""
+    """The motor of this wheel, instead of the rover's: a preset's name, a path from this
+    document's folder, or a motor's keys."""
 
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the values come from."""
+    notes: str
+    """Anything else worth knowing."""
+    assumed: tuple[str, ...]
+    """Values that the source does not give, each as `key: why this value`."""
+    preset: str
+    """A preset whose keys it takes where it has none of its own: those of the motor and the gear
+    of a data sheet."""
     resistance_ohm: float
     """Resistance of the winding at 20 °C, R [Ω]."""
     torque_constant_nm_a: float
@@ -721,7 +748,8 @@ class RoverMount(TypedDict, total=False):
     """The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this
     document's folder, or a wheel's keys."""
     motor: RoverMountMotor
-    """The motor of this wheel, instead of the rover's."""
+    """The motor of this wheel, instead of the rover's: a preset's name, a path from this
+    document's folder, or a motor's keys."""
 
 
 class RoverKeys:
@@ -768,8 +796,9 @@ class RoverKeys:
 
         @property
         def motor(self) -> RoverMotor:
-            """The motor of every wheel whose mount has no other; without it nothing is said of
-            current and battery."""
+            """The motor of every wheel whose mount has no other: a preset's name, a path from this
+            document's folder, or a motor's keys; without it nothing is said of current and
+            battery."""
             ...
 
         @property
