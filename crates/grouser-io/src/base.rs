@@ -5,7 +5,6 @@ use super::error::{DocumentError, Problem};
 use super::field::PRESET;
 use super::kind::Kind;
 use super::notes;
-use super::read::{blame_name, check_kind};
 use super::source::Source;
 use super::text;
 use super::tree::{Entry, Node, Value};
@@ -30,9 +29,7 @@ pub(crate) fn take(tree: &mut Node) -> Result<(), DocumentError> {
         return Err(DocumentError::at(&origin, problem)
             .with_hint("the motor of a file is named in the rover: motor = \"FILE\"".to_owned()));
     }
-    let read = source.read().and_then(|text| text::parse(&text));
-    let mut base = read.map_err(|error| blame_name(error, &origin, &source))?;
-    check_kind(Kind::Motor, &base)?;
+    let mut base = text::parse(&source.read()?)?;
     entries.remove(place);
     if origin.text.is_argument {
         entries.retain(|entry| entry.key_origin.text.is_argument);

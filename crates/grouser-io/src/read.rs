@@ -323,7 +323,7 @@ fn fetch(
 }
 
 /// That a document says it is of the kind that is needed.
-pub(super) fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
+fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
     let found = kind_of(tree).map_err(|error| match error.problem() {
         Problem::MissingKey { .. } => {
             let hint = format!("a {expected} document starts with schema = \"{}\"", expected.tag());

@@ -1,9 +1,9 @@
 //! Motors of data sheets: whether their numbers agree, and how a rover names one and changes single keys.
 
-use grouser::vehicle::Motor;
 use grouser::document::{
     DocumentError, Kind, LoadedRover, Overrides, Source, preset, presets, read_motor, read_rover,
 };
+use grouser::vehicle::Motor;
 
 fn motor(name: &str) -> Motor {
     let source = Source::find(Kind::Motor, name).expect("a preset");
