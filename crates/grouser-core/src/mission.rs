@@ -30,7 +30,7 @@ pub use navigator::{Fix, Sensors};
 pub use path_run::{PathRun, PathTask};
 pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
 pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError, Steering};
-pub use report::{BackOut, LegOutcome, LegReport, MissionReport};
+pub use report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 pub use route::{BesideRoute, Route};
 pub use run::{MissionError, MissionRun};
 pub use stop::{Cause, Kind, Limited, Stop, Stopped, Then};

@@ -15,6 +15,7 @@ mod error;
 mod integrate;
 mod leg;
 mod method;
+mod most_taken;
 mod outcome;
 mod point;
 pub mod power;

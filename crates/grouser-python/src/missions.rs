@@ -1,7 +1,6 @@
 //! Missions: legs that a rover drives one after the other.
 
-use grouser::document::columns::mission::{MISSION, MissionObject};
-use grouser::document::table::Table;
+use grouser::document::columns::mission::MissionObject;
 use grouser::mission::MissionError;
 use grouser::studies::mission::DrivenMission;
 use pyo3::prelude::*;
@@ -28,7 +27,7 @@ pub(crate) fn drive_mission<'py>(
     let ways = found.map_err(|error| errors::of_mission(&error))?;
     let to_python = |way: &DrivenMission| {
         let dict = PyDict::new(py);
-        let row = Table::of(&MISSION, std::slice::from_ref(way));
+        let row = DrivenMission::alternatives(std::slice::from_ref(way));
         dict.set_item("row", record_to_python(py, &row.row(0))?)?;
         dict.set_item("whole", record_to_python(py, &MissionObject { mission: way })?)?;
         dict.set_item("legs", table_to_python(py, way.table())?)?;

@@ -35,6 +35,33 @@ fn a_rover_with_motors_says_what_they_take() {
     assert!(page.contains("Current of its motor") && page.contains("battery_energy_j"));
 }
 
+/// Legs and the whole say what they took where that is known, in every format; a limit on what is not known is refused
+/// with its place, and what to add.
+#[test]
+fn missions_say_what_motors_and_battery_take() {
+    let place = Place::new();
+    let battery = "[battery]\ncapacity_wh = 10.0\nfull_voltage_v = 8.4\nempty_voltage_v = 6.4\n";
+    place.write("r.toml", rover(&format!("resistance_ohm = 10.0\n{MOTOR}{battery}")));
+    let mission = "schema = \"mission/1\"\nname = \"m\"\n[stop]\ncurrent_a = { above = 9.0 }\n[[leg]]\ndrive_m = 0.2\n[[leg]]\nwait_s = 1.0\n";
+    place.write("m.toml", mission);
+    let all = place.json("mission m.toml --rover r.toml --out out");
+    let legs = all["legs"].as_array().expect("legs");
+    let sum: f64 = legs.iter().map(|leg| number(&leg["battery_energy_j"])).sum();
+    assert!((sum / number(&all["battery_energy_j"]) - 1.0).abs() < 1e-12 && sum > 0.0);
+    assert_eq!(all["state_of_charge"], legs[1]["state_of_charge"]);
+    assert!(number(&all["current_a"]) > 0.0 && !keys(&all).contains(&"winding_temperature_degc"));
+    let head = place.read("out/legs.csv").lines().next().expect("columns").to_owned();
+    assert!(head.ends_with(",battery_energy_j,current_a,state_of_charge"), "{head}");
+    let page = place.read("out/report.html");
+    assert!(page.contains("Largest current of a motor, with the turn before it"));
+    let table = place.line("mission m.toml --rover r.toml").stdout;
+    assert!(table.contains("battery") && table.contains(" J electrical"), "{table}");
+    let refused = check_is_refusal(&place.line("mission m.toml"), 2);
+    for expected in ["m.toml:4", "current_a", "no [motor]", "add [motor] to the rover's document"] {
+        assert!(refused.contains(expected), "{refused}");
+    }
+}
+
 #[test]
 fn bad_motors_are_refused() {
     let place = Place::new();

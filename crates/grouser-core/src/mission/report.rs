@@ -17,6 +17,33 @@ pub enum LegOutcome {
     Ended(Outcome),
 }
 
+/// What motors and battery took, of a rover whose motors are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    /// Electrical energy that motors, and with a battery the electronics, took [J].
+    pub energy: f64,
+    /// Largest current of a motor, driving or braking [A], at looks a tenth of a second apart.
+    pub current: f64,
+    /// Highest temperature of a motor's winding [°C], where some are known.
+    pub temperature: Option<f64>,
+    /// State of charge of the battery at the end [-], where that is known.
+    pub charge: Option<f64>,
+}
+
+impl Taken {
+    /// This, and what was taken after it.
+    #[must_use]
+    pub fn and(self, later: Self) -> Self {
+        let temperatures = self.temperature.into_iter().chain(later.temperature);
+        Self {
+            energy: self.energy + later.energy,
+            current: self.current.max(later.current),
+            temperature: temperatures.reduce(f64::max),
+            charge: later.charge,
+        }
+    }
+}
+
 /// A leg that was driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LegReport {
@@ -28,6 +55,8 @@ pub struct LegReport {
     pub time: f64,
     /// Work of the motors, with the turn before it [J].
     pub energy: f64,
+    /// What motors and battery took, with the turn before it, where motors are known.
+    pub taken: Option<Taken>,
     /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of drives, arcs and ways to
     /// places alone.
     pub slip_ratio: Option<f64>,
@@ -48,6 +77,8 @@ pub struct BackOut {
     pub time: f64,
     /// Work of the motors [J].
     pub energy: f64,
+    /// What motors and battery took, where motors are known.
+    pub taken: Option<Taken>,
 }
 
 /// A mission that was driven.
@@ -126,5 +157,13 @@ impl MissionReport {
         let of_leg =
             |leg: &LegReport| leg.energy + leg.back_out.as_ref().map_or(0.0, |back| back.energy);
         self.legs.iter().map(of_leg).sum()
+    }
+
+    /// What motors and battery took in all legs, with the ways back out of them, where motors are known.
+    #[must_use]
+    pub fn taken(&self) -> Option<Taken> {
+        let back = |leg: &LegReport| leg.back_out.as_ref().and_then(|back| back.taken);
+        let each = self.legs.iter().flat_map(|leg| [leg.taken, back(leg)]);
+        each.flatten().reduce(Taken::and)
     }
 }

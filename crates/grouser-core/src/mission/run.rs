@@ -5,7 +5,7 @@ use super::look_ahead::Ahead;
 use super::navigator::Navigator;
 use super::pilot::{Pilot, line_of, reach, turned};
 use super::plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
-use super::report::{BackOut, LegOutcome, LegReport, MissionReport};
+use super::report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 use super::stop::Then;
 use crate::simulation::{Method, Record, Run, RunError, Scenario, Start};
 use crate::vehicle::RoverState;
@@ -139,7 +139,7 @@ impl MissionRun {
     }
 
     fn drive(&mut self, leg: &Leg, watch: Watch<'_>) -> Result<LegReport, RunError> {
-        let (time, energy) = (self.time(), self.energy());
+        let (time, energy, electrical) = (self.time(), self.energy(), self.begin_taken());
         let is_first = self.reports.is_empty();
         let stops = self.mission.stops_of(leg);
         let straight = self.mission.scenario.rover.steering_angles();
@@ -164,6 +164,7 @@ impl MissionRun {
             other => other,
         };
         let (time, energy) = (self.time() - time, self.energy() - energy);
+        let taken = self.taken_since(electrical);
         let outcome = LegOutcome::from(end);
         let end = *self.rover();
         let back_out = match &outcome {
@@ -173,12 +174,12 @@ impl MissionRun {
             },
             LegOutcome::Completed | LegOutcome::Ended(_) => None,
         };
-        Ok(LegReport { outcome, distance, time, energy, slip_ratio, end, back_out })
+        Ok(LegReport { outcome, distance, time, energy, taken, slip_ratio, end, back_out })
     }
 
     /// Drives against the way of a leg.
     fn back_out(&mut self, leg: &Leg, way: f64, watch: Watch<'_>) -> Result<BackOut, RunError> {
-        let (time, energy) = (self.time(), self.energy());
+        let (time, energy, electrical) = (self.time(), self.energy(), self.begin_taken());
         let direction = match leg.manoeuvre.direction() {
             0.0 => -1.0,
             direction => -direction,
@@ -189,7 +190,9 @@ impl MissionRun {
         let mut back = Driven::new(&self.run, &self.navigator, pilot, goal, &[]);
         let outcome = self.drive_on(&mut back, None, watch)?.into();
         let distance = back.gone();
-        Ok(BackOut { outcome, distance, time: self.time() - time, energy: self.energy() - energy })
+        let (time, energy) = (self.time() - time, self.energy() - energy);
+        let taken = self.taken_since(electrical);
+        Ok(BackOut { outcome, distance, time, energy, taken })
     }
 
     /// The end of a leg's manoeuvre from here, and how long that would take without slip [s].
@@ -246,6 +249,25 @@ impl MissionRun {
 
     fn energy(&self) -> f64 {
         self.run.state().motor_work()
+    }
+
+    /// Sees from now on what motors and battery take; the electrical energy so far [J].
+    fn begin_taken(&mut self) -> f64 {
+        self.run.begin_most_taken();
+        self.run.state().electrical_work()
+    }
+
+    /// What motors and battery took since that was begun, where motors are known.
+    ///
+    /// * `electrical`: electrical energy until then [J]
+    fn taken_since(&self, electrical: f64) -> Option<Taken> {
+        let (most, state) = (self.run.most_taken()?, self.run.state());
+        Some(Taken {
+            energy: state.electrical_work() - electrical,
+            current: most.current,
+            temperature: most.temperature,
+            charge: state.battery().map(|battery| battery.charge),
+        })
     }
 
     /// A turn on the spot to a yaw [rad], and how long it would take without slip [s].

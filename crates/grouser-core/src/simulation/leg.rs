@@ -16,6 +16,7 @@ use super::record::Record;
 use super::scenario::{Integrator, Scenario};
 use super::state::State;
 use super::steady_state::NotSteady;
+use super::supply::Supply;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
 use crate::contact::SettleError;
@@ -178,11 +179,16 @@ impl Leg<'_> {
             state.rim_speeds.copy_from_slice(equations.turning(reached));
         }
         let mut without_power = None;
-        if let Some(supply) = &mut state.supply
+        if (state.supply.is_some() || state.most_taken.is_some())
             && let Ok(wheels) = wheels()
         {
             let taken = equations.taken(reached, &wheels);
-            without_power = supply.look(equations.rover(), now, &taken);
+            if let Some(supply) = &mut state.supply {
+                without_power = supply.look(equations.rover(), now, &taken);
+            }
+            if let Some(most) = &mut state.most_taken {
+                most.look(&taken, state.supply.as_ref().and_then(Supply::warmest));
+            }
         }
         if is_multiple(now, WATCH_PERIOD) {
             let turning = watch::Wheels {

@@ -7,12 +7,13 @@ use super::equations::Equations;
 use super::error::RunError;
 use super::leg::Leg;
 use super::method::Method;
+use super::most_taken::MostTaken;
 use super::outcome::Outcome;
 use super::quasi_steady::Carried;
 use super::record::Record;
 use super::scenario::{LONGEST_DURATION, Motion, ROLLING_SHARE, Scenario};
 use super::state::State;
-use super::supply::LIMIT_PERIOD;
+use super::supply::{LIMIT_PERIOD, Supply};
 use super::times::{is_same_time, multiple_after, multiples_between, snapped};
 use super::trajectory::Trajectory;
 use super::turning::Turning;
@@ -182,6 +183,19 @@ impl Run {
         self.state.carried = Carried::default();
         let State { set_speeds, point, .. } = &mut self.state;
         point.turning = point.turning.map(|_| Turning::at(set_speeds));
+    }
+
+    /// Sees from now on what motors take at most, of a rover whose motors are known.
+    pub(crate) fn begin_most_taken(&mut self) {
+        let State { most_taken, supply, .. } = &mut self.state;
+        let temperature = supply.as_ref().and_then(Supply::warmest);
+        *most_taken = (self.scenario.rover.has_motors())
+            .then(|| MostTaken { temperature, ..MostTaken::default() });
+    }
+
+    /// What motors took at most since that was [begun](Self::begin_most_taken).
+    pub(crate) fn most_taken(&self) -> Option<MostTaken> {
+        self.state.most_taken
     }
 
     /// Records where the run has come to.

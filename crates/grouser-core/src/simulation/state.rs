@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::equations::Equations;
 use super::integrate::History;
 use super::method::Method;
+use super::most_taken::MostTaken;
 use super::outcome::Outcome;
 use super::point::Point;
 use super::power;
@@ -44,6 +45,8 @@ pub struct State {
     pub(super) watch: Watch,
     /// Battery and windings, where they are known.
     pub(super) supply: Option<Supply>,
+    /// What motors took at most, where someone asked for that.
+    pub(super) most_taken: Option<MostTaken>,
     /// Of the dynamic motion while the wheels keep their speeds.
     pub(super) history: History,
     /// Of the quasi-steady motion so far.
@@ -79,6 +82,7 @@ impl State {
             work: Work::default(),
             watch: Watch::default(),
             supply: Supply::of(rover),
+            most_taken: None,
             history: History::default(),
             carried: Carried::default(),
         }
@@ -125,6 +129,12 @@ impl State {
     #[must_use]
     pub fn motor_work(&self) -> f64 {
         self.point.motors
+    }
+
+    /// Electrical energy that motors, and with a battery the electronics, took so far [J]; 0 where no motor is known.
+    #[must_use]
+    pub fn electrical_work(&self) -> f64 {
+        self.point.electrical + self.supply.as_ref().map_or(0.0, Supply::beside)
     }
 
     /// The battery, where it is known.

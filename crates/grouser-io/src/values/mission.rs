@@ -7,7 +7,7 @@ use super::super::field::Inner;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
 use super::super::unit::DEG;
 use super::{Described, Misfit};
-use grouser_core::mission::{Mission, PlanError, Stop, Then};
+use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then};
 use grouser_core::vehicle::{Mount, Rover};
 
 /// That alternatives have names of their own, and stand in place of legs.
@@ -41,6 +41,32 @@ pub(crate) fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
     Err(Misfit::new(path, problem).with_hint("write for instance back_out_m = 0.5 beside it"))
 }
 
+/// That what limits stop at is known of a rover.
+///
+/// * `within`: the table of the limits, with a dot after it
+fn check_known(stops: &[Stop], within: &str, rover: &Rover) -> Result<(), Misfit> {
+    let winding = |mount: &Mount| mount.unit.motor.is_some_and(|motor| motor.winding.is_some());
+    let lacks = |limited: Limited| match limited {
+        Limited::Current if !rover.has_motors() => Some((
+            "this limits the current of motors, but the rover has no [motor]",
+            "add [motor] to the rover's document, or leave the limit out",
+        )),
+        Limited::Temperature if !rover.mounts().iter().any(winding) => Some((
+            "this limits how warm motors become, but no motor of the rover has a [motor.winding]",
+            "add [motor] with [motor.winding] to the rover's document, or leave the limit out",
+        )),
+        Limited::Discharge if rover.battery().is_none() => Some((
+            "this limits what is taken from the battery, but the rover has no [battery]",
+            "add [motor] and [battery] to the rover's document, or leave the limit out",
+        )),
+        _ => None,
+    };
+    let found = stops.iter().find_map(|stop| Some((stop.limited, lacks(stop.limited)?)));
+    let Some((limited, (what, hint))) = found else { return Ok(()) };
+    let path = format!("{within}stop.{}", limited_quantity(limited).name);
+    Err(Misfit::new(path, Problem::Conflict(what)).with_hint(hint))
+}
+
 /// That legs can be driven.
 ///
 /// * `within`: the key under which they stand
@@ -53,7 +79,9 @@ fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfi
             let problem = Problem::Leg { number: place + 1, what };
             return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
         }
-        check_stops(&leg.stops, &format!("{within}.{place}."))?;
+        let of_leg = format!("{within}.{place}.");
+        check_stops(&leg.stops, &of_leg)?;
+        check_known(&leg.stops, &of_leg, rover)?;
         let angle = leg.crab.unwrap_or(0.0);
         let is_beyond =
             |mount: &&Mount| mount.steering_axis.is_some_and(|axis| angle.abs() > axis.limit);
@@ -105,6 +133,7 @@ impl Described for Plan {
     fn settled(self) -> Result<Self, Misfit> {
         let plan = Self { scenario: self.scenario.settled()?, ..self };
         check_stops(&plan.stops, "")?;
+        check_known(&plan.stops, "", &plan.scenario.rover)?;
         check_alternatives(&plan)?;
         for (within, legs) in plan.all_legs() {
             check_legs(legs, &within, &plan.scenario.rover)?;

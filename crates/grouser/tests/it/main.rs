@@ -28,6 +28,7 @@ mod messages;
 mod million;
 mod mission;
 mod mission_drives;
+mod mission_power;
 mod motor_presets;
 mod motors;
 mod mounts;

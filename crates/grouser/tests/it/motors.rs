@@ -29,7 +29,7 @@ pub(crate) fn with(motor: Motor, scenario: Scenario) -> Scenario {
     Scenario { rover: Rover::draft(parts).checked().expect("a rover"), ..scenario }
 }
 
-fn across(slope: f64) -> Scenario {
+pub(crate) fn across(slope: f64) -> Scenario {
     Scenario { duration: 10.0, ..complete_traverse(slope, 3.0) }
 }
 
@@ -349,7 +349,7 @@ fn a_run_with_motors_goes_on_where_it_paused() {
     assert_eq!(whole.last().wheels, pieces.last().wheels);
 }
 
-const WINDING: Winding = Winding {
+pub(crate) const WINDING: Winding = Winding {
     thermal_resistance: 20.0,
     heat_capacity: 2.0,
     surroundings: 20.0,
@@ -358,7 +358,7 @@ const WINDING: Winding = Winding {
 };
 
 /// Two small cells.
-const BATTERY: Battery = Battery {
+pub(crate) const BATTERY: Battery = Battery {
     capacity: 20.0 * 3600.0,
     full_voltage: 8.4,
     empty_voltage: 6.4,
@@ -368,7 +368,7 @@ const BATTERY: Battery = Battery {
     charge: 1.0,
 };
 
-fn powered(motor: Motor, battery: Battery, scenario: Scenario) -> Scenario {
+pub(crate) fn powered(motor: Motor, battery: Battery, scenario: Scenario) -> Scenario {
     let mut parts = scenario.rover.parts().clone();
     (parts.wheel_unit.motor, parts.battery) = (Some(motor), Some(battery));
     Scenario { rover: Rover::draft(parts).checked().expect("a rover"), ..scenario }

@@ -1,7 +1,6 @@
 //! What a mission answers: its rows, its path, and what became of it in words.
 
 use grouser::document::columns::YAW;
-use grouser::document::columns::mission::MISSION;
 use grouser::document::columns::run;
 use grouser::document::table::Table;
 use grouser::document::{LoadedMission, escape};
@@ -22,7 +21,7 @@ impl Answered {
     pub(super) fn table(&self) -> Table {
         match &self.ways[..] {
             [one] => one.table(),
-            ways => Table::of(&MISSION, ways),
+            ways => DrivenMission::alternatives(ways),
         }
     }
 
@@ -58,8 +57,12 @@ pub(super) fn sentence(way: &DrivenMission) -> String {
         (false, 1) => "one leg".to_owned(),
         (false, all) => format!("{all} legs"),
     };
+    let taken = way
+        .report
+        .taken()
+        .map_or(String::new(), |taken| format!(", {} J electrical", four_digits(taken.energy)));
     format!(
-        "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J",
+        "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J{taken}",
         capitalised(way.report.outcome()).replace('_', " "),
         four_digits(end.time),
         four_digits(end.state.position.x),

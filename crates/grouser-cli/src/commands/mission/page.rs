@@ -1,6 +1,8 @@
 //! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
 
-use grouser::document::columns::mission::{LEG, MISSION, legs_brief, missions_brief};
+use grouser::document::columns::mission::{
+    ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
+};
 use grouser::document::columns::run;
 use grouser::document::columns::{ENERGY, SLOPE};
 
@@ -33,8 +35,14 @@ pub(super) fn html(answered: &Answered) -> String {
         .flat_map(|way| run::each_findings(&way.report.trajectory, scenario).into_iter().flatten())
         .collect();
     let mut columns = meanings(&LEG);
+    if scenario.rover.has_motors() {
+        columns.extend(meanings(&ELECTRICAL_LEG));
+    }
     if answered.ways.len() > 1 {
         columns.extend(meanings(&MISSION));
+        if scenario.rover.has_motors() {
+            columns.extend(meanings(&ELECTRICAL_MISSION));
+        }
     }
     columns.extend(run_meanings(&scenario.rover));
     let basis = Basis::new("grouser mission mission.toml".to_owned());

@@ -5,10 +5,13 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::super::limited_quantity;
 use super::super::table::Table;
 use super::super::unit::M;
-use super::run::{DISTANCE, END, METHOD};
-use super::{Column, ENERGY, SLIP_RATIO, TIME, X, Y, YAW, maybe, text, whole};
+use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STATE_OF_CHARGE};
+use super::{
+    CURRENT, Column, ENERGY, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, text, whole,
+};
 use crate::mission::{
     Cause, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop, Stopped,
+    Taken,
 };
 use crate::studies::mission::{DrivenLeg, DrivenMission};
 
@@ -16,7 +19,15 @@ impl DrivenMission {
     /// What became of its legs: a row for each that was begun.
     #[must_use]
     pub fn table(&self) -> Table {
-        Table::of(&LEG, &self.legs)
+        let electrical = electrical(&ELECTRICAL_LEG, &self.legs, |leg| leg.report.taken);
+        Table::of(&LEG, &self.legs).and(electrical, &self.legs.iter().map(Some).collect::<Vec<_>>())
+    }
+
+    /// Alternatives, each a row.
+    #[must_use]
+    pub fn alternatives(ways: &[Self]) -> Table {
+        let electrical = electrical(&ELECTRICAL_MISSION, ways, |way| way.report.taken());
+        Table::of(&MISSION, ways).and(electrical, &ways.iter().map(Some).collect::<Vec<_>>())
     }
 }
 
@@ -56,6 +67,52 @@ pub const MISSION: [Column<DrivenMission>; 10] = [
     Y.number("Uphill, at the end", |it| it.report.last().state.position.y),
     ENERGY.number("Work of the motors", |it| it.report.energy()),
 ];
+
+/// What motors and battery took over a mission, of a rover whose motors are known: beside [`MISSION`].
+pub const ELECTRICAL_MISSION: [Column<DrivenMission>; 4] = [
+    BATTERY_ENERGY
+        .maybe("Electrical energy that motors, and with a battery the electronics, took", |it| {
+            Some(it.report.taken()?.energy)
+        }),
+    CURRENT.maybe("Largest current of a motor", |it| Some(it.report.taken()?.current)),
+    TEMPERATURE
+        .maybe("Highest temperature of a motor's winding", |it| it.report.taken()?.temperature),
+    STATE_OF_CHARGE
+        .maybe("State of charge of the battery at the end", |it| it.report.taken()?.charge),
+];
+
+/// What motors and battery took over a leg, of a rover whose motors are known: beside [`LEG`].
+pub const ELECTRICAL_LEG: [Column<DrivenLeg>; 4] = [
+    BATTERY_ENERGY.maybe(
+        "Electrical energy that motors, and with a battery the electronics, took, with the turn before it",
+        |it| Some(it.report.taken?.energy),
+    ),
+    CURRENT.maybe("Largest current of a motor, with the turn before it", |it| {
+        Some(it.report.taken?.current)
+    }),
+    TEMPERATURE.maybe("Highest temperature of a motor's winding, with the turn before it", |it| {
+        it.report.taken?.temperature
+    }),
+    STATE_OF_CHARGE.maybe("State of charge of the battery where it ended", |it| {
+        it.report.taken?.charge
+    }),
+];
+
+/// Those of four columns of motors and battery that some row has: all of what is known of the rover.
+fn electrical<R>(
+    columns: &'static [Column<R>; 4],
+    rows: &[R],
+    taken: fn(&R) -> Option<Taken>,
+) -> impl Iterator<Item = &'static Column<R>> {
+    let first = rows.iter().find_map(taken);
+    let is_known = [
+        first.is_some(),
+        first.is_some(),
+        first.is_some_and(|taken| taken.temperature.is_some()),
+        first.is_some_and(|taken| taken.charge.is_some()),
+    ];
+    columns.iter().zip(is_known).filter_map(|(column, is_known)| is_known.then_some(column))
+}
 
 /// What became of a mission or of a leg.
 pub(in super::super) const OUTCOME: &str = "outcome";
@@ -121,10 +178,11 @@ pub(in super::super) fn kept_of_leg() -> impl Iterator<Item = &'static Column<Dr
     ALL.iter().filter(move |column| names.contains(&column.name))
 }
 
-/// The columns of [`MISSION`] for reading: all of them.
+/// The columns of [`MISSION`] for reading, and those of motors and battery: all of them.
 #[must_use]
 pub fn missions_brief() -> Vec<String> {
-    MISSION.iter().map(|column| column.name.to_owned()).collect()
+    let electrical = ELECTRICAL_MISSION.iter().map(|column| column.name);
+    MISSION.iter().map(|column| column.name).chain(electrical).map(str::to_owned).collect()
 }
 
 /// The columns of [`LEG`] for reading.
@@ -137,6 +195,10 @@ pub fn legs_brief() -> Vec<String> {
         DISTANCE.name,
         TIME.name,
         ENERGY.name,
+        BATTERY_ENERGY.name,
+        CURRENT.name,
+        TEMPERATURE.name,
+        STATE_OF_CHARGE.name,
         SLIP_RATIO.name,
         X.name,
         Y.name,
@@ -145,7 +207,8 @@ pub fn legs_brief() -> Vec<String> {
     names.map(str::to_owned).into()
 }
 
-/// A mission as one object of JSON: `outcome`, `energy_j`, `final`, and its `legs`.
+/// A mission as one object of JSON: `outcome`, `energy_j`, what motors and battery took where that is known, `final`, and
+/// its `legs`.
 #[derive(Clone, Copy, Debug)]
 pub struct MissionObject<'a> {
     /// The mission.
@@ -162,6 +225,9 @@ impl Serialize for MissionObject<'_> {
         }
         map.serialize_entry(OUTCOME, report.outcome())?;
         map.serialize_entry(ENERGY.name, &report.energy())?;
+        let ways = std::slice::from_ref(self.mission);
+        electrical(&ELECTRICAL_MISSION, ways, |way| way.report.taken())
+            .try_for_each(|column| column.write(&mut map, self.mission))?;
         METHOD.iter().try_for_each(|column| column.write(&mut map, &report.trajectory))?;
         map.serialize_entry("final", &end.row(0))?;
         map.serialize_entry("legs", &self.mission.table())?;

@@ -55,8 +55,7 @@ pub const ELECTRICAL_RECORD: [Column<Record>; 5] = [
         .maybe("Voltage at the battery's terminals", |it| Some(it.battery?.terminals.voltage)),
     quantity("battery_current_a", A)
         .maybe("Current of the battery", |it| Some(it.battery?.terminals.current)),
-    quantity("state_of_charge", ONE)
-        .maybe("State of charge of the battery", |it| Some(it.battery?.charge)),
+    STATE_OF_CHARGE.maybe("State of charge of the battery", |it| Some(it.battery?.charge)),
 ];
 
 /// What a wheel's motor takes, where that is known: beside [`WHEEL_RECORD`].
@@ -75,6 +74,8 @@ pub const ELECTRICAL: [Column<WheelRecord>; 4] = [
 pub const ELECTRICAL_POWER: Quantity = quantity("electrical_power_w", W);
 /// Electrical energy.
 pub const BATTERY_ENERGY: Quantity = quantity("battery_energy_j", J);
+/// State of charge of a battery.
+pub const STATE_OF_CHARGE: Quantity = quantity("state_of_charge", ONE);
 
 /// The steering angle of a wheel that is steered: beside [`WHEEL_RECORD`].
 pub const STEERING_RECORD: [Column<WheelRecord>; 1] =
