@@ -7,6 +7,7 @@
 //! |---|---|---|
 //! | `/tf_static`, `/tf` | `foxglove.FrameTransforms`: `world` → `slope` → `body` → each wheel → its rim | once; each record |
 //! | `/rover`, `/wheels/NAME` | `grouser.Rover`, `grouser.Wheel`: a field for each column of results, its unit in its name | each record |
+//! | `/rover/battery` | `grouser.Battery`: voltage, current and state of charge, where the battery is known | each record |
 //! | `/scene/rover`, `/scene/ground`, `/scene/path` | `foxglove.SceneUpdate`: likeness of the rover, plane with grid, path so far | once; as they grow |
 //! | `/scene/forces` | `foxglove.SceneUpdate`: the soil's force on each wheel, an arrow | each record |
 //! | `/events` | `foxglove.Log`: flags of validity as they are first raised, and what the caller says | then |

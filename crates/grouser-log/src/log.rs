@@ -33,6 +33,8 @@ struct Channels {
     path: ChannelId,
     forces: ChannelId,
     rover: ChannelId,
+    /// Of a rover whose battery is known.
+    battery: Option<ChannelId>,
     wheels: Vec<ChannelId>,
     events: ChannelId,
 }
@@ -47,6 +49,7 @@ pub struct Log<W> {
     scenario: Scenario,
     names: Vec<WheelName>,
     rover: Numbers<Record>,
+    battery: Numbers<Record>,
     wheel: Numbers<WheelRecord>,
     follower: Follower,
     /// The last record's.
@@ -95,6 +98,7 @@ impl<W: Write> Log<W> {
         let likeness = scene::of_rover(rover, &names);
         fixed("/scene/rover", &schema::<SceneUpdate>(), &likeness.to_bytes())?;
         let (of_rover, of_wheel) = (numbers::of_rover(rover), numbers::of_wheel(rover));
+        let of_battery = numbers::of_battery();
         let scene =
             |out: &mut Container<W>, topic| out.channel(topic, &schema::<SceneUpdate>(), &[]);
         let wheel = |name: &WheelName| {
@@ -103,8 +107,12 @@ impl<W: Write> Log<W> {
             out.channel(&format!("/wheels/{}", name.frame), &of_wheel.schema(), &about)
         };
         let wheels = names.iter().map(wheel).collect();
+        let battery = rover
+            .battery()
+            .map(|_| out.channel("/rover/battery", &of_battery.schema(), &of_battery.described()));
         let to = Channels {
             wheels,
+            battery,
             transforms: out.channel("/tf", &schema::<FrameTransforms>(), &[]),
             ground: scene(&mut out, "/scene/ground"),
             path: scene(&mut out, "/scene/path"),
@@ -117,6 +125,7 @@ impl<W: Write> Log<W> {
             to,
             names,
             rover: of_rover,
+            battery: of_battery,
             wheel: of_wheel,
             follower: Follower::new(rover),
             pose: None,
@@ -267,6 +276,10 @@ impl<W: Write> Log<W> {
         let message = self.rover.message(record, "the rover", record.time)?;
         let time = nanoseconds(record.time)?;
         self.out.message(self.to.rover, time, &message)?;
+        if let Some(to) = self.to.battery {
+            let message = self.battery.message(record, "the battery", record.time)?;
+            self.out.message(to, time, &message)?;
+        }
         for ((wheel, name), to) in record.wheels.iter().zip(&self.names).zip(&self.to.wheels) {
             let message = self.wheel.message(wheel, &name.own, record.time)?;
             self.out.message(*to, time, &message)?;

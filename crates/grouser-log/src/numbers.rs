@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use grouser::document::columns::Column;
 use grouser::document::columns::run::{
     ELECTRICAL, ELECTRICAL_RECORD, RECORD, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{Column, TEMPERATURE};
 use grouser_core::contact::Settled;
 use grouser_core::simulation::{Record, WheelRecord};
-use grouser_core::vehicle::Rover;
+use grouser_core::vehicle::{Motor, Rover};
 
 use crate::LogError;
 use crate::container::SchemaOf;
@@ -41,24 +41,38 @@ fn entries<R: 'static, S: 'static>(
     })
 }
 
+static RECORD_TAKEN: &[Column<Record>] = &ELECTRICAL_RECORD;
+/// So many of them are of all motors; those after them are of the battery.
+const OF_MOTORS: usize = 2;
+
+/// The battery's: voltage and current at its terminals, and its state of charge.
+pub(crate) fn of_battery() -> Numbers<Record> {
+    let (_, battery) = RECORD_TAKEN.split_at(OF_MOTORS);
+    Numbers { schema: "grouser.Battery", entries: entries(battery, |it| it).collect() }
+}
+
 /// The rover's, with what its motors take where that is known.
 pub(crate) fn of_rover(rover: &Rover) -> Numbers<Record> {
     static COLUMNS: &[Column<Record>] = &RECORD;
-    static TAKEN: &[Column<Record>] = &ELECTRICAL_RECORD;
-    let taken = if rover.has_motors() { TAKEN } else { &[] };
+    let taken = if rover.has_motors() { RECORD_TAKEN.split_at(OF_MOTORS).0 } else { &[] };
     let all = entries(COLUMNS, |it| it).chain(entries(taken, |it: &Record| it));
     Numbers { schema: "grouser.Rover", entries: all.collect() }
 }
 
-/// A wheel's, with what its motor takes where that is known of every wheel, and its steering angle where some wheel is
+/// A wheel's, with what its motor takes and how warm that is, each where it is known of every wheel, and its steering angle where some wheel is
 /// steered: all wheels have one type of messages.
 pub(crate) fn of_wheel(rover: &Rover) -> Numbers<WheelRecord> {
     static MOTION: &[Column<WheelRecord>] = &WHEEL_RECORD;
     static SETTLED: &[Column<Settled>] = &WHEEL;
     let settled = entries(SETTLED, |it: &WheelRecord| &it.reaction.settled);
     static TAKEN: &[Column<WheelRecord>] = &ELECTRICAL;
-    let has_all = rover.mounts().iter().all(|mount| mount.unit.motor.is_some());
-    let taken = entries(if has_all { TAKEN } else { &[] }, |it: &WheelRecord| it);
+    let all_have = |part: fn(&Motor) -> bool| {
+        rover.mounts().iter().all(|mount| mount.unit.motor.as_ref().is_some_and(part))
+    };
+    let (has_motors, has_windings) = (all_have(|_| true), all_have(|it| it.winding.is_some()));
+    let is_known =
+        move |name: &str| if name == TEMPERATURE.name { has_windings } else { has_motors };
+    let taken = entries(TAKEN, |it: &WheelRecord| it).filter(move |it| is_known(it.name));
     static ANGLE: &[Column<WheelRecord>] = &STEERING_RECORD;
     let steered = entries(if rover.is_steerable() { ANGLE } else { &[] }, |it: &WheelRecord| it);
     let all = entries(MOTION, |it| it).chain(settled).chain(taken).chain(steered);

@@ -14,7 +14,7 @@ use grouser::studies::mission::DrivenMission;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
 use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
 use grouser_core::units::{Vec3, deg};
-use grouser_core::vehicle::{Motor, Mount, Rover};
+use grouser_core::vehicle::{Battery, Motor, Mount, Rover, Winding};
 use grouser_log::{Level, Log, LogError};
 use grouser_pictures::motion::Follower;
 use grouser_pictures::rover::PlacedWheel;
@@ -193,24 +193,25 @@ fn six() -> Rover {
     Rover::new(*four.body(), mounts.collect()).expect("a rover")
 }
 
+const MOTOR: Motor = Motor {
+    resistance: 10.0,
+    torque_constant: 0.01,
+    gear_ratio: 250.0,
+    efficiency: 0.6,
+    friction: 1e-3,
+    is_self_locking: false,
+    control: None,
+    winding: None,
+};
+
 /// What motors take stands behind the other numbers: of wheels where all have a motor, of the rover where one has.
 #[test]
 fn what_motors_take_is_logged() -> Outcomes {
-    let motor = Motor {
-        resistance: 10.0,
-        torque_constant: 0.01,
-        gear_ratio: 250.0,
-        efficiency: 0.6,
-        friction: 1e-3,
-        is_self_locking: false,
-        control: None,
-        winding: None,
-    };
     for (place, has_all) in [(None, true), (Some(2), false)] {
         let mut parts = hakuto::rover().expect("a rover").parts().clone();
         match place {
-            None => parts.wheel_unit.motor = Some(motor),
-            Some(place) => parts.mounts[place].motor = Some(motor),
+            None => parts.wheel_unit.motor = Some(MOTOR),
+            Some(place) => parts.mounts[place].motor = Some(MOTOR),
         }
         let rover = Rover::draft(parts).checked().expect("a rover");
         let scenario = Scenario { rover, ..short() };
@@ -225,6 +226,57 @@ fn what_motors_take_is_logged() -> Outcomes {
         let wheel = last("/wheels/rear-right");
         let power = end.wheels[2].electrical.expect("a motor").power;
         assert_eq!(wheel.last() == Some(&power), has_all);
+    }
+    Ok(())
+}
+
+/// The battery has a topic of its own, and each wheel how warm its motor is.
+#[test]
+fn battery_and_windings_are_logged() -> Outcomes {
+    let winding = Winding {
+        thermal_resistance: 20.0,
+        heat_capacity: 2.0,
+        surroundings: 20.0,
+        highest: 125.0,
+        derated_from: None,
+    };
+    let battery = Battery {
+        capacity: 72e3,
+        full_voltage: 8.4,
+        empty_voltage: 6.4,
+        resistance: 0.3,
+        cutoff_voltage: 5.5,
+        electronics: 3.0,
+        charge: 0.9,
+    };
+    let mut parts = hakuto::rover().expect("a rover").parts().clone();
+    parts.wheel_unit.motor = Some(Motor { winding: Some(winding), ..MOTOR });
+    parts.battery = Some(battery);
+    let rover = Rover::draft(parts).checked().expect("a rover");
+    let scenario = Scenario { rover, ..short() };
+    let run = run_of(&scenario);
+    let file = log_of(&scenario, &run.records)?;
+    let all = messages(&file, "/rover/battery");
+    assert_eq!(all.len(), run.records.len());
+    for ((time, message), record) in all.iter().zip(&run.records) {
+        let seen = record.battery.expect("a battery");
+        let expected = [seen.terminals.voltage, seen.terminals.current, seen.charge];
+        assert_eq!(doubles(message), expected);
+        assert!((*time as f64 - 1e9 * record.time).abs() <= 0.5);
+    }
+    let channels = Summary::of(&file).channels;
+    let channel = channels.iter().find(|it| it.topic == "/rover/battery").expect("it");
+    assert_eq!(channel.metadata["battery_voltage_v"], "Voltage at the battery's terminals [V]");
+    for (place, mount) in scenario.rover.mounts().iter().enumerate() {
+        let wheels = messages(&file, &format!("/wheels/{}", mount.name));
+        for ((_, message), record) in wheels.iter().zip(&run.records) {
+            let wheel = &record.wheels[place];
+            let taken = wheel.electrical.expect("a motor");
+            let numbers = doubles(message);
+            let [current, voltage, power, temperature] = *numbers.last_chunk().expect("four");
+            assert_eq!([current, voltage, power], [taken.current, taken.voltage, taken.power]);
+            assert_eq!(Some(temperature), wheel.temperature);
+        }
     }
     Ok(())
 }
