@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,9 +61,15 @@ class Legs(_tables.Tabular):
     """How far it drove back out of the leg [m]."""
     back_out: NDArray[np.object_]
     """What became of that."""
+    electrical: Mapping[str, Floats] = field(default_factory=dict)
+    """``battery_energy_j`` [J] of motors and electronics, and ``current_a`` [A], the largest of a
+    motor, of a rover whose motors are known; ``winding_temperature_degc`` [°C], the highest, where
+    their windings are, and ``state_of_charge`` [-] where it ended, where the battery is. Empty
+    without motors."""
 
     def _table(self) -> dict[str, Any]:
-        return columns_of(self, [field.name for field in fields(self)])
+        names = [one.name for one in fields(self) if one.name != "electrical"]
+        return {**columns_of(self, names), **self.electrical}
 
     def __len__(self) -> int:
         return len(self.leg)
@@ -191,12 +197,17 @@ class DrivenMission(_tables.Tabular):
     """Uphill, at the end [m]."""
     energy_j: float
     """Work of the motors [J]."""
+    electrical: Mapping[str, float] = field(default_factory=dict)
+    """``battery_energy_j`` [J] of motors and electronics, and ``current_a`` [A], the largest of a
+    motor, of a rover whose motors are known; ``winding_temperature_degc`` [°C], the highest, where
+    their windings are, and ``state_of_charge`` [-] at the end, where the battery is. Empty without
+    motors."""
 
     def _table(self) -> dict[str, Any]:
         return self.legs._table()
 
     def _row(self) -> dict[str, Any]:
-        return columns_of(self, _ROW)
+        return {**columns_of(self, _ROW), **self.electrical}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each leg that was begun."""
@@ -240,7 +251,7 @@ class DrivenMission(_tables.Tabular):
 
 
 #: Fields of the row of a mission, in the order of the program's table.
-_ROW = tuple(field.name for field in fields(DrivenMission)[5:])
+_ROW = tuple(one.name for one in fields(DrivenMission)[5:] if one.name != "electrical")
 
 
 def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
@@ -297,7 +308,8 @@ def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
 
 
 def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives) -> DrivenMission:
-    row, whole = dict(found["row"]), found["whole"]
+    row, electrical = _split(found["row"], _ROW)
+    whole = found["whole"]
     row["alternative"] = row["alternative"] or ""
     row["slip_ratio"] = np.nan if row["slip_ratio"] is None else row["slip_ratio"]
     run = trajectory_of(
@@ -306,11 +318,19 @@ def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives)
         mission=plan,
         alternative=row["alternative"],
     )
+    legs, of_legs = _split(_tables.arrays_of(found["legs"]), [one.name for one in fields(Legs)])
     return DrivenMission(
         mission=plan,
-        legs=Legs(**_tables.arrays_of(found["legs"])),
+        legs=Legs(**legs, electrical=of_legs),
         final=whole["final"],
         trajectory=run,
         alternatives=alternatives,
+        electrical=electrical,
         **row,
     )
+
+
+def _split(columns: Mapping[str, Any], names: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Columns of these names, and the others: those of motors and battery."""
+    known = {name: column for name, column in columns.items() if name in names}
+    return known, {name: column for name, column in columns.items() if name not in names}

@@ -108,8 +108,9 @@ class Trajectory(_tables.Tabular):
 
     ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
-    rover has just tipped over or sunk. Of a rover with motors it has ``current_a``, ``voltage_v``
-    and ``electrical_power_w``, too, of one whose wheels are steered ``steering_deg``.
+    rover has just tipped over or sunk. Of a rover with motors it has ``current_a``, ``voltage_v``,
+    ``electrical_power_w`` and ``winding_temperature_degc``, too (NaN where no winding is known), of
+    one whose wheels are steered ``steering_deg``.
 
     Examples
     --------
@@ -171,8 +172,10 @@ class Trajectory(_tables.Tabular):
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
     electrical: Mapping[str, Floats] = field(default_factory=dict)
-    """``electrical_power_w`` [W] and ``battery_energy_j`` [J] of all motors, arrays of shape
-    (records,); empty where no motor is known."""
+    """``electrical_power_w`` [W] of all motors, ``battery_energy_j`` [J] of motors and electronics,
+    and of the battery ``battery_voltage_v`` [V], ``battery_current_a`` [A] and
+    ``state_of_charge`` [-], NaN where it is not known: arrays of shape (records,); empty where no
+    motor is known."""
     band: TraverseBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
     mission: Mission | None = None
