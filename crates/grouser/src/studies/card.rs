@@ -60,6 +60,8 @@ pub struct Card {
     pub limit_band: Option<Band>,
     /// Number of samples; `None` if there are none.
     pub draws: Option<usize>,
+    /// Whether the rover's motors are known, and with them their currents.
+    pub has_motors: bool,
 }
 
 /// One slope of the card.
@@ -194,6 +196,7 @@ impl CardStudy {
             limit_band: Band::of(draws.iter().map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
             limit: nominal.limit.clone(),
+            has_motors: self.heading.rover.has_motors(),
         }))
     }
 

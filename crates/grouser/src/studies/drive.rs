@@ -21,6 +21,10 @@ pub struct Drive {
     pub energy: f64,
     /// Work of the motors over the length of the way [J/m].
     pub energy_per_metre: Option<f64>,
+    /// Electrical energy that motors, and with a battery the electronics, took [J]. Missing where no motor is known.
+    pub battery_energy: Option<f64>,
+    /// Largest current of a motor, driving or braking [A], over the records. Missing where no motor is known.
+    pub current: Option<f64>,
 }
 
 impl Drive {
@@ -35,6 +39,9 @@ impl Drive {
         let distance: f64 = steps.map(length).sum();
         let per_metre = |quantity: f64| (distance > STILL).then(|| quantity / distance);
         let energy = last.energy.motors;
+        let wheels = run.records.iter().flat_map(|record| &record.wheels);
+        let currents = wheels.filter_map(|wheel| Some(wheel.electrical?.current.abs()));
+        let current = currents.reduce(f64::max);
         Self {
             distance,
             drift: per_metre(0.0 - last.state.position.y),
@@ -43,6 +50,8 @@ impl Drive {
             power: (last.time > 0.0).then(|| energy / last.time),
             energy,
             energy_per_metre: per_metre(energy),
+            battery_energy: current.map(|_| last.energy.electrical),
+            current,
         }
     }
 }

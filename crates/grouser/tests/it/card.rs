@@ -7,12 +7,12 @@ use grouser::site::Site;
 use grouser::soil::{SlopeStability, Soil};
 use grouser::studies::card::courses::{Course, CourseRow};
 use grouser::studies::card::drives::{CardDrives, RowDrives};
-use grouser::studies::card::{Card, CardStudy, Rule, STUCK_ON_GO, Verdict};
+use grouser::studies::card::{Card, CardRow, CardStudy, Rule, STUCK_ON_GO, Verdict};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, deg};
-use grouser::vehicle::DriveLaw;
+use grouser::vehicle::{DriveLaw, Rover};
 
 use super::given;
 
@@ -44,6 +44,41 @@ fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
     let samples: Vec<Sample> = soils.iter().map(sample).collect();
     let card = study.card(&samples, slopes, &|| true);
     card.expect("rule, slopes and soils are in order").expect("not stopped")
+}
+
+/// Largest torques become largest currents by the motor's closed form; without motors there are none.
+#[test]
+fn a_card_of_a_rover_with_motors_has_their_currents() {
+    use super::motors::MOTOR;
+    let slopes = [deg(5.0), deg(10.0)];
+    let mut study = study();
+    let plain = card(&study, &soils(4), &slopes);
+    let table = grouser::document::columns::card::table;
+    assert!(table(&plain).column("current_a_p50").is_none());
+    let mut parts = study.heading.rover.parts().clone();
+    parts.wheel_unit.motor = Some(MOTOR);
+    study.heading.rover = Rover::draft(parts).checked().expect("a rover");
+    let motors = card(&study, &soils(4), &slopes);
+    for (row, without) in motors.rows.iter().zip(&plain.rows) {
+        let motion = |row: &CardRow| row.driven.and_then(|it| it.motion).expect("it moves");
+        let (torque, current) = (motion(row).torque.expect("a band"), motion(row).current);
+        assert_eq!(motion(without).torque, Some(torque));
+        assert_eq!(motion(without).current, None);
+        let current = current.expect("a band");
+        let pairs = [
+            (torque.low, current.low),
+            (torque.median, current.median),
+            (torque.high, current.high),
+        ];
+        for (torque, current) in pairs {
+            let expected = (torque / (250.0 * 0.6) + 1e-3) / 0.010;
+            assert!((current / expected - 1.0).abs() < 1e-12, "{current} A, {expected} A");
+        }
+    }
+    let table = table(&motors);
+    let names: Vec<&str> = table.columns.iter().map(|(name, _)| &**name).collect();
+    let place = names.iter().position(|name| *name == "torque_nm_p97_5").expect("a column");
+    assert_eq!(names[place + 1], "current_a_p2_5");
 }
 
 // ---- What a rover does that is not turned uphill ----

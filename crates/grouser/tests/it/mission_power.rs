@@ -1,7 +1,7 @@
 //! Missions of rovers whose motors and battery are known: what legs take, and limits on it.
 
 use grouser::document::table::Table;
-use grouser::document::{Overrides, Source, read_mission};
+use grouser::document::{Overrides, Source, read_campaign, read_mission};
 use grouser::mission::{
     Cause, Leg, LegOutcome, Limited, Manoeuvre, Mission, MissionReport, MissionRun, Stop, Then,
 };
@@ -177,6 +177,70 @@ fn a_limit_on_what_is_not_known_says_what_to_add() {
         for expected in [key, part, "mission:5", "to the rover's document, or leave the limit out"]
         {
             assert!(message.contains(expected), "{message}");
+        }
+    }
+}
+
+/// The table of the HAKUTO rover with a motor and a battery, under a key.
+fn rover_at(key: &str) -> String {
+    let rover = include_str!("../../../grouser-io/data/rovers/hakuto.toml");
+    let motor = "[motor]\nresistance_ohm = 10.0\ntorque_constant_nm_a = 0.01\ngear_ratio = 250.0\n\
+        gear_efficiency = 0.6\n[battery]\ncapacity_wh = 10.0\nfull_voltage_v = 8.4\n\
+        empty_voltage_v = 6.4\n";
+    let line = |line: &str| match (line.strip_prefix("[["), line.strip_prefix('[')) {
+        (Some(rest), _) => format!("[[{key}.{rest}\n"),
+        (None, Some(rest)) => format!("[{key}.{rest}\n"),
+        (None, None) => format!("{line}\n"),
+    };
+    let lines: String = rover.lines().chain(motor.lines()).map(line).collect();
+    format!("[{key}]\n{lines}")
+}
+
+/// Numbers of motors and battery are inputs as others, and rows have what they lead to.
+#[test]
+fn campaigns_vary_motors_and_battery() {
+    for (study, base, legs) in [
+        ("traverse", "scenario", "[scenario]\nduration_s = 1.0\n"),
+        ("mission", "mission", "[[mission.leg]]\ndrive_m = 0.1\n[[mission.leg]]\nwait_s = 1.0\n"),
+    ] {
+        for (key, low, high) in [
+            ("rover.motor.resistance_ohm", 5.0, 20.0),
+            ("rover.motor.gear_efficiency", 0.4, 0.8),
+            ("rover.battery.capacity_wh", 5.0, 20.0),
+        ] {
+            let text = format!(
+                "schema = \"campaign/1\"\nname = \"power\"\nstudy = \"{study}\"\nruns = 4\n{legs}{}\
+                 [[parameter]]\nkey = \"{key}\"\ndistribution = \"uniform\"\nlow = {low:?}\nhigh = {high:?}\n",
+                rover_at(&format!("{base}.rover"))
+            );
+            let campaign = read_campaign(&Source::text("campaign", text), &Overrides::none());
+            let campaign = campaign.unwrap_or_else(|error| panic!("{study}, {key}: {error}"));
+            let table = campaign.shard(0, &|| true).expect("nobody stops it");
+            let column = |name: &str| -> Vec<f64> {
+                table.numbers(name).into_iter().map(|it| it.unwrap_or(f64::NAN)).collect()
+            };
+            let (inputs, energy) = (column(key), column("battery_energy_j"));
+            let (current, work) = (column("current_a"), column("energy_j"));
+            for row in 0..4 {
+                assert!(
+                    energy[row] > work[row] && current[row] > 0.0,
+                    "{study}, {key}: {energy:?}"
+                );
+            }
+            // More resistance takes more, a better gear less; of a larger battery nothing is felt.
+            let slope = (energy[1] - energy[0]) / (inputs[1] - inputs[0]);
+            let sign = [("resistance", 1.0), ("efficiency", -1.0), ("capacity", 0.0)];
+            let (_, sign) = sign.into_iter().find(|(name, _)| key.contains(name)).expect("one");
+            if sign == 0.0 {
+                assert!(slope.abs() < 1e-9, "{study}: {slope}");
+            } else {
+                assert!(slope * sign > 0.0, "{study}, {key}: {slope}");
+            }
+            if study == "mission" {
+                let legs = ["leg_1", "leg_2"].map(|leg| column(&format!("{leg}.battery_energy_j")));
+                assert!((legs[0][0] + legs[1][0] - energy[0]).abs() < 1e-9 * energy[0]);
+                assert_eq!(column("leg_1.current_a")[0], current[0]);
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use grouser::document::columns::card::{
     CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, ROLL, SLIP_LIMIT, TIPPING_MARGIN,
 };
-use grouser::document::columns::{Quantity, SINKAGE, TORQUE};
+use grouser::document::columns::{CURRENT, Quantity, SINKAGE, TORQUE};
 use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
@@ -38,6 +38,7 @@ const RANGE: f64 = 80.0;
 const STOP: [f64; 2] = [121.0, 173.0];
 
 /// A column of small numbers.
+#[derive(Clone, Copy)]
 struct Small {
     /// Two lines of head, and the unit.
     head: [&'static str; 3],
@@ -105,6 +106,22 @@ const SMALL: [Small; 9] = [
         text: |row| Some(format!("{}", row.number(TIPPING_MARGIN)?.floor())),
     },
 ];
+
+/// In place of the torque where motors are known: what a driver reads.
+const OF_MOTOR: Small = Small {
+    head: ["", "current", "A"],
+    right: STOP[1],
+    text: |row| Some(upwards(high(row, CURRENT)?, 2)),
+};
+
+/// The columns of small numbers on a card.
+fn small_columns(rows: &[CardRow<'_>]) -> [Small; 9] {
+    let has_current = rows.iter().any(|row| high(*row, CURRENT).is_some());
+    SMALL.map(|column| {
+        let is_torque = column.right == OF_MOTOR.right;
+        if has_current && is_torque { OF_MOTOR } else { column }
+    })
+}
 
 fn high(row: CardRow<'_>, quantity: Quantity) -> Option<f64> {
     let [_, _, high] = row.band(quantity);
@@ -199,7 +216,7 @@ fn heads(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     sheet.text(bold(stop, 3.4).colour(WHITE), at);
     three(sheet, range, middle, y);
     let mut left = RANGE;
-    for column in &SMALL {
+    for column in small_columns(table.rows) {
         three(sheet, column.head, left.midpoint(column.right), y);
         left = column.right;
     }
@@ -233,7 +250,7 @@ fn line(sheet: &mut Sheet, table: &Table<'_>, (place, row): (usize, CardRow<'_>)
         sheet.text(middle(text, size), at(f64::midpoint(HEADING, RANGE)));
     }
     let mut left = RANGE;
-    for column in &SMALL {
+    for column in small_columns(table.rows) {
         if let Some(text) = (column.text)(row) {
             let size = fitting(&text, small, column.right - left - 1.0);
             sheet.text(middle(text, size), at(left.midpoint(column.right)));

@@ -3,7 +3,7 @@
 use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
 use super::super::columns::mission::{OUTCOME, kept, kept_of_leg};
-use super::super::columns::run::{DRIVE, END};
+use super::super::columns::run::{DRIVE, ELECTRICAL_DRIVE, END};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{
     self, DRAWBAR_PULL, MODEL, OK, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE,
@@ -102,14 +102,18 @@ pub(super) fn columns(
         Study::Heading | Study::WheelTest => &["status", "reason"],
     };
     all.extend(words.iter().map(|word| Column::new(*word, ColumnKind::Text, Role::Status)));
+    let has_motors = base.has_motors();
     let names: Vec<&str> = match study {
-        Study::Traverse => names(END).chain(names(&DRIVE)).collect(),
+        Study::Traverse => {
+            let electrical = names(&ELECTRICAL_DRIVE).filter(|_| has_motors);
+            names(END).chain(names(&DRIVE)).chain(electrical).collect()
+        }
         Study::Heading => names(&held()).collect(),
-        Study::Mission => names(END).chain(kept().map(|column| column.name)).collect(),
+        Study::Mission => names(END).chain(kept(has_motors).map(|column| column.name)).collect(),
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
-    all.extend((1..=base.legs()).flat_map(columns_of_leg));
+    all.extend((1..=base.legs()).flat_map(|number| columns_of_leg(number, has_motors)));
     all.push(Column::new(FLAGS, ColumnKind::Text, Role::Status));
     all
 }
@@ -117,8 +121,8 @@ pub(super) fn columns(
 /// The columns of a leg: `leg_2.outcome`.
 ///
 /// * `number`: counted from 1
-fn columns_of_leg(number: usize) -> impl Iterator<Item = Column> {
-    kept_of_leg().map(move |column| {
+fn columns_of_leg(number: usize, has_motors: bool) -> impl Iterator<Item = Column> {
+    kept_of_leg(has_motors).map(move |column| {
         let role = if column.kind() == ColumnKind::Text { Role::Status } else { Role::Result };
         Column::new(format!("{LEG}{number}.{}", column.name), column.kind(), role)
     })
@@ -245,6 +249,15 @@ impl Base {
         }
     }
 
+    /// Whether its rover's motors are known.
+    fn has_motors(&self) -> bool {
+        match self {
+            Self::Scenario(varied) => varied.value.rover.has_motors(),
+            Self::Mission(varied) => varied.value.scenario.rover.has_motors(),
+            Self::Stand(_) => false,
+        }
+    }
+
     /// How many legs its mission has; none for what is no mission.
     pub(super) fn legs(&self) -> usize {
         match self {
@@ -332,7 +345,12 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.method.name()),
     ];
     let flags = raised(scenario, &run);
-    Ok(cells(words, END, end).chain(cells([], &DRIVE, &drive)).chain([flags]).collect())
+    let mut row: Vec<Cell> = cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect();
+    if scenario.rover.has_motors() {
+        row.extend(cells([], &ELECTRICAL_DRIVE, &drive));
+    }
+    row.push(flags);
+    Ok(row)
 }
 
 /// The flags of a run.
@@ -356,11 +374,12 @@ fn mission(plan: &Plan) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.method.name()),
     ];
     let mut row: Vec<Cell> = cells(words, END, run.last()).collect();
-    row.extend(kept().flat_map(|column| column.cells(&driven)));
+    let has_motors = plan.scenario.rover.has_motors();
+    row.extend(kept(has_motors).flat_map(|column| column.cells(&driven)));
     for place in 0..driven.planned {
         match driven.legs.get(place) {
-            Some(leg) => row.extend(kept_of_leg().flat_map(|column| column.cells(leg))),
-            None => row.extend(kept_of_leg().map(|column| match column.name {
+            Some(leg) => row.extend(kept_of_leg(has_motors).flat_map(|column| column.cells(leg))),
+            None => row.extend(kept_of_leg(has_motors).map(|column| match column.name {
                 OUTCOME => Cell::text(NOT_BEGUN),
                 _ => Cell::none(column.kind()),
             })),

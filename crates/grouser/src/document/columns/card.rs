@@ -5,8 +5,8 @@ use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
-    Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE, SLIP_RATIO, SLOPE,
-    STATUS, TORQUE, YAW, quantity, text, whole,
+    CURRENT, Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE, SLIP_RATIO,
+    SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
 use crate::contact::Theory;
 use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
@@ -86,7 +86,7 @@ impl OnCard<'_> {
 }
 
 /// What the driver sets, reads and may not exceed.
-const fn driven<'a>() -> [Column<OnCard<'a>>; 21] {
+const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
     const MODEL: &str = "Heading of this model on the soil as written";
     [
         YAW.maybe(
@@ -125,6 +125,10 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 21] {
             it.motion()?.sinkage
         }),
         TORQUE.band("Largest torque of a wheel, likewise", |it| it.motion()?.torque),
+        CURRENT.band(
+            "Largest current of a motor, driving or braking, likewise; of a rover whose motors are known",
+            |it| it.motion()?.current,
+        ),
         RIM_WAY.band("Way of the rims for a metre of ground, likewise", |it| it.motion()?.rim_way),
         PROBABILITY_STUCK.probability("Share of the samples that are stuck when driven so", |it| {
             it.motion().map(|it| it.stuck)
@@ -211,7 +215,9 @@ fn status(it: &OnCard<'_>) -> String {
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
     let all: Vec<Option<&OnCard<'_>>> = rows.iter().map(Some).collect();
-    Table::default().and(&slope(), &all).and(&driven(), &all).and(&held(), &all)
+    let driven = driven();
+    let driven = driven.iter().filter(|it| card.has_motors || it.name != CURRENT.name);
+    Table::default().and(&slope(), &all).and(driven, &all).and(&held(), &all)
 }
 
 /// The columns of [`table`] for reading.

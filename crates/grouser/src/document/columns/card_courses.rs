@@ -3,7 +3,7 @@
 use super::super::table::Table;
 use super::super::unit::M;
 use super::card::{DRIVEN_DRIFT, PROBABILITY_STUCK, TIPPING_MARGIN, VERDICT, name_of};
-use super::{Column, Quantity, SLIP_RATIO, SLOPE, TORQUE, YAW, quantity, text};
+use super::{CURRENT, Column, Quantity, SLIP_RATIO, SLOPE, TORQUE, YAW, quantity, text};
 use crate::studies::card::courses::{Course, CourseMotion, CourseRow};
 
 /// A way to drive.
@@ -27,7 +27,7 @@ pub const fn name_of_course(course: Course) -> &'static str {
     }
 }
 
-const COURSES: [Column<CourseRow>; 11] = [
+const COURSES: [Column<CourseRow>; 12] = [
     SLOPE.given("Slope", |it| Some(it.slope)),
     text(
         COURSE,
@@ -43,6 +43,10 @@ const COURSES: [Column<CourseRow>; 11] = [
         |it| motion(it)?.slip_ratio,
     ),
     TORQUE.band("Largest torque of a wheel, over the samples that move", |it| motion(it)?.torque),
+    CURRENT.band(
+        "Largest current of a motor, driving or braking, likewise; of a rover whose motors are known",
+        |it| motion(it)?.current,
+    ),
     DRIVEN_DRIFT.band("Drift per metre travelled of the way backwards along the contour", |it| {
         motion(it)?.drift
     }),
@@ -67,5 +71,8 @@ fn motion(row: &CourseRow) -> Option<&CourseMotion> {
 /// A row for each course and slope.
 #[must_use]
 pub fn table(rows: &[CourseRow]) -> Table {
-    Table::of(&COURSES, rows)
+    let has_current = |it: &CourseRow| motion(it).is_some_and(|it| it.current.is_some());
+    let has_motors = rows.iter().any(has_current);
+    let columns = COURSES.iter().filter(|it| has_motors || it.name != CURRENT.name);
+    Table::default().and(columns, &rows.iter().map(Some).collect::<Vec<_>>())
 }

@@ -164,18 +164,31 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     }),
 ];
 
-/// What a campaign keeps of a mission beside its end: way and slip ratio, and energy.
-pub(in super::super) fn kept() -> impl Iterator<Item = &'static Column<DrivenMission>> {
+/// What a campaign keeps of a mission beside its end: way and slip ratio, and energy; electrical energy and largest
+/// current, too, of a rover whose motors are known.
+pub(in super::super) fn kept(
+    has_motors: bool,
+) -> impl Iterator<Item = &'static Column<DrivenMission>> {
     static ALL: [Column<DrivenMission>; 10] = MISSION;
+    static TAKEN: [Column<DrivenMission>; 4] = ELECTRICAL_MISSION;
     let names = [DISTANCE.name, SLIP_RATIO.name, ENERGY.name];
-    ALL.iter().filter(move |column| names.contains(&column.name))
+    let kept = ALL.iter().filter(move |column| names.contains(&column.name));
+    kept.chain(TAKEN.split_at(OF_MOTORS).0.iter().filter(move |_| has_motors))
 }
 
-/// What a campaign keeps of each leg: outcome, way, time, energy, slip ratio, and what stopped it.
-pub(in super::super) fn kept_of_leg() -> impl Iterator<Item = &'static Column<DrivenLeg>> {
+/// So many columns of motors and battery are known of every rover with motors.
+const OF_MOTORS: usize = 2;
+
+/// What a campaign keeps of each leg: outcome, way, time, energy, slip ratio, and what stopped it; electrical energy and
+/// largest current, too, of a rover whose motors are known.
+pub(in super::super) fn kept_of_leg(
+    has_motors: bool,
+) -> impl Iterator<Item = &'static Column<DrivenLeg>> {
     static ALL: [Column<DrivenLeg>; 15] = LEG;
+    static TAKEN: [Column<DrivenLeg>; 4] = ELECTRICAL_LEG;
     let names = [OUTCOME, DISTANCE.name, TIME.name, ENERGY.name, SLIP_RATIO.name, STOPPED_BY];
-    ALL.iter().filter(move |column| names.contains(&column.name))
+    let kept = ALL.iter().filter(move |column| names.contains(&column.name));
+    kept.chain(TAKEN.split_at(OF_MOTORS).0.iter().filter(move |_| has_motors))
 }
 
 /// The columns of [`MISSION`] for reading, and those of motors and battery: all of them.

@@ -127,6 +127,15 @@ pub(in super::super) const DRIVE: [Column<Drive>; 7] = [
     ENERGY_PER_METRE.maybe("Work of the motors per metre travelled", |it| it.energy_per_metre),
 ];
 
+/// What motors and battery took over a run, of a rover whose motors are known: beside [`DRIVE`].
+pub(in super::super) const ELECTRICAL_DRIVE: [Column<Drive>; 2] = [
+    BATTERY_ENERGY
+        .maybe("Electrical energy that motors, and with a battery the electronics, took", |it| {
+            it.battery_energy
+        }),
+    CURRENT.maybe("Largest current of a motor, driving or braking", |it| it.current),
+];
+
 /// The end of a run: columns of a campaign.
 pub(in super::super) const END: &[Column<Record>] = RECORD.split_at(4).0;
 
@@ -255,10 +264,12 @@ pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
     let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
     let outcome = RUN.iter().filter(|column| column.kind() == ColumnKind::Text);
     let (run_row, end, drive) = ([Some(run)], [Some(run.last())], Drive::of(run));
+    let has_motors = scenario.rover.has_motors();
     Table::default()
         .and(outcome, &run_row)
         .and(END, &end)
         .and(&DRIVE, &[Some(&drive)])
+        .and(ELECTRICAL_DRIVE.iter().filter(|_| has_motors), &[Some(&drive)])
         .and(&FLAGS, &[Some(&findings)])
 }
 

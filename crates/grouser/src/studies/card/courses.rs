@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
 use super::super::heading::{STRAIGHT_DOWN, STUCK};
-use super::driven::largest_torque;
+use super::driven::{largest_current, largest_torque};
 use super::{CardRow, CardStudy, Driven, STUCK_ON_GO, Verdict};
 use crate::elementary::wide::sin;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
@@ -105,6 +105,8 @@ pub struct CourseMotion {
     pub slip_ratio: Option<Band>,
     /// Largest torque of a wheel [N·m], over the samples that move.
     pub torque: Option<Band>,
+    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are known.
+    pub current: Option<Band>,
     /// Drift of a way along the contour [-], over all samples: 1 where the rover is stuck.
     pub drift: Option<Band>,
     /// Way in which the nose turns uphill by [`TURN`] [m], over the samples that turn.
@@ -157,8 +159,10 @@ impl CardStudy {
             let mut motion = None;
             if worst != Verdict::NoGo {
                 let steady = self.motions((slope, yaw, &rim_speeds), samples, &before);
-                let on_course =
-                    |it: &Option<SteadyMotion>| OnCourse::of(course, it.as_ref()?, &rim_speeds);
+                let rover = &self.heading.rover;
+                let on_course = |it: &Option<SteadyMotion>| {
+                    OnCourse::of(course, rover, it.as_ref()?, &rim_speeds)
+                };
                 let all: Vec<Option<OnCourse>> = steady.iter().map(on_course).collect();
                 worst = worst.max(self.verdict_of_course(&all));
                 motion = Some(CourseMotion::over(course, &all));
@@ -204,12 +208,18 @@ impl CardStudy {
 struct OnCourse {
     slip_ratio: f64,
     torque: f64,
+    current: Option<f64>,
     drift: f64,
     turn_way: f64,
 }
 
 impl OnCourse {
-    fn of(course: Course, motion: &SteadyMotion, rim_speeds: &[f64]) -> Option<Self> {
+    fn of(
+        course: Course,
+        rover: &Rover,
+        motion: &SteadyMotion,
+        rim_speeds: &[f64],
+    ) -> Option<Self> {
         let turning = motion.wheels.iter().zip(rim_speeds).filter(|(_, rim)| **rim != 0.0);
         let (sum, count) = turning.fold((0.0, 0), |(sum, count), (wheel, rim)| {
             (sum + rim.signum() * wheel.slip.ratio, count + 1)
@@ -219,7 +229,9 @@ impl OnCourse {
         (slip_ratio.abs() <= MOST_SLIP && turns).then(|| {
             let drift = -sin(motion.course());
             let turn_way = TURN / motion.turning();
-            Self { slip_ratio, torque: largest_torque(motion), drift, turn_way }
+            let torque = largest_torque(motion);
+            let current = largest_current(rover, motion, rim_speeds);
+            Self { slip_ratio, torque, current, drift, turn_way }
         })
     }
 }
@@ -238,6 +250,7 @@ impl CourseMotion {
         Self {
             slip_ratio: all(|it| it.slip_ratio, STUCK),
             torque: Band::of(moving().map(|it| it.torque)),
+            current: Band::of(moving().filter_map(|it| it.current)),
             drift: if course == Course::BackAcross { drift() } else { None },
             turn_way: of_turn(|it| it.turn_way),
             turn_downhill: of_turn(|it| it.turn_way * it.drift),

@@ -12,9 +12,10 @@ use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK};
 use super::slip_check::SlipCheck;
 use crate::elementary::wide::sin;
+use crate::simulation::power::electrical;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::studies::random;
-use crate::vehicle::roll_and_pitch;
+use crate::vehicle::{Rover, roll_and_pitch};
 
 /// The nose is set to this [rad], each heading within it being as likely, and falls by this much before it is set
 /// again: 2°. Source: ours; about what a driver reads off an instrument that shows whole degrees.
@@ -62,6 +63,8 @@ pub struct DrivenMotion {
     pub sinkage: Option<Band>,
     /// Largest torque of a wheel [N·m], likewise.
     pub torque: Option<Band>,
+    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are known.
+    pub current: Option<Band>,
     /// Way of the rims for a metre of ground [-], likewise.
     pub rim_way: Option<Band>,
     /// Samples in which the rover is stuck: it has no steady motion, or its wheels all but spin.
@@ -126,6 +129,7 @@ impl DrivenMotion {
         let slip = |it: &Option<SteadyMotion>| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio);
         let slips: Vec<f64> = motions.iter().map(slip).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
+        let rims = vec![rim_speed; study.rover.wheel_count()];
         Some(Self {
             correct_every,
             heading_fall: Band::of(moving().map(|it| -it.turning())),
@@ -134,6 +138,7 @@ impl DrivenMotion {
             slip_ratio: Band::of(slips),
             sinkage: Band::of(moving().map(mean_sinkage)),
             torque: Band::of(moving().map(largest_torque)),
+            current: Band::of(moving().filter_map(|it| largest_current(&study.rover, it, &rims))),
             rim_way: Band::of(moving().map(|it| rim_speed / it.speed())),
             stuck: Probability { successes: stuck, trials: samples.len() },
         })
@@ -149,6 +154,21 @@ fn mean_sinkage(motion: &SteadyMotion) -> f64 {
 /// Torque of the wheel that has most [N·m].
 pub(super) fn largest_torque(motion: &SteadyMotion) -> f64 {
     motion.wheels.iter().map(|wheel| wheel.settled.forces.torque.abs()).fold(0.0, f64::max)
+}
+
+/// Current of the motor that takes most [A], driving or braking, where motors are known.
+///
+/// * `rim_speeds`: [m/s]
+pub(super) fn largest_current(
+    rover: &Rover,
+    motion: &SteadyMotion,
+    rim_speeds: &[f64],
+) -> Option<f64> {
+    let each = rover.mounts().iter().zip(&motion.wheels).zip(rover.wheel_speeds(rim_speeds));
+    let current = each.filter_map(|((mount, wheel), speed)| {
+        Some(electrical(mount, wheel.settled.forces.torque, speed)?.current.abs())
+    });
+    current.reduce(f64::max)
 }
 
 /// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m; `None` where
