@@ -118,8 +118,8 @@ const OF_MOTOR: Small = Small {
 fn small_columns(rows: &[CardRow<'_>]) -> [Small; 9] {
     let has_current = rows.iter().any(|row| high(*row, CURRENT).is_some());
     SMALL.map(|column| {
-        let is_torque = column.right == OF_MOTOR.right;
-        if has_current && is_torque { OF_MOTOR } else { column }
+        let [_, what, _] = column.head;
+        if has_current && what == "torque" { OF_MOTOR } else { column }
     })
 }
 
