@@ -330,7 +330,9 @@ def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives)
     )
 
 
-def _split(columns: Mapping[str, Any], names: Sequence[str]) -> tuple[dict[str, Any], dict[str, Any]]:
+def _split(
+    columns: Mapping[str, Any], names: Sequence[str]
+) -> tuple[dict[str, Any], dict[str, Any]]:
     """Columns of these names, and the others: those of motors and battery."""
     known = {name: column for name, column in columns.items() if name in names}
     return known, {name: column for name, column in columns.items() if name not in names}
