@@ -76,7 +76,7 @@ def test_legs_of_a_mission_have_what_motors_and_battery_take() -> None:
     assert stopped.legs.stopped_by[-1] == "depth_of_discharge"
     plain = gr.mission(gr.Mission("arc", **plan))
     assert not plain.electrical and not plain.legs.electrical
-    with pytest.raises(gr.DocumentError, match=r"no \[motor\]"):
+    with pytest.raises(gr.ParameterError, match=r"no \[motor\]"):
         gr.Mission("arc", stop={"current_a": {"above": 1.0}}, **plan)
 
 
