@@ -16,7 +16,6 @@ use super::record::Record;
 use super::scenario::{Integrator, Scenario};
 use super::state::State;
 use super::steady_state::NotSteady;
-use super::supply::Supply;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
 use crate::contact::SettleError;
@@ -178,18 +177,12 @@ impl Leg<'_> {
         if reached.turning.is_some() {
             state.rim_speeds.copy_from_slice(equations.turning(reached));
         }
-        let mut without_power = None;
-        if (state.supply.is_some() || state.most_taken.is_some())
-            && let Ok(wheels) = wheels()
-        {
-            let taken = equations.taken(reached, &wheels);
-            if let Some(supply) = &mut state.supply {
-                without_power = supply.look(equations.rover(), now, &taken);
-            }
-            if let Some(most) = &mut state.most_taken {
-                most.look(&taken, state.supply.as_ref().and_then(Supply::warmest));
-            }
-        }
+        let is_power_known = state.supply.is_some() || state.most_taken.is_some();
+        let seen = is_power_known.then(wheels);
+        let without_power = match &seen {
+            Some(Ok(wheels)) => state.look_at_power(equations, wheels),
+            _ => None,
+        };
         if is_multiple(now, WATCH_PERIOD) {
             let turning = watch::Wheels {
                 slip_ratios: &state.slip_ratios,
@@ -207,7 +200,7 @@ impl Leg<'_> {
             Some(time) => is_same_time(now, time),
         };
         if state.outcome.is_some() || is_due {
-            match wheels() {
+            match seen.unwrap_or_else(wheels) {
                 Ok(wheels) => {
                     let supply = state.supply.as_ref();
                     self.records.push(Record::new(equations, now, reached, &wheels, supply));

@@ -14,9 +14,9 @@ use super::scenario::{Approach, Motion, Scenario};
 use super::supply::{Charge, LIMIT_PERIOD, Supply};
 use super::times::is_multiple;
 use super::turning::Turning;
-use super::watch::Watch;
+use super::watch::{WATCH_PERIOD, Watch};
 use super::work::Work;
-use crate::vehicle::{Rover, RoverState};
+use crate::vehicle::{Rover, RoverState, WheelReaction};
 
 /// All that changes in a run: where the rover is, how it and its wheels move, its energies, and what
 /// the solver knows of the motion so far.
@@ -176,6 +176,24 @@ impl State {
         let (angle, rate) = (yaw.at(self.time), yaw.rate_from(self.time));
         self.jump(&scenario.rover, |state| (state.yaw, state.yaw_rate) = (angle, rate));
         true
+    }
+
+    /// Looks at what the motors take: the battery and the windings go on by what is seen each [`WATCH_PERIOD`], whenever else
+    /// the rover is looked at. What becomes of one without power.
+    pub(super) fn look_at_power(
+        &mut self,
+        equations: &Equations<'_>,
+        wheels: &[WheelReaction],
+    ) -> Option<Outcome> {
+        let taken = equations.taken(&self.point, wheels);
+        let is_due = is_multiple(self.time, WATCH_PERIOD);
+        let supply = self.supply.as_mut().filter(|_| is_due);
+        let without_power = supply.and_then(|it| it.look(equations.rover(), self.time, &taken));
+        let warmest = self.warmest();
+        if let Some(most) = &mut self.most_taken {
+            most.look(&taken, warmest);
+        }
+        without_power
     }
 
     /// That the motors' limits are as battery and windings allow, at each [`LIMIT_PERIOD`]; whether that changes what some

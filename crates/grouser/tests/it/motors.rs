@@ -335,18 +335,24 @@ fn motors_settle_alike_by_small_explicit_steps() {
     }
 }
 
-/// A run in pieces is the run, bit for bit, with motors as without.
+/// A run in pieces is the run, bit for bit, with motors, windings and a battery as without.
 #[test]
 fn a_run_with_motors_goes_on_where_it_paused() {
-    let scenario = with(controlled(PROPORTIONAL), across(10.0));
-    let whole = run(&scenario);
-    let mut run = Run::new(&scenario).expect("a run");
-    for time in [2.5, 7.3, 10.0] {
-        run.advance(&mut scenario.drive.clone(), time).expect("it goes on");
+    let motor = Motor { winding: Some(WINDING), ..controlled(PROPORTIONAL) };
+    let battery = Battery { full_voltage: 3.4, empty_voltage: 2.6, cutoff_voltage: 1.0, ..BATTERY };
+    for scenario in
+        [with(controlled(PROPORTIONAL), across(10.0)), powered(motor, battery, across(10.0))]
+    {
+        let whole = run(&scenario);
+        let mut run = Run::new(&scenario).expect("a run");
+        for time in [2.5, 2.55, 7.3, 10.0] {
+            run.advance(&mut scenario.drive.clone(), time).expect("it goes on");
+        }
+        let pieces = run.finish();
+        assert_eq!(whole.last().state, pieces.last().state);
+        assert_eq!(whole.last().wheels, pieces.last().wheels);
+        assert_eq!(whole.last().battery, pieces.last().battery);
     }
-    let pieces = run.finish();
-    assert_eq!(whole.last().state, pieces.last().state);
-    assert_eq!(whole.last().wheels, pieces.last().wheels);
 }
 
 pub(crate) const WINDING: Winding = Winding {
