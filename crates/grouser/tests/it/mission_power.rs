@@ -217,7 +217,7 @@ fn campaigns_vary_motors_and_battery() {
             let campaign = campaign.unwrap_or_else(|error| panic!("{study}, {key}: {error}"));
             let table = campaign.shard(0, &|| true).expect("nobody stops it");
             let column = |name: &str| -> Vec<f64> {
-                table.numbers(name).into_iter().map(|it| it.unwrap_or(f64::NAN)).collect()
+                table.numbers(name).iter().map(|it| it.unwrap_or(f64::NAN)).collect()
             };
             let (inputs, energy) = (column(key), column("battery_energy_j"));
             let (current, work) = (column("current_a"), column("energy_j"));
