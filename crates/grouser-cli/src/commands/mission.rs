@@ -119,7 +119,8 @@ impl Answered {
     fn text(&self) -> Text {
         let blocks = self.ways.iter().map(|way| {
             let name = if way.name.is_empty() { String::new() } else { format!("{}\n", way.name) };
-            let legs = Rows::of_table(&way.table()).to_table(&legs_brief());
+            let legs = way.table();
+            let legs = Rows::of_table(&legs).to_table(&legs_brief(&legs));
             let sentences = reasons(way) + &sentence(way) + "\n";
             Text::from(name) + legs + Text::from(sentences)
         });
@@ -127,6 +128,8 @@ impl Answered {
         if self.ways.len() == 1 {
             return blocks;
         }
-        blocks + Text::from("\n") + Rows::of_table(&self.table()).to_table(&missions_brief())
+        let missions = self.table();
+        let missions = Rows::of_table(&missions).to_table(&missions_brief(&missions));
+        blocks + Text::from("\n") + missions
     }
 }

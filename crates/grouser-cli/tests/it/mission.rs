@@ -62,6 +62,9 @@ fn a_limit_stops_the_rover_and_it_backs_out() {
     assert!(number(&leg["slip_ratio"]) > 0.6, "{leg}");
     assert!((number(&leg["back_out_m"]) - 0.5).abs() < 1e-6, "{leg}");
     let shown = place.line("mission back-out").stdout;
+    for of_motors in ["battery_energy_j", "current_a", "state_of_charge"] {
+        assert!(!shown.contains(of_motors), "no motor is known: {shown}");
+    }
     assert!(
         shown.contains("leg 1: stopped: slip ratio 0.66 over 0.5 m after 0.17 m; backed out 0.5 m"),
         "{shown}"

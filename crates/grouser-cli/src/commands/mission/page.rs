@@ -23,7 +23,8 @@ pub(super) fn html(answered: &Answered) -> String {
     page.list(what_was_driven(answered));
     if answered.ways.len() > 1 {
         let title = "The alternatives, each from the same start";
-        page.rows(title, &answered.table(), &missions_brief());
+        let missions = answered.table();
+        page.rows(title, &missions, &missions_brief(&missions));
     }
     for way in &answered.ways {
         of_way(&mut page, answered, way);
@@ -60,7 +61,8 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
         "The path on the slope from above, to scale, uphill at the top, a colour for each leg. The rover is drawn at \
          the start, in grey, and where each leg ended, with its number; a cross marks a leg that did not end as it says.",
     );
-    page.rows("What became of each leg", &way.table(), &legs_brief());
+    let legs = way.table();
+    page.rows("What became of each leg", &legs, &legs_brief(&legs));
     let reasons = reasons(way);
     if !reasons.is_empty() {
         page.list(reasons.lines());

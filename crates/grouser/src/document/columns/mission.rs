@@ -191,16 +191,16 @@ pub(in super::super) fn kept_of_leg(
     kept.chain(TAKEN.split_at(OF_MOTORS).0.iter().filter(move |_| has_motors))
 }
 
-/// The columns of [`MISSION`] for reading, and those of motors and battery: all of them.
+/// The columns of a table of missions for reading: those of [`MISSION`], and of motors and battery where it has them.
 #[must_use]
-pub fn missions_brief() -> Vec<String> {
+pub fn missions_brief(missions: &Table) -> Vec<String> {
     let electrical = ELECTRICAL_MISSION.iter().map(|column| column.name);
-    MISSION.iter().map(|column| column.name).chain(electrical).map(str::to_owned).collect()
+    those_of(missions, MISSION.iter().map(|column| column.name).chain(electrical))
 }
 
-/// The columns of [`LEG`] for reading.
+/// The columns of a table of legs for reading; of motors and battery where it has them.
 #[must_use]
-pub fn legs_brief() -> Vec<String> {
+pub fn legs_brief(legs: &Table) -> Vec<String> {
     let names = [
         "leg",
         "manoeuvre",
@@ -217,7 +217,13 @@ pub fn legs_brief() -> Vec<String> {
         Y.name,
         YAW.name,
     ];
-    names.map(str::to_owned).into()
+    those_of(legs, names.into_iter())
+}
+
+/// The names that a table has.
+fn those_of(table: &Table, names: impl Iterator<Item = &'static str>) -> Vec<String> {
+    let is_there = |name: &&str| table.columns.iter().any(|(there, _)| there == name);
+    names.filter(is_there).map(str::to_owned).collect()
 }
 
 /// A mission as one object of JSON: `outcome`, `energy_j`, what motors and battery took where that is known, `final`, and
