@@ -100,6 +100,8 @@ pub(super) struct Memory {
 /// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed [-]:
 /// a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
+/// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the fastest rim's speed [-].
+const LONGEST: f64 = 0.5;
 /// Step of differences over the fastest rim's speed [-]: forces are exact to 1e-12.
 const STEP: f64 = 1e-6;
 
@@ -171,8 +173,6 @@ impl<'a> SteadySolver<'a> {
         guess: &Vector3<f64>,
         inverse: Matrix3<f64>,
     ) -> Option<SteadyState> {
-        /// Steps longer than this leave the neighbourhood in which a tangent tells anything [-].
-        const LONGEST: f64 = 0.5;
         let zero = newton::zero_near(
             |velocities| self.evaluate(yaw, velocities).map(|here| (acceleration_of(&here), here)),
             guess,
@@ -216,8 +216,6 @@ impl<'a> SteadySolver<'a> {
         guess: &DVector<f64>,
         inverse: DMatrix<f64>,
     ) -> Option<SteadyState> {
-        /// As in [`correct`](Self::correct).
-        const LONGEST: f64 = 0.5;
         let size = |step: &DVector<f64>| {
             let rims = step.rows(3, step.len() - 3).amax() / self.scale;
             self.size(&step.fixed_rows::<3>(0).into()).max(rims)
