@@ -19,6 +19,7 @@ pub mod estimate;
 pub mod kinematics;
 pub mod load;
 pub mod motor;
+pub mod parts;
 pub mod reaction;
 pub mod rover;
 pub mod ruts;
@@ -33,10 +34,11 @@ pub use drive::DriveLaw;
 pub use drive_unit::{Drive, Driven};
 pub use load::{LoadSharing, OwnMoments};
 pub use motor::{Electrical, Motor};
-pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
-pub use rover::{
-    Body, Inertia, Mount, MountParts, Rover, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
+pub use parts::{
+    Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
+pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
+pub use rover::Rover;
 pub use ruts::Ruts;
 pub use speed_control::{MotorLimits, SpeedControl};
 pub use state::{Acceleration, RoverState, roll_and_pitch};

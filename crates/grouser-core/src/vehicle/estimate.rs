@@ -3,7 +3,7 @@
 //! Each is a first guess for a rover of which no more is known, and is to be marked as assumed. Inertias are those of
 //! uniform bodies; the sizes are fits to the rovers of the presets, which they meet to within a factor of 2.
 
-use super::rover::Inertia;
+use super::parts::Inertia;
 use crate::elementary::pow;
 
 impl Inertia {

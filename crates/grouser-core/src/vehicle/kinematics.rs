@@ -1,6 +1,7 @@
 //! The motion of each hub ([FourWheel], Eqs 2-3) and the slip of each wheel (Eqs 15-17).
 
-use super::rover::{Mount, Rover};
+use super::parts::Mount;
+use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::Slip;
 use crate::elementary::wide::{asin, atan2};

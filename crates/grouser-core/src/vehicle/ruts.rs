@@ -12,7 +12,8 @@
 //! that has just turned, or set out, has ruts here that it has not made yet. The bottom of a rut, λh below the surface,
 //! counts as the ground of the wheel that rolls in it; the pose does not follow those few millimetres.
 
-use super::rover::{Mount, Rover};
+use super::parts::Mount;
+use super::rover::Rover;
 use crate::contact::Slip;
 use crate::elementary::wide::hypot;
 use crate::soil::Compaction;

@@ -10,7 +10,7 @@ use grouser::simulation::{
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::kinematics::{rolling_angle, wheel_velocity};
-use grouser::vehicle::rover::USUAL_STEERING_RATE;
+use grouser::vehicle::parts::USUAL_STEERING_RATE;
 use grouser::vehicle::{DriveLaw, LoadSharing, Mount, OwnMoments, Rover, RoverState, SteeringAxis};
 
 use super::given::{complete_traverse, hakuto, run, traverse};
