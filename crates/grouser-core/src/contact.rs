@@ -7,12 +7,13 @@
 //! the source paper's, [`small_wheel`] adds what small wheels need within what the ground resists
 //! ([`coulomb_cone`]), [`bekker`] is a closed form to check them against, and [`rft`] shares nothing
 //! with any of them. [`equilibrium`] finds the sinkage at which a wheel carries its load, and adds what
-//! the soil's [`discrepancy`] says of the model; [`time_step`] lends the reaction to engines of rigid bodies,
+//! the soil's [`discrepancy`] says of the model; [`batch`] does this for many wheels at once; [`time_step`] lends the reaction to engines of rigid bodies,
 //! whose wheels a [`mechanism`] carries; [`validity`] flags results that are extrapolations.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
 
+pub mod batch;
 pub mod bekker;
 pub mod bulldozing;
 pub mod coulomb;
@@ -37,8 +38,12 @@ mod theory;
 pub mod time_step;
 pub mod validity;
 
+pub use batch::forces_many;
 pub use bekker::Bekker;
-pub use equilibrium::{SettleError, Settled, settle, settle_from, settle_many};
+pub use equilibrium::{
+    LoadedWheel, SettleError, Settled, settle, settle_counted, settle_each, settle_from,
+    settle_many,
+};
 pub use forces::WheelForces;
 pub use inputs::Contact;
 pub use ishigami::Ishigami;

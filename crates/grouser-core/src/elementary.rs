@@ -79,7 +79,14 @@ pub fn ln(x: f64) -> f64 {
 #[inline(always)]
 #[must_use]
 pub fn pow(x: f64, y: f64) -> f64 {
-    let power = exp(y * ln(x));
+    pow_of_log(x, ln(x), y)
+}
+
+/// The same where ln x is known.
+#[inline(always)]
+#[must_use]
+pub(crate) fn pow_of_log(x: f64, log: f64, y: f64) -> f64 {
+    let power = exp(y * log);
     if x > 0.0 { power } else { 0.0 }
 }
 

@@ -27,6 +27,7 @@ pub mod elementary;
 pub mod error;
 pub mod mission;
 pub mod newton;
+mod peak;
 mod random;
 pub mod root;
 pub mod simulation;

@@ -23,6 +23,7 @@ pub mod parts;
 pub mod reaction;
 pub mod rover;
 pub mod ruts;
+pub(crate) mod settling;
 pub mod speed_control;
 pub mod state;
 pub mod support_polygon;

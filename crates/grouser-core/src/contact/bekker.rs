@@ -33,6 +33,13 @@ impl WheelSoilModel for Bekker {
             bounded(contact, sinkage, entering_front(contact, sinkage))
         })
     }
+
+    /// F_z grows with the sinkage.
+    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
+        /// For the last digits of a power.
+        const ROUNDING: f64 = 1.0 + 1e-12;
+        ROUNDING * self.forces(contact, sinkage).normal_force
+    }
 }
 
 fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {

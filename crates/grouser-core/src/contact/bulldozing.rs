@@ -1,5 +1,6 @@
 //! Soil pushed aside by the side wall of a wheel that moves sideways (Hegedus 1960, Bekker).
 
+use super::inputs::Contact;
 use super::kernel::rule::EVEN;
 use super::kernel::{LANES, sum};
 use super::patch::ContactPatch;
@@ -16,11 +17,11 @@ use crate::soil::{Bulldozing, Soil};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallResistance {
     /// Share that grows with depth, D₁ c [N/m²].
-    cohesive: f64,
+    pub(super) cohesive: f64,
     /// Share that grows with its square, D₁ D₂ γ/2 [N/m³].
-    frictional: f64,
+    pub(super) frictional: f64,
     /// What the piled-up soil adds to each depth, as a factor [-]; 1 without a surcharge.
-    heaped: f64,
+    pub(super) heaped: f64,
 }
 
 impl WallResistance {
@@ -40,9 +41,15 @@ impl WallResistance {
         Self { cohesive: d_1 * soil.cohesion, frictional: d_1 * d_2 * unit_weight / 2.0, heaped }
     }
 
+    /// The resistance of the soil under a wheel.
+    pub(super) fn of(contact: &Contact) -> Self {
+        Self::new(&contact.soil, contact.soil.unit_weight(contact.gravity))
+    }
+
     /// *R_b* [N/m] at a depth [m].
     #[must_use]
-    #[inline]
+    #[expect(clippy::inline_always, reason = "part of the kernel")]
+    #[inline(always)]
     pub fn at(&self, depth: f64) -> f64 {
         let z = depth * self.heaped;
         self.cohesive * z + self.frictional * z * z
@@ -94,26 +101,48 @@ pub fn side_wall_load(
     patch: &ContactPatch,
     shearing_radius: f64,
 ) -> SideWallLoad {
+    let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let node = (EVEN.abscissa[lane], EVEN.width[lane]);
+        (force[lane], below[lane], ahead[lane]) = strip(resistance, patch, shearing_radius, node);
+    }
+    SideWallLoad::of_sums(sum(&force), sum(&below), sum(&ahead))
+}
+
+/// What a strip of the wall from the rim up bears: its force [N], and its moments [N·m] about the hub for
+/// a force across the wheel.
+///
+/// * `node`: its abscissa and its width, as shares of the buried arc
+#[expect(clippy::inline_always, reason = "part of the kernel")]
+#[inline(always)]
+pub(super) fn strip(
+    resistance: &WallResistance,
+    patch: &ContactPatch,
+    shearing_radius: f64,
+    (abscissa, width): (f64, f64),
+) -> (f64, f64, f64) {
     let r = shearing_radius;
     let start = patch.exit.max(-patch.entry);
     let span = patch.entry - start;
     let surface = RimPoint::new(patch.entry, 0.0).height;
-    let (mut force, mut below, mut ahead) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    for lane in 0..LANES {
-        let (abscissa, width) = (EVEN.abscissa[lane], EVEN.width[lane]);
-        let point = RimPoint::new(start + abscissa * span, 0.0);
-        let (sin, cos) = (point.sin, point.cosine());
-        let depth = r * (surface - point.height);
-        let strip = width * span * resistance.at(depth) * (r - depth * cos);
-        force[lane] = strip;
-        below[lane] = strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth);
-        ahead[lane] = strip * r * sin;
+    let point = RimPoint::new(start + abscissa * span, 0.0);
+    let (sin, cos) = (point.sin, point.cosine());
+    let depth = r * (surface - point.height);
+    let strip = width * span * resistance.at(depth) * (r - depth * cos);
+    (strip, strip * (r * cos - (1.0 - CENTRE_OF_PRESSURE) * depth), strip * r * sin)
+}
+
+impl SideWallLoad {
+    /// * `force`: of all strips [N]
+    /// * `below`, `ahead`: their moments [N·m]
+    #[expect(clippy::inline_always, reason = "part of the kernel")]
+    #[inline(always)]
+    pub(super) fn of_sums(force: f64, below: f64, ahead: f64) -> Self {
+        if force == 0.0 {
+            return Self::default();
+        }
+        Self { force, below_hub: below / force, ahead_of_hub: ahead / force }
     }
-    let (force, below, ahead) = (sum(&force), sum(&below), sum(&ahead));
-    if force == 0.0 {
-        return SideWallLoad::default();
-    }
-    SideWallLoad { force, below_hub: below / force, ahead_of_hub: ahead / force }
 }
 
 /// How the side wall's load acts in a motion: its shares across and along the wheel [-].

@@ -35,3 +35,11 @@ pub struct Contact {
     /// Gravity, *g* [m/s²]; it gives the soil its weight.
     pub gravity: f64,
 }
+
+impl Contact {
+    /// The same contact seen in a mirror that swaps front and back.
+    #[must_use]
+    pub fn front_to_back(&self) -> Self {
+        Self { slip: self.slip.front_to_back(), ..*self }
+    }
+}

@@ -12,13 +12,12 @@
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
-use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::bulldozing::{self, SideWallLoad};
 use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
-use super::load_sinkage::{Arc, LoadSinkage, Numerics, Reaction};
-use super::mirror::from_both_sides;
+use super::load_sinkage::{LoadSinkage, Numerics, Reaction};
 use super::model::WheelSoilModel;
 use super::stress::Response;
 
@@ -52,31 +51,28 @@ impl Ishigami {
         Self { numerics: Numerics { set: Some(set), ..self.numerics } }
     }
 
-    fn arc(&self, contact: &Contact) -> Arc {
-        self.numerics.arc(contact, &Response::classical(contact))
+    fn relation(&self, contact: &Contact) -> LoadSinkage {
+        LoadSinkage::new(contact, |it| self.numerics.arc(it, &Response::classical(it)), finished)
     }
 }
 
 impl WheelSoilModel for Ishigami {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
+        self.relation(contact).forces(contact, sinkage)
     }
 
-    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
-        from_both_sides(contact, sinkage, |contact, side| {
-            on_arc(contact, relation.arc(side), sinkage)
-        })
+    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
+        self.relation(contact).most_normal_force(sinkage)
     }
 
     fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
-        Some(LoadSinkage::new(contact, |contact| self.arc(contact)))
+        Some(self.relation(contact))
     }
 }
 
-fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
-    let wall = WallResistance::new(&contact.soil, contact.soil.unit_weight(contact.gravity));
-    let reaction = arc.reaction(&wall, sinkage);
-    bounded(contact, sinkage, forces(contact, &reaction, &reaction.side_wall))
+/// The soil's reaction on a wheel that enters it with its front.
+fn finished(contact: &Contact, reaction: &Reaction, sinkage: f64) -> WheelForces {
+    bounded(contact, sinkage, forces(contact, reaction, &reaction.side_wall))
 }
 
 /// The stresses on the rim and the load on the side wall, added up.

@@ -7,12 +7,13 @@
 #![expect(clippy::inline_always, reason = "part of the kernel")]
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::kernel::integral::{self, StressSums};
-use super::kernel::rule::{self, ArcRule};
-use super::mirror::Side;
+use super::kernel::rule::{self, ArcRule, Nodes};
+use super::mirror::{Side, from_both_sides};
 use super::patch::ContactPatch;
 use super::stress::{Response, StressLaw};
 
@@ -36,29 +37,34 @@ pub struct LoadSinkage {
     views: Views,
     /// r_s b [m²].
     area: f64,
+    finish: Finish,
 }
+
+/// How a model makes forces of what the kernel computed of a wheel that enters the soil with its front: for
+/// a contact, and at a sinkage [m].
+pub(super) type Finish = fn(&Contact, &Reaction, f64) -> WheelForces;
 
 /// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
 #[derive(Clone, Copy, Debug)]
 enum Views {
-    One(Arc),
+    One(Side, Arc),
     Both { front: (Arc, f64), back: (Arc, f64) },
 }
 
 impl LoadSinkage {
-    pub(super) fn new(contact: &Contact, arc: impl Fn(&Contact) -> Arc) -> Self {
+    pub(super) fn new(contact: &Contact, arc: impl Fn(&Contact) -> Arc, finish: Finish) -> Self {
         let area = contact.wheel.shearing_radius() * contact.wheel.width;
         let front = || arc(contact);
-        let back = || arc(&Contact { slip: contact.slip.front_to_back(), ..*contact });
+        let back = || arc(&contact.front_to_back());
         let (front_share, back_share) = contact.slip.shares_of_sides();
         let views = if back_share <= 0.0 {
-            Views::One(front())
+            Views::One(Side::Front, front())
         } else if front_share <= 0.0 {
-            Views::One(back())
+            Views::One(Side::Back, back())
         } else {
             Views::Both { front: (front(), front_share), back: (back(), back_share) }
         };
-        Self { views, area }
+        Self { views, area, finish }
     }
 
     /// *F_z* [N] at a sinkage [m]: the bits of the model's
@@ -69,7 +75,7 @@ impl LoadSinkage {
             return 0.0;
         }
         match &self.views {
-            Views::One(arc) => self.area * arc.up(sinkage),
+            Views::One(_, arc) => self.area * arc.up(sinkage),
             Views::Both { front, back } => {
                 let force = |(arc, share): &(Arc, f64)| self.area * arc.up(sinkage) * share;
                 force(front) + force(back)
@@ -77,10 +83,59 @@ impl LoadSinkage {
         }
     }
 
+    /// More than *F_z* [N] at this sinkage [m] and at all that are shallower: what full pressure and the
+    /// soil's full strength on the whole arc would carry.
+    #[must_use]
+    pub fn most_normal_force(&self, sinkage: f64) -> f64 {
+        let force = |arc: &Arc| self.area * arc.law.most_up(sinkage.max(0.0));
+        match &self.views {
+            Views::One(_, arc) => force(arc),
+            Views::Both { front, back } => force(&front.0) * front.1 + force(&back.0) * back.1,
+        }
+    }
+
+    /// All forces at a sinkage [m], of the contact that this was made of.
+    #[must_use]
+    pub fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        from_both_sides(contact, sinkage, |contact, side| {
+            let wall = WallResistance::of(contact);
+            let reaction = self.arc(side).reaction(&wall, sinkage);
+            (self.finish)(contact, &reaction, sinkage)
+        })
+    }
+
+    /// The only arc there is, unless the wheel enters the soil with both its ends.
+    pub(super) fn only_arc(&self) -> Option<&Arc> {
+        match &self.views {
+            Views::One(_, arc) => Some(arc),
+            Views::Both { .. } => None,
+        }
+    }
+
+    /// r_s b [m²], by which F_z is more than what [`Arc`] has of it.
+    pub(super) fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// [`forces`](Self::forces) of a wheel with one arc, from what the kernel computed of it.
+    pub(super) fn finished(
+        &self,
+        contact: &Contact,
+        reaction: &Reaction,
+        sinkage: f64,
+    ) -> WheelForces {
+        match self.views {
+            Views::One(Side::Back, _) => {
+                (self.finish)(&contact.front_to_back(), reaction, sinkage).front_to_back()
+            }
+            _ => (self.finish)(contact, reaction, sinkage),
+        }
+    }
+
     /// The arc of the side that enters the soil, or of one of both.
-    pub(super) fn arc(&self, side: Side) -> &Arc {
+    fn arc(&self, side: Side) -> &Arc {
         match (&self.views, side) {
-            (Views::One(arc), _)
+            (Views::One(_, arc), _)
             | (Views::Both { front: (arc, _), .. }, Side::Front)
             | (Views::Both { back: (arc, _), .. }, Side::Back) => arc,
         }
@@ -98,12 +153,13 @@ impl LoadSinkage {
 /// The arc of a wheel that enters the soil with its front.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Arc {
-    law: StressLaw,
+    pub(super) law: StressLaw,
     rule: &'static ArcRule,
-    set: InstructionSet,
+    pub(super) set: InstructionSet,
 }
 
 /// What the kernel computes of an arc at one sinkage.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Reaction {
     pub patch: ContactPatch,
     pub sums: StressSums,
@@ -135,6 +191,11 @@ impl Numerics {
 }
 
 impl Arc {
+    /// The nodes of its integral.
+    pub(super) fn nodes(&self) -> Nodes {
+        self.rule.nodes(&self.law)
+    }
+
     /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
     #[inline]
     fn up(&self, sinkage: f64) -> f64 {
@@ -142,7 +203,7 @@ impl Arc {
     }
 
     #[inline]
-    pub(super) fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
+    fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
         self.set.run(All { arc: self, wall, sinkage })
     }
 }

@@ -27,10 +27,7 @@ pub(super) fn from_both_sides(
         return WheelForces::default();
     }
     let front = || entering_front(contact, Side::Front);
-    let back = || {
-        let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
-        entering_front(&mirrored, Side::Back).front_to_back()
-    };
+    let back = || entering_front(&contact.front_to_back(), Side::Back).front_to_back();
     let (front_share, back_share) = contact.slip.shares_of_sides();
     if back_share <= 0.0 {
         front()

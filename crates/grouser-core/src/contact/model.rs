@@ -37,18 +37,19 @@ pub trait WheelSoilModel: Sync {
     /// The reaction of the soil on a wheel sunk by `sinkage` [m].
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;
 
+    /// More than F_z [N] at this sinkage [m] and at all that are shallower; infinite where the model does
+    /// not know. It spares a wheel that the soil cannot carry most of the search.
+    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
+        let _ = (contact, sinkage);
+        f64::INFINITY
+    }
+
     /// The contact made ready for a search over sinkages, if the model knows how.
     ///
-    /// Its normal force has the bits of [`forces`](Self::forces). A model without it is asked for
+    /// Its forces have the bits of [`forces`](Self::forces). A model without it is asked for
     /// all its forces at every sinkage.
     fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
         let _ = contact;
         None
-    }
-
-    /// [`forces`](Self::forces) of a contact that was made ready before, with the same bits.
-    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
-        let _ = relation;
-        self.forces(contact, sinkage)
     }
 }

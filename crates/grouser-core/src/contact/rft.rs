@@ -11,8 +11,9 @@
 //! ```
 //!
 //! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `sums` what they meet
-//! together, `exposure` which of them grousers hide. The law knows no front, so the wheel is the sum of its two halves, each seen
-//! with its own mirror; nothing is blended.
+//! together, `exposure` which of them grousers hide, `lanes` how many are computed side by side. The
+//! law knows no front, so the wheel is the sum of its two halves, each seen with its own mirror; nothing
+//! is blended.
 //!
 //! A wheel below [`CREEP_SPEED`](super::slip::CREEP_SPEED) counts as one that sinks: directions
 //! come from the velocity less that speed downward. So a wheel at rest carries its load as a wheel
@@ -20,6 +21,7 @@
 
 mod exposure;
 mod facet;
+mod lanes;
 mod sums;
 mod surface;
 
@@ -31,17 +33,25 @@ use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
-use surface::FrontHalf;
+use surface::FacetedWheel;
 
 /// Three-dimensional resistive force theory.
 #[derive(Clone, Copy, Debug)]
 pub struct Rft {
-    /// Nodes over the arc; they fill the lanes.
-    arc: &'static Rule,
-    /// Nodes over the height of a grouser and over the side face's radius.
-    height: &'static Rule,
+    nodes: Nodes,
     /// Without it, the best that the processor has.
     set: Option<InstructionSet>,
+}
+
+/// The rules of the integrals over facets.
+#[derive(Clone, Copy, Debug)]
+struct Nodes {
+    /// Over half the arc; they fill the lanes.
+    arc: &'static Rule,
+    /// Along a ray of the side face.
+    disc: &'static Rule,
+    /// Over the height of a grouser.
+    height: &'static Rule,
 }
 
 impl Default for Rft {
@@ -53,13 +63,14 @@ impl Default for Rft {
 impl Rft {
     /// Sixteen nodes over half the arc, three across: half of all wheels are off by less than 0.05 % of the
     /// load, 99 % by less than 0.8 %, as with twice as many across.
-    pub const DEFAULT: Self = Self { arc: &GAUSS_16, height: &GAUSS_3, set: None };
+    pub const DEFAULT: Self =
+        Self { nodes: Nodes { arc: &GAUSS_16, disc: &GAUSS_3, height: &GAUSS_3 }, set: None };
 
     /// The same model with four and twenty times as many nodes, to measure the error of the
     /// quadrature.
     #[must_use]
     pub fn reference() -> Self {
-        Self { arc: &GAUSS_64, height: &GAUSS_64, set: None }
+        Self { nodes: Nodes { arc: &GAUSS_64, disc: &GAUSS_64, height: &GAUSS_64 }, set: None }
     }
 
     /// The same model on one instruction set, or on the baseline where the processor lacks it. The
@@ -75,14 +86,9 @@ impl WheelSoilModel for Rft {
         if sinkage <= 0.0 {
             return WheelForces::default();
         }
+        let wheel = FacetedWheel::new(contact, sinkage);
         let set = self.set.unwrap_or_else(InstructionSet::best);
-        let half = |contact: &Contact| {
-            let half = FrontHalf::new(contact, sinkage);
-            set.run(Reaction { half: &half, model: self })
-        };
-        let front = half(contact);
-        let mirrored = Contact { slip: contact.slip.front_to_back(), ..*contact };
-        let back = half(&mirrored);
+        let (front, back) = set.run(Reaction { wheel: &wheel, nodes: &self.nodes });
         let peak = entering(contact.slip.entering_side, &front, &back);
         let arc = ContactPatch::of_depth(sinkage / contact.wheel.shearing_radius(), 0.0, 1.0);
         let both = WheelForces {
@@ -92,21 +98,25 @@ impl WheelSoilModel for Rft {
         };
         bounded(contact, sinkage, both)
     }
+
+    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
+        FacetedWheel::new(contact, sinkage.max(0.0)).most_force()
+    }
 }
 
-/// What one half of a wheel meets.
+/// What both halves of a wheel meet.
 struct Reaction<'a> {
-    half: &'a FrontHalf,
-    model: &'a Rft,
+    wheel: &'a FacetedWheel,
+    nodes: &'a Nodes,
 }
 
 impl Work for Reaction<'_> {
-    type Output = WheelForces;
+    type Output = (WheelForces, WheelForces);
 
     #[expect(clippy::inline_always, reason = "compiled once for each instruction set")]
     #[inline(always)]
-    fn run(self) -> WheelForces {
-        self.half.reaction(self.model.arc, self.model.height)
+    fn run(self) -> Self::Output {
+        self.wheel.reaction(self.nodes)
     }
 }
 

@@ -27,8 +27,7 @@ use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::ishigami;
 use super::kernel::InstructionSet;
-use super::load_sinkage::{Arc, LoadSinkage, Numerics};
-use super::mirror::from_both_sides;
+use super::load_sinkage::{LoadSinkage, Numerics, Reaction};
 use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
@@ -63,36 +62,32 @@ impl SmallWheel {
         Self { numerics: Numerics { set: Some(set), ..self.numerics } }
     }
 
-    fn arc(&self, contact: &Contact) -> Arc {
-        self.numerics.arc(contact, &response(contact))
+    fn relation(&self, contact: &Contact) -> LoadSinkage {
+        LoadSinkage::new(contact, |it| self.numerics.arc(it, &response(it)), finished)
     }
 }
 
 impl WheelSoilModel for SmallWheel {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
-        from_both_sides(contact, sinkage, |contact, _| on_arc(contact, &self.arc(contact), sinkage))
+        self.relation(contact).forces(contact, sinkage)
     }
 
-    fn forces_of(&self, contact: &Contact, relation: &LoadSinkage, sinkage: f64) -> WheelForces {
-        from_both_sides(contact, sinkage, |contact, side| {
-            on_arc(contact, relation.arc(side), sinkage)
-        })
+    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
+        self.relation(contact).most_normal_force(sinkage)
     }
 
     fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
-        Some(LoadSinkage::new(contact, |contact| self.arc(contact)))
+        Some(self.relation(contact))
     }
 }
 
-fn on_arc(contact: &Contact, arc: &Arc, sinkage: f64) -> WheelForces {
-    let Contact { wheel, soil, gravity, .. } = contact;
-    let wall = WallResistance::new(soil, soil.unit_weight(*gravity));
-    let reaction = arc.reaction(&wall, sinkage);
+/// The soil's reaction on a wheel that enters it with its front.
+fn finished(contact: &Contact, reaction: &Reaction, sinkage: f64) -> WheelForces {
     let wall_load = on_side_wall(contact, &reaction.side_wall);
-    let pushed = wheel.width * wall.at(sinkage);
+    let pushed = contact.wheel.width * WallResistance::of(contact).at(sinkage);
 
     // Only the first of them carries.
-    let forces = ishigami::forces(contact, &reaction, &wall_load)
+    let forces = ishigami::forces(contact, reaction, &wall_load)
         + face_friction(contact, &wall_load)
         + bow_wave(contact, pushed, sinkage)
         + rear_mound(contact, pushed);

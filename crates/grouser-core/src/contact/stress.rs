@@ -6,6 +6,9 @@
 )]
 
 mod breaks;
+pub(super) mod wheels;
+
+use std::f64::consts::FRAC_PI_2;
 
 use super::inputs::Contact;
 use super::patch::ContactPatch;
@@ -29,9 +32,9 @@ pub struct RimStress {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RimPoint {
     /// Angle behind the entry, θ_f − θ [rad].
-    behind_entry: f64,
+    pub(super) behind_entry: f64,
     /// *θ* [rad].
-    angle: f64,
+    pub(super) angle: f64,
     /// sin θ [-].
     pub(super) sin: f64,
     /// Height over the rim's lowest point, (1 − cos θ) [radii].
@@ -54,11 +57,35 @@ impl RimPoint {
     }
 }
 
+/// How a rim moves against the soil, in hub and rim speeds over the rim's: what stresses know of a
+/// [`Slip`].
+#[derive(Clone, Copy, Debug)]
+struct RimMotion {
+    /// Sense of the rim [-].
+    rim: f64,
+    /// v_x / |ω r_s| [-].
+    forward: f64,
+    /// v_y / |ω r_s| [-].
+    lateral: f64,
+    /// The angle on either side of straight down at which the rim is as fast as the soil under it [rad],
+    /// cos θ = r_s ω / v_x; NaN where there is none.
+    still: f64,
+}
+
+impl From<Slip> for RimMotion {
+    fn from(Slip { rim, forward, lateral, .. }: Slip) -> Self {
+        let share = rim / forward;
+        let is_skidding = share > 0.0 && share < 1.0;
+        let still = if is_skidding { elementary::wide::acos(share) } else { f64::NAN };
+        Self { rim, forward, lateral, still }
+    }
+}
+
 /// All that decides the stresses on a wheel's rim, but for the sinkage.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StressLaw {
     radius: f64,
-    slip: Slip,
+    motion: RimMotion,
     /// Pressure at the depth of [`Self::scale`] [Pa].
     pressure: f64,
     /// Depth of the pressure-sinkage law [radii].
@@ -105,7 +132,7 @@ impl StressLaw {
         let radius = wheel.shearing_radius();
         Self {
             radius,
-            slip: *slip,
+            motion: (*slip).into(),
             pressure: at_scale,
             // σ = K (z/ζ)ⁿ
             scale: scale * response.sinkage_growth / radius,
@@ -116,6 +143,44 @@ impl StressLaw {
             peak_share: soil.stress_peak.share(slip.ratio),
             exit_ratio: response.exit_ratio,
         }
+    }
+
+    /// Whether the arc has no breaks ([`StressField::breaks`]) but the stress peak: the rim is faster than
+    /// the soil under it everywhere, and not nearly as slow where that matters.
+    #[inline(always)]
+    pub(super) fn has_two_pieces(&self) -> bool {
+        let margin = match self.shear {
+            MobilisedShear::Anisotropic(_) | MobilisedShear::Bounded(_) => 1.0,
+            MobilisedShear::Isotropic(_) => TURNS_UNDER_HUB,
+        };
+        self.motion.rim >= margin * self.motion.forward
+    }
+
+    /// Whether the slip velocity of an arc of two pieces turns under the hub, if not sharply.
+    #[inline(always)]
+    pub(super) fn turns_under_hub(&self) -> bool {
+        const HARDLY: f64 = 1.6;
+        self.motion.rim < HARDLY * self.motion.forward
+    }
+
+    /// Whether the soil shears much faster along the arc than under a wheel that rolls freely: the
+    /// rim turns less than half as fast as the soil passes it.
+    #[inline(always)]
+    pub(super) fn shears_at_once(&self) -> bool {
+        let RimMotion { forward, lateral, .. } = self.motion;
+        const FAST: f64 = 2.0;
+        forward.abs() > FAST || lateral.abs() > FAST
+    }
+
+    /// The shear law, ready to be asked.
+    pub(super) fn shear_law(&self) -> MobilisedShear {
+        self.shear
+    }
+
+    /// The angle on either side of straight down at which the rim is as fast as the soil [rad]; NaN
+    /// where there is none.
+    pub(super) fn still(&self) -> f64 {
+        self.motion.still
     }
 
     /// *r_s* [m].
@@ -142,6 +207,22 @@ impl StressLaw {
         }
     }
 
+    /// More than ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad] at this sinkage [m] and at all that are shallower.
+    ///
+    /// ```text
+    /// σ (sin θ_f + sin |θ_r|) + (c + σ tan φ) (2 − cos θ_f − cos θ_r)      σ = K_σ hⁿ
+    /// ```
+    pub(super) fn most_up(&self, sinkage: f64) -> f64 {
+        let depth = sinkage / self.radius;
+        let arc = ContactPatch::of_depth(depth, self.peak_share, self.exit_ratio);
+        let pressure = self.pressure * elementary::pow(depth / self.scale, self.exponent);
+        let (ahead, behind) = (arc.entry, -arc.exit);
+        let reach = |angle: f64| elementary::sin(angle.min(FRAC_PI_2));
+        let rise = |angle: f64| RimPoint::new(angle, 0.0).height;
+        pressure * (reach(ahead) + reach(behind))
+            + (self.cohesion + pressure * self.friction) * (rise(ahead) + rise(behind))
+    }
+
     /// F_z of a shallow wheel without shear over r_s b: the factor [Pa/m^p] and the power p of its
     /// sinkage.
     ///
@@ -150,6 +231,7 @@ impl StressLaw {
     /// ```
     ///
     /// with t = 1 − (1 − a) u and the integral by one node for the weight uⁿ, to a hundredth.
+    #[inline(always)]
     pub(super) fn shallow(&self) -> (f64, f64) {
         let (n, front) = (self.exponent, 1.0 - self.peak_share);
         let node = (n + 1.0) / (n + 2.0);
@@ -216,26 +298,63 @@ impl MobilisedShear {
 /// The bounded law has |τ|² = (c + σ tan φ)² (1 − (1 − m_x²)(1 − m_y²)): within the strength, equal to it
 /// only where one axis is fully mobilised, and the anisotropic one where the wheel slips along one axis
 /// alone. A factor that sets in only beyond the strength would bend the stress within the arc.
+///
+/// A law is asked in two steps, so that the kernel can compute all exponentials of many wheels at once.
 pub(super) trait ShearLaw {
-    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64);
+    /// What e is raised to at a point: minus the displacements over their moduli [-]. A law with one
+    /// modulus has one of them twice.
+    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2];
+
+    /// * `strength`: c + σ tan φ [Pa]
+    /// * `unmobilised`: e to the power of the [`decays`](Self::decays) [-]
+    fn stresses(
+        &self,
+        strength: f64,
+        unmobilised: [f64; 2],
+        point: &RimPoint,
+        field: &StressField,
+    ) -> (f64, f64);
 }
 
 impl ShearLaw for AnisotropicShear {
     #[inline(always)]
-    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
         let (j_x, j_y) = field.displacement(point);
-        let across = -strength * mobilised(j_y, self.per_lateral);
-        let along = strength * mobilised(j_x, self.per_longitudinal);
+        [-j_x.abs() * self.per_longitudinal, -j_y.abs() * self.per_lateral]
+    }
+
+    #[inline(always)]
+    fn stresses(
+        &self,
+        strength: f64,
+        unmobilised: [f64; 2],
+        point: &RimPoint,
+        field: &StressField,
+    ) -> (f64, f64) {
+        let (j_x, j_y) = field.displacement(point);
+        let across = -strength * mobilised(unmobilised[1], j_y);
+        let along = strength * mobilised(unmobilised[0], j_x);
         (along, if j_y == 0.0 { 0.0 } else { across })
     }
 }
 
 impl ShearLaw for BoundedShear {
     #[inline(always)]
-    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
+        self.0.decays(point, field)
+    }
+
+    #[inline(always)]
+    fn stresses(
+        &self,
+        strength: f64,
+        unmobilised: [f64; 2],
+        point: &RimPoint,
+        field: &StressField,
+    ) -> (f64, f64) {
         let (j_x, j_y) = field.displacement(point);
-        let along = mobilised(j_x, self.0.per_longitudinal);
-        let across = mobilised(j_y, self.0.per_lateral);
+        let along = mobilised(unmobilised[0], j_x);
+        let across = mobilised(unmobilised[1], j_y);
         let (x_2, y_2) = (along * along, across * across);
         let sum = x_2 + y_2;
         let both = x_2 * y_2 / if sum > f64::MIN_POSITIVE { sum } else { 1.0 };
@@ -246,22 +365,33 @@ impl ShearLaw for BoundedShear {
 
 impl ShearLaw for IsotropicShear {
     #[inline(always)]
-    fn stresses(&self, strength: f64, point: &RimPoint, field: &StressField) -> (f64, f64) {
+    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
+        let (j_x, j_y) = field.displacement(point);
+        [-(j_x * j_x + j_y * j_y).sqrt() * self.per_modulus; 2]
+    }
+
+    #[inline(always)]
+    fn stresses(
+        &self,
+        strength: f64,
+        unmobilised: [f64; 2],
+        point: &RimPoint,
+        field: &StressField,
+    ) -> (f64, f64) {
         /// Slower than this [-] is at rest; its square is still a number.
         const AT_REST: f64 = 1e-150;
-        let (j_x, j_y) = field.displacement(point);
         let (v_x, v_y) = field.slip_velocity(point);
         let speed = (v_x * v_x + v_y * v_y).sqrt();
         let per_speed = 1.0 / if speed > AT_REST { speed } else { AT_REST };
-        let stress = strength * mobilised((j_x * j_x + j_y * j_y).sqrt(), self.per_modulus);
+        let stress = strength * mobilised(unmobilised[0], 1.0);
         (stress * (v_x * per_speed), -stress * (v_y * per_speed))
     }
 }
 
 /// Share of the shear strength mobilised after a displacement, with its sign [-].
 #[inline(always)]
-fn mobilised(displacement: f64, per_modulus: f64) -> f64 {
-    (1.0 - elementary::exp(-displacement.abs() * per_modulus)).copysign(displacement)
+fn mobilised(unmobilised: f64, displacement: f64) -> f64 {
+    (1.0 - unmobilised).copysign(displacement)
 }
 
 /// The stresses along the arc of one wheel at one sinkage.
@@ -323,36 +453,9 @@ impl StressField {
         }
     }
 
-    /// The shear law, ready to be asked.
-    pub(super) fn shear_law(&self) -> MobilisedShear {
-        self.law.shear
-    }
-
-    /// Whether the arc has no [`breaks`](Self::breaks) but the stress peak: the rim is faster than
-    /// the soil under it everywhere, and not nearly as slow where that matters.
-    #[inline(always)]
-    pub(super) fn has_two_pieces(&self) -> bool {
-        let margin = match self.law.shear {
-            MobilisedShear::Anisotropic(_) | MobilisedShear::Bounded(_) => 1.0,
-            MobilisedShear::Isotropic(_) => TURNS_UNDER_HUB,
-        };
-        self.law.slip.rim >= margin * self.law.slip.forward
-    }
-
-    /// Whether the slip velocity of an arc of two pieces turns under the hub, if not sharply.
-    #[inline(always)]
-    pub(super) fn turns_under_hub(&self) -> bool {
-        const HARDLY: f64 = 1.6;
-        self.law.slip.rim < HARDLY * self.law.slip.forward
-    }
-
-    /// Whether the soil shears much faster along the arc than under a wheel that rolls freely: the
-    /// rim turns less than half as fast as the soil passes it.
-    #[inline(always)]
-    pub(super) fn shears_at_once(&self) -> bool {
-        let Slip { forward, lateral, .. } = self.law.slip;
-        const FAST: f64 = 2.0;
-        forward.abs() > FAST || lateral.abs() > FAST
+    /// What holds at any sinkage.
+    pub(super) fn law(&self) -> &StressLaw {
+        &self.law
     }
 
     /// The point of the arc `behind_entry` [rad] away from its front end.
@@ -364,9 +467,22 @@ impl StressField {
     /// The stresses at a point of the arc with a [`normal`](Self::normal) stress [Pa].
     #[inline(always)]
     pub(super) fn stress(&self, shear: &impl ShearLaw, normal: f64, point: &RimPoint) -> RimStress {
-        let strength = self.law.cohesion + normal * self.law.friction;
-        let (longitudinal, lateral) = shear.stresses(strength, point, self);
+        let unmobilised = shear.decays(point, self).map(elementary::exp);
+        let (longitudinal, lateral) = self.shear(shear, normal, unmobilised, point);
         RimStress { normal, longitudinal, lateral }
+    }
+
+    /// The shear stresses there, by what e to the power of the law's decays is.
+    #[inline(always)]
+    pub(super) fn shear(
+        &self,
+        shear: &impl ShearLaw,
+        normal: f64,
+        unmobilised: [f64; 2],
+        point: &RimPoint,
+    ) -> (f64, f64) {
+        let strength = self.law.cohesion + normal * self.law.friction;
+        shear.stresses(strength, unmobilised, point, self)
     }
 
     /// The largest normal stress on the rim, σ_max = σ(θ_m) [Pa].
@@ -385,19 +501,37 @@ impl StressField {
     /// ```
     #[inline(always)]
     pub(super) fn normal(&self, point: &RimPoint) -> f64 {
+        self.front_normal(self.front_height(point))
+    }
+
+    /// The height over the rim's lowest point at which the rim before the peak has the stress of a point
+    /// [radii].
+    #[inline(always)]
+    pub(super) fn front_height(&self, point: &RimPoint) -> f64 {
         let ContactPatch { entry, max_stress, exit } = self.patch;
         let mirrored = entry - (point.angle - exit) * self.squeeze;
         let sin_half = elementary::sin(0.5 * mirrored);
         let behind_peak = point.angle < max_stress;
-        let height = if behind_peak { 2.0 * sin_half * sin_half } else { point.height };
-        self.front_normal(height)
+        if behind_peak { 2.0 * sin_half * sin_half } else { point.height }
     }
 
     /// The same before the peak, by the height over the rim's lowest point [radii].
     #[inline(always)]
     pub(super) fn front_normal(&self, height: f64) -> f64 {
-        let depth = (self.entry_height - height) * self.per_scale;
-        self.law.pressure * elementary::pow(depth, self.law.exponent)
+        let depth = self.depth(height);
+        self.normal_at(depth, elementary::ln(depth))
+    }
+
+    /// The depth of a point before the peak, on that of the pressure-sinkage law [-].
+    #[inline(always)]
+    pub(super) fn depth(&self, height: f64) -> f64 {
+        (self.entry_height - height) * self.per_scale
+    }
+
+    /// Normal stress [Pa] at a depth [-] with its logarithm.
+    #[inline(always)]
+    pub(super) fn normal_at(&self, depth: f64, log: f64) -> f64 {
+        self.law.pressure * elementary::pow_of_log(depth, log, self.law.exponent)
     }
 
     /// Shear displacement of the soil against the rim since it entered [m], along and across.
@@ -411,7 +545,7 @@ impl StressField {
     /// comes to rest j grows beyond all bounds: a locked wheel mobilises the full strength.
     #[inline(always)]
     fn displacement(&self, point: &RimPoint) -> (f64, f64) {
-        let Slip { rim, forward, lateral, .. } = self.law.slip;
+        let RimMotion { rim, forward, lateral, .. } = self.law.motion;
         let rise = self.entry_sin - point.sin;
         let j_x = self.law.radius * (rim * point.behind_entry - forward * rise);
         let j_y = self.law.radius * lateral * point.behind_entry;
@@ -421,7 +555,7 @@ impl StressField {
     /// Velocity of the rim against the soil over the rim's speed [-], along and across.
     #[inline(always)]
     fn slip_velocity(&self, point: &RimPoint) -> (f64, f64) {
-        let Slip { rim, forward, lateral, .. } = self.law.slip;
+        let RimMotion { rim, forward, lateral, .. } = self.law.motion;
         (rim - forward * point.cosine(), lateral)
     }
 }

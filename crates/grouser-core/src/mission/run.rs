@@ -237,7 +237,7 @@ impl MissionRun {
                 return Ok(End::Stopped(stopped));
             }
             let end = driven.step(&mut self.run, &mut self.navigator)?;
-            let records = self.run.records();
+            let records = self.run.kept();
             if (records.len() >= BATCH || end.is_some()) && watch(records) {
                 self.run.take_records();
             }

@@ -15,7 +15,8 @@ use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{
     Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, ReactionError, Rover,
-    RoverState, Stance, WheelReaction, dynamics, reaction::Ground,
+    RoverState, Stance, WheelReaction, dynamics, reaction::Ground, settling::Known,
+    settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -33,6 +34,8 @@ pub struct Equations<'a> {
     failure: RefCell<Option<ReactionError>>,
     /// The last evaluation of wheels whose speeds depend on their loads: an integral alone changes nothing of it.
     last: RefCell<Option<(RoverState, Vec<f64>, Evaluation)>>,
+    /// The wheels of the last attempt, near which those of the next settle.
+    nearby: RefCell<Nearby<'a>>,
 }
 
 /// One evaluation of the motion: its rates, and the wheels that they come from.
@@ -59,6 +62,15 @@ pub struct Rates {
     pub soil_power: f64,
     /// Electrical power of the motors that are known [W].
     pub electrical_power: f64,
+}
+
+/// Where the search for sinkages and loads begins: the answers agree but for their last digits.
+#[derive(Clone, Copy)]
+enum Search {
+    /// From shallow sinkages: the same whatever was evaluated before.
+    Anew,
+    /// From the wheels of the last attempt.
+    Nearby,
 }
 
 /// Time in which a yaw rate returns to the one that is held [s]. It never leaves it by more than
@@ -94,6 +106,7 @@ impl<'a> Equations<'a> {
             work: Cell::default(),
             failure: RefCell::new(None),
             last: RefCell::new(None),
+            nearby: RefCell::default(),
         }
     }
 
@@ -109,17 +122,29 @@ impl<'a> Equations<'a> {
         Self { limits, ..self }
     }
 
+    /// The same with what is known of the wheels in a motion nearby.
+    pub(super) fn near(self, wheels: Vec<Known>) -> Self {
+        self.nearby.borrow_mut().wheels = wheels;
+        self
+    }
+
+    /// What is known of the wheels now.
+    pub(super) fn take_near(&self) -> Vec<Known> {
+        std::mem::take(&mut self.nearby.borrow_mut().wheels)
+    }
+
     /// The soil's reaction on each wheel: kinematics, slip, loads, sinkage, forces.
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
-        self.reactions_at(state, &self.ground.stance(state), self.rim_speeds)
+        self.reactions_at(state, &self.ground.stance(state), self.rim_speeds, Search::Anew)
     }
 
     /// The same at a point of a run, whose wheels may turn at other speeds than they are set to.
     pub(super) fn reactions_of(&self, point: &Point) -> Result<Vec<WheelReaction>, ReactionError> {
-        self.reactions_at(&point.state, &self.ground.stance(&point.state), self.turning(point))
+        let stance = self.ground.stance(&point.state);
+        self.reactions_at(&point.state, &stance, self.turning(point), Search::Anew)
     }
 
     /// The rim speeds of the wheels at a point of a run [m/s].
@@ -132,10 +157,16 @@ impl<'a> Equations<'a> {
         state: &RoverState,
         stance: &Stance,
         rim_speeds: &[f64],
+        search: Search,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let slips: Vec<Slip> = wheel_slips(self.ground.rover, state, rim_speeds).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
-        self.ground.reactions(stance, &slips)
+        match search {
+            Search::Anew => self.ground.reactions(stance, &slips),
+            Search::Nearby => {
+                self.ground.reactions_after(stance, &slips, &mut self.nearby.borrow_mut())
+            }
+        }
     }
 
     /// The slip of every wheel at a point of a run, from the motion alone.
@@ -156,7 +187,7 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// As [`rates`](Self::rates).
     pub fn evaluate(&self, state: &RoverState) -> Result<Evaluation, ReactionError> {
-        self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds)
+        self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, Search::Anew)
     }
 
     /// The same for wheels that turn at other speeds than they are set to.
@@ -167,10 +198,11 @@ impl<'a> Equations<'a> {
         state: &RoverState,
         rim_speeds: &[f64],
         wheel_speeds: &[f64],
+        search: Search,
     ) -> Result<Evaluation, ReactionError> {
         let Ground { rover, own_moments, .. } = self.ground;
         let stance = self.ground.stance(state);
-        let wheels = self.reactions_at(state, &stance, rim_speeds)?;
+        let wheels = self.reactions_at(state, &stance, rim_speeds, search)?;
         let forces = forces_of(&wheels);
         let (acceleration, holding_moment) = match self.held_yaw_rate {
             None => (dynamics::acceleration(rover, stance.pull, state, forces, own_moments), 0.0),
@@ -224,11 +256,13 @@ impl<'a> Equations<'a> {
         &self.wheel_speeds
     }
 
-    /// As [`evaluate`](Self::evaluate), for a solver: it may try states that no rover can have, so
-    /// the reason of a failure is kept for when the solver gives up.
+    /// As [`evaluate`](Self::evaluate), for a solver: near the last attempt, which differs in last digits. It may try
+    /// states that no rover can have, so the reason of a failure is kept for when the solver gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
         self.count(|work| work.evaluations += 1);
-        self.evaluate(state).map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
+        let evaluated =
+            self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, Search::Nearby);
+        evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
     }
 
     /// The same for wheels whose speeds depend on their loads: how these change, too.
@@ -264,7 +298,7 @@ impl<'a> Equations<'a> {
         }
         self.count(|work| work.evaluations += 1);
         let wheel_speeds: Vec<f64> = self.ground.rover.wheel_speeds(rim_speeds).collect();
-        let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds);
+        let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, Search::Nearby);
         let evaluated = evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure));
         let evaluation = evaluated.ok()?;
         *self.last.borrow_mut() = Some((*state, rim_speeds.to_vec(), evaluation.clone()));

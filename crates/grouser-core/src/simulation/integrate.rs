@@ -1,11 +1,13 @@
 //! Carries the motion through time.
 //!
-//! `dormand_prince` takes an explicit step and `rosenbrock` an implicit one, with the coefficients of
-//! `rodas5p`; `adaptive` chooses between them, and how long a `step` is. `runge_kutta` is the
+//! `dormand_prince` takes an explicit step, `rosenbrock` an implicit one, with the coefficients of
+//! `rodas5p`, and `exponential` one that follows what new speeds of the wheels disturb; `adaptive` chooses
+//! among them, and how long a `step` is. `runge_kutta` is the
 //! independent check on them.
 
 mod adaptive;
 mod dormand_prince;
+mod exponential;
 #[cfg(test)]
 mod order_conditions;
 mod rodas5p;

@@ -30,9 +30,19 @@ pub(super) struct Leg<'a> {
     pub(super) is_new_command: bool,
     /// Until when they are expected to keep them [s].
     pub(super) kept_until: f64,
-    /// The only time to be recorded [s], besides that of an outcome; without it those of the
-    /// scenario's sample interval, and its end.
-    pub(super) record_only_at: Option<f64>,
+    /// What is recorded.
+    pub(super) due: Due,
+}
+
+/// Which times are recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Due {
+    /// Those of the scenario's sample interval, its end, and that of an outcome.
+    Samples,
+    /// One [s], and that of an outcome.
+    At(f64),
+    /// None.
+    Nothing,
 }
 
 impl Leg<'_> {
@@ -44,9 +54,9 @@ impl Leg<'_> {
     /// Goes on to a time [s] with records and looks on the way, unless an outcome ends the run.
     pub(super) fn go_to(mut self, until: f64) -> Result<(), RunError> {
         let now = self.state.time;
-        let mut times = match self.record_only_at {
-            None => multiples_between(now, until, self.scenario.numerics.sample_interval),
-            Some(_) => Vec::new(),
+        let mut times = match self.due {
+            Due::Samples => multiples_between(now, until, self.scenario.numerics.sample_interval),
+            Due::At(_) | Due::Nothing => Vec::new(),
         };
         times.extend(multiples_between(now, until, WATCH_PERIOD));
         times.push(until);
@@ -60,8 +70,9 @@ impl Leg<'_> {
         let rim_speeds = std::mem::take(&mut self.state.set_speeds);
         let yaw_rate = self.scenario.yaw.as_ref().map(|yaw| yaw.rate_from(self.state.time));
         let limits = self.state.supply.as_ref().map_or(Vec::new(), |it| it.limits().to_vec());
-        let equations =
-            Equations::of(self.scenario, &rim_speeds).holding(yaw_rate).limited(&limits);
+        let near = std::mem::take(&mut self.state.near);
+        let equations = Equations::of(self.scenario, &rim_speeds);
+        let equations = equations.holding(yaw_rate).limited(&limits).near(near);
         let mut times = times;
         let mut done = Ok(());
         if self.state.method == Method::QuasiSteady {
@@ -80,6 +91,7 @@ impl Leg<'_> {
             done = self.go_dynamically(&equations, times);
         }
         self.state.work += equations.work();
+        self.state.near = equations.take_near();
         self.state.set_speeds = rim_speeds;
         done
     }
@@ -192,14 +204,16 @@ impl Leg<'_> {
             state.outcome = state.watch.look(self.scenario, now, rover, turning);
         }
         state.outcome = state.outcome.take().or(without_power);
-        let is_due = match self.record_only_at {
-            None => {
+        let is_end = state.outcome.is_some();
+        let is_due = match self.due {
+            Due::Samples => {
                 let interval = self.scenario.numerics.sample_interval;
-                is_sample_due(now, interval, self.scenario.duration)
+                is_end || is_sample_due(now, interval, self.scenario.duration)
             }
-            Some(time) => is_same_time(now, time),
+            Due::At(time) => is_end || is_same_time(now, time),
+            Due::Nothing => false,
         };
-        if state.outcome.is_some() || is_due {
+        if is_due {
             match seen.unwrap_or_else(wheels) {
                 Ok(wheels) => {
                     let supply = state.supply.as_ref();

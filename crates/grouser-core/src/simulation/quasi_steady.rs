@@ -20,6 +20,7 @@ use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{rolling_velocity, wheel_slips};
+use crate::vehicle::settling::add_weighted;
 use crate::vehicle::state::rotation;
 use crate::vehicle::{Mount, WheelReaction};
 
@@ -44,6 +45,8 @@ const RESOLVED: f64 = 1e-5;
 /// Velocities that differ by more than this from those of rolling wheels are of another motion, over the fastest rim's
 /// speed [-]. Source: ours; a slip ratio of 1 is this far from rolling.
 const ANOTHER_MOTION: f64 = 1.0;
+/// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a guess.
+const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// A step in time turns the rover by at most this share of a stretch [-].
 const STEP_SHARE: f64 = 0.1;
 
@@ -62,23 +65,36 @@ pub(super) struct Stretch {
 pub(super) struct Carried {
     memory: Memory,
     stretch: Option<Stretch>,
+    /// Velocities with which the rims would roll.
+    rolled: Vector3<f64>,
+}
+
+impl Carried {
+    /// The wheels at a point of the motion, if it is one of steady states.
+    pub(super) fn wheels(
+        &self,
+        equations: &Equations<'_>,
+        point: &Point,
+    ) -> Option<Vec<WheelReaction>> {
+        Some(self.stretch.as_ref()?.wheels(equations, point))
+    }
 }
 
 /// The motion of a rover whose wheels turn at given speeds.
-pub(super) struct QuasiSteady<'a> {
-    equations: &'a Equations<'a>,
-    solver: SteadySolver<'a>,
+pub(super) struct QuasiSteady<'a, 'g> {
+    equations: &'a Equations<'g>,
+    solver: SteadySolver<'a, 'g>,
     stretch: Stretch,
 }
 
-impl<'a> QuasiSteady<'a> {
+impl<'a, 'g> QuasiSteady<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.
     ///
     /// * `carried`: of the run so far
     /// * `horizon`: how long the rims will keep their speeds [s]
     /// * `rims_changed`: whether they were others so far
     pub(super) fn from(
-        equations: &'a Equations<'a>,
+        equations: &'a Equations<'g>,
         carried: Carried,
         point: &mut Point,
         horizon: f64,
@@ -87,16 +103,22 @@ impl<'a> QuasiSteady<'a> {
         if equations.is_uneven() {
             return Err(NotSteady::UnevenSoil);
         }
-        let mut solver = SteadySolver::new(equations, carried.memory);
+        let Carried { memory, stretch, rolled } = carried;
         let yaw = point.state.yaw;
-        let guess = match carried.stretch {
+        let rolling = rolling(equations);
+        // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is faster.
+        let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
+        let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
+        let mut solver = SteadySolver::new(equations, memory);
+        let guess = match stretch {
             Some(stretch) if !rims_changed => return Ok(Self { equations, solver, stretch }),
             Some(stretch) => {
-                let (before, rolling) = (stretch.velocities(yaw), rolling(equations));
+                solver.scale_memory(faster);
+                let guess = faster * (stretch.velocities(yaw) - rolled) + rolling;
                 // Rims that turn the other way leave nothing of how it moved.
-                if solver.size(&(before - rolling)) > ANOTHER_MOTION { rolling } else { before }
+                if solver.size(&(guess - rolling)) > ANOTHER_MOTION { rolling } else { guess }
             }
-            None => rolling(equations),
+            None => rolling,
         };
         let here = solver.find(yaw, &guess)?;
         let stretch = Stretch::ahead(&mut solver, here, horizon)?;
@@ -107,21 +129,13 @@ impl<'a> QuasiSteady<'a> {
 
     /// What the next advance starts with.
     pub(super) fn carry(self) -> Carried {
-        Carried { memory: self.solver.memory(), stretch: Some(self.stretch) }
+        let rolled = rolling(self.equations);
+        Carried { memory: self.solver.memory(), stretch: Some(self.stretch), rolled }
     }
 
     /// The wheels at a point of the motion.
     pub(super) fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
-        let rim_speeds = self.equations.turning(point);
-        let slips = wheel_slips(self.equations.rover(), &point.state, rim_speeds);
-        let weights = self.stretch.weights(point.state.yaw);
-        slips
-            .enumerate()
-            .map(|(wheel, slip)| {
-                let reactions = self.stretch.nodes.iter().map(|node| &node.wheels[wheel]);
-                WheelReaction { slip, ..blended(reactions.zip(weights)) }
-            })
-            .collect()
+        self.stretch.wheels(self.equations, point)
     }
 
     /// Goes on for a while.
@@ -195,7 +209,7 @@ struct PoseRates {
 impl Stretch {
     /// The stretch that the rover will turn through from a steady state on.
     fn ahead(
-        solver: &mut SteadySolver<'_>,
+        solver: &mut SteadySolver<'_, '_>,
         here: SteadyState,
         horizon: f64,
     ) -> Result<Self, NotSteady> {
@@ -216,7 +230,7 @@ impl Stretch {
 
     /// Steady states over a stretch that starts with a known one, halved until it is resolved.
     fn through(
-        solver: &mut SteadySolver<'_>,
+        solver: &mut SteadySolver<'_, '_>,
         here: SteadyState,
         mut width: f64,
     ) -> Result<Self, NotSteady> {
@@ -243,7 +257,7 @@ impl Stretch {
     /// That velocities can follow the steady state as it moves along the stretch.
     fn check(
         &self,
-        solver: &SteadySolver<'_>,
+        solver: &SteadySolver<'_, '_>,
         settling_time: f64,
         rate: f64,
     ) -> Result<(), NotSteady> {
@@ -254,6 +268,20 @@ impl Stretch {
             return Err(NotSteady::Lags { settling_time, lag });
         }
         Ok(())
+    }
+
+    /// The wheels at a point of the motion.
+    fn wheels(&self, equations: &Equations<'_>, point: &Point) -> Vec<WheelReaction> {
+        let rim_speeds = equations.turning(point);
+        let slips = wheel_slips(equations.rover(), &point.state, rim_speeds);
+        let weights = self.weights(point.state.yaw);
+        slips
+            .enumerate()
+            .map(|(wheel, slip)| {
+                let reactions = self.nodes.iter().map(|node| &node.wheels[wheel]);
+                WheelReaction { slip, ..blended(reactions.zip(weights)) }
+            })
+            .collect()
     }
 
     /// Where a yaw is on the stretch: 0 at its start, 1 at its end.
@@ -316,7 +344,7 @@ const QUARTERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Finds the steady states that are missing at some shares of a stretch, each from those known; leaves
 /// them in the order of the shares.
 fn fill(
-    solver: &mut SteadySolver<'_>,
+    solver: &mut SteadySolver<'_, '_>,
     known: &mut Vec<(f64, SteadyState)>,
     width: f64,
     shares: &[f64],
@@ -338,7 +366,7 @@ fn fill(
 
 /// How far parabolas through the first, the middle and the last of five steady states miss the other
 /// two, over the fastest rim's speed [-].
-fn roughness(solver: &SteadySolver<'_>, nodes: &[(f64, SteadyState)]) -> f64 {
+fn roughness(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64 {
     let miss = |at: usize| {
         let weights = lagrange(&[0.0, 0.5, 1.0], nodes[at].0);
         let parabola: Vector3<f64> =
@@ -363,15 +391,9 @@ fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> Whee
     let mut sum: Option<WheelReaction> = None;
     for (reaction, weight) in weighted {
         let blend = sum.get_or_insert_with(|| nothing_of(reaction));
-        let (forces, patch) = (reaction.settled.forces, reaction.settled.forces.patch);
         blend.load += weight * reaction.load;
         blend.settled.sinkage += weight * reaction.settled.sinkage;
-        blend.settled.forces = blend.settled.forces + forces * weight;
-        // The patch, which is no force, is not scaled with them.
-        let angles = &mut blend.settled.forces.patch;
-        angles.entry += weight * patch.entry;
-        angles.exit += weight * patch.exit;
-        angles.max_stress += weight * patch.max_stress;
+        add_weighted(&mut blend.settled.forces, &reaction.settled.forces, weight);
     }
     sum.expect("a stretch has steady states")
 }

@@ -1,11 +1,12 @@
 //! A run: a scenario on its way, step by step or to its end.
 
 use std::cell::Cell;
+use std::sync::OnceLock;
 
 use super::controller::{Controller, Observation};
 use super::equations::Equations;
 use super::error::RunError;
-use super::leg::Leg;
+use super::leg::{Due, Leg};
 use super::method::Method;
 use super::most_taken::MostTaken;
 use super::outcome::Outcome;
@@ -58,10 +59,11 @@ pub const LEAST_STEP: f64 = 1e-6;
 pub struct Run {
     scenario: Scenario,
     state: State,
-    /// Those that stay, and after them the one of the state, if it is another.
+    /// Those that stay.
     records: Vec<Record>,
-    /// How many stay.
-    kept: usize,
+    /// The one of the state, if it is another, and all with it: made when someone asks for them.
+    now: OnceLock<Record>,
+    all: OnceLock<Vec<Record>>,
 }
 
 impl Run {
@@ -97,23 +99,25 @@ impl Run {
             records: &mut records,
             is_new_command: true,
             kept_until,
-            record_only_at: None,
+            due: Due::Samples,
         };
         leg.start()?;
-        let kept = records.len();
-        Ok(Self { scenario: scenario.clone(), state, records, kept })
+        Ok(Self::at(scenario.clone(), state, records))
     }
 
     /// A run that goes on from a [`state`](Self::state) of the same scenario.
     #[must_use]
     pub fn resume(scenario: &Scenario, state: State) -> Self {
-        let mut run = Self { scenario: scenario.clone(), state, records: Vec::new(), kept: 0 };
+        let mut run = Self::at(scenario.clone(), state, Vec::new());
         if let Some(steered) = &run.state.steered {
             run.scenario.rover = Rover::clone(steered);
         }
-        run.record_now();
-        run.kept = 1;
+        run.look();
         run
+    }
+
+    fn at(scenario: Scenario, state: State, records: Vec<Record>) -> Self {
+        Self { scenario, state, records, now: OnceLock::new(), all: OnceLock::new() }
     }
 
     /// Leads the run by the scenario's own drive to the end of the scenario, or to the outcome that
@@ -121,11 +125,24 @@ impl Run {
     ///
     /// # Errors
     /// [`RunError`] if the run cannot be computed.
-    pub fn to_end(mut self) -> Result<Trajectory, RunError> {
+    pub fn to_end(self) -> Result<Trajectory, RunError> {
+        self.led_to_end(Due::Samples)
+    }
+
+    /// As [`to_end`](Self::to_end), with records of start and end alone: what a run costs beside them is its motion.
+    ///
+    /// # Errors
+    /// As [`to_end`](Self::to_end).
+    pub fn to_outcome(self) -> Result<Trajectory, RunError> {
+        let end = Due::At(self.scenario.duration);
+        self.led_to_end(end)
+    }
+
+    fn led_to_end(mut self, due: Due) -> Result<Trajectory, RunError> {
         let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
         // At the start the wheels turn as it says already.
         let is_asked = self.state.time > 0.0;
-        self.lead(&mut drive, [duration, duration], is_asked)?;
+        self.lead(&mut drive, [duration, duration], is_asked, due)?;
         Ok(self.finish())
     }
 
@@ -136,9 +153,7 @@ impl Run {
     /// [`RunError`] for commands that no wheel can follow, and where the motion cannot be computed,
     /// at which the rover stays where it last was looked at.
     pub fn advance(&mut self, controller: &mut dyn Controller, until: f64) -> Result<(), RunError> {
-        let led = self.lead(controller, [until, until], true);
-        self.record_now();
-        led
+        self.lead(controller, [until, until], true, Due::Samples)
     }
 
     /// As [`advance`](Self::advance), without a record of where that leads.
@@ -150,7 +165,7 @@ impl Run {
         until: f64,
         kept_until: f64,
     ) -> Result<(), RunError> {
-        self.lead(controller, [until, kept_until], true)
+        self.lead(controller, [until, kept_until], true, Due::Samples)
     }
 
     /// Seeks steady motions again where none was found before; how it was computed until then, if it was not by them.
@@ -200,13 +215,20 @@ impl Run {
 
     /// Records where the run has come to.
     pub(crate) fn look(&mut self) {
-        self.record_now();
-        self.kept = self.records.len();
+        self.forget_now();
+        if !self.is_recorded() {
+            self.records.push(self.record_now());
+        }
     }
 
-    /// The records since they were last taken.
+    /// The records that stay.
+    pub(crate) fn kept(&self) -> &[Record] {
+        &self.records
+    }
+
+    /// The same, which do not stay any longer.
     pub(crate) fn take_records(&mut self) -> Vec<Record> {
-        self.kept = 0;
+        self.forget_now();
         std::mem::take(&mut self.records)
     }
 
@@ -260,25 +282,28 @@ impl Run {
             self.state.turn(&self.scenario, rim_speeds);
         }
         let until = snapped(self.state.time + span, WATCH_PERIOD);
-        self.records.truncate(self.kept);
+        self.forget_now();
         let mut done = Ok(());
         let mut is_over = false;
         while !is_over {
             let next = multiple_after(self.state.time, period);
             is_over = next > until || is_same_time(next, until);
             let next = if is_over { until } else { next };
-            done = self.go_to(is_new_command, [next, until], Some(until));
+            done = self.go_to(is_new_command, [next, until], Due::Nothing);
             is_new_command = false;
             is_over |= done.is_err() || self.state.outcome.is_some();
             is_over |= done.is_ok() && ends(self);
         }
-        self.record_now();
         done
     }
 
     /// The trajectory so far.
     #[must_use]
-    pub fn finish(self) -> Trajectory {
+    pub fn finish(mut self) -> Trajectory {
+        if !self.is_recorded() {
+            let now = self.now.take().unwrap_or_else(|| self.record_now());
+            self.records.push(now);
+        }
         let State { outcome, method, work, .. } = self.state;
         let outcome = outcome.unwrap_or(Outcome::Completed);
         Trajectory { records: self.records, outcome, method, work }
@@ -296,20 +321,24 @@ impl Run {
         &self.state
     }
 
-    /// The rover now: at its start, where it was led to, or when its outcome was found.
-    ///
-    /// # Panics
-    /// Never: there always is a record.
+    /// The rover now: at its start, where it was led to, or when its outcome was found. Its wheels are settled when
+    /// this is asked for the first time; the [`state`](Self::state) is known without them.
     #[must_use]
     pub fn now(&self) -> &Record {
-        self.records.last().expect("a run has a record of its start")
+        match self.records.last().filter(|_| self.is_recorded()) {
+            Some(last) => last,
+            None => self.now.get_or_init(|| self.record_now()),
+        }
     }
 
     /// The records so far: at the start, at every sample interval that a controller led the rover
     /// through, and now.
     #[must_use]
     pub fn records(&self) -> &[Record] {
-        &self.records
+        if self.is_recorded() {
+            return &self.records;
+        }
+        self.all.get_or_init(|| self.records.iter().chain([self.now()]).cloned().collect())
     }
 
     /// What became of the rover, if that is known already.
@@ -326,12 +355,13 @@ impl Run {
         controller: &mut dyn Controller,
         [until, kept_until]: [f64; 2],
         is_asked: bool,
+        due: Due,
     ) -> Result<(), RunError> {
         let mut is_asked = is_asked;
         if let Some(period) = controller.period() {
             positive("control period [s]", period)?;
         }
-        self.records.truncate(self.kept);
+        self.forget_now();
         let mut led = Ok(());
         while led.is_ok() && self.state.outcome.is_none() && self.state.time < until {
             let mut is_new_command = controller.period().is_some();
@@ -346,8 +376,7 @@ impl Run {
                 let periods = (self.state.time / period).round() + 1.0;
                 [(periods * period).min(until); 2]
             });
-            led = self.go_to(is_new_command, [next, kept], None);
-            self.kept = self.records.len();
+            led = self.go_to(is_new_command, [next, kept], due);
         }
         led
     }
@@ -391,7 +420,7 @@ impl Run {
         &mut self,
         is_new_command: bool,
         [until, kept_until]: [f64; 2],
-        only_at: Option<f64>,
+        due: Due,
     ) -> Result<(), RunError> {
         let time = self.state.time;
         let turns = self.scenario.yaw.iter().flat_map(|yaw| yaw.turns_between(time, until));
@@ -408,7 +437,7 @@ impl Run {
             is_new_command |= is_limited && self.state.renew_limits(&self.scenario.rover);
             // A prescribed yaw may turn otherwise where this stretch ends.
             let kept_until = if end < until { end } else { kept_until };
-            self.leg(is_new_command, kept_until, only_at).go_to(end)?;
+            self.leg(is_new_command, kept_until, due).go_to(end)?;
             if self.state.outcome.is_some() {
                 break;
             }
@@ -417,29 +446,40 @@ impl Run {
         Ok(())
     }
 
-    fn leg(&mut self, is_new_command: bool, kept_until: f64, only_at: Option<f64>) -> Leg<'_> {
+    fn leg(&mut self, is_new_command: bool, kept_until: f64, due: Due) -> Leg<'_> {
         Leg {
             scenario: &self.scenario,
             state: &mut self.state,
             records: &mut self.records,
             is_new_command,
             kept_until,
-            record_only_at: only_at,
+            due,
         }
     }
 
-    /// Records where the run has come to, if that is not done; without wheels where those do not
-    /// settle.
-    fn record_now(&mut self) {
-        let State { time, point, set_speeds, .. } = &self.state;
-        if self.records.last().is_some_and(|last| is_same_time(last.time, *time)) {
-            return;
-        }
+    /// Whether the last record is of where the run has come to.
+    fn is_recorded(&self) -> bool {
+        self.records.last().is_some_and(|last| is_same_time(last.time, self.state.time))
+    }
+
+    /// That the run goes on from where it was.
+    fn forget_now(&mut self) {
+        self.now.take();
+        self.all.take();
+    }
+
+    /// A record of where the run has come to; without wheels where those do not settle.
+    fn record_now(&self) -> Record {
+        let State { time, point, set_speeds, carried, .. } = &self.state;
         let supply = self.state.supply.as_ref();
         let equations = Equations::of(&self.scenario, set_speeds)
             .limited(supply.map_or(&[], |supply| supply.limits()));
-        let wheels = equations.reactions_of(point).unwrap_or_default();
-        self.records.push(Record::new(&equations, *time, point, &wheels, supply));
+        let steady = match self.state.method {
+            Method::QuasiSteady => carried.wheels(&equations, point),
+            _ => None,
+        };
+        let wheels = steady.unwrap_or_else(|| equations.reactions_of(point).unwrap_or_default());
+        Record::new(&equations, *time, point, &wheels, supply)
     }
 }
 

@@ -16,6 +16,7 @@ use super::times::is_multiple;
 use super::turning::Turning;
 use super::watch::{WATCH_PERIOD, Watch};
 use super::work::Work;
+use crate::vehicle::settling::Known;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
 /// All that changes in a run: where the rover is, how it and its wheels move, its energies, and what
@@ -51,6 +52,8 @@ pub struct State {
     pub(super) history: History,
     /// Of the quasi-steady motion so far.
     pub(super) carried: Carried,
+    /// The wheels where the motion was last evaluated.
+    pub(super) near: Vec<Known>,
 }
 
 impl State {
@@ -85,6 +88,7 @@ impl State {
             most_taken: None,
             history: History::default(),
             carried: Carried::default(),
+            near: Vec::new(),
         }
     }
 

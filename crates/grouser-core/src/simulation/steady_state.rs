@@ -77,8 +77,8 @@ pub(super) struct SteadyState {
 }
 
 /// Finds steady states, each from the one before.
-pub(super) struct SteadySolver<'a> {
-    equations: &'a Equations<'a>,
+pub(super) struct SteadySolver<'a, 'g> {
+    equations: &'a Equations<'g>,
     /// Speed to measure velocities by: the fastest rim's [m/s].
     scale: f64,
     /// Length that makes a yaw rate a speed: the farthest wheel's distance [m].
@@ -113,8 +113,8 @@ pub const MOST_SLIP: f64 = 0.9;
 /// in the Moon's gravity half of this.)
 pub const LONGEST_SETTLING: f64 = 0.1;
 
-impl<'a> SteadySolver<'a> {
-    pub(super) fn new(equations: &'a Equations<'a>, memory: Memory) -> Self {
+impl<'a, 'g> SteadySolver<'a, 'g> {
+    pub(super) fn new(equations: &'a Equations<'g>, memory: Memory) -> Self {
         let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
         let arms = equations.rover().load_arms();
         let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
@@ -124,6 +124,13 @@ impl<'a> SteadySolver<'a> {
     /// What to begin the next search with.
     pub(super) fn memory(&self) -> Memory {
         self.memory.clone()
+    }
+
+    /// That all rims turn faster by a factor: accelerations, which depend on ratios of speeds, change as much slower.
+    pub(super) fn scale_memory(&mut self, faster: f64) {
+        if let Some(inverse) = &mut self.memory.inverse {
+            *inverse *= faster;
+        }
     }
 
     /// Whether the ground is level.

@@ -14,6 +14,7 @@
 
 use nalgebra::{Matrix3, Rotation2, Vector3};
 
+use super::parts::Mount;
 use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::WheelForces;
@@ -118,53 +119,47 @@ pub fn moments(
     if sharing == LoadSharing::Uniform {
         return Vec2::zeros();
     }
-    let height = rover.centre_height();
-    let mut balance = height * pull;
     if wheels.is_empty() {
-        return balance;
+        return rover.centre_height() * pull;
     }
-    let Some(radius) = rover.common_radius() else {
-        return balance_of_each(rover, balance, sharing, own_moments, wheels);
-    };
-    let sum = |part: fn(&WheelForces) -> f64| wheels.iter().map(part).sum::<f64>();
-    if sharing.has_torque() {
-        balance.x = -(height - radius) * sum(|w| w.drawbar_pull) - sum(|w| w.torque);
-    }
-    if own_moments == OwnMoments::Included {
-        balance.y += radius * sum(|w| w.side_force) - sum(|w| w.overturning_moment);
-    }
-    balance
+    let each = rover.mounts().iter().zip(wheels);
+    let of_wheels =
+        each.map(|(mount, wheel)| moments_of(rover, mount, sharing, own_moments, wheel));
+    moments_of_weight(rover, pull, sharing) + of_wheels.sum::<Vec2>()
 }
 
-/// The same for wheels that differ, or are steered.
-///
-/// * `balance`: that of forces in the contact plane [N·m]
-fn balance_of_each(
+/// Those of the [`moments`] of a rover with its soil's reactions that are the weight's [N·m].
+pub(super) fn moments_of_weight(rover: &Rover, pull: Vec2, sharing: LoadSharing) -> Vec2 {
+    match sharing {
+        LoadSharing::Uniform => Vec2::zeros(),
+        _ if sharing.has_torque() => Vec2::new(0.0, rover.centre_height() * pull.y),
+        _ => rover.centre_height() * pull,
+    }
+}
+
+/// Those that are one wheel's [N·m].
+pub(super) fn moments_of(
     rover: &Rover,
-    mut balance: Vec2,
+    mount: &Mount,
     sharing: LoadSharing,
     own_moments: OwnMoments,
-    wheels: &[WheelForces],
+    wheel: &WheelForces,
 ) -> Vec2 {
-    let of_torque = sharing.has_torque();
-    if of_torque {
-        balance.x = 0.0;
+    let (mut balance, mut excess) = (Vec2::zeros(), Vec2::zeros());
+    if sharing == LoadSharing::Uniform {
+        return balance;
     }
-    for (mount, wheel) in rover.mounts().iter().zip(wheels) {
-        let (force, radius) =
-            (Vec2::new(wheel.drawbar_pull, wheel.side_force), mount.shearing_radius());
-        let mut excess = Vec2::zeros();
-        if of_torque {
-            balance.x -= rover.centre_height() * mount.body_from_wheel(force).x;
-            excess.y = radius * force.x - wheel.torque;
-        }
-        if own_moments == OwnMoments::Included {
-            excess.x = wheel.overturning_moment - radius * force.y;
-        }
-        let excess = mount.body_from_wheel(excess);
-        balance += Vec2::new(excess.y, -excess.x);
+    let force = Vec2::new(wheel.drawbar_pull, wheel.side_force);
+    let radius = mount.shearing_radius();
+    if sharing.has_torque() {
+        balance.x = -rover.centre_height() * mount.body_from_wheel(force).x;
+        excess.y = radius * force.x - wheel.torque;
     }
-    balance
+    if own_moments == OwnMoments::Included {
+        excess.x = wheel.overturning_moment - radius * force.y;
+    }
+    let excess = mount.body_from_wheel(excess);
+    balance + Vec2::new(excess.y, -excess.x)
 }
 
 /// Loads [N] that balance the weight on the wheels, in the mounts' order.

@@ -1,18 +1,21 @@
 //! All wheels settled under their share of the weight: load transfer and soil together.
 
-use std::iter::repeat;
+use std::borrow::Cow;
 
 use nalgebra::Rotation2;
 
 use super::by_wheel::Differences;
 use super::load::{self, LoadSharing, OwnMoments, Tipping};
+use super::parts::Mount;
 use super::rover::Rover;
+use super::ruts::Ruts;
+use super::settling::{Known, Nearby};
 use super::state::RoverState;
 use crate::contact::{
-    Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle, settle_from,
+    Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle_from, settle_many,
 };
 use crate::site::Site;
-use crate::soil::Compaction;
+use crate::soil::{Compaction, Soil};
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 
@@ -81,16 +84,20 @@ pub struct Stance {
     pub weight: f64,
     /// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N].
     pub pull: Vec2,
+    /// Tangent of the ground's inclination [-].
+    pub steepness: f64,
 }
 
-impl Ground<'_> {
+impl<'a> Ground<'a> {
     /// Where the rover stands in a state, and how its weight acts there.
     #[must_use]
     pub fn stance(&self, state: &RoverState) -> Stance {
         let slope_from_body = state.slope_from_body();
         let weight = load::weight(self.rover, self.site, state, &slope_from_body);
         let pull = load::pull(&weight, &slope_from_body);
-        Stance { place: state.position, slope_from_body, weight: weight.into, pull }
+        let (into, along) = (weight.into, weight.uphill.norm());
+        let steepness = if into > 0.0 { along / into } else { 0.0 };
+        Stance { place: state.position, slope_from_body, weight: into, pull, steepness }
     }
 
     /// The reaction on every wheel, in the mounts' order.
@@ -105,7 +112,14 @@ impl Ground<'_> {
         stance: &Stance,
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        self.reactions_near(stance, slips, &[])
+        let mut contacts = Vec::with_capacity(slips.len());
+        self.meet(stance, slips, &mut contacts);
+        if self.is_coupled()
+            && let Some(wheels) = self.settle_together(stance, &contacts, &mut Vec::new())
+        {
+            return Ok(wheels);
+        }
+        self.settle_in_turns(stance, &contacts, &[])
     }
 
     /// As [`reactions`](Self::reactions), from those in a stance and a motion nearby: loads and
@@ -123,13 +137,36 @@ impl Ground<'_> {
         slips: &[Slip],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let mut contacts = Vec::with_capacity(slips.len());
+        self.meet(stance, slips, &mut contacts);
+        if self.is_coupled()
+            && let Some(mut known) = Known::of_all(self, near)
+            && let Some(wheels) = self.settle_together(stance, &contacts, &mut known)
+        {
+            return Ok(wheels);
+        }
+        self.settle_in_turns(stance, &contacts, near)
+    }
+
+    /// Whether loads depend on the wheels' forces.
+    pub(super) fn is_coupled(&self) -> bool {
+        let Self { sharing, own_moments, .. } = *self;
+        sharing.has_torque()
+            || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform)
+    }
+
+    /// The reaction on every wheel, loads and wheels in turn.
+    fn settle_in_turns(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        near: &[WheelReaction],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, site, sharing, own_moments, .. } = *self;
-        let coupled = sharing.has_torque()
-            || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform);
         let forces: Vec<WheelForces> = forces_of(near).copied().collect();
         let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
-        let mut wheels = self.settle_under(stance, moments, slips, near)?;
-        if !coupled {
+        let mut wheels = self.settle_under(stance, moments, contacts, near)?;
+        if !self.is_coupled() {
             return Ok(wheels);
         }
         const MOST_ROUNDS: u32 = 60;
@@ -148,30 +185,61 @@ impl Ground<'_> {
             }
             let mixed = mixing.next(moments, next);
             // A point that the secants lead to may not exist where the one after this round does.
-            (moments, wheels) = match self.settle_under(stance, mixed, slips, &wheels) {
+            (moments, wheels) = match self.settle_under(stance, mixed, contacts, &wheels) {
                 Ok(settled) => (mixed, settled),
-                Err(_) => (next, self.settle_under(stance, next, slips, &wheels)?),
+                Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
         Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
     }
 
-    /// * `before`: the wheels in the round before, near which they settle now, or none
-    fn settle_under(
+    /// As [`reactions`](Self::reactions), by what is known of a motion nearby; this one is known afterwards.
+    pub(crate) fn reactions_after(
         &self,
         stance: &Stance,
-        moments: Vec2,
         slips: &[Slip],
-        before: &[WheelReaction],
+        near: &mut Nearby<'a>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let Self { rover, site, model, sharing, ref differences, .. } = *self;
-        let Stance { place, slope_from_body, weight, pull } = *stance;
-        let steepness = if weight > 0.0 { pull.norm() / weight } else { 0.0 };
-        let loads = load::wheel_loads(rover, sharing, weight, moments)?;
-        let guesses = before.iter().map(|wheel| Some(wheel.settled.sinkage)).chain(repeat(None));
-        let wheels = slips.iter().zip(loads).zip(rover.mounts()).zip(guesses).enumerate();
+        let soil = self.only_soil(stance).map(|soil| (soil, stance.steepness));
+        let is_same = matches!((soil, near.soil), (Some((one, steepness)), Some((other, before)))
+            if std::ptr::eq(one, other) && steepness == before);
+        if is_same && near.contacts.len() == slips.len() {
+            for (contact, slip) in near.contacts.iter_mut().zip(slips) {
+                contact.slip = *slip;
+            }
+        } else {
+            self.meet(stance, slips, &mut near.contacts);
+            near.soil = soil;
+        }
+        near.settle(self, stance, |contacts| self.settle_in_turns(stance, contacts, &[]))
+    }
+
+    /// The soil under all wheels, where the ground has one in all places and no wheel changes it.
+    fn only_soil(&self, stance: &Stance) -> Option<&'a Soil> {
+        let Differences { by_wheel, by_place, ruts } = self.differences;
+        if by_wheel.is_some() || by_place.is_some() || ruts != Ruts::Fresh {
+            return None;
+        }
+        let footprint = self.rover.footprint(&stance.slope_from_body);
+        let under = |mount: &Mount| {
+            let at = stance.place + stance.slope_from_body * mount.position.xy();
+            match self.site.terrain.soil(at, footprint) {
+                Cow::Borrowed(soil) => Some(soil),
+                Cow::Owned(_) => None,
+            }
+        };
+        let mut soils = self.rover.mounts().iter().map(under);
+        let first = soils.next()??;
+        soils.all(|soil| soil.is_some_and(|soil| std::ptr::eq(soil, first))).then_some(first)
+    }
+
+    /// What each wheel meets.
+    fn meet(&self, stance: &Stance, slips: &[Slip], contacts: &mut Vec<Contact>) {
+        let Self { rover, site, ref differences, .. } = *self;
+        let Stance { place, slope_from_body, steepness, .. } = *stance;
         let ruts = differences.ruts.of_wheels(rover, slips);
-        let settled = wheels.map(|(wheel, (((&slip, load), mount), guess))| {
+        contacts.clear();
+        for (wheel, (&slip, mount)) in slips.iter().zip(rover.mounts()).enumerate() {
             let at = place + slope_from_body * mount.position.xy();
             let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
             let difference = differences.of(wheel, at);
@@ -184,16 +252,35 @@ impl Ground<'_> {
                     soil.differing(difference).compacted(rut).on_slope(steepness)
                 }
             };
-            let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity };
-            guess
-                .map_or_else(
-                    || settle(model, &contact, load),
-                    |guess| settle_from(model, &contact, load, guess),
-                )
-                .map(|settled| WheelReaction { slip, load, settled })
-                .map_err(|source| ReactionError::Wheel { wheel: mount.name.clone(), source })
-        });
-        settled.collect()
+            contacts.push(Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity });
+        }
+    }
+
+    /// * `before`: the wheels in the round before, near which they settle now, or none
+    fn settle_under(
+        &self,
+        stance: &Stance,
+        moments: Vec2,
+        contacts: &[Contact],
+        before: &[WheelReaction],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let loads = load::wheel_loads(self.rover, self.sharing, stance.weight, moments)?;
+        let loaded: Vec<(Contact, f64)> = contacts.iter().copied().zip(loads).collect();
+        let settled = if before.is_empty() {
+            settle_many(self.model, &loaded)
+        } else {
+            let each = loaded.iter().zip(before);
+            let near = |((contact, load), near): (&(Contact, f64), &WheelReaction)| {
+                settle_from(self.model, contact, *load, near.settled.sinkage)
+            };
+            each.map(near).collect()
+        };
+        let each = settled.into_iter().zip(loaded).zip(self.rover.mounts());
+        each.map(|((settled, (contact, load)), mount)| match settled {
+            Ok(settled) => Ok(WheelReaction { slip: contact.slip, load, settled }),
+            Err(source) => Err(ReactionError::Wheel { wheel: mount.name.clone(), source }),
+        })
+        .collect()
     }
 }
 

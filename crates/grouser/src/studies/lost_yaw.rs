@@ -177,14 +177,11 @@ impl LostYawPlan {
     /// One run. One that ends early keeps the yaw with which it ended.
     fn one(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<Lost, RunError> {
         let base = self.scenario.clone();
-        let numerics = Numerics {
-            integrator: Integrator::Adaptive { tolerance: TOLERANCE },
-            sample_interval: base.duration,
-            ..base.numerics
-        };
+        let numerics =
+            Numerics { integrator: Integrator::Adaptive { tolerance: TOLERANCE }, ..base.numerics };
         let site = base.site.with_slope(measured.slope);
         let start = Start { yaw: measured.initial_yaw, ..base.start };
-        let run = Run::new(&Scenario { scatter, site, start, numerics, ..base })?.to_end()?;
+        let run = Run::new(&Scenario { scatter, site, start, numerics, ..base })?.to_outcome()?;
         let loss = measured.initial_yaw - run.last().state.yaw;
         Ok(Lost { loss, is_whole: run.outcome == Outcome::Completed })
     }

@@ -2,7 +2,7 @@
 //! ([FourWheel], section 4 and Fig. 7).
 
 use crate::contact::validity::{Finding, Situation};
-use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle_many};
 use crate::soil::Soil;
 use crate::wheel::Wheel;
 
@@ -69,15 +69,21 @@ impl WheelTest {
     /// Settles the wheel at every setting; slip ratios change fastest, then slip angles.
     #[must_use]
     pub fn run(&self) -> Vec<WheelTestRow> {
-        let mut rows = Vec::new();
+        let mut settings = Vec::new();
         for &load in &self.loads {
             for &slip_angle in &self.slip_angles {
                 for &slip_ratio in &self.slip_ratios {
-                    rows.push(self.row(load, slip_angle, slip_ratio));
+                    settings.push((load, slip_angle, slip_ratio));
                 }
             }
         }
-        rows
+        let wheels: Vec<(Contact, f64)> = settings
+            .iter()
+            .map(|&(load, slip_angle, slip_ratio)| (self.contact(slip_angle, slip_ratio), load))
+            .collect();
+        let results = settle_many(self.theory.model(), &wheels);
+        let rows = settings.into_iter().zip(&wheels).zip(results);
+        rows.map(|((setting, (contact, _)), result)| self.row(setting, contact, result)).collect()
     }
 
     /// The wheel in the soil, in a motion of the stand.
@@ -86,9 +92,12 @@ impl WheelTest {
         Contact { wheel: self.wheel, soil: self.soil, slip, gravity: self.gravity }
     }
 
-    fn row(&self, load: f64, slip_angle: f64, slip_ratio: f64) -> WheelTestRow {
-        let contact = self.contact(slip_angle, slip_ratio);
-        let result = settle(self.theory.model(), &contact, load);
+    fn row(
+        &self,
+        (load, slip_angle, slip_ratio): (f64, f64, f64),
+        contact: &Contact,
+        result: Result<Settled, SettleError>,
+    ) -> WheelTestRow {
         let situation = Situation {
             theory: self.theory,
             wheel: &self.wheel,

@@ -13,6 +13,7 @@ const LAYERS: [&[&str]; 7] = [
         "error",
         "elementary",
         "newton",
+        "peak",
         "random",
         "root",
         "soil",

@@ -1,6 +1,7 @@
 //! The claims of the library, tested from outside.
 
 mod bands;
+mod batches;
 mod calibration;
 mod campaign;
 mod campaign_documents;
@@ -40,6 +41,7 @@ mod rft;
 mod rover;
 mod runs;
 mod ruts;
+mod settling;
 mod simulated;
 mod slip_checks;
 mod slip_from_current;

@@ -580,7 +580,7 @@ fn grid() -> impl Iterator<Item = (f64, f64, f64)> {
 /// Friction that reaches its limit, grousers that come out of the shade and directions that turn
 /// beside the lowest point all make corners. Errors over the size of the force.
 #[test]
-fn sixteen_by_four_nodes_are_good_to_a_thousandth_mostly_and_to_a_few_hundredths_at_worst() {
+fn sixteen_by_three_nodes_are_good_to_a_thousandth_mostly_and_to_a_few_hundredths_at_worst() {
     for name in ["cmu-smooth", "cmu-grouser", "hakuto"] {
         let wheel = wheel(name);
         let mut errors: Vec<f64> = grid()

@@ -85,6 +85,63 @@ fn short_steps_add_up_to_long_ones() {
     assert!(apart(&long.now().state, &short.now().state) < TOLERANCE);
 }
 
+/// Speeds that change at every step of 20 ms: a tolerance a thousand times as tight leads to the same place, nearer
+/// than the tolerance times the way and times the speed.
+#[test]
+fn steps_under_changing_speeds_are_as_exact_as_the_tolerance() {
+    let waves = |k: usize| {
+        let time = 0.02 * k as f64;
+        let (both, turn) = (1.0 + 0.2 * (1.3 * time).sin(), 0.1 * (0.9 * time).sin());
+        [both - turn, both - turn, both + turn, both + turn].map(|share| RIM_SPEED * share)
+    };
+    let jolts = |k: usize| {
+        let (both, turn) = ((k * 37 % 11) as f64 / 10.0 + 0.5, (k * 53 % 7) as f64 / 20.0 - 0.15);
+        [both - turn, both - turn, both + turn, both + turn].map(|share| RIM_SPEED * share)
+    };
+    for commands in [(0..250).map(waves).collect::<Vec<_>>(), (0..100).map(jolts).collect()] {
+        let scenario = traverse(deg(10.0), 0.0);
+        let integrator = Integrator::Adaptive { tolerance: 1e-9 };
+        let tight =
+            Scenario { numerics: Numerics { integrator, ..scenario.numerics }, ..scenario.clone() };
+        let [one, other] = [&scenario, &tight].map(|it| led(it, 0.02, &commands));
+        let (one, other) = (&one.now().state, &other.now().state);
+        assert!(apart(one, other) < 0.1 * TOLERANCE, "{}", apart(one, other));
+        let off = (one.velocity - other.velocity).norm();
+        assert!(off < TOLERANCE * 2.0 * RIM_SPEED, "{off} m/s");
+    }
+}
+
+/// A step is one evaluation of the motion and little more where the commands change by little: this many
+/// evaluations, those of Jacobians included.
+#[test]
+fn a_step_under_slowly_changing_speeds_takes_few_evaluations() {
+    let scenario = traverse(deg(10.0), 0.0);
+    let commands: Vec<[f64; 4]> =
+        (0..100).map(|k| [RIM_SPEED * (1.0 + 0.2 * (0.026 * f64::from(k)).sin()); 4]).collect();
+    let before = simulator(&scenario).state().work().evaluations;
+    let evaluations = led(&scenario, 0.02, &commands).state().work().evaluations - before;
+    assert!(evaluations < 20 * 100, "{evaluations} evaluations for 100 steps");
+}
+
+/// Records cost wheels, and change nothing of the motion.
+#[test]
+fn an_outcome_alone_is_that_of_the_whole_run() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        for slope in [deg(10.0), deg(35.0)] {
+            let base = traverse(slope, deg(4.0));
+            let scenario = Scenario { numerics: Numerics { approach, ..base.numerics }, ..base };
+            let whole = run(&scenario);
+            let alone = simulator(&scenario).to_outcome().expect("it ends");
+            assert_eq!((alone.last(), &alone.outcome), (whole.last(), &whole.outcome));
+            assert_eq!((&alone.records[0], alone.records.len()), (&whole.records[0], 2));
+            assert_eq!(alone.method, whole.method);
+            let saved = whole.records.len() as u64 - 2;
+            let settled = whole.work.settled_wheels - alone.work.settled_wheels;
+            assert!(approach == Approach::QuasiSteady || settled == 4 * saved, "{settled}");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(given::cases(12))]
 

@@ -66,6 +66,18 @@ impl InstructionSet {
         }
     }
 
+    /// As many multiplications and additions of doubles as asked for, none of which waits for another:
+    /// what a processor does at most on this set. Something of their results, so that none is left out.
+    ///
+    /// * `rounds`: of [`Self::OPERATIONS_A_ROUND`] each
+    #[must_use]
+    pub fn multiply_and_add(self, rounds: usize) -> f64 {
+        self.run(Operations { rounds })
+    }
+
+    /// Multiplications and additions in a round of [`multiply_and_add`](Self::multiply_and_add).
+    pub const OPERATIONS_A_ROUND: usize = 2 * SIDE_BY_SIDE;
+
     /// Does the work on this set, or on the baseline where the processor lacks it.
     #[inline]
     pub(in crate::contact) fn run<W: Work>(self, work: W) -> W::Output {
@@ -81,6 +93,30 @@ impl InstructionSet {
             }
         }
         work.run()
+    }
+}
+
+/// As many as keep two units busy through their latency, with vectors of four.
+const SIDE_BY_SIDE: usize = 48;
+
+struct Operations {
+    rounds: usize,
+}
+
+impl Work for Operations {
+    type Output = f64;
+
+    #[expect(clippy::inline_always, reason = "it is compiled once for each instruction set")]
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let mut numbers = [0.0; SIDE_BY_SIDE];
+        for _ in 0..self.rounds {
+            for number in &mut numbers {
+                // It stays near 2.
+                *number = *number * 0.5 + 1.0;
+            }
+        }
+        numbers.iter().sum()
     }
 }
 

@@ -4,7 +4,7 @@
 
 use super::super::patch::ContactPatch;
 use super::super::stress::{MobilisedShear, RimPoint, RimStress, ShearLaw, StressField};
-use super::rule::{ArcRule, NodeBlock};
+use super::rule::{ArcRule, NodeBlock, Nodes};
 use super::{LANES, Lanes, sum};
 
 /// Integrals of the stresses over the arc [Pa·rad].
@@ -64,7 +64,7 @@ pub(in crate::contact) fn up(field: &StressField, rule: &ArcRule) -> f64 {
 
 #[inline(always)]
 fn over_arc<const ALL: bool>(field: &StressField, rule: &ArcRule, sums: &mut LaneSums) {
-    match field.shear_law() {
+    match field.law().shear_law() {
         MobilisedShear::Anisotropic(law) => over_pieces::<ALL>(field, &law, rule, sums),
         MobilisedShear::Bounded(law) => over_pieces::<ALL>(field, &law, rule, sums),
         MobilisedShear::Isotropic(law) => over_pieces::<ALL>(field, &law, rule, sums),
@@ -79,15 +79,16 @@ fn over_pieces<const ALL: bool>(
     rule: &ArcRule,
     sums: &mut LaneSums,
 ) {
-    if field.has_two_pieces() {
-        let blocks = if field.turns_under_hub() { rule.near_stall } else { rule.two_piece };
-        for block in blocks {
-            over_both_sides::<ALL>(field, law, block, sums);
+    let pieces = match rule.nodes(field.law()) {
+        Nodes::BothSides(blocks) => {
+            for block in blocks {
+                over_both_sides::<ALL>(field, law, block, sums);
+            }
+            return;
         }
-        return;
-    }
+        Nodes::Pieces(pieces) => pieces,
+    };
     let (count, breaks) = field.breaks();
-    let pieces = if field.shears_at_once() { rule.fast_slip } else { rule.pieces };
     for (number, ends) in breaks[..count].windows(2).enumerate() {
         let blocks = match number {
             0 => pieces.opening,

@@ -8,6 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::super::gauss::{GAUSS_8, GAUSS_16, GAUSS_64, Rule as Gauss};
 use super::super::inputs::Contact;
+use super::super::stress::StressLaw;
 use super::{LANES, Lanes};
 use crate::soil::{Shear, ShearModulus};
 
@@ -34,12 +35,28 @@ pub(in crate::contact) struct ArcRule {
     pub(super) fast_slip: &'static PieceRule,
 }
 
+/// The nodes of one arc.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::contact) enum Nodes {
+    /// Each half of an arc of two pieces.
+    BothSides(&'static [NodeBlock]),
+    /// Piece by piece.
+    Pieces(&'static PieceRule),
+}
+
 /// How a piece is integrated at the entry, within the arc, and at the exit.
 #[derive(Debug)]
-pub(super) struct PieceRule {
+pub(in crate::contact) struct PieceRule {
     pub opening: &'static [NodeBlock],
     pub inner: &'static [NodeBlock],
     pub closing: &'static [NodeBlock],
+}
+
+impl PieceRule {
+    /// Blocks of nodes on a piece.
+    pub(in crate::contact) fn blocks(&self) -> usize {
+        self.inner.len()
+    }
 }
 
 impl ArcRule {
@@ -63,6 +80,17 @@ impl ArcRule {
         };
         let peak = soil.stress_peak.a0 + soil.stress_peak.a1.max(0.0);
         if peak <= PEAK_UP_TO && radius <= COARSE_UP_TO * softest { coarse } else { &FINE }
+    }
+
+    /// The nodes under a wheel, by how it moves.
+    #[inline]
+    pub(in crate::contact) fn nodes(&self, law: &StressLaw) -> Nodes {
+        if law.has_two_pieces() {
+            let near_stall = law.turns_under_hub();
+            Nodes::BothSides(if near_stall { self.near_stall } else { self.two_piece })
+        } else {
+            Nodes::Pieces(if law.shears_at_once() { self.fast_slip } else { self.pieces })
+        }
     }
 }
 

@@ -24,6 +24,7 @@
 
 #![expect(clippy::inline_always, reason = "part of the lanes' loops")]
 
+use super::lanes::{Lanes, lanes};
 use crate::wheel::{Grousers, Wheel};
 
 /// Grousers as plates that stand out of a rim.
@@ -39,20 +40,14 @@ pub(super) struct Comb {
     radius: f64,
 }
 
-/// What lies open at one place of the rim.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What lies open along each radius.
 pub(super) struct Exposure {
     /// Height of a grouser, from its tip down [m].
-    pub grouser: f64,
+    pub grouser: Lanes,
     /// Share with which its open face counts, *w* [-].
-    pub share: f64,
+    pub share: Lanes,
     /// Share of the rim, *f* [-].
-    pub rim: f64,
-}
-
-impl Exposure {
-    /// Of a wheel without grousers.
-    pub(super) const BARE: Self = Self { grouser: 0.0, share: 0.0, rim: 1.0 };
+    pub rim: Lanes,
 }
 
 impl Comb {
@@ -68,16 +63,22 @@ impl Comb {
 
     /// What lies open where the tips move with v_n [-] out of the rim and v_t along it.
     #[inline(always)]
-    pub(super) fn exposure(&self, outward: f64, along: f64) -> Exposure {
+    pub(super) fn exposure(&self, outward: &Lanes, along: &Lanes) -> Exposure {
         let (h, p, r) = (self.height, self.pitch, self.radius);
         let wide = (p / h).min(1.0);
-        // As products with |v_t|, which may be zero.
-        let (v_n, v_t) = (outward.max(0.0), along.abs());
         let open = p * p / (2.0 * r);
-        let grouser = if v_n * p >= (h - open) * v_t { h } else { p * v_n / v_t + open };
-        let shadow = 2.0 * h * v_t / (v_n + (v_n * v_n + 2.0 * h / r * v_t * v_t).sqrt());
-        // Tips at rest, or moving outward alone, cast no shadow.
-        let shadow = if v_t > 0.0 { shadow } else { 0.0 };
-        Exposure { grouser, share: wide * grouser / h, rim: wide * (1.0 - shadow / p).max(0.0) }
+        // As products with |v_t|, which may be zero.
+        let grouser = lanes(|lane| {
+            let (v_n, v_t) = (outward[lane].max(0.0), along[lane].abs());
+            if v_n * p >= (h - open) * v_t { h } else { p * v_n / v_t + open }
+        });
+        let rim = lanes(|lane| {
+            let (v_n, v_t) = (outward[lane].max(0.0), along[lane].abs());
+            let shadow = 2.0 * h * v_t / (v_n + (v_n * v_n + 2.0 * h / r * v_t * v_t).sqrt());
+            // Tips at rest, or moving outward alone, cast no shadow.
+            let shadow = if v_t > 0.0 { shadow } else { 0.0 };
+            wide * (1.0 - shadow / p).max(0.0)
+        });
+        Exposure { share: lanes(|lane| wide * grouser[lane] / h), grouser, rim }
     }
 }

@@ -18,7 +18,16 @@
 //! over [`BLEND`]; the third, a hundredth of ξ, stays and is met at θ = 0 alone, the edge of every
 //! integral.
 
+//! Pushing and friction need no vectors: with p = |f₁ + f₂ x₃ + f₃ x₂| against the facet, the shear is
+//! f₂ v_t − f₃ z_t, where v_t and z_t are the parts of e_v and e_z along the facet, and all products of
+//! these two follow from x₁, x₂ and x₃. Whoever has the facets knows v_t and z_t in directions of its own.
+//!
+//! Each stage runs over all lanes before the next one begins: the square roots and divisions of some
+//! facets are waited for while others are computed.
+
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
+
+use super::lanes::{LANES, Lanes, lanes};
 
 /// Half the width, in e_n·e_v [-], over which a facet ceases to lead. Source: ours.
 ///
@@ -27,7 +36,14 @@
 /// everywhere, so that without a width it would not know which half of it carries the rover.
 pub(super) const BLEND: f64 = 0.02;
 
-/// Coefficients c₁ₖ, c₂ₖ, c₃ₖ [-] of the terms Tₖ in the order of [`terms`], five a line.
+/// Coefficients c₁ₖ, c₂ₖ, c₃ₖ [-] of the terms Tₖ of the terms Tₖ, five a line:
+///
+/// ```text
+/// 1      x₁     x₂     x₃     x₁²
+/// x₂²    x₃²    x₁x₂   x₂x₃   x₃x₁
+/// x₁³    x₂³    x₃³    x₁x₂²  x₂x₁²
+/// x₂x₃²  x₃x₂²  x₃x₁²  x₁x₃²  x₁x₂x₃
+/// ```
 ///
 /// Source: Agarwal, Goldman and Kamrin (2023), as in their public code (KKKobefeng/3D-RFT).
 #[rustfmt::skip]
@@ -52,55 +68,6 @@ const COEFFICIENTS: [[f64; 20]; 3] = [
     ],
 ];
 
-/// The terms Tₖ [-].
-#[inline(always)]
-fn terms(x1: f64, x2: f64, x3: f64) -> [f64; 20] {
-    let (s1, s2, s3) = (x1 * x1, x2 * x2, x3 * x3);
-    [
-        1.0,
-        x1,
-        x2,
-        x3,
-        s1,
-        s2,
-        s3,
-        x1 * x2,
-        x2 * x3,
-        x3 * x1,
-        s1 * x1,
-        s2 * x2,
-        s3 * x3,
-        x1 * s2,
-        x2 * s1,
-        x2 * s3,
-        x3 * s2,
-        x3 * s1,
-        x1 * s3,
-        x1 * x2 * x3,
-    ]
-}
-
-/// Which of them are left where a facet is upright, x₂ = 0.
-const UPRIGHT: [usize; 10] = [0, 1, 3, 4, 6, 9, 10, 12, 17, 18];
-
-/// x forward, y left, z up.
-pub(super) type Vector = [f64; 3];
-
-#[inline(always)]
-pub(super) fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-#[inline(always)]
-pub(super) fn scaled(a: Vector, factor: f64) -> Vector {
-    [a[0] * factor, a[1] * factor, a[2] * factor]
-}
-
-#[inline(always)]
-pub(super) fn added(a: Vector, b: Vector) -> Vector {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
-
 /// Stiffness of the medium, *ξ* [N/m³]: stress per depth.
 ///
 /// ```text
@@ -115,41 +82,9 @@ pub(super) fn stiffness(unit_weight: f64, friction: f64) -> f64 {
     unit_weight * ((894.0 * friction - 386.0) * friction + 89.0) * friction
 }
 
-/// What a plate meets, whichever of its faces leads: stress per depth, over ξ [-].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Response {
-    /// Against the leading face, not negative.
-    pub pressure: f64,
-    /// Along the plate, as a vector.
-    pub shear: Vector,
-    /// e_n·e_v [-]: how far the face of the normal leads.
-    pub lead: f64,
-}
-
-/// What a plate meets. No branch and no call: a loop over plates becomes vector instructions.
-///
-/// * `IS_UPRIGHT`: whether e_n lies level
-/// * `normal`: e_n, and `direction` of its motion, e_v [-], in the wheel frame
-/// * `friction`: of the surface, *μ_s* [-]
-#[inline(always)]
-pub(super) fn response<const IS_UPRIGHT: bool>(
-    normal: Vector,
-    direction: Vector,
-    friction: f64,
-) -> Response {
-    let lead = dot(normal, direction);
-    let generic = generic::<IS_UPRIGHT>(normal, direction, lead);
-    let along_normal = dot(generic, normal);
-    // A fit in cubic terms pulls here and there; soil without cohesion cannot.
-    let pressure = along_normal.abs();
-    let shear = against_sliding(
-        added(generic, scaled(normal, -along_normal)),
-        added(direction, scaled(normal, -lead)),
-    );
-    let (size, limit) = (dot(shear, shear).sqrt(), friction * pressure);
-    let held = if size > limit { limit / size } else { 1.0 };
-    Response { pressure, shear: scaled(shear, held), lead }
-}
+/// More than the law gives of pressure and shear together on any facet, over ξ and the depth [-].
+/// Source: measured over all inclinations and motions, below.
+pub(super) const MOST_STRESS: f64 = 2.0;
 
 /// How much of a face counts [-], by how far it leads.
 #[inline(always)]
@@ -157,51 +92,136 @@ pub(super) fn lead_share(lead: f64) -> f64 {
     (0.5 + (0.5 / BLEND) * lead).clamp(0.0, 1.0)
 }
 
-/// The law without friction: α [-].
-#[inline(always)]
-fn generic<const IS_UPRIGHT: bool>(normal: Vector, direction: Vector, lead: f64) -> Vector {
-    let turn = if normal[2] > 0.0 { -1.0 } else { 1.0 };
-    let downward = scaled(normal, turn);
-    let terms = terms(-direction[2], -downward[2], turn * lead);
-    // One by one: a map over the three would be a call, and no vectors.
-    let [c1, c2, c3] = &COEFFICIENTS;
-    let f1 = weighted::<IS_UPRIGHT>(c1, &terms);
-    let f2 = weighted::<IS_UPRIGHT>(c2, &terms);
-    let f3 = weighted::<IS_UPRIGHT>(c3, &terms);
-    let [x, y, z] = added(scaled(downward, f1), scaled(direction, f2));
-    [x, y, z - f3]
+/// The law at each lane's inclination: what is left of f₁, f₂ and f₃ once x₂ is known.
+///
+/// Plates along one radius of a wheel differ by their motion alone.
+pub(super) struct Inclined {
+    x2: Lanes,
+    cubics: [Cubic; 3],
 }
 
-/// Σ cₖ Tₖ, in sums side by side: this is what the model's time goes into.
-#[inline(always)]
-fn weighted<const IS_UPRIGHT: bool>(coefficients: &[f64; 20], terms: &[f64; 20]) -> f64 {
-    let (c, t) = (coefficients, terms);
-    if IS_UPRIGHT {
-        let two = |k: usize| {
-            let (one, other) = (UPRIGHT[k], UPRIGHT[k + 1]);
-            c[one] * t[one] + c[other] * t[other]
-        };
-        (two(0) + two(2)) + (two(4) + two(6)) + two(8)
-    } else {
-        let four = |k: usize| {
-            (c[k] * t[k] + c[k + 1] * t[k + 1]) + (c[k + 2] * t[k + 2] + c[k + 3] * t[k + 3])
-        };
-        (four(0) + four(4)) + (four(8) + four(12)) + four(16)
+/// A cubic in x₁ and x₃ for each lane, its coefficients named by their powers.
+struct Cubic {
+    c00: Lanes,
+    c10: Lanes,
+    c20: Lanes,
+    c30: f64,
+    c01: Lanes,
+    c11: Lanes,
+    c21: f64,
+    c02: Lanes,
+    c12: f64,
+    c03: f64,
+}
+
+impl Inclined {
+    /// * `x2`: −e_z·e_n [-], not negative
+    #[inline(always)]
+    pub(super) fn at(x2: Lanes) -> Self {
+        // One by one: a map over the three would be a call, and no vectors.
+        let [c1, c2, c3] = &COEFFICIENTS;
+        let cubics = [Cubic::at(c1, &x2), Cubic::at(c2, &x2), Cubic::at(c3, &x2)];
+        Self { x2, cubics }
     }
 }
 
-/// A shear stress with its part along the sliding turned against it.
+impl Cubic {
+    #[inline(always)]
+    fn at(c: &[f64; 20], x2: &Lanes) -> Self {
+        Self {
+            c00: lanes(|k| c[0] + x2[k] * (c[2] + x2[k] * (c[5] + x2[k] * c[11]))),
+            c10: lanes(|k| c[1] + x2[k] * (c[7] + x2[k] * c[13])),
+            c20: lanes(|k| c[4] + x2[k] * c[14]),
+            c30: c[10],
+            c01: lanes(|k| c[3] + x2[k] * (c[8] + x2[k] * c[16])),
+            c11: lanes(|k| c[9] + x2[k] * c[19]),
+            c21: c[17],
+            c02: lanes(|k| c[6] + x2[k] * c[15]),
+            c12: c[18],
+            c03: c[12],
+        }
+    }
+
+    /// The parts E and O of f = E + x₃ O, which are those of the plate's other face as well.
+    #[inline(always)]
+    fn split(&self, lane: usize, x1: f64, square: f64) -> (f64, f64) {
+        let level = self.c00[lane] + x1 * (self.c10[lane] + x1 * (self.c20[lane] + x1 * self.c30));
+        let even = level + square * (self.c02[lane] + x1 * self.c12);
+        let odd = (self.c01[lane] + x1 * (self.c11[lane] + x1 * self.c21)) + square * self.c03;
+        (even, odd)
+    }
+}
+
+/// f₁, f₂ and f₃ of plates, split into what both of their faces share and what they have against each
+/// other.
+pub(super) struct Faces {
+    x1: Lanes,
+    x2: Lanes,
+    even: [Lanes; 3],
+    odd: [Lanes; 3],
+}
+
+impl Faces {
+    /// * `x1`: −e_z·e_v [-]
+    /// * `x3`: e_n·e_v [-], of either face
+    #[inline(always)]
+    pub(super) fn new(law: &Inclined, x1: &Lanes, x3: &Lanes) -> Self {
+        let mut faces = Self { x1: *x1, x2: law.x2, even: [[0.0; _]; 3], odd: [[0.0; _]; 3] };
+        for (i, cubic) in law.cubics.iter().enumerate() {
+            for lane in 0..x1.len() {
+                let (even, odd) = cubic.split(lane, x1[lane], x3[lane] * x3[lane]);
+                faces.even[i][lane] = even;
+                faces.odd[i][lane] = odd;
+            }
+        }
+        faces
+    }
+}
+
+/// What plates meet, whichever of their faces leads: stress per depth, over ξ [-].
+pub(super) struct Response {
+    /// Against the leading face, not negative.
+    pub pressure: Lanes,
+    /// The shear along the plate is this times v_t,
+    pub drag: Lanes,
+    /// less this times z_t.
+    pub lift: Lanes,
+}
+
+/// What plates meet. No branch and no call: loops over plates become vector instructions.
 ///
-/// The source turns the whole vector, which jumps; turning the part alone ends as friction does.
-/// For a facet that moves nearly along its normal the turn fades: there the sliding has no
-/// direction, and the push takes far more energy than such shear could give.
+/// The part of the shear along the sliding v_t that would drive a facet is turned against it. The
+/// source turns the whole vector, which jumps; turning the part alone ends as friction does. For a
+/// facet that moves nearly along its normal the turn fades: there the sliding has no direction, and the
+/// push takes far more energy than such shear could give.
+///
+/// * `x3`: e_n·e_v [-], of the face that counts
+/// * `sliding`: |v_t|² = 1 − x₃² [-]
+/// * `friction`: of the surface, *μ_s* [-]
 #[inline(always)]
-fn against_sliding(shear: Vector, sliding: Vector) -> Vector {
-    let driving = dot(shear, sliding);
-    let speed = dot(sliding, sliding).sqrt();
-    let scale = speed * if speed > BLEND { speed } else { BLEND };
-    let turn = 2.0 * driving / if scale > 0.0 { scale } else { 1.0 };
-    added(shear, scaled(sliding, if driving > 0.0 { -turn } else { 0.0 }))
+pub(super) fn response(faces: &Faces, x3: &Lanes, sliding: &Lanes, friction: f64) -> Response {
+    let mut met = Response { pressure: [0.0; LANES], drag: [0.0; LANES], lift: [0.0; LANES] };
+    for lane in 0..LANES {
+        let (x1, x2, x3, square) = (faces.x1[lane], faces.x2[lane], x3[lane], sliding[lane]);
+        let f = |i: usize| faces.even[i][lane] + x3 * faces.odd[i][lane];
+        let (f1, f2, f3) = (f(0), f(1), f(2));
+        // A fit in cubic terms pulls here and there; soil without cohesion cannot.
+        let pressure = (f1 + f2 * x3 + f3 * x2).abs();
+        // v_t·z_t.
+        let product = x2 * x3 - x1;
+        let driving = f2 * square - f3 * product;
+        let speed = square.sqrt();
+        let scale = speed * if speed > BLEND { speed } else { BLEND };
+        let turn = 2.0 * driving / if scale > 0.0 { scale } else { 1.0 };
+        let drag = f2 - if driving > 0.0 { turn } else { 0.0 };
+        let shear = drag * (drag * square - 2.0 * f3 * product) + f3 * f3 * (1.0 - x2 * x2);
+        let (size, limit) = (shear.max(0.0).sqrt(), friction * pressure);
+        let held = if size > limit { limit / size } else { 1.0 };
+        met.pressure[lane] = pressure;
+        met.drag[lane] = held * drag;
+        met.lift[lane] = held * f3;
+    }
+    met
 }
 
 #[cfg(test)]
@@ -218,24 +238,68 @@ mod tests {
 
     /// What a facet meets, counting how far it leads; nothing where it trails.
     fn stress(normal: Vec3, direction: Vec3, friction: f64) -> Option<FacetStress> {
-        let met = response::<false>(normal.into(), direction.into(), friction);
-        let share = lead_share(met.lead);
-        let shear = Vec3::from(met.shear) * share;
-        (share > 0.0).then_some(FacetStress { pressure: met.pressure * share, shear })
+        let lead = normal.dot(&direction);
+        let share = lead_share(lead);
+        let (pressure, shear) = met(normal, direction, friction);
+        (share > 0.0).then_some(FacetStress { pressure: pressure * share, shear: shear * share })
     }
 
-    /// A level normal is one of all normals.
+    /// Pressure and shear on a facet, whether it leads or not.
+    fn met(normal: Vec3, direction: Vec3, friction: f64) -> (f64, Vec3) {
+        let lead = normal.dot(&direction);
+        let turn = if normal.z > 0.0 { -1.0 } else { 1.0 };
+        let (tangential, up) = (direction - normal * lead, Vec3::z() - normal * normal.z);
+        let same = |x: f64| lanes(|_| x);
+        let x3 = same(turn * lead);
+        let faces = Faces::new(&Inclined::at(same(-turn * normal.z)), &same(-direction.z), &x3);
+        let met = response(&faces, &x3, &same(tangential.norm_squared()), friction);
+        (met.pressure[0], tangential * met.drag[0] - up * met.lift[0])
+    }
+
+    /// Powers of x₁, x₂, x₃ in each term, as the source prints them.
+    const POWERS: [[i32; 3]; 20] = [
+        [0, 0, 0],
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+        [2, 0, 0],
+        [0, 2, 0],
+        [0, 0, 2],
+        [1, 1, 0],
+        [0, 1, 1],
+        [1, 0, 1],
+        [3, 0, 0],
+        [0, 3, 0],
+        [0, 0, 3],
+        [1, 2, 0],
+        [2, 1, 0],
+        [0, 1, 2],
+        [0, 2, 1],
+        [2, 0, 1],
+        [1, 0, 2],
+        [1, 1, 1],
+    ];
+
+    /// α as it is printed, friction without limit and where the soil brakes: pressure and shear
+    /// found without a vector are its parts.
     #[test]
-    fn the_law_of_upright_facets_is_the_general_one() {
+    fn pressure_and_shear_are_the_parts_of_the_printed_stress() {
         for k in 0..400 {
-            let direction: Vector = sphere_point(k, 400).into();
-            for side in [1.0, -1.0] {
-                let general = response::<false>([0.0, side, 0.0], direction, 0.6);
-                let upright = response::<true>([0.0, side, 0.0], direction, 0.6);
-                let difference = Vec3::from(general.shear) - Vec3::from(upright.shear);
-                assert!(difference.norm() < 1e-14 && general.lead == upright.lead);
-                assert!((general.pressure - upright.pressure).abs() < 1e-14);
-            }
+            let (normal, direction) = (sphere_point(k, 400), sphere_point(7 * k % 400, 400));
+            let turn = if normal.z > 0.0 { -1.0 } else { 1.0 };
+            let x = [-direction.z, -turn * normal.z, turn * normal.dot(&direction)];
+            let [f1, f2, f3] = COEFFICIENTS.map(|c| {
+                let term = |p: [i32; 3]| (0..3).map(|i| x[i].powi(p[i])).product::<f64>();
+                c.iter().zip(POWERS).map(|(c, powers)| c * term(powers)).sum::<f64>()
+            });
+            let alpha = turn * normal * f1 + direction * f2 - Vec3::z() * f3;
+            let printed = alpha - normal * alpha.dot(&normal);
+            let (pressure, shear) = met(normal, direction, ROUGH);
+            assert!((pressure - alpha.dot(&normal).abs()).abs() < 1e-14);
+            let braked = printed.dot(&direction) <= 0.0;
+            assert!(!braked || (shear - printed).norm() < 1e-13, "{shear:?}, not {printed:?}");
+            // What would drive is turned: as large along the sliding, the other way.
+            assert!(shear.dot(&direction) <= 1e-15);
         }
     }
 
@@ -324,6 +388,19 @@ mod tests {
         let (sin, cos) = (GOLDEN_ANGLE * f64::from(k)).sin_cos();
         let radius = (1.0 - z * z).sqrt();
         Vec3::new(radius * cos, radius * sin, z)
+    }
+
+    #[test]
+    fn no_facet_meets_more_than_the_most() {
+        const COUNT: u32 = 400;
+        let all = (0..COUNT).flat_map(|k| (0..COUNT).map(move |n| (k, n)));
+        let stresses = all.filter_map(|(k, n)| {
+            let (normal, direction) = (sphere_point(k, COUNT), sphere_point(n, COUNT));
+            let met = stress(normal, direction, ROUGH)?;
+            Some(met.pressure.abs() + met.shear.norm())
+        });
+        let most = stresses.fold(0.0, f64::max);
+        assert!(most < 0.95 * MOST_STRESS && most > 0.4 * MOST_STRESS, "{most}");
     }
 
     /// A motion that turns by a hair moves the stress by a hair, through every switch of the law.

@@ -1,29 +1,31 @@
-//! The facets of half a wheel, and the sum of what they meet.
+//! The facets of a wheel, half by half, and the sum of what they meet.
 //!
 //! Integrals over the angle θ from straight down go by θ = δ sinh u: where a wheel slips little,
 //! the direction of its rim turns within an angle of δ = |slip velocity|/|ω r_s| beside the lowest
 //! point, and there the nodes have to be.
 //!
-//! Eight angles are computed side by side, as the nodes of the classical models' kernel are
-//! ([`kernel`](super::super::kernel)): loops over lanes without branches, which become vector
-//! instructions.
+//! The angles of a half are computed side by side: loops over lanes without branches, which become
+//! vector instructions. Along a ray everything is seen in directions of its own, out of the rim and
+//! along it, in which a facet's inclination is the ray's and the motion out of the rim the same at
+//! every radius.
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
 use super::super::forces::WheelForces;
 use super::super::gauss::Rule;
 use super::super::inputs::Contact;
-use super::super::kernel::{LANES, Lanes};
 use super::super::patch::ContactPatch;
+use super::Nodes;
 use super::exposure::{Comb, Exposure};
-use super::facet::{self, Vector, dot, scaled};
-use super::sums::{Part, Sums};
+use super::facet::{self, Faces, Inclined, Response, lead_share};
+use super::lanes::{LANES, Lanes, lanes};
+use super::sums::{RaySums, SideSums, Sums};
 use crate::elementary::{self, wide};
 use crate::soil::Soil;
 use crate::wheel::Wheel;
 
-/// The half of a wheel from straight down to the front, in the soil.
-pub(super) struct FrontHalf {
+/// A wheel in the soil, made of facets.
+pub(super) struct FacetedWheel {
     motion: Motion,
     wheel: Wheel,
     comb: Option<Comb>,
@@ -43,6 +45,7 @@ struct Friction {
 }
 
 /// Velocities over the rim's speed [-].
+#[derive(Clone, Copy)]
 struct Motion {
     forward: f64,
     lateral: f64,
@@ -52,47 +55,68 @@ struct Motion {
 }
 
 impl Motion {
-    /// Velocity [-] at a place, seen from the hub [m].
-    #[inline(always)]
-    fn at(&self, x: f64, z: f64) -> Vector {
-        [self.forward + self.spin * z, self.lateral, -self.spin * x - self.sinking]
+    /// The same seen in a mirror that swaps front and back.
+    fn front_to_back(self) -> Self {
+        Self { forward: -self.forward, spin: -self.spin, ..self }
     }
 
-    /// Its direction; downward where nothing moves.
+    /// The hub's velocity [-] along some rays.
     #[inline(always)]
-    fn direction_at(&self, x: f64, z: f64) -> Vector {
-        let velocity = self.at(x, z);
-        let speed = dot(velocity, velocity).sqrt();
-        let moves = speed > 0.0;
-        let per_speed = 1.0 / if moves { speed } else { 1.0 };
-        let [x, y, z] = scaled(velocity, per_speed);
-        [x, y, if moves { z } else { -1.0 }]
+    fn of_hub(&self, rays: &Rays) -> HubVelocity {
+        let (forward, sinking) = (self.forward, self.sinking);
+        HubVelocity {
+            outward: lanes(|lane| forward * rays.sin[lane] + sinking * rays.cos[lane]),
+            along: lanes(|lane| forward * rays.cos[lane] - sinking * rays.sin[lane]),
+        }
+    }
+
+    /// Directions of motion at places of each ray, so far from the hub [m]; downward where nothing moves.
+    #[inline(always)]
+    fn directions(&self, rays: &Rays, hub: &HubVelocity, radius: &Lanes) -> Directions {
+        let lateral = self.lateral;
+        let rim = lanes(|lane| hub.along[lane] - self.spin * radius[lane]);
+        let speed = lanes(|lane| {
+            let (outward, along) = (hub.outward[lane], rim[lane]);
+            (outward * outward + along * along + lateral * lateral).sqrt()
+        });
+        let per_speed = lanes(|lane| 1.0 / if speed[lane] > 0.0 { speed[lane] } else { 1.0 });
+        let moving = |lane: usize, part: f64, still: f64| {
+            if speed[lane] > 0.0 { part * per_speed[lane] } else { still }
+        };
+        let outward = lanes(|lane| moving(lane, hub.outward[lane], rays.cos[lane]));
+        let along = lanes(|lane| moving(lane, rim[lane], -rays.sin[lane]));
+        Directions {
+            across: lanes(|lane| lateral * per_speed[lane]),
+            down: lanes(|lane| outward[lane] * rays.cos[lane] - along[lane] * rays.sin[lane]),
+            outward,
+            along,
+        }
     }
 }
 
 /// Some radii of the wheel, side by side.
-struct Rays {
+pub(super) struct Rays {
     /// Each stands for this angle [rad].
     width: Lanes,
     /// From straight down [rad].
     angle: Lanes,
-    sin: Lanes,
-    cos: Lanes,
-    exposure: [Exposure; LANES],
+    pub sin: Lanes,
+    pub cos: Lanes,
 }
 
-impl Rays {
-    /// Out of the rim.
-    #[inline(always)]
-    fn outward(&self, lane: usize) -> Vector {
-        [self.sin[lane], 0.0, -self.cos[lane]]
-    }
+/// The hub's velocity [-] out of the rim, as everywhere on a ray, and along the rim.
+struct HubVelocity {
+    outward: Lanes,
+    along: Lanes,
+}
 
-    /// Along the rim, the way of growing angles.
-    #[inline(always)]
-    fn along(&self, lane: usize) -> Vector {
-        [self.cos[lane], 0.0, self.sin[lane]]
-    }
+/// Directions of motion [-]: out of the rim, along it the way of growing angles, to the left; and
+/// straight down.
+struct Directions {
+    outward: Lanes,
+    along: Lanes,
+    across: Lanes,
+    down: Lanes,
 }
 
 /// The soil over a circle about the hub: how its angles are integrated.
@@ -112,7 +136,16 @@ struct Annulus {
     friction: f64,
 }
 
-impl FrontHalf {
+/// One half of the wheel: some of its rays, the way they move, and the sum that they add to.
+struct Half<'a> {
+    facets: &'a FacetedWheel,
+    motion: &'a Motion,
+    hub: HubVelocity,
+    rays: &'a Rays,
+    sums: &'a mut Sums,
+}
+
+impl FacetedWheel {
     pub(super) fn new(contact: &Contact, sinkage: f64) -> Self {
         let Contact { wheel, soil, slip, gravity } = contact;
         let radius = wheel.shearing_radius();
@@ -128,33 +161,57 @@ impl FrontHalf {
             comb: Comb::of(wheel),
             surface: radius - sinkage,
             stiffness: soil.rft.scale * facet::stiffness(soil.unit_weight(*gravity), internal),
-            friction: Friction { wheel: surface_friction(soil), soil: internal },
+            friction: Friction { wheel: surface_friction(soil, internal), soil: internal },
         }
     }
 
-    /// The soil's reaction on this half; its patch holds the angle of the largest normal stress.
-    ///
-    /// * `arc`: a rule whose nodes fill the lanes
+    /// More than the soil's force on all facets [N]: the law's largest stress, as at the deepest of them.
+    pub(super) fn most_force(&self) -> f64 {
+        let Wheel { radius, width, .. } = self.wheel;
+        let tip = self.wheel.shearing_radius();
+        let depth = tip - self.surface;
+        let entry = ContactPatch::of_depth(depth / tip, 0.0, 1.0).entry;
+        let rims = 2.0 * entry * width * (radius + tip);
+        // Both faces of the wheel, and both of the soil that the grousers shut in.
+        let faces = 4.0 * entry * tip * depth;
+        let grousers = self
+            .comb
+            .as_ref()
+            .map_or(0.0, |comb| 2.0 * entry * comb.density * width * (tip - radius));
+        facet::MOST_STRESS * self.stiffness * depth * (rims + faces + grousers)
+    }
+
+    /// The soil's reaction on the front half, and on the back half as the mirror shows it, which
+    /// makes a front of it. Their patches hold the angles of the largest normal stress.
     #[inline(always)]
-    pub(super) fn reaction(&self, arc: &Rule, height: &Rule) -> WheelForces {
-        let mut sums = Sums::default();
+    pub(super) fn reaction(&self, nodes: &Nodes) -> (WheelForces, WheelForces) {
+        let mut sums = [Sums::default(), Sums::default()];
+        let motions = [self.motion, self.motion.front_to_back()];
         if let Some(circle) = self.arc_of(self.wheel.radius) {
-            for nodes in arc.chunks_exact(LANES) {
-                let rays = self.rays(&circle, nodes);
-                self.add_rim(&mut sums, &rays);
-                self.add_disc(&mut sums, &rays, height);
+            for nodes_of_arc in nodes.arc.chunks_exact(LANES) {
+                let rays = circle.rays(nodes_of_arc);
+                for (motion, sums) in motions.iter().zip(&mut sums) {
+                    self.half(motion, &rays, sums).add_wheel(nodes);
+                }
             }
         }
         if let Some(comb) = &self.comb
             && let Some(circle) = self.arc_of(self.wheel.shearing_radius())
         {
-            for nodes in arc.chunks_exact(LANES) {
-                let rays = self.rays(&circle, nodes);
-                self.add_grousers(&mut sums, comb, &rays, height);
-                self.add_shut_in(&mut sums, &rays, height);
+            for nodes_of_arc in nodes.arc.chunks_exact(LANES) {
+                let rays = circle.rays(nodes_of_arc);
+                for (motion, sums) in motions.iter().zip(&mut sums) {
+                    self.half(motion, &rays, sums).add_comb(comb, nodes);
+                }
             }
         }
-        sums.total()
+        let [front, back] = sums;
+        (front.total(), back.total())
+    }
+
+    #[inline(always)]
+    fn half<'a>(&'a self, motion: &'a Motion, rays: &'a Rays, sums: &'a mut Sums) -> Half<'a> {
+        Half { facets: self, motion, hub: motion.of_hub(rays), rays, sums }
     }
 
     /// The submerged arc of a circle about the hub; none if it is above the soil.
@@ -176,167 +233,193 @@ impl FrontHalf {
         let slip = wide::hypot(self.motion.forward - spin, self.motion.lateral);
         slip / spin.abs().max(f64::MIN_POSITIVE)
     }
+}
 
+impl Arc {
     #[inline(always)]
-    fn rays(&self, arc: &Arc, nodes: &Rule) -> Rays {
-        let mut rays = Rays {
-            width: [0.0; LANES],
-            angle: [0.0; LANES],
-            sin: [0.0; LANES],
-            cos: [0.0; LANES],
-            exposure: [Exposure::BARE; LANES],
+    fn rays(&self, nodes: &Rule) -> Rays {
+        let (mut width, mut angle) = ([0.0; LANES], [0.0; LANES]);
+        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
+        for (lane, (node, weight)) in nodes.iter().enumerate().take(LANES) {
+            let (sinh, cosh) = elementary::sinh_cosh(node * self.end);
+            width[lane] = weight * self.end * self.layer * cosh;
+            angle[lane] = self.layer * sinh;
+            (sin[lane], cos[lane]) = elementary::sin_cos(angle[lane]);
+        }
+        Rays { width, angle, sin, cos }
+    }
+}
+
+impl Half<'_> {
+    /// The rim, as far as it lies open, and both side faces from the soil's surface to it.
+    #[inline(always)]
+    fn add_wheel(&mut self, nodes: &Nodes) {
+        let FacetedWheel { wheel, friction, surface, .. } = self.facets;
+        let open = match &self.facets.comb {
+            Some(comb) => self.exposure(comb).rim,
+            None => [1.0; LANES],
         };
-        for (lane, (node, weight)) in nodes.iter().enumerate() {
-            let (sinh, cosh) = elementary::sinh_cosh(node * arc.end);
-            rays.width[lane] = weight * arc.end * arc.layer * cosh;
-            rays.angle[lane] = arc.layer * sinh;
-            (rays.sin[lane], rays.cos[lane]) = elementary::sin_cos(rays.angle[lane]);
-        }
-        if let Some(comb) = &self.comb {
-            let tip = self.wheel.shearing_radius();
-            for lane in 0..LANES {
-                let (outward, along) = (rays.outward(lane), rays.along(lane));
-                let velocity = self.motion.at(outward[0] * tip, outward[2] * tip);
-                rays.exposure[lane] = comb.exposure(dot(velocity, outward), dot(velocity, along));
-            }
-        }
-        rays
+        self.add_cylinder(wheel.radius, friction.wheel, &open);
+        let disc = Annulus {
+            inner: lanes(|lane| surface / self.rays.cos[lane]),
+            outer: wheel.radius,
+            share: [1.0; LANES],
+            friction: friction.wheel,
+        };
+        self.add_sides(&disc, nodes.disc);
     }
 
-    /// Strips across the rim, as far as they lie open.
+    /// Grousers, and the soil that they shut in: a cylinder of their tips' radius with its own side
+    /// faces.
     #[inline(always)]
-    fn add_rim(&self, sums: &mut Sums, rays: &Rays) {
-        let r = self.wheel.radius;
-        self.add_cylinder(sums, rays, r, self.friction.wheel, |lane| rays.exposure[lane].rim);
+    fn add_comb(&mut self, comb: &Comb, nodes: &Nodes) {
+        let FacetedWheel { wheel, friction, surface, .. } = self.facets;
+        let exposure = self.exposure(comb);
+        self.add_grousers(comb, &exposure, nodes.height);
+        let (rim, tip) = (wheel.radius, wheel.shearing_radius());
+        let shut = lanes(|lane| 1.0 - exposure.rim[lane]);
+        self.add_cylinder(tip, friction.soil, &shut);
+        let inner = lanes(|lane| {
+            let submerged = surface / self.rays.cos[lane];
+            if submerged > rim { submerged } else { rim }
+        });
+        let ring = Annulus { inner, outer: tip, share: shut, friction: friction.soil };
+        self.add_sides(&ring, nodes.height);
+    }
+
+    /// What lies open of the wheel along the rays.
+    #[inline(always)]
+    fn exposure(&self, comb: &Comb) -> Exposure {
+        let at_tip = self.motion.spin * self.facets.wheel.shearing_radius();
+        comb.exposure(&self.hub.outward, &lanes(|lane| self.hub.along[lane] - at_tip))
+    }
+
+    #[inline(always)]
+    fn directions(&self, radius: &Lanes) -> Directions {
+        self.motion.directions(self.rays, &self.hub, radius)
+    }
+
+    /// Depths below the soil's surface [m], not negative, of places so far from the hub [m].
+    #[inline(always)]
+    fn depths(&self, radius: &Lanes) -> Lanes {
+        lanes(|lane| (radius[lane] * self.rays.cos[lane] - self.facets.surface).max(0.0))
     }
 
     /// Strips of a cylinder about the hub, with a share of their area.
     #[inline(always)]
-    fn add_cylinder(
-        &self,
-        sums: &mut Sums,
-        rays: &Rays,
-        radius: f64,
-        friction: f64,
-        share: impl Fn(usize) -> f64,
-    ) {
-        for lane in 0..LANES {
-            let normal = rays.outward(lane);
-            let (x, z) = (normal[0] * radius, normal[2] * radius);
-            let depth = (-z - self.surface).max(0.0);
-            let met = facet::response::<false>(normal, self.motion.direction_at(x, z), friction);
-            let lead = facet::lead_share(met.lead);
-            let area = share(lane) * radius * rays.width[lane] * self.wheel.width;
-            let pressure = self.stiffness * depth * (met.pressure * lead);
-            let push = scaled(normal, -pressure * area);
-            let shear = scaled(met.shear, self.stiffness * depth * area * lead);
-            let counts = depth > 0.0 && lead > 0.0;
-            sums.middle.note_pressure(lane, if counts { pressure } else { 0.0 }, rays.angle[lane]);
-            sums.middle.add(Part::Rim, lane, [x, 0.0, z], push, shear);
+    fn add_cylinder(&mut self, radius: f64, friction: f64, share: &Lanes) {
+        let radii = [radius; LANES];
+        let toward = self.directions(&radii);
+        let lead = lanes(|lane| lead_share(toward.outward[lane]));
+        if (0..LANES).all(|lane| lead[lane] * share[lane] == 0.0) {
+            return;
         }
-    }
-
-    /// Both side faces, from the soil's surface to the rim.
-    #[inline(always)]
-    fn add_disc(&self, sums: &mut Sums, rays: &Rays, rule: &Rule) {
-        let mut disc = Annulus {
-            inner: [0.0; LANES],
-            outer: self.wheel.radius,
-            share: [1.0; LANES],
-            friction: self.friction.wheel,
-        };
+        let faces = Faces::new(&Inclined::at(self.rays.cos), &toward.down, &toward.outward);
+        let sliding = lanes(|lane| {
+            let (along, across) = (toward.along[lane], toward.across[lane]);
+            along * along + across * across
+        });
+        let Response { pressure, drag, lift } =
+            facet::response(&faces, &toward.outward, &sliding, friction);
+        let depth = self.depths(&radii);
+        let per_width = radius * self.facets.wheel.width;
+        let mut forces = RaySums::default();
         for lane in 0..LANES {
-            disc.inner[lane] = self.surface / rays.cos[lane];
+            let area = share[lane] * self.rays.width[lane] * per_width;
+            let per_stress = self.facets.stiffness * depth[lane] * lead[lane];
+            let stress = per_stress * pressure[lane];
+            let shear = per_stress * area;
+            let along = drag[lane] * toward.along[lane] - lift[lane] * self.rays.sin[lane];
+            let across = drag[lane] * toward.across[lane];
+            forces.add(lane, radius, -stress * area, shear * along, shear * across);
+            self.sums.note_pressure(lane, stress, self.rays.angle[lane]);
         }
-        self.add_sides(sums, rays, &disc, rule);
+        self.sums.add_cylinder(self.rays, &forces);
     }
 
     /// Grousers: plates with two faces, one of which leads.
     #[inline(always)]
-    fn add_grousers(&self, sums: &mut Sums, comb: &Comb, rays: &Rays, rule: &Rule) {
-        let tip = self.wheel.shearing_radius();
-        let per_height = comb.density * self.wheel.width;
+    fn add_grousers(&mut self, comb: &Comb, exposure: &Exposure, rule: &Rule) {
+        let FacetedWheel { wheel, friction, surface, stiffness, .. } = self.facets;
+        let tip = wheel.shearing_radius();
+        let per_height = comb.density * wheel.width;
+        let inner = lanes(|lane| {
+            let (submerged, inner) = (surface / self.rays.cos[lane], tip - exposure.grouser[lane]);
+            if inner > submerged { inner } else { submerged }
+        });
+        let open = lanes(|lane| (tip - inner[lane]).max(0.0));
+        let law = Inclined::at(self.rays.sin);
+        let mut forces = RaySums::default();
         for (node, weight) in rule {
+            let radius = lanes(|lane| inner[lane] + node * open[lane]);
+            let (toward, depth) = (self.directions(&radius), self.depths(&radius));
+            // The face that looks down looks back along the rim.
+            let lead = lanes(|lane| -toward.along[lane]);
+            let sliding = lanes(|lane| {
+                let (outward, across) = (toward.outward[lane], toward.across[lane]);
+                outward * outward + across * across
+            });
+            let faces = Faces::new(&law, &toward.down, &lead);
+            let Response { pressure, drag, lift } =
+                facet::response(&faces, &lead, &sliding, friction.wheel);
             for lane in 0..LANES {
-                let (outward, normal) = (rays.outward(lane), rays.along(lane));
-                let Exposure { grouser, share, .. } = rays.exposure[lane];
-                let submerged = self.surface / rays.cos[lane];
-                let inner = tip - grouser;
-                let inner = if inner > submerged { inner } else { submerged };
-                let open = (tip - inner).max(0.0);
-                let radius = inner + node * open;
-                let area = share * per_height * rays.width[lane] * (weight * open);
-                let (x, z) = (outward[0] * radius, outward[2] * radius);
-                let depth = (-z - self.surface).max(0.0);
-                let direction = self.motion.direction_at(x, z);
-                let met = facet::response::<false>(normal, direction, self.friction.wheel);
+                let area = exposure.share[lane]
+                    * per_height
+                    * self.rays.width[lane]
+                    * (weight * open[lane]);
+                let per_stress = stiffness * depth[lane] * area;
                 // Shares of both faces add up to 1; the push is the difference of theirs.
-                let per_stress = self.stiffness * depth * area;
-                let facing = 2.0 * facet::lead_share(met.lead) - 1.0;
-                let push = scaled(normal, -met.pressure * facing * per_stress);
-                let shear = scaled(met.shear, per_stress);
-                sums.middle.add(Part::Grouser, lane, [x, 0.0, z], push, shear);
+                let facing = 2.0 * lead_share(lead[lane]) - 1.0;
+                let outward = drag[lane] * toward.outward[lane] + lift[lane] * self.rays.cos[lane];
+                let along = pressure[lane] * facing;
+                let across = drag[lane] * toward.across[lane];
+                let force = [outward, along, across].map(|part| per_stress * part);
+                forces.add(lane, radius[lane], force[0], force[1], force[2]);
             }
         }
-    }
-
-    /// The soil that the grousers shut in: a cylinder of their tips' radius with its own side faces.
-    #[inline(always)]
-    fn add_shut_in(&self, sums: &mut Sums, rays: &Rays, rule: &Rule) {
-        let (rim, tip) = (self.wheel.radius, self.wheel.shearing_radius());
-        let mut shut = Annulus {
-            inner: [0.0; LANES],
-            outer: tip,
-            share: [0.0; LANES],
-            friction: self.friction.soil,
-        };
-        for lane in 0..LANES {
-            let submerged = self.surface / rays.cos[lane];
-            shut.inner[lane] = if submerged > rim { submerged } else { rim };
-            shut.share[lane] = 1.0 - rays.exposure[lane].rim;
-        }
-        self.add_cylinder(sums, rays, tip, self.friction.soil, |lane| shut.share[lane]);
-        self.add_sides(sums, rays, &shut, rule);
+        self.sums.add_grousers(self.rays, &forces);
     }
 
     /// Facets of both side faces.
     #[inline(always)]
-    fn add_sides(&self, sums: &mut Sums, rays: &Rays, annulus: &Annulus, rule: &Rule) {
+    fn add_sides(&mut self, annulus: &Annulus, rule: &Rule) {
+        if annulus.share.iter().all(|share| *share == 0.0) {
+            return;
+        }
+        let thickness = lanes(|lane| (annulus.outer - annulus.inner[lane]).max(0.0));
+        let law = Inclined::at([0.0; LANES]);
+        let mut forces = SideSums::default();
         for (node, weight) in rule {
-            let mut per_stress = [0.0; LANES];
-            let mut places = [[0.0; LANES]; 2];
-            let mut directions = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                let inner = annulus.inner[lane];
-                let thickness = (annulus.outer - inner).max(0.0);
-                let radius = inner + node * thickness;
-                let [x, _, z] = scaled(rays.outward(lane), radius);
-                let depth = (-z - self.surface).max(0.0);
-                let ring = weight * thickness * radius * rays.width[lane];
-                per_stress[lane] = self.stiffness * depth * (annulus.share[lane] * ring);
-                (places[0][lane], places[1][lane]) = (x, z);
-                let direction = self.motion.direction_at(x, z);
-                for axis in 0..3 {
-                    directions[axis][lane] = direction[axis];
-                }
-            }
-            for (side, sum) in [(1.0, &mut sums.left), (-1.0, &mut sums.right)] {
+            let radius = lanes(|lane| annulus.inner[lane] + node * thickness[lane]);
+            let (toward, depth) = (self.directions(&radius), self.depths(&radius));
+            let per_stress = lanes(|lane| {
+                let ring = weight * thickness[lane] * radius[lane] * self.rays.width[lane];
+                self.facets.stiffness * depth[lane] * (annulus.share[lane] * ring)
+            });
+            let faces = Faces::new(&law, &toward.down, &toward.across);
+            let sliding = lanes(|lane| {
+                let (outward, along) = (toward.outward[lane], toward.along[lane]);
+                outward * outward + along * along
+            });
+            for (side, sum) in [(1.0, &mut forces.left), (-1.0, &mut forces.right)] {
+                let lead = lanes(|lane| side * toward.across[lane]);
                 // Mostly one side leads and the other one trails everywhere.
-                if directions[1].iter().all(|across| facet::lead_share(side * across) == 0.0) {
+                if lead.iter().all(|lead| lead_share(*lead) == 0.0) {
                     continue;
                 }
-                let across = side * (0.5 * self.wheel.width);
+                let Response { pressure, drag, lift } =
+                    facet::response(&faces, &lead, &sliding, annulus.friction);
                 for lane in 0..LANES {
-                    let direction = [directions[0][lane], directions[1][lane], directions[2][lane]];
-                    let normal = [0.0, side, 0.0];
-                    let met = facet::response::<true>(normal, direction, annulus.friction);
-                    let share = facet::lead_share(met.lead) * per_stress[lane];
-                    let place = [places[0][lane], across, places[1][lane]];
-                    let push = scaled(normal, -met.pressure * share);
-                    sum.add(Part::SideWall, lane, place, push, scaled(met.shear, share));
+                    let (sin, cos) = (self.rays.sin[lane], self.rays.cos[lane]);
+                    let outward = drag[lane] * toward.outward[lane] + lift[lane] * cos;
+                    let along = drag[lane] * toward.along[lane] - lift[lane] * sin;
+                    let push = -side * pressure[lane];
+                    let share = lead_share(lead[lane]) * per_stress[lane];
+                    sum.add(lane, radius[lane], share * outward, share * along, share * push);
                 }
             }
         }
+        self.sums.add_sides(self.rays, &forces, 0.5 * self.facets.wheel.width);
     }
 }
 
@@ -346,6 +429,8 @@ const SHORTEST_LAYER: f64 = 1e-3;
 const LONGEST_LAYER: f64 = 3.0;
 
 /// Friction between the wheel and the soil, *μ_s* [-].
-fn surface_friction(soil: &Soil) -> f64 {
-    soil.rft.surface_friction_angle.map_or_else(|| soil.friction(), wide::tan)
+///
+/// * `internal`: the soil's own friction, of a wheel as rough as that
+fn surface_friction(soil: &Soil, internal: f64) -> f64 {
+    soil.rft.surface_friction_angle.map_or(internal, wide::tan)
 }

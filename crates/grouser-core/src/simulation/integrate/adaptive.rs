@@ -10,6 +10,7 @@
 use std::ops::Range;
 
 use super::dormand_prince::{ExplicitStep, explicit_step};
+use super::exponential::exponential_step;
 use super::rosenbrock::{Linear, implicit_step};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
 use super::{OnSample, Point, SIZE, Stalled, WITH_MOTORS, rates_at};
@@ -28,7 +29,12 @@ const fn small(index: usize, coupled: &Range<usize>) -> f64 {
 /// What an unfinished motion knows: the step it is in, which may reach beyond the last time that was
 /// asked for. While the wheels keep their speeds it goes on there, as if it had never paused.
 #[derive(Clone, Default)]
-pub(in crate::simulation) struct History(Known);
+pub(in crate::simulation) struct History {
+    known: Known,
+    /// How long the first step was after the wheels last changed their speeds [s]: what they disturb the next time is
+    /// often as much.
+    first_span: Option<f64>,
+}
 
 /// What is known of a motion, by how many numbers move.
 #[derive(Clone, Default)]
@@ -40,9 +46,9 @@ enum Known {
 }
 
 impl History {
-    /// Forgets it: what comes is another motion.
+    /// Forgets it but for the length of its first step: what comes is another motion.
     pub(in crate::simulation) fn clear(&mut self) {
-        self.0 = Known::Nothing;
+        self.known = Known::Nothing;
     }
 }
 
@@ -61,16 +67,17 @@ pub(in crate::simulation) fn adaptive(
     history: &mut History,
     on_sample: &mut OnSample<'_>,
 ) -> Result<(), Stalled> {
-    let known = std::mem::take(&mut history.0);
-    history.0 = if start.turning.is_none() {
+    let known = std::mem::take(&mut history.known);
+    let first_span = &mut history.first_span;
+    history.known = if start.turning.is_none() {
         let known = if let Known::Ideal(way) = known { Some(*way) } else { None };
         let from = (start_time, start.to_array::<SIZE>());
-        let led = led(equations, from, known, times, tolerance, on_sample)?;
+        let led = led(equations, from, (known, first_span), times, tolerance, on_sample)?;
         led.map_or(Known::Nothing, |way| Known::Ideal(Box::new(way)))
     } else {
         let known = if let Known::WithMotors(way) = known { Some(*way) } else { None };
         let from = (start_time, start.to_array::<WITH_MOTORS>());
-        let led = led(equations, from, known, times, tolerance, on_sample)?;
+        let led = led(equations, from, (known, first_span), times, tolerance, on_sample)?;
         led.map_or(Known::Nothing, |way| Known::WithMotors(Box::new(way)))
     };
     Ok(())
@@ -80,7 +87,7 @@ pub(in crate::simulation) fn adaptive(
 fn led<const N: usize>(
     equations: &Equations<'_>,
     from: (f64, Numbers<N>),
-    known: Option<Way<N>>,
+    (known, first_span): (Option<Way<N>>, &mut Option<f64>),
     times: &[f64],
     tolerance: f64,
     on_sample: &mut OnSample<'_>,
@@ -92,13 +99,17 @@ fn led<const N: usize>(
     let rates_at = |y: &Numbers<N>| rates_at(equations, y);
     let motion = Motion { rates_at, coupled, deciding, tolerance };
     let mut way = known.filter(|way| way.seen == from);
+    let count = |step: &Way<N>| {
+        equations.count(|work| {
+            work.steps += 1;
+            work.jacobians += u64::from(step.implicit);
+        });
+    };
+    if let (None, Some(&time)) = (way, times.first()) {
+        way = motion.set_off(&from, time, first_span, &count);
+    }
     for &time in times {
-        let mut here = motion.reach(&from, way, time, &|step| {
-            equations.count(|work| {
-                work.steps += 1;
-                work.jacobians += u64::from(step.implicit);
-            });
-        })?;
+        let mut here = motion.reach(&from, way, time, &count)?;
         let point = here.look(time);
         way = Some(here);
         if on_sample(time, &Point::from_array(&point, more)).is_break() {
@@ -187,6 +198,8 @@ const RETREAT: f64 = 0.25;
 /// Error of the embedded step, which is of order 4, over that of the step itself, of order 5 [-]: at
 /// least so much. Source: measured, see the tests below.
 const EMBEDDED_EXCESS: f64 = 2.5;
+/// The same of an exponential step, whose embedded one is of order 3 [-]. Source: measured, see the tests below.
+const OVERESTIMATE: f64 = 25.0;
 /// Steps that are longer than this, times the motion's fastest rate, are implicit: explicit ones
 /// are stable up to 3.3. Source: Hairer and Wanner (1996), section IV.2.
 const STIFF: f64 = 3.0;
@@ -203,6 +216,12 @@ const LONGER: f64 = 1.5;
 /// They are linear in the rates; where those have a kink, as where a hub all but rests, long steps
 /// keep an error that no shorter one of them loses, and one that follows the fastest motion does.
 const SETTLING: f64 = 0.5;
+
+/// The span [s] that leads from one time to another, rounding included: it must not leave a rest of the way.
+fn whole_span(now: f64, time: f64) -> f64 {
+    let span = time - now;
+    if now + span < time { span.next_up() } else { span }
+}
 
 /// A motion by its rates, to a tolerance.
 struct Motion<F, const N: usize> {
@@ -253,6 +272,70 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
         }
     }
 
+    /// The first steps of a motion, exponential ones: what new speeds of the wheels disturb dies out along an
+    /// exponential. They lead to a time [s], or as far as a few of them do; none where the first fails.
+    ///
+    /// * `first_span`: how long the first step is to be [s], if that is known, and was afterwards
+    fn set_off(
+        &self,
+        start: &(f64, Numbers<N>),
+        time: f64,
+        first_span: &mut Option<f64>,
+        on_step: &dyn Fn(&Way<N>),
+    ) -> Option<Way<N>> {
+        /// Where more steps are needed, or one is shortened more often, motion is no exponential.
+        const MOST_STEPS: u32 = 6;
+        const MOST_SHORTENED: u32 = 2;
+        let (mut now, mut from) = *start;
+        let mut way: Option<Way<N>> = None;
+        let mut longest = first_span.unwrap_or(f64::INFINITY);
+        let mut rates = (self.rates_at)(&from)?;
+        for _ in 0..MOST_STEPS {
+            if now >= time {
+                break;
+            }
+            let linear = Linear::at(&from, rates, self.coupled.clone(), &self.rates_at);
+            let Some(linear) = linear else { break };
+            let mut next = None;
+            for _ in 0..=MOST_SHORTENED {
+                let span = whole_span(now, time).min(longest);
+                if span < SHORTEST {
+                    break;
+                }
+                let step = exponential_step(&from, &linear, span, &self.rates_at);
+                let miss = step.as_ref().map_or(f64::NAN, |step| self.miss(step, OVERESTIMATE));
+                let factor = if miss.is_finite() {
+                    (CAUTION * pow(miss.max(f64::EPSILON), -0.25)).clamp(GROWTH.0, GROWTH.1)
+                } else {
+                    RETREAT
+                };
+                longest = factor * span;
+                // No stage is where the step ends: there must be rates, too.
+                if let Some(step) = step.filter(|_| miss <= 1.0)
+                    && let Some(there) = (self.rates_at)(&step.to)
+                {
+                    rates = there;
+                    let outlook = Outlook { rates: Some(there), ..Outlook::first(longest, true) };
+                    let (start, seen) = (now, (now, from));
+                    next = Some(Way { start, span, step, implicit: true, next: outlook, seen });
+                    break;
+                }
+                longest = longest.min(span);
+            }
+            let Some(next) = next else { break };
+            on_step(&next);
+            if way.is_none() {
+                *first_span = Some(next.next.span.min(next.span / CAUTION));
+            }
+            (now, from) = (next.end(), next.step.to);
+            way = Some(next);
+        }
+        if let Some(way) = way.as_mut().filter(|_| now < time) {
+            way.next = Outlook { rates: Some(rates), ..self.first_outlook(&from, &rates) };
+        }
+        way
+    }
+
     /// The next step.
     ///
     /// * `start`: when [s] and where the motion begins
@@ -279,7 +362,7 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
                 return Err(stalled("a step of 1e-13 s is still too long"));
             }
             let attempt = self.attempt(&from, rates, linear.as_ref(), span);
-            let miss = attempt.as_ref().map_or(f64::NAN, |it| self.miss(&it.step));
+            let miss = attempt.as_ref().map_or(f64::NAN, |it| self.miss(&it.step, EMBEDDED_EXCESS));
             let factor = if miss.is_finite() {
                 // No error at all would be one to an infinite power.
                 (CAUTION * pow(miss.max(f64::EPSILON), -0.2)).clamp(GROWTH.0, most)
@@ -317,10 +400,12 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
     }
 
     /// A step's error over what is allowed, as a root mean square over the components that decide.
-    fn miss(&self, step: &Step<N>) -> f64 {
+    ///
+    /// * `excess`: of the estimate over the error [-], at least
+    fn miss(&self, step: &Step<N>, excess: f64) -> f64 {
         let part = |i: usize| {
             let size = step.from[i].abs().max(step.to[i].abs()) + small(i, &self.coupled);
-            let miss = step.error[i] / (EMBEDDED_EXCESS * self.tolerance * size);
+            let miss = step.error[i] / (excess * self.tolerance * size);
             miss * miss
         };
         ((0..self.deciding).map(part).sum::<f64>() / self.deciding as f64).sqrt()
@@ -552,6 +637,46 @@ mod tests {
                 );
             }
         }
+    }
+
+    /// What [`OVERESTIMATE`] promises, for motions that settle as slip does: steps that are taken are as exact as the
+    /// tolerance.
+    #[test]
+    fn exponential_steps_that_are_taken_are_as_exact_as_the_tolerance() {
+        let mut taken = 0;
+        for epsilon in [1e-2, 1e-3, 1e-4] {
+            for shift in [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3] {
+                let problem = Problem { start: (1.0, 1.0 + shift), ..kaps(epsilon) };
+                let (_, from) = problem.start();
+                let rates_at = problem.rates();
+                let rates = rates_at(&from).expect("it has rates");
+                let linear = Linear::at(&from, rates, COUPLED, &rates_at).expect("it has rates");
+                for lengths in [0.5, 2.0, 10.0, 50.0] {
+                    let span = lengths * epsilon;
+                    let step = exponential_step(&from, &linear, span, &rates_at).expect("rates");
+                    let mut exact = from;
+                    for _ in 0..1000 {
+                        let rates = rates_at(&exact).expect("it has rates");
+                        let part = span / 1000.0;
+                        let small = explicit_step(&exact, rates, part, COUPLED, &rates_at);
+                        exact = small.expect("it has rates").step.to;
+                    }
+                    let apart = |i: usize| (step.to[i] - exact[i]).abs();
+                    let error = apart(COUPLED.start).max(apart(COUPLED.start + 1));
+                    let (one, other) = of(&step.error);
+                    let estimate = one.abs().max(other.abs());
+                    for tolerance in [1e-6, 1e-7] {
+                        let is_taken = estimate < OVERESTIMATE * tolerance;
+                        taken += i32::from(is_taken);
+                        assert!(
+                            !is_taken || error < tolerance,
+                            "{epsilon:e}, {shift:e}, {lengths}: {error:e} of {estimate:e}"
+                        );
+                    }
+                }
+            }
+        }
+        assert!(taken > 50, "{taken}");
     }
 
     /// Points within steps are as near, however long those are.

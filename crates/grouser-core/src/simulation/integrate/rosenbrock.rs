@@ -70,8 +70,18 @@ impl<const N: usize> Linear<N> {
         Some(linear)
     }
 
+    /// The components that the rates depend on.
+    pub(super) fn coupled(&self) -> Range<usize> {
+        self.coupled.clone()
+    }
+
+    /// How the rates change with each of them.
+    pub(super) fn columns(&self) -> &[Numbers<N>] {
+        &self.columns[..self.coupled.len()]
+    }
+
     /// The change of the rates along a direction, J v.
-    fn along(&self, direction: &Numbers<N>) -> Numbers<N> {
+    pub(super) fn along(&self, direction: &Numbers<N>) -> Numbers<N> {
         let mut product = [0.0; N];
         for (column, index) in self.columns.iter().zip(self.coupled.clone()) {
             for (product, part) in product.iter_mut().zip(column) {

@@ -188,7 +188,7 @@ fn bands(
     cells.sort_unstable();
     cells.dedup();
     let predicted: Vec<Vec<PerQuantity<f64>>> =
-        outputs(&soils, |soil| cells.iter().map(|&cell| all.cell_readings(soil, cell)).collect());
+        outputs(&soils, |soil| all.cell_readings(soil, &cells));
     let band = |(&(quantity, cell), observation): (&(Quantity, usize), &super::Observation)| {
         let place = cells.binary_search(&cell).ok()?;
         let values: Vec<f64> = predicted.iter().map(|one| one[place][quantity]).collect();

@@ -3,7 +3,7 @@
 use super::experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
 use crate::contact::discrepancy::sense_of_rolling;
-use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle, settle_many};
 use crate::elementary::wide::{ln, sin};
 use crate::error::{ParameterError, finite, not_negative};
 use crate::soil::Soil;
@@ -136,12 +136,25 @@ impl<'a> WheelTestExperiment<'a> {
     /// 1 + ln(load/capacity), so that they come down as the soil gets stronger.
     #[must_use]
     pub fn readings(&self, soil: &Soil, slip: Slip, load: f64) -> PerQuantity<f64> {
+        let run = self.contact(soil, slip);
+        self.read(&run, load, settle(self.setup.theory.model(), &run, load))
+    }
+
+    fn contact(&self, soil: &Soil, slip: Slip) -> Contact {
+        let Setup { wheel, gravity, .. } = self.setup;
+        Contact { wheel, soil: *soil, slip, gravity }
+    }
+
+    /// What the stand reads of a wheel, or of one that is sunk to its axle.
+    fn read(
+        &self,
+        contact: &Contact,
+        load: f64,
+        result: Result<Settled, SettleError>,
+    ) -> PerQuantity<f64> {
         /// The load counts as no more than e^10 times what the soil carries.
         const WEAKEST: f64 = 10.0;
-        let Setup { wheel, theory, gravity, .. } = self.setup;
-        let contact = Contact { wheel, soil: *soil, slip, gravity };
-        let model = theory.model();
-        match settle(model, &contact, load) {
+        match result {
             Ok(settled) => PerQuantity::from_fn(|quantity| quantity.of(&settled)),
             Err(error) => {
                 let capacity = match error {
@@ -149,24 +162,33 @@ impl<'a> WheelTestExperiment<'a> {
                     SettleError::BadLoad { .. } => 0.0,
                 };
                 let overload = (ln(load) - ln(capacity)).clamp(0.0, WEAKEST);
-                let sinkage = wheel.shearing_radius();
-                let forces = model.forces(&contact, sinkage);
+                let sinkage = contact.wheel.shearing_radius();
+                let forces = self.setup.theory.model().forces(contact, sinkage);
                 let sunk = Settled { sinkage, forces, evaluations: 0 };
                 PerQuantity::from_fn(|quantity| quantity.of(&sunk) * (1.0 + overload))
             }
         }
     }
 
-    /// What the stand would read in a cell, the mean over its runs.
+    /// What the stand would read in some cells, in each the mean over its runs.
     #[must_use]
-    pub fn cell_readings(&self, soil: &Soil, cell: usize) -> PerQuantity<f64> {
-        let runs = self.runs[cell].iter();
-        let readings: Vec<PerQuantity<f64>> =
-            runs.map(|run| self.readings(soil, run.slip, run.load)).collect();
-        let count = (readings.len() as f64).max(1.0);
-        PerQuantity::from_fn(|quantity| {
-            readings.iter().map(|reading| reading[quantity]).sum::<f64>() / count
-        })
+    pub fn cell_readings(&self, soil: &Soil, cells: &[usize]) -> Vec<PerQuantity<f64>> {
+        let runs = cells.iter().flat_map(|&cell| &self.runs[cell]);
+        let wheels: Vec<(Contact, f64)> =
+            runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
+        let settled = settle_many(self.setup.theory.model(), &wheels);
+        let mut readings = wheels
+            .iter()
+            .zip(settled)
+            .map(|((contact, load), result)| self.read(contact, *load, result));
+        let mean = |&cell: &usize| {
+            let count = self.runs[cell].len();
+            let here: Vec<PerQuantity<f64>> = readings.by_ref().take(count).collect();
+            PerQuantity::from_fn(|quantity| {
+                here.iter().map(|reading| reading[quantity]).sum::<f64>() / (count as f64).max(1.0)
+            })
+        };
+        cells.iter().map(mean).collect()
     }
 
     /// Makes all observations anew.
@@ -340,8 +362,8 @@ impl Experiment for WheelTestExperiment<'_> {
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
         let soil = self.soil(values)?;
         soil.check()?;
-        let cells: Vec<PerQuantity<f64>> =
-            (0..self.runs.len()).map(|cell| self.cell_readings(&soil, cell)).collect();
+        let every: Vec<usize> = (0..self.runs.len()).collect();
+        let cells = self.cell_readings(&soil, &every);
         for (prediction, &(quantity, cell)) in predictions.iter_mut().zip(&self.sources) {
             *prediction = cells[cell][quantity];
         }

@@ -1,0 +1,515 @@
+//! All wheels of a rover settled together: their sinkages, and the loads that depend on the forces there.
+//!
+//! Load transfer makes a wheel's load depend on all wheels' forces, and those depend on the sinkages. Both are sought
+//! at once. Each wheel's forces at the sinkages that were tried are a curve over F_z; where the loads that balance the
+//! rover meet all these curves, the next sinkages are tried:
+//!
+//! ```text
+//! N_i = N_i(P, R)        (P, R) = (P, R)_weight + Σ (P, R)_i(N_i)        h_i = h_i(N_i)
+//! ```
+//!
+//! with the moments (P, R) of [`load`]. The curves are polynomials through all points seen, over ln F_z, so that
+//! two or three rounds find what settling wheels one by one under loads of the round before finds in ten
+//! evaluations of each wheel. The wheels of a motion nearby give the place and the slope with which a search begins.
+//!
+//! Only the usual case is here: all wheels stand, and F_z grows with the sinkage about as it does for a shallow wheel.
+//! Elsewhere nothing is found, and [`reaction`](super::reaction) settles wheel by wheel.
+
+use nalgebra::{Matrix2, Matrix3, Vector3};
+
+use super::load::{self, LoadSharing};
+use super::parts::Mount;
+use super::reaction::{Ground, ReactionError, Stance, WheelReaction};
+use crate::contact::load_sinkage::LoadSinkage;
+use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
+use crate::elementary;
+use crate::soil::Soil;
+use crate::units::Vec2;
+
+/// The wheels of a motion nearby: where a search begins.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Nearby<'a> {
+    /// Of none, where nothing is known.
+    pub(crate) wheels: Vec<Known>,
+    /// What they met, of the soil of which ground and for which steepness; and where that differs from wheel to wheel,
+    /// of none.
+    pub(super) contacts: Vec<Contact>,
+    pub(super) soil: Option<(&'a Soil, f64)>,
+}
+
+/// What is known of a wheel from a motion nearby.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known {
+    slip: Slip,
+    place: Place,
+    slope: Slope,
+}
+
+/// A sinkage that was tried, and the forces there.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place {
+    /// ln *h*.
+    depth: f64,
+    /// ln *F_z*.
+    load: f64,
+    forces: WheelForces,
+    /// Moments that the loads balance, of this wheel's forces [N·m].
+    moments: Vec2,
+}
+
+/// How sinkage and forces change with ln F_z.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slope {
+    depth: f64,
+    forces: WheelForces,
+    moments: Vec2,
+    /// Over how much of ln F_z that was seen.
+    width: f64,
+}
+
+/// Loads this near to those of the last sinkages are met by the curves [ln F_z]: what they leave out is below rounding,
+/// and where forces have a kink below this.
+const CLOSE: f64 = 1e-8;
+/// What a curve leaves out is below the product of its distances from the points that it goes through [ln F_z].
+const EXACT: f64 = 1e-13;
+/// Places nearer to each other than this tell nothing of a curve through both, and are the place that is sought [ln F_z].
+const APART: f64 = 1e-12;
+/// Sinkages that are tried.
+const MOST_ROUNDS: usize = 8;
+/// Points that a curve goes through: a parabola.
+const POINTS: usize = 3;
+/// No sinkage is further from the one before [ln h].
+const LONGEST_STEP: f64 = 1.0;
+/// F_z grows with a power of h that is this many times its shallow one at most, or at least.
+const STEEPEST: f64 = 4.0;
+
+impl Ground<'_> {
+    /// The reaction on every wheel by a search for all of them at once; none where the usual search fails.
+    ///
+    /// * `near`: of a motion nearby, and of this one afterwards
+    pub(super) fn settle_together(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        near: &mut Vec<Known>,
+    ) -> Option<Vec<WheelReaction>> {
+        if contacts.iter().any(|contact| contact.soil.discrepancy.is_some()) {
+            return None;
+        }
+        let sharing = Sharing::of(self, stance)?;
+        if near.len() != contacts.len() {
+            near.clear();
+        }
+        let mut curves = Vec::with_capacity(contacts.len());
+        for (wheel, (contact, mount)) in contacts.iter().zip(self.rover.mounts()).enumerate() {
+            let relation = self.model.load_sinkage(contact);
+            let known = near.get(wheel);
+            if relation.is_none() && known.is_none() {
+                return None;
+            }
+            curves.push(Curve::new(contact, relation, mount, known));
+        }
+        let mut loads = vec![0.0; curves.len()];
+        if near.is_empty() {
+            let Self { rover, sharing: kind, own_moments, .. } = *self;
+            sharing.at(load::moments(rover, stance.pull, kind, own_moments, &[]), &mut loads)?;
+        } else {
+            sharing.meet(&curves, &mut loads)?;
+        }
+        for _ in 0..MOST_ROUNDS {
+            self.try_next(&mut curves, &loads)?;
+            sharing.meet(&curves, &mut loads)?;
+            if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(elementary::ln(*load))) {
+                near.clear();
+                let each = curves.iter().zip(&loads);
+                return Some(each.map(|(curve, load)| curve.reaction(*load, near)).collect());
+            }
+        }
+        None
+    }
+
+    /// Tries the sinkage of each wheel at which it should carry its load [N].
+    fn try_next(&self, curves: &mut [Curve<'_>], loads: &[f64]) -> Option<()> {
+        let depths = curves.iter().zip(loads).map(|(curve, load)| curve.next_depth(*load));
+        let depths: Vec<f64> = depths.collect::<Option<_>>()?;
+        let all = forces_at(self.model, curves, &depths);
+        for ((curve, depth), forces) in curves.iter_mut().zip(depths).zip(all) {
+            if forces.normal_force < f64::MIN_POSITIVE {
+                return None;
+            }
+            let moments =
+                load::moments_of(self.rover, curve.mount, self.sharing, self.own_moments, &forces);
+            let load = elementary::ln(forces.normal_force);
+            curve.add(Place { depth, load, forces, moments })?;
+        }
+        Some(())
+    }
+}
+
+/// The forces of all wheels, each at a sinkage ln *h*.
+fn forces_at(model: &dyn WheelSoilModel, curves: &[Curve<'_>], depths: &[f64]) -> Vec<WheelForces> {
+    let each = curves.iter().zip(depths);
+    let forces = |(curve, depth): (&Curve<'_>, &f64)| {
+        let sinkage = elementary::exp(*depth);
+        match &curve.relation {
+            Some(relation) => relation.forces(curve.contact, sinkage),
+            None => model.forces(curve.contact, sinkage),
+        }
+    };
+    each.map(forces).collect()
+}
+
+/// How the weight is shared among wheels that all stand: linear in the moments.
+struct Sharing {
+    /// Of each wheel's load: its part without moments [N], and the one for each of the moments [1/m].
+    loads: Vec<(f64, Vec2)>,
+    /// Moments of the weight [N·m].
+    of_weight: Vec2,
+    /// The least moment that counts [N·m].
+    least: f64,
+    transfers: bool,
+}
+
+impl Sharing {
+    /// None where wheels are in one line.
+    fn of(ground: &Ground<'_>, stance: &Stance) -> Option<Self> {
+        let (rover, weight) = (ground.rover, stance.weight);
+        let arms = rover.load_arms();
+        let of_weight = load::moments_of_weight(rover, stance.pull, ground.sharing);
+        let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
+        let loads = if ground.sharing == LoadSharing::Uniform {
+            vec![(weight / arms.len() as f64, Vec2::zeros()); arms.len()]
+        } else {
+            let row = |arm: &Vec2| Vector3::new(1.0, arm.x / reach, arm.y / reach);
+            let rows: Matrix3<f64> = arms.iter().map(|arm| row(arm) * row(arm).transpose()).sum();
+            let inverse = rows.try_inverse()?;
+            let part = |arm: &Vec2| {
+                let part = inverse * row(arm);
+                (weight * part.x, Vec2::new(part.y, part.z) / reach)
+            };
+            arms.iter().map(part).collect()
+        };
+        /// Of moments, over weight times reach [-]: the step after one of this size is below rounding.
+        const LEAST: f64 = 1e-12;
+        Some(Self {
+            loads,
+            of_weight,
+            least: LEAST * weight * reach,
+            transfers: ground.is_coupled(),
+        })
+    }
+
+    /// Sets the loads [N] that balance these moments; none where a wheel would have to pull.
+    fn at(&self, moments: Vec2, loads: &mut [f64]) -> Option<()> {
+        for (load, (own, by_moments)) in loads.iter_mut().zip(&self.loads) {
+            *load = own + by_moments.dot(&moments);
+        }
+        loads.iter().all(|load| *load > 0.0).then_some(())
+    }
+
+    /// Sets the loads [N] that balance the rover with the forces that the curves have under them.
+    fn meet(&self, curves: &[Curve<'_>], loads: &mut [f64]) -> Option<()> {
+        /// Newton's steps.
+        const MOST_STEPS: usize = 8;
+        if !self.transfers {
+            return self.at(self.of_weight, loads);
+        }
+        let mut moments = self.of_weight + curves.iter().map(|it| it.last().moments).sum::<Vec2>();
+        for _ in 0..MOST_STEPS {
+            self.at(moments, loads)?;
+            let mut miss = moments - self.of_weight;
+            let mut tangent = Matrix2::identity();
+            for ((curve, load), (_, by_moments)) in curves.iter().zip(&*loads).zip(&self.loads) {
+                miss -= curve.moments_at(elementary::ln(*load));
+                tangent -= curve.slope.moments * by_moments.transpose() / *load;
+            }
+            let step = tangent.try_inverse()? * miss;
+            moments -= step;
+            if step.norm() <= self.least {
+                return self.at(moments, loads);
+            }
+        }
+        None
+    }
+}
+
+/// A wheel's sinkage and forces over ln F_z, as far as they are known.
+struct Curve<'a> {
+    contact: &'a Contact,
+    relation: Option<LoadSinkage>,
+    mount: &'a Mount,
+    /// With which F_z grows for shallow sinkage.
+    exponent: f64,
+    /// ln r_s.
+    axle: f64,
+    /// The last sinkages tried, or the one of a motion nearby.
+    places: [Place; POINTS],
+    count: usize,
+    slope: Slope,
+    /// By how much the motion nearby differs [-].
+    change: f64,
+    evaluations: u32,
+}
+
+impl<'a> Curve<'a> {
+    /// Of a wheel whose model tells its shallow sinkage, or of which a motion nearby is known.
+    fn new(
+        contact: &'a Contact,
+        relation: Option<LoadSinkage>,
+        mount: &'a Mount,
+        known: Option<&Known>,
+    ) -> Self {
+        let exponent = relation.as_ref().map_or(USUAL_EXPONENT, |relation| relation.shallow().1);
+        let (place, slope, change) = match known {
+            Some(known) => (known.place, known.slope, difference(&known.slip, &contact.slip)),
+            None => (Place::default(), Slope::default(), f64::INFINITY),
+        };
+        let axle = elementary::ln(contact.wheel.shearing_radius());
+        let places = [place; POINTS];
+        Self {
+            contact,
+            relation,
+            mount,
+            exponent,
+            axle,
+            places,
+            count: 0,
+            slope,
+            change,
+            evaluations: 0,
+        }
+    }
+
+    /// The reaction under a load [N], which is known for a motion nearby from then on.
+    fn reaction(&self, load: f64, known: &mut Vec<Known>) -> WheelReaction {
+        let place = self.at(elementary::ln(load));
+        let (sinkage, slip) = (elementary::exp(place.depth), self.contact.slip);
+        let settled = Settled { sinkage, forces: place.forces, evaluations: self.evaluations };
+        known.push(Known { slip, place, slope: self.slope });
+        WheelReaction { slip, load, settled }
+    }
+
+    /// The place last tried, or the one of a motion nearby.
+    fn last(&self) -> &Place {
+        &self.places[self.count.saturating_sub(1)]
+    }
+
+    /// Whether a place is known, here or in a motion nearby.
+    fn is_known(&self) -> bool {
+        self.count > 0 || self.change.is_finite()
+    }
+
+    /// The next sinkage to try for a load [N], ln *h*; none where the search leaves its usual way.
+    fn next_depth(&self, load: f64) -> Option<f64> {
+        if !self.is_known() {
+            let (factor, power) = self.relation.as_ref()?.shallow();
+            let depth = elementary::ln(load / factor) / power;
+            return (depth < self.axle).then_some(depth);
+        }
+        let depth = self.depth_at(elementary::ln(load));
+        let step = (depth - self.last().depth).abs();
+        // So that no NaN gets through.
+        (depth < self.axle && step < LONGEST_STEP).then_some(depth)
+    }
+
+    /// Adds a place that was tried; none where F_z does not grow with the sinkage as it should.
+    fn add(&mut self, place: Place) -> Option<()> {
+        self.evaluations += 1;
+        if self.count == 0 {
+            if !self.change.is_finite() {
+                self.slope = self.shallow_slope(&place);
+            }
+            (self.places[0], self.count) = (place, 1);
+            return Some(());
+        }
+        let before = *self.last();
+        let (rise, width) = (place.depth - before.depth, place.load - before.load);
+        let growth = width / rise;
+        let is_usual = growth * STEEPEST > self.exponent && growth < self.exponent * STEEPEST;
+        let places = &self.places[..self.count];
+        if !is_usual || places.iter().any(|known| (known.load - place.load).abs() < APART) {
+            return None;
+        }
+        if self.count == POINTS {
+            self.places.rotate_left(1);
+        } else {
+            self.count += 1;
+        }
+        self.places[self.count - 1] = place;
+        /// A slope is seen over so much of ln F_z at least: rounding is a millionth of it.
+        const LEAST_WIDTH: f64 = 1e-9;
+        if width.abs() > LEAST_WIDTH {
+            self.slope = self.slope_at(place.load);
+        }
+        Some(())
+    }
+
+    /// The slope of the curve at a load ln *F_z*, of two places or more.
+    fn slope_at(&self, load: f64) -> Slope {
+        let weights = self.slope_weights(load);
+        let each = || self.places.iter().zip(weights);
+        Slope {
+            depth: each().map(|(place, weight)| weight * place.depth).sum(),
+            forces: blended(self.places.iter().map(|place| &place.forces).zip(weights)),
+            moments: each().map(|(place, weight)| weight * place.moments).sum(),
+            width: self.far(load),
+        }
+    }
+
+    /// Product of the distances from all places but the last [ln F_z].
+    fn far(&self, load: f64) -> f64 {
+        let others = self.places[..self.count - 1].iter();
+        others.map(|place| (load - place.load).abs()).product()
+    }
+
+    /// The slope of a shallow wheel, whose forces all grow like its load.
+    fn shallow_slope(&self, place: &Place) -> Slope {
+        let depth = 1.0 / self.exponent;
+        Slope { depth, forces: place.forces, moments: place.moments, width: f64::INFINITY }
+    }
+
+    /// Whether the curve at a load ln *F_z* is as exact as rounding.
+    fn is_met(&self, load: f64) -> bool {
+        let near = (load - self.last().load).abs();
+        let others =
+            if self.count > 1 { self.far(load) } else { self.slope.width.max(self.change) };
+        near <= APART || near <= CLOSE && near * others.max(near) <= EXACT
+    }
+
+    /// Weights of the places at a load ln *F_z* (Lagrange).
+    fn weights(&self, load: f64) -> [f64; POINTS] {
+        let mut weights = [0.0; POINTS];
+        for (at, weight) in weights.iter_mut().enumerate().take(self.count) {
+            *weight = 1.0;
+            for other in (0..self.count).filter(|other| *other != at) {
+                let (here, there) = (self.places[at].load, self.places[other].load);
+                *weight *= (load - there) / (here - there);
+            }
+        }
+        weights
+    }
+
+    /// How fast these weights change [1/ln F_z].
+    fn slope_weights(&self, load: f64) -> [f64; POINTS] {
+        let mut weights = [0.0; POINTS];
+        for (at, weight) in weights.iter_mut().enumerate().take(self.count) {
+            let here = self.places[at].load;
+            let others = || (0..self.count).filter(|other| *other != at);
+            let span: f64 = others().map(|other| here - self.places[other].load).product();
+            // The derivative of a product of one or two differences.
+            let rate = match self.count {
+                2 => 1.0,
+                _ => others().map(|other| load - self.places[other].load).sum(),
+            };
+            *weight = rate / span;
+        }
+        weights
+    }
+
+    fn depth_at(&self, load: f64) -> f64 {
+        if self.count < 2 {
+            let last = self.last();
+            return last.depth + self.slope.depth * (load - last.load);
+        }
+        self.places.iter().zip(self.weights(load)).map(|(place, weight)| weight * place.depth).sum()
+    }
+
+    fn moments_at(&self, load: f64) -> Vec2 {
+        if self.count < 2 {
+            let last = self.last();
+            return last.moments + self.slope.moments * (load - last.load);
+        }
+        self.places
+            .iter()
+            .zip(self.weights(load))
+            .map(|(place, weight)| weight * place.moments)
+            .sum()
+    }
+
+    /// The place at which the curve has a load ln *F_z*.
+    fn at(&self, load: f64) -> Place {
+        let forces = if self.count < 2 {
+            let last = self.last();
+            blended([(&last.forces, 1.0), (&self.slope.forces, load - last.load)])
+        } else {
+            blended(self.places.iter().map(|place| &place.forces).zip(self.weights(load)))
+        };
+        Place { depth: self.depth_at(load), load, forces, moments: self.moments_at(load) }
+    }
+}
+
+/// The exponent with which F_z of a model grows that does not tell it.
+const USUAL_EXPONENT: f64 = 1.5;
+
+/// By how much two motions differ [-].
+fn difference(one: &Slip, other: &Slip) -> f64 {
+    let apart = [
+        one.ratio - other.ratio,
+        one.angle - other.angle,
+        one.forward - other.forward,
+        one.lateral - other.lateral,
+        one.sideways - other.sideways,
+    ];
+    apart.iter().fold(0.0, |most: f64, part| most.max(part.abs()))
+}
+
+/// Forces of several places by their weights.
+fn blended<'a>(weighted: impl IntoIterator<Item = (&'a WheelForces, f64)>) -> WheelForces {
+    let mut sum = WheelForces::default();
+    for (forces, weight) in weighted {
+        add_weighted(&mut sum, forces, weight);
+    }
+    sum
+}
+
+/// Adds weighted forces to others; their patches too.
+pub(crate) fn add_weighted(sum: &mut WheelForces, forces: &WheelForces, weight: f64) {
+    let (patch, more) = (sum.patch, forces.patch);
+    *sum = *sum + *forces * weight;
+    sum.patch.entry = patch.entry + weight * more.entry;
+    sum.patch.exit = patch.exit + weight * more.exit;
+    sum.patch.max_stress = patch.max_stress + weight * more.max_stress;
+}
+
+impl Nearby<'_> {
+    /// The reaction on every wheel, and what is known of them for a motion nearby.
+    ///
+    /// * `alone`: that of wheels that are settled one by one
+    pub(super) fn settle(
+        &mut self,
+        ground: &Ground<'_>,
+        stance: &Stance,
+        alone: impl FnOnce(&[Contact]) -> Result<Vec<WheelReaction>, ReactionError>,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let together = ground.settle_together(stance, &self.contacts, &mut self.wheels);
+        if let Some(wheels) = together {
+            return Ok(wheels);
+        }
+        self.wheels.clear();
+        let wheels = alone(&self.contacts)?;
+        self.wheels = Known::of_all(ground, &wheels).unwrap_or_default();
+        Ok(wheels)
+    }
+}
+
+impl Known {
+    /// Of wheels that were settled; none where one is not carried.
+    pub(super) fn of_all(ground: &Ground<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
+        let each = wheels.iter().zip(ground.rover.mounts());
+        each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
+    }
+
+    /// Of a wheel; how its forces change with the load is as yet that of a shallow one.
+    fn of(ground: &Ground<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
+        let (sinkage, forces) = (wheel.settled.sinkage, wheel.settled.forces);
+        if sinkage <= 0.0 || forces.normal_force < f64::MIN_POSITIVE {
+            return None;
+        }
+        let moments =
+            load::moments_of(ground.rover, mount, ground.sharing, ground.own_moments, &forces);
+        let load = elementary::ln(forces.normal_force);
+        let place = Place { depth: elementary::ln(sinkage), load, forces, moments };
+        let slope = Slope { depth: 1.0 / USUAL_EXPONENT, forces, moments, width: f64::INFINITY };
+        Some(Self { slip: wheel.slip, place, slope })
+    }
+}

@@ -1,0 +1,75 @@
+//! All wheels of a rover settle under loads that depend on their forces: loads, sinkages and forces are those of each
+//! other, wherever the search began.
+
+use grouser::contact::{Contact, Slip, Theory};
+use grouser::site::Site;
+use grouser::units::{EARTH_GRAVITY, Vec2, deg};
+use grouser::vehicle::load;
+use grouser::vehicle::reaction::{Ground, WheelReaction, forces_of};
+use grouser::vehicle::{Differences, LoadSharing, OwnMoments, RoverState};
+use proptest::prelude::*;
+
+use super::given;
+
+/// How far what settles may be from what it should be, over the weight [-]: what a kink of the forces leaves.
+const TOLERANCE: f64 = 1e-9;
+
+fn check(ground: &Ground<'_>, state: &RoverState, wheels: &[WheelReaction]) {
+    let stance = ground.stance(state);
+    let Ground { rover, site, sharing, own_moments, .. } = *ground;
+    let forces: Vec<_> = forces_of(wheels).copied().collect();
+    let moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
+    let loads = load::wheel_loads(rover, sharing, stance.weight, moments).expect("it stands");
+    let soil = site.terrain.soil(Vec2::zeros(), rover.footprint(&stance.slope_from_body));
+    let soil = soil.on_slope(stance.steepness);
+    let off = |one: f64, other: f64| (one - other).abs() / stance.weight;
+    for ((wheel, mount), load) in wheels.iter().zip(rover.mounts()).zip(loads) {
+        let (slip, gravity) = (wheel.slip, site.gravity);
+        let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity };
+        let there = ground.model.forces(&contact, wheel.settled.sinkage);
+        let found = &wheel.settled.forces;
+        for (one, other) in [
+            (wheel.load, load),
+            (found.normal_force, load),
+            (found.drawbar_pull, there.drawbar_pull),
+            (found.side_force, there.side_force),
+            (found.torque, there.torque),
+            (found.overturning_moment, there.overturning_moment),
+        ] {
+            assert!(off(one, other) < TOLERANCE, "{one} and {other}: {wheel:?}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(given::cases(60))]
+
+    #[test]
+    fn loads_and_forces_are_those_of_each_other(
+        slope in 0.0..deg(25.0),
+        yaw in -1.0..1.0,
+        slips in prop::array::uniform4((-0.3..0.9, -0.6..0.6)),
+        theory in prop::sample::select(vec![Theory::Ishigami, Theory::Bekker, Theory::SmallWheel]),
+        sharing in prop::sample::select(vec![LoadSharing::Complete, LoadSharing::QuasiStaticTorque]),
+    ) {
+        let (rover, site) = (given::hakuto(), Site::plane(given::toyoura(), slope, EARTH_GRAVITY));
+        let own_moments = OwnMoments::Included;
+        let differences = Differences::NONE;
+        let model = theory.model();
+        let ground =
+            Ground { rover: &rover, site: &site, model, sharing, own_moments, differences };
+        let state = RoverState { yaw, ..RoverState::default() };
+        let stance = ground.stance(&state);
+        let all = |shift: f64| {
+            slips.map(|(ratio, angle)| Slip::on_test_stand(ratio + shift, angle + shift))
+        };
+        if let Ok(wheels) = ground.reactions(&stance, &all(0.0)) {
+            check(&ground, &state, &wheels);
+            for shift in [1e-8, 1e-3, 0.05] {
+                if let Ok(near) = ground.reactions_near(&stance, &all(shift), &wheels) {
+                    check(&ground, &state, &near);
+                }
+            }
+        }
+    }
+}
