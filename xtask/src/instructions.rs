@@ -17,12 +17,18 @@ use crate::workspace;
 
 const FILE: &str = "crates/grouser-bench/instructions.txt";
 /// The units that are counted: what a single core does.
-const UNITS: [&str; 6] = [
+const UNITS: [&str; 12] = [
     "force_ns_batched",
     "settle_ns_batched",
+    "rft_settle_us",
+    "settle_ns_overloaded",
     "rover_rhs_us",
     "traverse_dynamic_ms",
     "traverse_quasi_steady_ms",
+    "traverse_dynamic_outcome_ms",
+    "traverse_quasi_steady_outcome_ms",
+    "control_step_us",
+    "control_step_quasi_steady_us",
     "attitude_curve_ms",
 ];
 /// Counts this near to each other are the same: addresses move a few.

@@ -4,6 +4,7 @@ mod address;
 mod alone;
 mod ci;
 mod cited;
+mod costs;
 mod count;
 mod cpu;
 mod crates;
@@ -54,6 +55,8 @@ cargo xtask CHORE
                       with the Python package that is installed already
   pages               look at the site of `cargo xtask site`, and at reports, in Chromium: at two widths,
                       light and dark
+  costs               count what wheels cost over the domain, and write the map into
+                      docs/performance.md
   python-times        measure what Python costs, and write it into docs/performance.md
   count [--check | --build]
                       count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
@@ -106,6 +109,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build(&python::installed()?)?),
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
+        ["costs"] => {
+            costs::write()?;
+            true
+        }
         ["python-times"] => {
             python::write_times()?;
             true

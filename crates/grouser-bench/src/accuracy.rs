@@ -1,12 +1,13 @@
 //! Accuracy of the units of work, against the same results computed with much more effort.
 
-use grouser::contact::{Ishigami, WheelForces, WheelSoilModel as _, settle};
+use grouser::contact::{Ishigami, Rft, WheelForces, WheelSoilModel as _, settle};
 use grouser::simulation::{Integrator, Run, Scenario};
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::vehicle::dynamics;
 use grouser::vehicle::reaction::forces_of;
 
 use crate::fixtures::Fixtures;
+use crate::unit::controlled;
 
 /// The largest errors over the fixtures.
 #[derive(Clone, Copy, Debug)]
@@ -15,10 +16,17 @@ pub struct Accuracy {
     pub force: f64,
     /// Of the force that carries a settled wheel against its load, over the load [-].
     pub settle: f64,
+    /// Of a settled wheel's forces by resistive force theory against four times as many nodes over the
+    /// arc and twenty times as many across, over its load [-].
+    pub settle_facets: f64,
     /// Of the end of a dynamic traverse against a tolerance a thousand times as tight [m].
     pub traverse_dynamic: f64,
     /// Of the end of a quasi-steady traverse against the same [m].
     pub traverse_quasi_steady: f64,
+    /// Of where 250 steps of 20 ms under changing speeds lead, against a tolerance a thousand times as tight [m].
+    pub control_step: f64,
+    /// The same of quasi-steady steps [m].
+    pub control_step_quasi_steady: f64,
     /// Of the equilibrium of forces on the curve of heading offsets, over the weight [-].
     pub heading_curve: f64,
 }
@@ -36,9 +44,15 @@ impl Accuracy {
             let (x, y) = end(scenario);
             (x - exact.0).hypot(y - exact.1)
         };
+        let led = |scenario: &Scenario| controlled(scenario).state().rover().position;
+        let led_exactly = led(&tight(scenario));
+        let miss_of_steps = |scenario: &Scenario| (led(scenario) - led_exactly).norm();
         Self {
+            control_step: miss_of_steps(scenario),
+            control_step_quasi_steady: miss_of_steps(&fixtures.quasi_steady()),
             force: force(fixtures),
             settle: carried(fixtures),
+            settle_facets: facets(fixtures),
             traverse_dynamic: miss(scenario),
             traverse_quasi_steady: miss(&fixtures.quasi_steady()),
             heading_curve: imbalance(scenario),
@@ -49,12 +63,26 @@ impl Accuracy {
 fn force(fixtures: &Fixtures) -> f64 {
     let (model, reference) = (fixtures.scenario.theory.model(), Ishigami::reference());
     let errors = fixtures.wheels.iter().map(|wheel| {
-        let parts =
-            |forces: WheelForces| [forces.drawbar_pull, forces.side_force, forces.normal_force];
-        let found = parts(model.forces(&wheel.contact, wheel.sinkage));
-        let exact = parts(reference.forces(&wheel.contact, wheel.sinkage));
-        let differences = found.iter().zip(exact).map(|(one, other)| (one - other).abs());
-        differences.fold(0.0, f64::max) / wheel.load
+        let found = model.forces(&wheel.contact, wheel.sinkage);
+        let exact = reference.forces(&wheel.contact, wheel.sinkage);
+        difference(&found, &exact) / wheel.load
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// The largest among the components of two forces [N].
+fn difference(found: &WheelForces, exact: &WheelForces) -> f64 {
+    let parts =
+        |forces: &WheelForces| [forces.drawbar_pull, forces.side_force, forces.normal_force];
+    let differences = parts(found).into_iter().zip(parts(exact));
+    differences.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)
+}
+
+fn facets(fixtures: &Fixtures) -> f64 {
+    let reference = Rft::reference();
+    let errors = fixtures.faceted.iter().map(|(contact, load)| {
+        let settled = settle(&Rft::DEFAULT, contact, *load).expect("it is carried");
+        difference(&settled.forces, &reference.forces(contact, settled.sinkage)) / load
     });
     errors.fold(0.0, f64::max)
 }

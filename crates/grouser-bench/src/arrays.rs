@@ -1,6 +1,8 @@
 //! The work behind Python's calls on arrays, prepared once, to measure the calls' overhead against.
 
-use grouser::contact::{Contact, Slip, settle};
+use grouser::contact::{
+    Contact, Slip, Theory, WheelForces, WheelSoilModel, forces_many, settle_many,
+};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser::units::EARTH_GRAVITY;
@@ -10,6 +12,8 @@ use rayon::prelude::*;
 pub enum Arrays {
     /// Wheels of the paper's rover on Toyoura sand, each with its load [N].
     Wheels(Vec<(Contact, f64)>),
+    /// The same wheels, each with its sinkage [m].
+    Sunk(Vec<(Contact, f64)>),
     /// Runs of the paper's rover.
     Traverses(Vec<Scenario>),
 }
@@ -23,15 +27,16 @@ impl Arrays {
     /// # Errors
     /// [`DocumentError`] if a preset cannot be read.
     pub fn wheels(rows: &[[f64; 3]]) -> Result<Self, DocumentError> {
-        let wheel =
-            document::read_wheel(&Source::find(Kind::Wheel, "hakuto")?, &Overrides::none())?;
-        let soil = document::read_soil(&Source::find(Kind::Soil, "toyoura")?, &Overrides::none())?;
-        let (wheel, soil) = (wheel.value, soil.value);
-        let loaded = |&[load, ratio, angle]: &[f64; 3]| {
-            let slip = Slip::on_test_stand(ratio, angle.to_radians());
-            (Contact { wheel, soil, slip, gravity: EARTH_GRAVITY }, load)
-        };
-        Ok(Self::Wheels(rows.iter().map(loaded).collect()))
+        Ok(Self::Wheels(pressed(rows)?))
+    }
+
+    /// Wheels, one for each `[sinkage_mm, slip_ratio, slip_angle_deg]`.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if a preset cannot be read.
+    pub fn sunk(rows: &[[f64; 3]]) -> Result<Self, DocumentError> {
+        let metres = |(contact, sinkage_mm)| (contact, 1e-3 * sinkage_mm);
+        Ok(Self::Sunk(pressed(rows)?.into_iter().map(metres).collect()))
     }
 
     /// Traverses of 20 s, one for each `[slope_deg, yaw_deg]`.
@@ -55,15 +60,19 @@ impl Arrays {
     pub fn compute(&self) -> usize {
         match self {
             Self::Wheels(wheels) => {
-                // The model of a scenario that names none.
-                let model = grouser::contact::Theory::default().model();
-                let one = |(contact, load): &(Contact, f64)| settle(model, contact, *load);
-                let settled: Vec<_> = wheels.par_iter().with_min_len(SHARE).map(one).collect();
+                let some = |wheels: &[(Contact, f64)]| settle_many(model(), wheels);
+                let settled: Vec<_> = wheels.par_chunks(SHARE).flat_map_iter(some).collect();
                 settled.into_iter().flatten().count()
+            }
+            Self::Sunk(wheels) => {
+                let some = |wheels: &[(Contact, f64)]| forces_many(model(), wheels);
+                let forces: Vec<WheelForces> =
+                    wheels.par_chunks(SHARE).flat_map_iter(some).collect();
+                forces.into_iter().filter(|it| it.normal_force > 0.0).count()
             }
             Self::Traverses(scenarios) => {
                 let end = |scenario: &Scenario| {
-                    let run = Run::new(scenario).and_then(Run::to_end)?;
+                    let run = Run::new(scenario).and_then(Run::to_outcome)?;
                     Ok::<_, grouser::simulation::RunError>((run.last().clone(), run.outcome))
                 };
                 let ends: Vec<_> = scenarios.par_iter().map(end).collect();
@@ -71,4 +80,21 @@ impl Arrays {
             }
         }
     }
+}
+
+/// The model of a scenario that names none.
+fn model() -> &'static dyn WheelSoilModel {
+    Theory::default().model()
+}
+
+/// Wheels with the first number of each row, and slip ratio and slip angle [°] of the others.
+fn pressed(rows: &[[f64; 3]]) -> Result<Vec<(Contact, f64)>, DocumentError> {
+    let wheel = document::read_wheel(&Source::find(Kind::Wheel, "hakuto")?, &Overrides::none())?;
+    let soil = document::read_soil(&Source::find(Kind::Soil, "toyoura")?, &Overrides::none())?;
+    let (wheel, soil) = (wheel.value, soil.value);
+    let wheel = |&[pressed, ratio, angle]: &[f64; 3]| {
+        let slip = Slip::on_test_stand(ratio, angle.to_radians());
+        (Contact { wheel, soil, slip, gravity: EARTH_GRAVITY }, pressed)
+    };
+    Ok(rows.iter().map(wheel).collect())
 }

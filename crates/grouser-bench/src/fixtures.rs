@@ -14,6 +14,12 @@ pub struct Fixtures {
     pub wheels: Vec<LoadedWheel>,
     /// The same wheels as a batch, each with its load [N].
     pub batch: Vec<(Contact, f64)>,
+    /// Those of them that resistive force theory carries, up to 256, each with its load [N].
+    pub faceted: Vec<(Contact, f64)>,
+    /// The same wheels at the sinkages [m] that carry them.
+    pub sunk: Vec<(Contact, f64)>,
+    /// Such wheels under loads [N] that the soil cannot carry.
+    pub overloaded: Vec<(Contact, f64)>,
     /// The paper's rover on 10°, nose along the contour, for 20 s.
     pub scenario: Scenario,
     /// The same rover on 200 soils, a tenth more or less of everything.
@@ -33,6 +39,8 @@ pub struct LoadedWheel {
 
 /// Wheels of the fixtures.
 const WHEELS: usize = 1024;
+/// Wheels made of facets.
+const FACETED: usize = 256;
 /// Runs of the campaign.
 const CAMPAIGN: usize = 200;
 /// Each soil value of the campaign is within this share of its own.
@@ -53,9 +61,17 @@ impl Fixtures {
         let mut draws = Draws::new();
         let wheels: Vec<LoadedWheel> =
             (0..WHEELS).map(|_| wheel(&scenario, soil.value, &mut draws)).collect();
-        let batch = wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
+        let batch: Vec<_> = wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
+        let sunk = wheels.iter().map(|wheel| (wheel.contact, wheel.sinkage)).collect();
+        let carried = |(contact, load): &&(Contact, f64)| {
+            grouser::contact::settle(Theory::Rft.model(), contact, *load).is_ok()
+        };
+        let faceted = batch.iter().filter(carried).take(FACETED).copied().collect();
+        let mut loads = Draws::of_stream(2);
+        let overload = |wheel: &LoadedWheel| overloaded(wheel, &mut loads);
+        let overloaded = wheels.iter().map(overload).collect();
         let campaign = (0..CAMPAIGN).map(|_| varied(&scenario, &mut draws)).collect();
-        Ok(Self { wheels, batch, scenario, campaign })
+        Ok(Self { wheels, batch, faceted, sunk, overloaded, scenario, campaign })
     }
 }
 
@@ -69,6 +85,19 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
         let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
         if let Ok(settled) = grouser::contact::settle(Theory::Ishigami.model(), &contact, load) {
             return LoadedWheel { contact, load, sinkage: settled.sinkage };
+        }
+    }
+}
+
+/// The same wheel under a load [N] from a little more than the soil carries to ten times that.
+fn overloaded(wheel: &LoadedWheel, draws: &mut Draws) -> (Contact, f64) {
+    let model = Theory::Ishigami.model();
+    let contact = wheel.contact;
+    let at_axle = model.forces(&contact, contact.wheel.shearing_radius()).normal_force;
+    loop {
+        let load = at_axle * draws.between(1.02, 10.0);
+        if grouser::contact::settle(model, &contact, load).is_err() {
+            return (contact, load);
         }
     }
 }
@@ -88,7 +117,11 @@ struct Draws(ChaCha8Rng);
 
 impl Draws {
     fn new() -> Self {
-        Self(ChaCha8Rng::seed_from_u64(1))
+        Self::of_stream(1)
+    }
+
+    fn of_stream(seed: u64) -> Self {
+        Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
     fn between(&mut self, low: f64, high: f64) -> f64 {

@@ -6,13 +6,14 @@
 
 mod accuracy;
 mod arrays;
+pub mod costs;
 mod fixtures;
 mod unit;
 
 pub use accuracy::Accuracy;
 pub use arrays::Arrays;
 pub use fixtures::Fixtures;
-pub use unit::{Done, Unit};
+pub use unit::{Done, OPERATIONS_OF_A_FORCE, Unit};
 
 /// Threads that [`Unit::Campaign`] uses.
 #[must_use]

@@ -1,6 +1,10 @@
 //! The units of work.
 
-use grouser::contact::{settle, settle_many};
+use std::f64::consts::TAU;
+
+use grouser::contact::{
+    Contact, InstructionSet, SettleError, Theory, forces_many, settle, settle_many,
+};
 use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser::studies::heading::HeadingStudy;
@@ -13,6 +17,9 @@ use crate::fixtures::Fixtures;
 /// A unit of work, by the key of its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
+    /// A multiplication or an addition of two doubles, among many that do not wait for each other: what
+    /// the machine does at most.
+    Operation,
     /// The reaction on one wheel at a sinkage, one after the other.
     ForceSingle,
     /// The same for many wheels at once.
@@ -21,15 +28,27 @@ pub enum Unit {
     SettleSingle,
     /// The same for many wheels at once.
     SettleBatched,
+    /// A wheel that settles by resistive force theory, one after the other.
+    SettleFacets,
+    /// Wheels that the soil cannot carry, one after the other: that is known, and how much it carries.
+    SettleOverloaded,
     /// One evaluation of a four-wheel rover's motion.
     RoverRates,
     /// A traverse of 20 s, all accelerations integrated.
     TraverseDynamic,
     /// The same as a sequence of steady states.
     TraverseQuasiSteady,
+    /// The traverse of 20 s without records but of its start and its end, all accelerations integrated.
+    TraverseDynamicOutcome,
+    /// The same as a sequence of steady states.
+    TraverseQuasiSteadyOutcome,
+    /// A step of 20 ms under speeds that change at every step, all accelerations integrated.
+    ControlStep,
+    /// The same as a sequence of steady states.
+    ControlStepQuasiSteady,
     /// The heading offset on 25 slopes up to the steepest.
     HeadingCurve,
-    /// Quasi-steady traverses of 20 s on varied soil, on all cores.
+    /// Ends of quasi-steady traverses of 20 s on varied soil, on all cores.
     Campaign,
 }
 
@@ -44,14 +63,21 @@ pub struct Done {
 
 impl Unit {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 16] = [
+        Self::Operation,
         Self::ForceSingle,
         Self::ForceBatched,
         Self::SettleSingle,
         Self::SettleBatched,
+        Self::SettleFacets,
+        Self::SettleOverloaded,
         Self::RoverRates,
         Self::TraverseDynamic,
         Self::TraverseQuasiSteady,
+        Self::TraverseDynamicOutcome,
+        Self::TraverseQuasiSteadyOutcome,
+        Self::ControlStep,
+        Self::ControlStepQuasiSteady,
         Self::HeadingCurve,
         Self::Campaign,
     ];
@@ -60,13 +86,20 @@ impl Unit {
     #[must_use]
     pub fn key(self) -> &'static str {
         match self {
+            Self::Operation => "operation_ns",
             Self::ForceSingle => "force_ns_single",
             Self::ForceBatched => "force_ns_batched",
             Self::SettleSingle => "settle_ns_single",
             Self::SettleBatched => "settle_ns_batched",
+            Self::SettleFacets => "rft_settle_us",
+            Self::SettleOverloaded => "settle_ns_overloaded",
             Self::RoverRates => "rover_rhs_us",
             Self::TraverseDynamic => "traverse_dynamic_ms",
             Self::TraverseQuasiSteady => "traverse_quasi_steady_ms",
+            Self::TraverseDynamicOutcome => "traverse_dynamic_outcome_ms",
+            Self::TraverseQuasiSteadyOutcome => "traverse_quasi_steady_outcome_ms",
+            Self::ControlStep => "control_step_us",
+            Self::ControlStepQuasiSteady => "control_step_quasi_steady_us",
             Self::HeadingCurve => "attitude_curve_ms",
             Self::Campaign => "campaign_traverses_per_s",
         }
@@ -81,13 +114,20 @@ impl Fixtures {
     #[must_use]
     pub fn work(&self, unit: Unit) -> Done {
         match unit {
+            Unit::Operation => operations(),
             Unit::ForceSingle => self.force_single(),
             Unit::ForceBatched => self.force_batched(),
-            Unit::SettleSingle => self.settle_single(),
+            Unit::SettleSingle => settle_one_by_one(self.scenario.theory, &self.batch),
             Unit::SettleBatched => self.settle_batched(),
+            Unit::SettleFacets => settle_one_by_one(Theory::Rft, &self.faceted),
+            Unit::SettleOverloaded => self.settle_overloaded(),
             Unit::RoverRates => self.rover_rates(),
             Unit::TraverseDynamic => traverse(&self.scenario),
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
+            Unit::TraverseDynamicOutcome => outcome(&self.scenario),
+            Unit::TraverseQuasiSteadyOutcome => outcome(&self.quasi_steady()),
+            Unit::ControlStep => self.control(&self.scenario),
+            Unit::ControlStepQuasiSteady => self.control(&self.quasi_steady()),
             Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
@@ -104,25 +144,25 @@ impl Fixtures {
     }
 
     fn force_batched(&self) -> Done {
-        let model = self.scenario.theory.model();
-        let forces = self.wheels.iter().map(|it| model.forces(&it.contact, it.sinkage));
-        Done { count: self.wheels.len(), checksum: forces.map(|it| it.drawbar_pull).sum() }
-    }
-
-    fn settle_single(&self) -> Done {
-        let model = self.scenario.theory.model();
-        let mut trace = 0.0;
-        for wheel in &self.wheels {
-            let settled = settle(model, &wheel.contact, wheel.load + trace).expect("it is carried");
-            trace = settled.sinkage * 1e-300;
-        }
-        Done { count: self.wheels.len(), checksum: trace }
+        let forces = forces_many(self.scenario.theory.model(), &self.sunk);
+        let count = forces.len();
+        Done { count, checksum: forces.iter().map(|it| it.drawbar_pull).sum() }
     }
 
     fn settle_batched(&self) -> Done {
         let settled = settle_many(self.scenario.theory.model(), &self.batch);
         let sinkages = settled.iter().map(|it| it.as_ref().expect("it is carried").sinkage);
         Done { count: self.batch.len(), checksum: sinkages.sum() }
+    }
+
+    fn settle_overloaded(&self) -> Done {
+        let model = self.scenario.theory.model();
+        let capacity = |(contact, load): &(Contact, f64)| match settle(model, contact, *load) {
+            Err(SettleError::SunkToAxle { capacity, .. }) => capacity,
+            answer => unreachable!("the soil does not carry it: {answer:?}"),
+        };
+        let sum = self.overloaded.iter().map(capacity).sum();
+        Done { count: self.overloaded.len(), checksum: sum }
     }
 
     fn rover_rates(&self) -> Done {
@@ -155,8 +195,22 @@ impl Fixtures {
     }
 
     fn run_campaign(&self) -> Done {
-        let ends: Vec<f64> = self.campaign.par_iter().map(|it| traverse(it).checksum).collect();
+        let ends: Vec<f64> = self.campaign.par_iter().map(|it| outcome(it).checksum).collect();
         Done { count: ends.len(), checksum: ends.iter().sum() }
+    }
+
+    /// The steps of 20 ms under changing speeds.
+    ///
+    /// # Panics
+    /// If they cannot be computed: those of the fixtures always could.
+    #[must_use]
+    pub fn control_steps(&self, scenario: &Scenario) -> Run {
+        controlled(scenario)
+    }
+
+    fn control(&self, scenario: &Scenario) -> Done {
+        let run = self.control_steps(scenario);
+        Done { count: CONTROL_STEPS, checksum: run.state().rover().position.y }
     }
 
     /// The scenario with velocities in balance.
@@ -168,7 +222,55 @@ impl Fixtures {
     }
 }
 
+/// Each wheel waits for the one before: its load [N] carries a trace of the last sinkage.
+fn settle_one_by_one(theory: Theory, wheels: &[(Contact, f64)]) -> Done {
+    let mut trace = 0.0;
+    for (contact, load) in wheels {
+        let settled = settle(theory.model(), contact, load + trace).expect("it is carried");
+        trace = settled.sinkage * 1e-300;
+    }
+    Done { count: wheels.len(), checksum: trace }
+}
+
+/// Multiplications and additions of doubles that the force of a driving wheel of the paper takes at least:
+/// 674 and about 150 of four at once, and about 140 of one. Source: counted in the compiled program,
+/// `docs/performance.md`.
+pub const OPERATIONS_OF_A_FORCE: f64 = 4.0 * (674.0 + 150.0) + 140.0;
+
+fn operations() -> Done {
+    const ROUNDS: usize = 10_000;
+    let checksum = InstructionSet::best().multiply_and_add(ROUNDS);
+    Done { count: ROUNDS * InstructionSet::OPERATIONS_A_ROUND, checksum }
+}
+
 fn traverse(scenario: &Scenario) -> Done {
     let run = Run::new(scenario).and_then(Run::to_end).expect("the scenario runs");
     Done { count: 1, checksum: run.last().state.position.y }
+}
+
+fn outcome(scenario: &Scenario) -> Done {
+    let run = Run::new(scenario).and_then(Run::to_outcome).expect("the scenario runs");
+    Done { count: 1, checksum: run.last().state.position.y }
+}
+
+/// Length of a step under changed speeds [s].
+const CONTROL_PERIOD: f64 = 0.02;
+/// How many of them are one piece of work: 5 s.
+const CONTROL_STEPS: usize = 250;
+
+/// A rover led through these steps under speeds that change at every one: those of both sides rise and fall by a fifth
+/// within 5 s, and by a tenth against each other within 7 s.
+pub(crate) fn controlled(scenario: &Scenario) -> Run {
+    let wave = |time: f64, period: f64| (TAU * time / period).sin();
+    let mut run = Run::new(scenario).expect("the scenario starts");
+    let base = scenario.drive.nominal_rim_speed();
+    for step in 0..CONTROL_STEPS {
+        let time = CONTROL_PERIOD * step as f64;
+        let (both, turn) = (1.0 + 0.2 * wave(time, 5.0), 0.1 * wave(time, 7.0));
+        let of_side = |y: f64| base * (both - turn * y.signum());
+        let rim_speeds: Vec<f64> =
+            scenario.rover.mounts().iter().map(|mount| of_side(mount.position.y)).collect();
+        run.step(&rim_speeds, CONTROL_PERIOD).expect("the rover goes on");
+    }
+    run
 }

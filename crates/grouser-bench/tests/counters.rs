@@ -40,6 +40,12 @@ fn the_work_is_as_much_as_it_was() {
             let _ = writeln!(text, "{name}, {}: {:?}", run.method.name(), run.work);
         }
     }
+    text.push_str("\nwork for 250 steps of 20 ms at new speeds on 10°\n");
+    for scenario in [&fixtures.scenario, &fixtures.quasi_steady()] {
+        let run = fixtures.control_steps(scenario);
+        let method = run.state().method().name();
+        let _ = writeln!(text, "{method}: {:?}", run.state().work());
+    }
     insta::assert_snapshot!(text);
 }
 

@@ -1,9 +1,9 @@
 //! Does work and nothing else: what a counter of instructions is pointed at, and what Python's calls are
 //! measured against.
 //!
-//! `work set` prints the instruction set. `work KEY TIMES` does a unit of work; with TIMES 0 it prepares and
-//! does nothing, which is the count to subtract. `work wheels`, `work quasi-steady` and `work dynamic`
-//! read rows of numbers, eight bytes each, from the standard input, and print the seconds that all of them take
+//! `work set` prints the instruction set, `work costs` the map of costs. `work KEY TIMES` does a unit of work; with TIMES 0 it prepares and
+//! does nothing, which is the count to subtract. `work wheels`, `work forces`, `work quasi-steady` and
+//! `work dynamic` read rows of numbers, eight bytes each, from the standard input, and print the seconds that all of them take
 //! on all cores.
 
 use std::error::Error;
@@ -14,6 +14,7 @@ use std::time::Instant;
 
 use grouser::contact::InstructionSet;
 use grouser::simulation::Approach;
+use grouser_bench::costs::CostMap;
 use grouser_bench::{Arrays, Fixtures, Unit};
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
@@ -21,7 +22,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
         ["set"] => println!("{}", InstructionSet::best().name()),
+        ["costs"] => print!("{}", CostMap::new()?),
         ["wheels"] => println!("{}", seconds(&Arrays::wheels(&rows()?)?)?),
+        ["forces"] => println!("{}", seconds(&Arrays::sunk(&rows()?)?)?),
         ["quasi-steady"] => {
             println!("{}", seconds(&Arrays::traverses(Approach::QuasiSteady, &rows()?)?)?);
         }
@@ -38,7 +41,8 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 fn usage() -> String {
     let keys: Vec<&str> = Unit::ALL.into_iter().map(Unit::key).collect();
     format!(
-        "usage: work set | work KEY TIMES | work wheels | work quasi-steady | work dynamic\nkeys: {}",
+        "usage: work set | work costs | work KEY TIMES | work wheels | work forces | work quasi-steady | work dynamic\n\
+         keys: {}",
         keys.join(", ")
     )
 }

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use grouser::contact::InstructionSet;
-use grouser_bench::{Accuracy, Fixtures, Unit};
+use grouser_bench::{Accuracy, Fixtures, OPERATIONS_OF_A_FORCE, Unit};
 use serde_json::{Map, Value, json};
 
 use super::Answer;
@@ -37,6 +37,9 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
     for unit in Unit::ALL {
         let seconds = best(budget, || fixtures.work(unit).count);
         rows.push(row(unit, seconds, &accuracy));
+        if unit == Unit::Operation {
+            rows.push(least_of_force(seconds));
+        }
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -89,10 +92,16 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
     let force = || of_load("force_error", accuracy.force);
     let settle = || of_load("settle_error", accuracy.settle);
     let (what, factor, name, error) = match unit {
+        Unit::Operation => ("multiplication or addition, side by side", 1e9, "ns", None),
         Unit::ForceSingle => ("force of a wheel, one by one", 1e9, "ns", force()),
         Unit::ForceBatched => ("force of a wheel, many", 1e9, "ns", None),
         Unit::SettleSingle => ("settled wheel, one by one", 1e9, "ns", settle()),
         Unit::SettleBatched => ("settled wheel, many", 1e9, "ns", None),
+        Unit::SettleFacets => {
+            let error = of_load("rft_settle_error", accuracy.settle_facets);
+            ("settled wheel of facets, rft", 1e6, "µs", error)
+        }
+        Unit::SettleOverloaded => ("wheel that the soil cannot carry", 1e9, "ns", None),
         Unit::RoverRates => ("motion of a 4-wheel rover, once", 1e6, "µs", None),
         Unit::TraverseDynamic => {
             let error = of_way("traverse_dynamic_error_mm", accuracy.traverse_dynamic);
@@ -102,6 +111,19 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
             let error = of_way("traverse_quasi_steady_error_mm", accuracy.traverse_quasi_steady);
             ("traverse of 20 s, quasi-steady", 1e3, "ms", error)
         }
+        Unit::TraverseDynamicOutcome => ("the same without records, dynamic", 1e3, "ms", None),
+        Unit::TraverseQuasiSteadyOutcome => {
+            ("the same without records, quasi-steady", 1e3, "ms", None)
+        }
+        Unit::ControlStep => {
+            let error = of_way("control_step_error_mm", accuracy.control_step);
+            ("step of 20 ms at new speeds, dynamic", 1e6, "µs", error)
+        }
+        Unit::ControlStepQuasiSteady => {
+            let error =
+                of_way("control_step_quasi_steady_error_mm", accuracy.control_step_quasi_steady);
+            ("step of 20 ms at new speeds, quasi-steady", 1e6, "µs", error)
+        }
         Unit::HeadingCurve => {
             let error = accuracy.heading_curve;
             let shown = format!("{error:.1e} of the weight");
@@ -109,11 +131,20 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
         }
         Unit::Campaign => {
             let value = 1.0 / seconds;
-            let (what, unit) = ("traverses on varied soil, all cores", "per second");
+            let (what, unit) = ("ends of traverses on varied soil, all cores", "per second");
             return Row { what, key: Unit::Campaign.key(), value, unit, error: None };
         }
     };
     Row { what, key: unit.key(), value: seconds * factor, unit: name, error }
+}
+
+/// What the force of a driving wheel takes at least.
+///
+/// * `operation`: time of a multiplication or an addition [s]
+fn least_of_force(operation: f64) -> Row {
+    let value = 1e9 * operation * OPERATIONS_OF_A_FORCE;
+    let what = "force of a driving wheel, at least";
+    Row { what, key: "force_ns_least", value, unit: "ns", error: None }
 }
 
 /// Time from the start of the program to its first answer; missing where it cannot start itself.
