@@ -1,7 +1,7 @@
 """What Python costs: the same work asked from NumPy, and done by a program that has it at hand.
 
 Both use all cores, in turns, so that other work on the machine slows both; the best time of each
-counts. The program is the one argument.
+counts. The program is the one argument. A second table has calls that do little each.
 """
 
 from __future__ import annotations
@@ -14,8 +14,11 @@ from collections.abc import Callable
 import numpy as np
 
 import grouser as gr
+from grouser.gym import LevelTraverseVectorEnv
 
 ROUNDS = 5
+#: Rovers of the vector environment, and how long an action lasts [s].
+ENVIRONMENTS, PERIOD_S = 64, 0.02
 
 
 def alone(work: str, *columns: np.ndarray) -> float:
@@ -38,12 +41,44 @@ def measure(name: str, native: Callable[[], float], python: Callable[[], object]
     return f"{name:<44}{rust:8.3f} s  {numpy:8.3f} s  {100 * (numpy / rust - 1):+6.1f} %"
 
 
+def call(name: str, work: Callable[[], object], calls: int = 200) -> str:
+    """A line of the table of single calls."""
+    best = float("inf")
+    for _ in range(ROUNDS):
+        start = time.perf_counter()
+        for _ in range(calls):
+            work()
+        best = min(best, (time.perf_counter() - start) / calls)
+    return f"{name:<58}{1e6 * best:8.1f} µs"
+
+
+def steps_of_mujoco() -> list[str]:
+    """Lines for a four-wheel rover in MuJoCo; none where it is not installed."""
+    try:
+        import mujoco
+        from grouser.mujoco import SoilContact, rover_xml
+    except ImportError:
+        return []
+    rover = gr.Rover("hakuto")
+    model = mujoco.MjModel.from_xml_string(rover_xml(rover))
+    data = mujoco.MjData(model)
+    wheels = {mount["name"]: rover.wheel for mount in rover.mount}
+    soil = SoilContact(model, soil="toyoura", wheels=wheels, ground="ground")
+    soil.step(data, 500)
+    # MuJoCo alone steps the rover as the soil holds it: with the forces of the last step.
+    return [
+        call("MuJoCo: a step of a rover on soil, in SoilContact.step", lambda: soil.step(data)),
+        call("MuJoCo: mj_step of the same model", lambda: mujoco.mj_step(model, data)),
+    ]
+
+
 def main() -> None:
     rng = np.random.default_rng(1)
     count = 1_000_000
     load, ratio, angle = (
         rng.uniform(low, high, count) for low, high in [(5.0, 40.0), (0.0, 0.9), (-20.0, 20.0)]
     )
+    depth = rng.uniform(1.0, 30.0, count)
     soil, wheel = gr.Soil("toyoura"), gr.Wheel("hakuto")
 
     slopes, yaws = rng.uniform(0.0, 18.0, 10_000), rng.uniform(-10.0, 10.0, 10_000)
@@ -57,6 +92,13 @@ def main() -> None:
             "1,000,000 wheels settle",
             lambda: alone("wheels", load, ratio, angle),
             lambda: gr.settle(soil, wheel, load_n=load, slip_ratio=ratio, slip_angle_deg=angle),
+        ),
+        (
+            "forces of 1,000,000 wheels",
+            lambda: alone("forces", depth, ratio, angle),
+            lambda: gr.wheel_forces(
+                soil, wheel, sinkage_mm=depth, slip_ratio=ratio, slip_angle_deg=angle
+            ),
         ),
         (
             "10,000 quasi-steady traverses of 20 s",
@@ -76,6 +118,48 @@ def main() -> None:
     ]
     for line in lines:
         print(measure(*line), flush=True)
+    print()
+    print(f"{'Run.step of 20 ms, new speeds at each':<44}{1e6 * step_seconds():8.0f} µs")
+    for simulation in ("dynamic", "quasi-steady"):
+        name = f"{ENVIRONMENTS} environments, {simulation}, {1e3 * PERIOD_S:.0f} ms"
+        print(f"{name:<44}{steps_per_second(simulation):8.0f} steps/s", flush=True)
+
+
+def step_seconds() -> float:
+    """Seconds that a step takes under speeds that rise and fall."""
+    run, count = gr.Run(gr.Scenario(), commands="rim_speed_m_s"), 200
+    speeds = 0.06 * (1.0 + 0.2 * np.sin(0.025 * np.arange(ROUNDS * count)))
+    times = []
+    for part in speeds.reshape(ROUNDS, count):
+        start = time.perf_counter()
+        for speed in part:
+            run.step(speed, PERIOD_S)
+        times.append((time.perf_counter() - start) / count)
+    return min(times)
+
+
+def steps_per_second(simulation: str) -> float:
+    """Steps of a vector environment under actions that change at each step."""
+    settings = {"dt_s": PERIOD_S, "scenario": {"simulation": simulation}}
+    envs = LevelTraverseVectorEnv(ENVIRONMENTS, max_episode_steps=None, **settings)
+    envs.reset(seed=1)
+    rng, count = np.random.default_rng(1), 20
+    straight = np.tile([0.6, 0.0], (ENVIRONMENTS, 1))
+    best = 0.0
+    for _ in range(ROUNDS):
+        actions = straight + rng.uniform(-0.05, 0.05, (count, *straight.shape))
+        start = time.perf_counter()
+        for action in actions:
+            envs.step(action)
+        best = max(best, count * ENVIRONMENTS / (time.perf_counter() - start))
+    return best
+
+    print(f"\n{'call':<58}{'time':>11}")
+    print(call("a preset of a soil", lambda: gr.Soil("toyoura")))
+    print(call("a soil with another cohesion", lambda: soil.replace(cohesion_kpa=0.5)))
+    print(call("a wheel settles", lambda: gr.settle(soil, wheel, load_n=17.0, slip_ratio=0.2)))
+    for step in steps_of_mujoco():
+        print(step)
 
 
 main()

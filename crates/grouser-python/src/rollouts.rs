@@ -6,7 +6,7 @@ use grouser::document::{
     Described as _, Kind, LoadedScenario, LoadedSoil, Misfit, range, scenario_with,
 };
 use grouser::error::ParameterError;
-use grouser::simulation::Scenario;
+use grouser::simulation::{Run, Scenario};
 use grouser::soil::Soil;
 use grouser::studies::ensemble::outputs_while;
 use numpy::{PyArray2, PyReadonlyArray1};
@@ -17,7 +17,6 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::studies::run;
 use crate::varied::{self, VariedKeys};
 use crate::wheels::{check_or_nan, column};
 
@@ -192,7 +191,8 @@ impl End {
 
     fn of(scenario: &Scenario, keep: bool) -> Self {
         let row = |sample| RECORD.each_ref().map(|column| column.number(sample));
-        match run(scenario) {
+        let lead = if keep { Run::to_end } else { Run::to_outcome };
+        match Run::new(scenario).and_then(lead) {
             Ok(run) => Self {
                 outcome: run.outcome.name(),
                 reason: run.outcome.reason(),

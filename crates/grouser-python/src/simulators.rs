@@ -210,6 +210,8 @@ impl Simulators {
         self.each(py, |rover, place| {
             // A failure is kept with its rover, and the others go on.
             let _ = active[place].then(|| rover.step(&rims[place], dt_s));
+            // Its wheels settle here, on all cores, and not where it is read.
+            let _ = rover.rover.run().now();
             Ok(())
         })
     }

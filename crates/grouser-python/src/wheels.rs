@@ -1,10 +1,10 @@
 //! Arrays of wheels: each settles by itself, and has the bits that it has alone.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::time::{Duration, Instant};
 
 use grouser::contact::validity::{Finding, Situation};
-use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, settle as settle_one};
+use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, forces_many, settle_many};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::{Described, Kind, Misfit, range, study};
@@ -121,6 +121,12 @@ impl Stand {
         Ok((Contact { wheel, soil, slip, gravity }, theory))
     }
 
+    /// The same of a wheel whose numbers are all there and go together.
+    fn known_contact(&self, inputs: &Inputs<'_>, place: usize) -> Option<(Contact, Theory)> {
+        let contact = self.contact(inputs, place).ok();
+        contact.filter(|_| !self.is_missing(inputs, place))
+    }
+
     /// Whether one of a wheel's numbers is NaN.
     fn is_missing(&self, inputs: &Inputs<'_>, place: usize) -> bool {
         let Inputs { pressed, slip_ratios, slip_angles_deg, .. } = inputs;
@@ -215,22 +221,59 @@ pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult
 }
 
 /// A column for each of [`WHEEL`], then what one of them adds, and its flags as bits.
-type Row = [f64; WHEEL.len() + 2];
+const COLUMNS: usize = WHEEL.len() + 2;
 
-fn row(results: &[f64; WHEEL.len()], last: f64, findings: &[Finding]) -> Row {
-    let mut row = [last; WHEEL.len() + 2];
-    row[..WHEEL.len()].copy_from_slice(results);
-    row[WHEEL.len() + 1] = bits(findings);
-    row
+/// Some neighbouring wheels, and the cells of their results: a part of each column.
+struct Share<'a> {
+    places: Range<usize>,
+    columns: Vec<&'a mut [f64]>,
 }
 
-/// The flags of a wheel on a test stand.
-fn findings(
+impl Share<'_> {
+    /// Writes a wheel's results, and what one of the columns adds.
+    fn write(
+        &mut self,
+        place: usize,
+        results: &[f64; WHEEL.len()],
+        last: f64,
+        findings: &[Finding],
+    ) {
+        let cell = place - self.places.start;
+        for (column, result) in self.columns.iter_mut().zip(results) {
+            column[cell] = *result;
+        }
+        self.columns[WHEEL.len()][cell] = last;
+        self.columns[WHEEL.len() + 1][cell] = bits(findings);
+    }
+}
+
+/// Wheels under their loads [N] that settle by one model, and their places.
+struct OfModel {
+    theory: Theory,
+    places: Vec<usize>,
+    wheels: Vec<(Contact, f64)>,
+}
+
+impl OfModel {
+    /// Adds a wheel to those of its model.
+    fn add(all: &mut Vec<Self>, theory: Theory, place: usize, wheel: (Contact, f64)) {
+        let known = all.iter().position(|it| it.theory == theory).unwrap_or_else(|| {
+            all.push(Self { theory, places: Vec::new(), wheels: Vec::new() });
+            all.len() - 1
+        });
+        all[known].places.push(place);
+        all[known].wheels.push(wheel);
+    }
+}
+
+/// The flags of a wheel on a test stand, in place of those that are in `found`.
+fn find_flags(
+    found: &mut Vec<Finding>,
     contact: &Contact,
     theory: Theory,
     load: f64,
     settled: Option<&Settled>,
-) -> Vec<Finding> {
+) {
     let situation = Situation {
         theory,
         wheel: &contact.wheel,
@@ -241,33 +284,32 @@ fn findings(
         slip: Some(contact.slip),
         settled,
     };
-    situation.findings()
+    found.clear();
+    situation.add_to(found);
 }
 
-/// Evaluates every wheel in order, batch by batch, into an array with a row for each result.
+/// Evaluates all wheels, batch by batch and share by share, into an array with a row for each result.
 fn evaluate(
     py: Python<'_>,
     count: usize,
-    one: impl Fn(usize) -> Row + Sync,
+    compute: impl Fn(Share<'_>) + Sync,
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
-    let results = PyArray2::<f64>::zeros(py, [WHEEL.len() + 2, count], false);
+    let results = PyArray2::<f64>::zeros(py, [COLUMNS, count], false);
     {
         let mut results = results.readwrite();
         let cells = results.as_slice_mut()?;
         let (mut start, mut batch) = (0, FIRST_BATCH);
         while start < count {
             let end = (start + batch).min(count);
-            let share = (batch / SHARES).clamp(1, SHARE);
+            let size = (batch / SHARES).clamp(1, SHARE);
             let begun = Instant::now();
-            threads::detached(py, || {
-                let places = (start..end).into_par_iter().with_min_len(share);
-                let rows: Vec<Row> = places.map(&one).collect();
-                cells.par_chunks_mut(count).enumerate().for_each(|(column, cells)| {
-                    for (cell, row) in cells[start..end].iter_mut().zip(&rows) {
-                        *cell = row[column];
-                    }
-                });
-            })?;
+            let mut shares = shares(cells, count, start..end, size);
+            // A single wheel is settled before a thread has woken up.
+            if shares.len() == 1 {
+                shares.into_iter().for_each(&compute);
+            } else {
+                threads::detached(py, || shares.par_drain(..).for_each(&compute))?;
+            }
             if begun.elapsed() < *BATCH_TIME.start() {
                 batch = (2 * batch).min(LARGEST_BATCH);
             } else if begun.elapsed() > *BATCH_TIME.end() {
@@ -278,6 +320,22 @@ fn evaluate(
         }
     }
     Ok(results)
+}
+
+/// A batch of wheels in shares of one size, in order.
+///
+/// * `cells`: of all columns, each of `count` wheels
+fn shares(cells: &mut [f64], count: usize, batch: Range<usize>, size: usize) -> Vec<Share<'_>> {
+    let share = |first: usize| Share {
+        places: first..(first + size).min(batch.end),
+        columns: Vec::with_capacity(COLUMNS),
+    };
+    let mut shares: Vec<_> = batch.clone().step_by(size).map(share).collect();
+    for column in cells.chunks_mut(count) {
+        let parts = column[batch.clone()].chunks_mut(size);
+        shares.iter_mut().zip(parts).for_each(|(share, part)| share.columns.push(part));
+    }
+    shares
 }
 
 /// What `settle` returns: results by rows, the names of the rows, and whether each wheel is carried.
@@ -315,22 +373,34 @@ pub(crate) fn settle<'py>(
     let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
     inputs.check(stand.soils.len(), LOAD.name, &study::LOAD_N)?;
     stand.check(py, &inputs)?;
-    let one = |place: usize| {
-        let contact = stand.contact(&inputs, place).ok();
-        let Some((contact, theory)) = contact.filter(|_| !stand.is_missing(&inputs, place)) else {
-            return row(&NO_WHEEL, f64::NAN, &[]);
-        };
-        let load = inputs.pressed[place];
-        let found = settle_one(theory.model(), &contact, load);
-        let flags = findings(&contact, theory, load, found.as_ref().ok());
-        match found {
-            Ok(settled) => row(&wheel_row(&settled), f64::NAN, &flags),
-            Err(SettleError::SunkToAxle { capacity, .. }) => row(&NO_WHEEL, capacity, &flags),
-            // Loads were checked.
-            Err(SettleError::BadLoad { .. }) => row(&NO_WHEEL, f64::NAN, &flags),
+    let compute = |mut share: Share<'_>| {
+        let (mut by_model, mut flags) = (Vec::new(), Vec::new());
+        for place in share.places.clone() {
+            match stand.known_contact(&inputs, place) {
+                Some((contact, theory)) => {
+                    OfModel::add(&mut by_model, theory, place, (contact, inputs.pressed[place]));
+                }
+                None => share.write(place, &NO_WHEEL, f64::NAN, &[]),
+            }
+        }
+        for OfModel { theory, places, wheels } in by_model {
+            let found = settle_many(theory.model(), &wheels);
+            for ((place, (contact, load)), found) in places.into_iter().zip(&wheels).zip(found) {
+                find_flags(&mut flags, contact, theory, *load, found.as_ref().ok());
+                match found {
+                    Ok(settled) => share.write(place, &wheel_row(&settled), f64::NAN, &flags),
+                    Err(SettleError::SunkToAxle { capacity, .. }) => {
+                        share.write(place, &NO_WHEEL, capacity, &flags);
+                    }
+                    // Loads were checked.
+                    Err(SettleError::BadLoad { .. }) => {
+                        share.write(place, &NO_WHEEL, f64::NAN, &flags);
+                    }
+                }
+            }
         }
     };
-    Ok((evaluate(py, inputs.pressed.len(), one)?, names("capacity_n")))
+    Ok((evaluate(py, inputs.pressed.len(), compute)?, names("capacity_n")))
 }
 
 /// The forces on wheels at given sinkages. Its last rows are that sinkage once more, and no flags.
@@ -375,18 +445,28 @@ pub(crate) fn wheel_forces<'py>(
             }
         }
     }
-    let one = |place: usize| {
-        let contact = stand.contact(&inputs, place).ok();
-        let Some((contact, theory)) = contact.filter(|_| !stand.is_missing(&inputs, place)) else {
-            return row(&NO_WHEEL, inputs.pressed[place], &[]);
-        };
-        let sinkage = SINKAGE.unit.to_si(inputs.pressed[place]);
-        let forces = theory.model().forces(&contact, sinkage);
-        let settled = Settled { sinkage, forces, evaluations: 1 };
-        // Forces at a given depth are no equilibrium: they carry no flags.
-        row(&wheel_row(&settled), inputs.pressed[place], &[])
+    let compute = |mut share: Share<'_>| {
+        let mut by_model = Vec::new();
+        for place in share.places.clone() {
+            let sinkage_mm = inputs.pressed[place];
+            match stand.known_contact(&inputs, place) {
+                Some((contact, theory)) => {
+                    let sunk = (contact, SINKAGE.unit.to_si(sinkage_mm));
+                    OfModel::add(&mut by_model, theory, place, sunk);
+                }
+                None => share.write(place, &NO_WHEEL, sinkage_mm, &[]),
+            }
+        }
+        for OfModel { theory, places, wheels } in by_model {
+            let found = forces_many(theory.model(), &wheels);
+            for ((place, (_, sinkage)), forces) in places.into_iter().zip(&wheels).zip(found) {
+                let settled = Settled { sinkage: *sinkage, forces, evaluations: 1 };
+                // Forces at a given depth are no equilibrium: they carry no flags.
+                share.write(place, &wheel_row(&settled), inputs.pressed[place], &[]);
+            }
+        }
     };
-    Ok((evaluate(py, inputs.pressed.len(), one)?, names("given_sinkage_mm")))
+    Ok((evaluate(py, inputs.pressed.len(), compute)?, names("given_sinkage_mm")))
 }
 
 /// The library's messages for wheels that the soil does not carry.

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
@@ -15,6 +16,25 @@ from ._errors import ParameterError
 _Self = TypeVar("_Self", bound="_Description")
 #: The sources of a description: a preset's name, a path, or its keys.
 Source = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+#: What a description takes from its document only when it is asked for.
+_LATER: dict[str, Callable[[_core.Document], Any]] = {
+    "_files": lambda document: document.files,
+    "_items": lambda document: document.to_dict(),
+    "_toml": lambda document: document.to_toml(),
+}
+
+
+@lru_cache(maxsize=None)
+def _preset_names(kind: str) -> frozenset[str]:
+    return frozenset(name for name, _, _ in _core.presets(kind))
+
+
+@lru_cache(maxsize=None)
+def _preset(kind: str, name: str) -> _core.Document:
+    """A preset, which never changes: it is read once."""
+    return _core.find_document(kind, name, {})
 
 
 class _Description:
@@ -39,6 +59,8 @@ class _Description:
         if source is None:
             return self._from_keys(label, changes)
         if isinstance(source, str):
+            if not changes and source in _preset_names(kind):
+                return _preset(kind, source)
             return _core.find_document(kind, source, changes)
         if isinstance(source, os.PathLike):
             return _core.read_document_file(kind, os.fspath(source), changes)
@@ -55,9 +77,6 @@ class _Description:
 
     def _take(self, document: _core.Document) -> None:
         object.__setattr__(self, "_document", document)
-        object.__setattr__(self, "_files", document.files)
-        object.__setattr__(self, "_items", document.to_dict())
-        object.__setattr__(self, "_toml", document.to_toml())
 
     @classmethod
     def from_toml(cls: type[_Self], text: str, files: Mapping[str, str] | None = None) -> _Self:
@@ -142,6 +161,10 @@ class _Description:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
+            if name in _LATER:
+                value = _LATER[name](self._document)
+                object.__setattr__(self, name, value)
+                return value
             if name.startswith("_"):
                 raise AttributeError(name)
             if name not in self._items:
@@ -173,6 +196,8 @@ class _Description:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
+        if self._document is other._document:
+            return True
         return self._toml == other._toml and self._files == other._files
 
     def __hash__(self) -> int:

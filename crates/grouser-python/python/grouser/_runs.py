@@ -234,18 +234,18 @@ class RunBatch:
     def outcome(self) -> NDArray[np.object_]:
         """Outcome of each rover: None during its run, then ``immobilised``, ``sliding``,
         ``tipped_over``, ``brown_out``, or ``failed`` where the motion cannot be computed."""
-        return _objects(status[0] for status in self._status())
+        return objects(status[0] for status in self._status())
 
     @property
     def message(self) -> NDArray[np.object_]:
         """The outcome explained, or None."""
-        return _objects(status[1] for status in self._status())
+        return objects(status[1] for status in self._status())
 
     @property
     def simulation(self) -> NDArray[np.object_]:
         """Method of each run: ``dynamic``; ``quasi-steady`` if its scenario asks for it;
         ``fell-back`` after a fallback from quasi-steady to dynamic."""
-        return _objects(status[2] for status in self._status())
+        return objects(status[2] for status in self._status())
 
     @property
     def scenarios(self) -> tuple[Scenario, ...]:
@@ -487,7 +487,8 @@ class Run:
         return f"<Run at {self.time_s:.4g} s, {self.outcome or 'running'}: {state}>"
 
 
-def _objects(items: Any) -> NDArray[np.object_]:
+def objects(items: Any) -> NDArray[np.object_]:
+    """Anything as an array."""
     listed = list(items)
     array: NDArray[np.object_] = np.empty(len(listed), dtype=object)
     array[:] = listed

@@ -17,10 +17,7 @@ FLAGS: dict[str, str] = dict(_core.flags())
 
 def flags_of(bits: Floats) -> NDArray[np.object_]:
     """Names of flags, joined by ``;``, from their bits."""
-    different, index = np.unique(bits.astype(np.int64), return_inverse=True)
-    names = np.empty(len(different), dtype=object)
-    names[:] = _core.flag_names(different.tolist())
-    return names[index.ravel()].reshape(bits.shape)
+    return _core.flag_names(bits.ravel()).reshape(bits.shape)
 
 
 def require_inside(result: Any) -> Any:

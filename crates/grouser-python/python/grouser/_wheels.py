@@ -388,10 +388,11 @@ def _setting(gravity_m_s2: float, model: str | None) -> Scenario:
 def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
     """The different soils, and which of them each wheel has."""
     is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
-    cells: NDArray[np.object_] = np.empty((), dtype=object)
     if is_one:
-        cells[()] = soil
-    elif isinstance(soil, np.ndarray):
+        given: Any = soil
+        return [given if isinstance(given, Soil) else Soil(given)], np.zeros((), dtype=np.int64)
+    cells: NDArray[np.object_] = np.empty((), dtype=object)
+    if isinstance(soil, np.ndarray):
         cells = soil.astype(object)
     elif isinstance(soil, Sequence):
         cells = np.empty(len(soil), dtype=object)

@@ -14,7 +14,7 @@ from .. import _core
 from .._arrays import Floats, line, number, numbers
 from .._descriptions import Scenario, Soil, Source
 from .._errors import ParameterError
-from .._runs import RunBatch
+from .._runs import RunBatch, objects
 from ._rovers import Rovers
 from ._single import ONE, OneRoverEnv
 from ._vector import ManyRoversEnv
@@ -196,6 +196,25 @@ class Paths(Rovers):
 
     def outcome(self, k: int) -> str | None:
         return self.ends[k][0]
+
+    def outcomes(self) -> NDArray[np.object_]:
+        return objects(outcome for outcome, *_ in self.ends)
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        columns: dict[str, NDArray[Any]] = {
+            **super().columns(),
+            "y_m": self.batch.state[:, 1],
+            "time_s": self.batch.time_s,
+            **{name: self.beside[:, place] for place, name in enumerate(_BESIDE)},
+            "stopped_by": objects(limit for _, limit, *_ in self.ends),
+            "reason": objects(reason for *_, reason in self.ends),
+            **{f"reward_{name}": part for name, part in self.parts.items()},
+        }
+        values = np.array([np.nan if value is None else value for _, _, value, _ in self.ends])
+        if not np.isnan(values).all():
+            # Numbers of those rovers alone that have one.
+            columns["stopped_value"] = np.ma.masked_invalid(values)
+        return columns
 
     def info(self, k: int) -> dict[str, Any]:
         _, stopped_by, value, reason = self.ends[k]

@@ -131,6 +131,21 @@ class Rovers:
         outcome: str | None = self.batch.outcome[k]
         return outcome
 
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """What `info` has of each rover, as arrays."""
+        fallback = ~np.isin(self.batch.simulation.astype(str), ("dynamic", "quasi-steady"))
+        return {
+            "x_m": self.batch.state[:, 0],
+            "slope_deg": self.slope_deg,
+            "energy_j": self.batch.energy_j,
+            "outcome": self.outcomes(),
+            "fallback_to_dynamic": fallback,
+        }
+
+    def outcomes(self) -> NDArray[np.object_]:
+        """What became of each rover."""
+        return self.batch.outcome
+
     def info(self, k: int) -> dict[str, Any]:
         return {
             "x_m": float(self.batch.state[k, 0]),

@@ -145,6 +145,12 @@ class ManyRoversEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         self._pictures.close()
 
     def _infos(self, infos: dict[str, Any], which: NDArray[np.bool_]) -> dict[str, Any]:
-        for k in places(which):
-            infos = self._add_info(infos, self._rovers.info(k), k)
+        """Adds what is known of some rovers, in the form of Gymnasium's own vector environments."""
+        for name, values in self._rovers.columns().items():
+            known = which & ~np.ma.getmaskarray(values)
+            nothing: NDArray[Any] = np.full(self.num_envs, None)
+            if values.dtype != np.object_:
+                nothing = np.zeros(self.num_envs, dtype=values.dtype)
+            infos[name] = np.where(known, np.ma.getdata(values), nothing)
+            infos[f"_{name}"] = known
         return infos

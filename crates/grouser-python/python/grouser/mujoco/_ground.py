@@ -41,7 +41,9 @@ class _Plane:
     def under(self, data: Any, hubs: Floats, axles: Floats) -> tuple[Floats, Floats]:
         normal = data.geom_xmat[self._geom][2::3]
         distances: Floats = (hubs - data.geom_xpos[self._geom]) @ normal
-        return np.broadcast_to(normal, hubs.shape), distances
+        normals = np.empty(hubs.shape)
+        normals[:] = normal
+        return normals, distances
 
 
 class _Uneven:

@@ -28,7 +28,8 @@ def inertia_of_step(model: Any, stepped: Any) -> Floats:
         rows = np.repeat(np.arange(model.nv), model.D_rownnz)
         inertia[rows, model.D_colind] -= duration * stepped.qDeriv
     elif not model.opt.disableflags & _EULER_DAMPING_OFF:
-        inertia[np.diag_indices(model.nv)] += duration * model.dof_damping
+        # A view of the diagonal.
+        inertia.reshape(-1)[:: model.nv + 1] += duration * model.dof_damping
     return inertia
 
 
