@@ -124,6 +124,13 @@ def main() -> None:
         name = f"{ENVIRONMENTS} environments, {simulation}, {1e3 * PERIOD_S:.0f} ms"
         print(f"{name:<44}{steps_per_second(simulation):8.0f} steps/s", flush=True)
 
+    print(f"\n{'call':<58}{'time':>11}")
+    print(call("a preset of a soil", lambda: gr.Soil("toyoura")))
+    print(call("a soil with another cohesion", lambda: soil.replace(cohesion_kpa=0.5)))
+    print(call("a wheel settles", lambda: gr.settle(soil, wheel, load_n=17.0, slip_ratio=0.2)))
+    for step in steps_of_mujoco():
+        print(step)
+
 
 def step_seconds() -> float:
     """Seconds that a step takes under speeds that rise and fall."""
@@ -153,13 +160,6 @@ def steps_per_second(simulation: str) -> float:
             envs.step(action)
         best = max(best, count * ENVIRONMENTS / (time.perf_counter() - start))
     return best
-
-    print(f"\n{'call':<58}{'time':>11}")
-    print(call("a preset of a soil", lambda: gr.Soil("toyoura")))
-    print(call("a soil with another cohesion", lambda: soil.replace(cohesion_kpa=0.5)))
-    print(call("a wheel settles", lambda: gr.settle(soil, wheel, load_n=17.0, slip_ratio=0.2)))
-    for step in steps_of_mujoco():
-        print(step)
 
 
 main()
