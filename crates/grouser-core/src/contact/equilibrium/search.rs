@@ -216,7 +216,7 @@ impl<'a> Search<'a> {
                 best = point;
             }
         }
-        let best = self.peak_around(best, STEP);
+        let best = if best.1 < 0.0 { self.peak_around(best, STEP) } else { best };
         if best.1 < 0.0 {
             let load = self.wheel.load;
             let capacity = (load * elementary::exp(best.1)).max(0.0);
@@ -251,15 +251,18 @@ impl<'a> Search<'a> {
         if best.0 < axle {
             return peak(self, (best.0 - step, (best.0 + step).min(axle)), best);
         }
-        // Mostly F_z grows down to the axle, but for corners near it, which are lower than this.
-        const CORNERS: f64 = 1e-3;
+        // Mostly F_z grows down to the axle, or has a smooth peak above it.
         let look = axle - 0.2 * step;
-        if self.excess(look) <= best.1 && best.1 < -CORNERS {
+        let look = (look, self.excess(look));
+        let best = if look.1 > best.1 { peak(self, (axle - step, axle), look) } else { best };
+        // Corners near the axle are lower than this.
+        const CORNERS: f64 = 1e-3;
+        if best.1 < -CORNERS || best.1 >= 0.0 {
             return best;
         }
         // Where they decide, they are looked for ever nearer to the axle.
         const HALVINGS: i32 = 22;
-        let (mut best, mut ends) = (best, (axle - step, axle));
+        let (smooth, mut best, mut ends) = (best, best, (axle - step, axle));
         let mut deeper = axle;
         for halvings in (0..=HALVINGS).rev() {
             let at = axle - step / f64::from(1 << halvings);
@@ -269,6 +272,6 @@ impl<'a> Search<'a> {
             }
             deeper = at;
         }
-        peak(self, (ends.0.max(axle - step), ends.1), best)
+        if best == smooth { best } else { peak(self, (ends.0.max(axle - step), ends.1), best) }
     }
 }
