@@ -8,10 +8,12 @@ use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::units::{Vec2, Vec3};
 
+pub mod elevation;
 pub mod footprint;
 pub mod height_field;
 pub mod soil_field;
 
+pub use elevation::{ElevationError, ElevationGrid, ElevationModel, Extent};
 pub use footprint::Footprint;
 pub use height_field::HeightField;
 pub use soil_field::{SoilField, SoilScatter};
@@ -58,6 +60,13 @@ pub trait Terrain {
     /// The soil of that patch.
     fn soil(&self, at: Vec2, footprint: Footprint) -> Cow<'_, Soil> {
         self.patch(at, footprint).soil
+    }
+
+    /// Whether what is known of the ground reaches that far. Where it does not,
+    /// [`patch`](Self::patch) has an answer all the same, which continues what is known.
+    fn covers(&self, at: Vec2, footprint: Footprint) -> bool {
+        let _ = (at, footprint);
+        true
     }
 }
 
