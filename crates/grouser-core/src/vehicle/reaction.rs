@@ -112,14 +112,7 @@ impl<'a> Ground<'a> {
         stance: &Stance,
         slips: &[Slip],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let mut contacts = Vec::with_capacity(slips.len());
-        self.meet(stance, slips, &mut contacts);
-        if self.is_coupled()
-            && let Some(wheels) = self.settle_together(stance, &contacts, &mut Vec::new())
-        {
-            return Ok(wheels);
-        }
-        self.settle_in_turns(stance, &contacts, &[])
+        self.reactions_near(stance, slips, &[])
     }
 
     /// As [`reactions`](Self::reactions), from those in a stance and a motion nearby: loads and
