@@ -61,10 +61,6 @@ impl WheelSoilModel for Ishigami {
         self.relation(contact).forces(contact, sinkage)
     }
 
-    fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
-        self.relation(contact).most_normal_force(sinkage)
-    }
-
     fn load_sinkage(&self, contact: &Contact) -> Option<LoadSinkage> {
         Some(self.relation(contact))
     }

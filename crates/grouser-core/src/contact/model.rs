@@ -39,9 +39,11 @@ pub trait WheelSoilModel: Sync {
 
     /// More than F_z [N] at this sinkage [m] and at all that are shallower; infinite where the model does
     /// not know. It spares a wheel that the soil cannot carry most of the search.
+    ///
+    /// A model with a [`load_sinkage`](Self::load_sinkage) relation has it from there.
     fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {
-        let _ = (contact, sinkage);
-        f64::INFINITY
+        let relation = self.load_sinkage(contact);
+        relation.map_or(f64::INFINITY, |relation| relation.most_normal_force(sinkage))
     }
 
     /// The contact made ready for a search over sinkages, if the model knows how.
