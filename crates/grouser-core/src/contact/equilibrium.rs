@@ -104,15 +104,7 @@ pub fn settle_from(
 }
 
 fn settle_wheel(wheel: &LoadedWheel<'_>) -> Result<Settled, SettleError> {
-    let &LoadedWheel { model, contact, load, .. } = wheel;
-    if !(load.is_finite() && load >= 0.0) {
-        return Err(SettleError::BadLoad { load });
-    }
-    if load == 0.0 {
-        let forces = model.forces(contact, 0.0);
-        return Ok(Settled { sinkage: 0.0, forces, evaluations: 1 });
-    }
-    settle_ready(wheel, model.load_sinkage(contact).as_ref()).0
+    settle_wheel_counted(wheel).0
 }
 
 /// As [`settle`], with how often the model was evaluated, for F_z alone or for all forces, whatever came
@@ -125,15 +117,23 @@ pub fn settle_counted(
     contact: &Contact,
     load: f64,
 ) -> (Result<Settled, SettleError>, u32) {
-    let wheel = LoadedWheel { model, contact, load, guess: None };
-    if load.is_finite() && load > 0.0 {
-        settle_ready(&wheel, model.load_sinkage(contact).as_ref())
-    } else {
-        (settle_wheel(&wheel), u32::from(load == 0.0))
-    }
+    settle_wheel_counted(&LoadedWheel { model, contact, load, guess: None })
 }
 
 /// The result, and how often the model was evaluated.
+fn settle_wheel_counted(wheel: &LoadedWheel<'_>) -> (Result<Settled, SettleError>, u32) {
+    let &LoadedWheel { model, contact, load, .. } = wheel;
+    if !(load.is_finite() && load >= 0.0) {
+        return (Err(SettleError::BadLoad { load }), 0);
+    }
+    if load == 0.0 {
+        let forces = model.forces(contact, 0.0);
+        return (Ok(Settled { sinkage: 0.0, forces, evaluations: 1 }), 1);
+    }
+    settle_ready(wheel, model.load_sinkage(contact).as_ref())
+}
+
+/// The same under a load that a wheel can carry, and that is not 0.
 ///
 /// * `relation`: of the wheel, if its model has one
 fn settle_ready(
