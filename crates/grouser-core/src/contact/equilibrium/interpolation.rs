@@ -24,7 +24,7 @@ pub(super) struct Interpolation {
     exponent: f64,
     points: [Point; MOST_POINTS],
     count: usize,
-    steps: usize,
+    steps: u32,
 }
 
 /// What an interpolation does next.
@@ -49,7 +49,7 @@ impl Interpolation {
     /// What it does now.
     pub(super) fn next(&self) -> Next {
         /// Sinkages that are tried: every usual law is solved by then.
-        const MOST_STEPS: usize = 8;
+        const MOST_STEPS: u32 = 8;
         /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
         const STEEPEST: f64 = 4.0;
         /// The next point's error is below the product of the last points' (three, or the only two), times
@@ -80,6 +80,11 @@ impl Interpolation {
         let error: f64 = points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
         let last = count >= 2 && CURVATURE * error < LOAD_TOLERANCE;
         if last || count == MOST_POINTS { Next::TryLast(next) } else { Next::Try(next) }
+    }
+
+    /// How many excesses it has taken, that of its start included.
+    pub(super) fn evaluations(&self) -> u32 {
+        self.steps + 1
     }
 
     /// Takes the excess at the point that it asked for.

@@ -94,7 +94,6 @@ struct Searching<'a> {
     relation: LoadSinkage,
     start: Start,
     search: Option<Interpolation>,
-    evaluations: u32,
     question: Question,
 }
 
@@ -117,7 +116,6 @@ impl<'a> Searching<'a> {
             relation,
             start: Start::default(),
             search: None,
-            evaluations: 0,
             question: Question::Nothing,
         }
     }
@@ -134,7 +132,6 @@ impl<'a> Searching<'a> {
         excess: f64,
         reaction: Option<(f64, &Reaction)>,
     ) -> Option<Result<Settled, SettleError>> {
-        self.evaluations += 1;
         let Start { axle, exponent, .. } = self.start;
         let search = match &mut self.search {
             Some(search) => {
@@ -149,7 +146,7 @@ impl<'a> Searching<'a> {
             Next::Found(_) => {
                 if let Some((sinkage, reaction)) = reaction {
                     self.question = Question::Nothing;
-                    let (contact, evaluations) = (self.wheel.contact, self.evaluations);
+                    let (contact, evaluations) = (self.wheel.contact, search.evaluations());
                     let forces = self.relation.finished(contact, reaction, sinkage);
                     return Some(Ok(Settled::of(contact, sinkage, forces, evaluations)));
                 }
