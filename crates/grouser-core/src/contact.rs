@@ -25,6 +25,7 @@ mod gauss;
 mod inputs;
 pub mod ishigami;
 mod kernel;
+mod lanes;
 pub mod load_sinkage;
 pub mod mechanism;
 mod mirror;

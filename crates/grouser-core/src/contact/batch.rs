@@ -11,10 +11,11 @@ use super::inputs::Contact;
 use super::kernel::dispatch::Work;
 use super::kernel::rule::Nodes;
 use super::kernel::wheels::{self, Reactions, Walls, Wheels};
+use super::lanes::{Each, WIDE, each};
 use super::load_sinkage::{Arc, LoadSinkage};
 use super::model::WheelSoilModel;
 use super::stress::MobilisedShear;
-use super::stress::wheels::{Each, StressLaws, WIDE};
+use super::stress::wheels::StressLaws;
 
 /// Fewer wheels of a kind than this are computed one by one: that takes less than lanes, most of which
 /// stay empty. Source: measured.
@@ -90,7 +91,7 @@ impl Lanes {
         let wheels: [_; WIDE] = std::array::from_fn(wheel);
         Self {
             laws: StressLaws::of(&wheels.map(|(_, _, arc)| &arc.law)),
-            areas: Each(wheels.map(|(_, relation, _)| relation.area())),
+            areas: wheels.map(|(_, relation, _)| relation.area()),
             nodes: wheels[0].2.nodes(),
             walls: Walls::of(|lane| WallResistance::of(wheels[lane].0)),
         }
@@ -166,7 +167,7 @@ fn finish(group: &mut Vec<Sunk<'_>>, results: &mut [WheelForces]) {
     let arc =
         |lane: usize| of(lane).relation.only_arc().expect("wheels with two are not among them");
     let lanes = Lanes::of(|lane| (of(lane).contact, &of(lane).relation, arc(lane)));
-    let sinkages = Each(std::array::from_fn(|lane| of(lane).sinkage));
+    let sinkages = each(|lane| of(lane).sinkage);
     let mut reactions = Reactions::default();
     arc(0).set.run(AtOnce { lanes: &lanes, sinkages: &sinkages, reactions: &mut reactions });
     for (lane, Sunk { place, contact, relation, sinkage }) in group.drain(..).enumerate() {

@@ -11,9 +11,8 @@
 //! ```
 //!
 //! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `sums` what they meet
-//! together, `exposure` which of them grousers hide, `lanes` how many are computed side by side. The
-//! law knows no front, so the wheel is the sum of its two halves, each seen with its own mirror; nothing
-//! is blended.
+//! together, `exposure` which of them grousers hide. The law knows no front, so the wheel is the sum of
+//! its two halves, each seen with its own mirror; nothing is blended.
 //!
 //! A wheel below [`CREEP_SPEED`](super::slip::CREEP_SPEED) counts as one that sinks: directions
 //! come from the velocity less that speed downward. So a wheel at rest carries its load as a wheel
@@ -21,7 +20,6 @@
 
 mod exposure;
 mod facet;
-mod lanes;
 mod sums;
 mod surface;
 

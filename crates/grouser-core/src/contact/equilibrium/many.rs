@@ -18,9 +18,9 @@ use crate::contact::inputs::Contact;
 use crate::contact::kernel::InstructionSet;
 use crate::contact::kernel::dispatch::Work;
 use crate::contact::kernel::wheels::Reactions;
+use crate::contact::lanes::{Each, WIDE, each};
 use crate::contact::load_sinkage::{Arc, LoadSinkage, Reaction};
 use crate::contact::model::WheelSoilModel;
-use crate::contact::stress::wheels::{Each, WIDE};
 
 /// A wheel under its load: what settles.
 #[derive(Clone, Copy)]
@@ -274,14 +274,14 @@ impl Chunk {
         Self {
             wheels: wheels.to_vec(),
             lanes: Lanes::of(|lane| (of(lane).wheel.contact, &of(lane).relation, of(lane).arc())),
-            loads: Each(std::array::from_fn(|lane| of(lane).wheel.load)),
+            loads: each(|lane| of(lane).wheel.load),
         }
     }
 
     /// A number of each wheel.
     fn each(&self, number: impl Fn(usize) -> f64) -> Each {
         let last = self.wheels.len() - 1;
-        Each(std::array::from_fn(|lane| number(self.wheels[lane.min(last)])))
+        each(|lane| number(self.wheels[lane.min(last)]))
     }
 }
 

@@ -8,9 +8,10 @@
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
 use super::super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::super::lanes::{Each, WIDE, each};
 use super::super::load_sinkage::Reaction;
 use super::super::patch::ContactPatch;
-use super::super::stress::wheels::{Each, ShearNumbers, StressFields, StressLaws, WIDE};
+use super::super::stress::wheels::{ShearNumbers, StressFields, StressLaws};
 use super::super::stress::{
     AnisotropicShear, BoundedShear, IsotropicShear, MobilisedShear, RimPoint,
 };
@@ -30,7 +31,7 @@ pub(in crate::contact) struct Wheels<'a> {
 /// Σ over the nodes of each wheel, in the order of [`sum`].
 #[inline(always)]
 fn sums(of_nodes: &NodeSums) -> Each {
-    let mut all = Each::ZERO;
+    let mut all = [0.0; WIDE];
     for wheel in 0..WIDE {
         all[wheel] = sum(&of_nodes.each_ref().map(|each| each[wheel]));
     }
@@ -51,7 +52,7 @@ struct Points {
 impl Points {
     #[inline(always)]
     fn of(point: impl Fn(usize) -> RimPoint) -> Self {
-        let zeros = Each::ZERO;
+        let zeros = [0.0; WIDE];
         let mut points = Self { behind_entry: zeros, angle: zeros, sin: zeros, height: zeros };
         for wheel in 0..WIDE {
             let RimPoint { behind_entry, angle, sin, height } = point(wheel);
@@ -95,7 +96,7 @@ struct Rest {
 impl Rest {
     #[inline(always)]
     fn new() -> Self {
-        let zeros = [Each::ZERO; LANES];
+        let zeros = [[0.0; WIDE]; LANES];
         Self {
             shear_forward: zeros,
             normal_back: zeros,
@@ -112,7 +113,7 @@ impl<'a> Integral<'a> {
     #[inline(always)]
     fn new(fields: &'a StressFields<'a>, wheels: &'a Wheels<'a>, all: bool) -> Self {
         let rest = if all { Some(Rest::new()) } else { None };
-        let mut integral = Self { fields, wheels, up: [Each::ZERO; LANES], rest };
+        let mut integral = Self { fields, wheels, up: [[0.0; WIDE]; LANES], rest };
         match wheels.nodes {
             Nodes::BothSides(blocks) => {
                 for block in blocks {
@@ -128,7 +129,7 @@ impl<'a> Integral<'a> {
     #[inline(always)]
     fn add_both_sides(&mut self, block: &NodeBlock) {
         let fields = self.fields;
-        let (mut front, mut rear) = (Each::ZERO, Each::ZERO);
+        let (mut front, mut rear) = ([0.0; WIDE], [0.0; WIDE]);
         for wheel in 0..WIDE {
             let ContactPatch { entry, max_stress, exit } = fields.patch(wheel);
             (front[wheel], rear[wheel]) = (entry - max_stress, max_stress - exit);
@@ -158,7 +159,7 @@ impl<'a> Integral<'a> {
                 _ if is_closing => rule.closing,
                 _ => rule.inner,
             };
-            let (mut start, mut span) = (Each::ZERO, Each::ZERO);
+            let (mut start, mut span) = ([0.0; WIDE], [0.0; WIDE]);
             for (wheel, &(count, ref breaks)) in ends.iter().enumerate() {
                 let last = count - 2;
                 let (from, to) = match piece {
@@ -181,10 +182,7 @@ impl<'a> Integral<'a> {
             let (abscissa, width) = (block.abscissa[node], block.width[node]);
             let behind = |wheel: usize| start[wheel] + abscissa * span[wheel];
             let points = Points::of(|wheel| fields.field(wheel).point(behind(wheel)));
-            let mut heights = Each::ZERO;
-            for wheel in 0..WIDE {
-                heights[wheel] = fields.field(wheel).front_height(&points.at(wheel));
-            }
+            let heights = each(|wheel| fields.field(wheel).front_height(&points.at(wheel)));
             let normal = self.normals(&heights);
             self.add(node, &points, &normal, width, span);
         }
@@ -231,7 +229,7 @@ impl<'a> Integral<'a> {
     #[inline(always)]
     fn normals(&self, heights: &Each) -> Each {
         let fields = self.fields;
-        let (mut depths, mut logs, mut normals) = (Each::ZERO, Each::ZERO, Each::ZERO);
+        let (mut depths, mut logs, mut normals) = ([0.0; WIDE], [0.0; WIDE], [0.0; WIDE]);
         for wheel in 0..WIDE {
             depths[wheel] = fields.field(wheel).depth(heights[wheel]);
             logs[wheel] = elementary::ln(depths[wheel]);
@@ -250,18 +248,18 @@ impl<'a> Integral<'a> {
         normal: &Each,
     ) -> (Each, Each) {
         let fields = self.fields;
-        let mut unmobilised = [Each::ZERO; 2];
+        let mut unmobilised = [[0.0; WIDE]; 2];
         let [first, second] = &mut unmobilised;
         for wheel in 0..WIDE {
             let shear = fields.laws.shear::<L>(wheel);
             [first[wheel], second[wheel]] = shear.decays(&points.at(wheel), &fields.field(wheel));
         }
         for decays in &mut unmobilised[..DECAYS] {
-            for wheel in 0..WIDE {
-                decays[wheel] = elementary::exp(decays[wheel]);
+            for decay in decays {
+                *decay = elementary::exp(*decay);
             }
         }
-        let (mut along, mut across) = (Each::ZERO, Each::ZERO);
+        let (mut along, mut across) = ([0.0; WIDE], [0.0; WIDE]);
         for wheel in 0..WIDE {
             let left = [unmobilised[0][wheel], unmobilised[1][wheel]];
             let (shear, point) = (fields.laws.shear::<L>(wheel), points.at(wheel));
@@ -348,7 +346,8 @@ pub(in crate::contact) struct Walls {
 
 impl Walls {
     pub(in crate::contact) fn of(wall: impl Fn(usize) -> WallResistance) -> Self {
-        let mut walls = Self { cohesive: Each::ZERO, frictional: Each::ZERO, heaped: Each::ZERO };
+        let mut walls =
+            Self { cohesive: [0.0; WIDE], frictional: [0.0; WIDE], heaped: [0.0; WIDE] };
         for wheel in 0..WIDE {
             let WallResistance { cohesive, frictional, heaped } = wall(wheel);
             walls.cohesive[wheel] = cohesive;
@@ -371,7 +370,7 @@ impl Walls {
 /// The force on the side wall of each wheel [N], and its moments [N·m].
 #[inline(always)]
 fn side_walls(fields: &StressFields<'_>, walls: &Walls, loads: &mut [Each; 3]) {
-    let mut strips = [[Each::ZERO; LANES]; 3];
+    let mut strips = [[[0.0; WIDE]; LANES]; 3];
     for node in 0..LANES {
         let (abscissa, width) = (EVEN.abscissa[node], EVEN.width[node]);
         let [force, below, ahead] = &mut strips;

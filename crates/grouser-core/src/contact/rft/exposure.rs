@@ -24,7 +24,7 @@
 
 #![expect(clippy::inline_always, reason = "part of the lanes' loops")]
 
-use super::lanes::{Lanes, lanes};
+use super::super::lanes::{Each, each};
 use crate::wheel::{Grousers, Wheel};
 
 /// Grousers as plates that stand out of a rim.
@@ -43,11 +43,11 @@ pub(super) struct Comb {
 /// What lies open along each radius.
 pub(super) struct Exposure {
     /// Height of a grouser, from its tip down [m].
-    pub grouser: Lanes,
+    pub grouser: Each,
     /// Share with which its open face counts, *w* [-].
-    pub share: Lanes,
+    pub share: Each,
     /// Share of the rim, *f* [-].
-    pub rim: Lanes,
+    pub rim: Each,
 }
 
 impl Comb {
@@ -63,22 +63,22 @@ impl Comb {
 
     /// What lies open where the tips move with v_n [-] out of the rim and v_t along it.
     #[inline(always)]
-    pub(super) fn exposure(&self, outward: &Lanes, along: &Lanes) -> Exposure {
+    pub(super) fn exposure(&self, outward: &Each, along: &Each) -> Exposure {
         let (h, p, r) = (self.height, self.pitch, self.radius);
         let wide = (p / h).min(1.0);
         let open = p * p / (2.0 * r);
         // As products with |v_t|, which may be zero.
-        let grouser = lanes(|lane| {
+        let grouser = each(|lane| {
             let (v_n, v_t) = (outward[lane].max(0.0), along[lane].abs());
             if v_n * p >= (h - open) * v_t { h } else { p * v_n / v_t + open }
         });
-        let rim = lanes(|lane| {
+        let rim = each(|lane| {
             let (v_n, v_t) = (outward[lane].max(0.0), along[lane].abs());
             let shadow = 2.0 * h * v_t / (v_n + (v_n * v_n + 2.0 * h / r * v_t * v_t).sqrt());
             // Tips at rest, or moving outward alone, cast no shadow.
             let shadow = if v_t > 0.0 { shadow } else { 0.0 };
             wide * (1.0 - shadow / p).max(0.0)
         });
-        Exposure { share: lanes(|lane| wide * grouser[lane] / h), grouser, rim }
+        Exposure { share: each(|lane| wide * grouser[lane] / h), grouser, rim }
     }
 }

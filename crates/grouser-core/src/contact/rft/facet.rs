@@ -27,7 +27,7 @@
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
-use super::lanes::{LANES, Lanes, lanes};
+use super::super::lanes::{Each, WIDE, each};
 
 /// Half the width, in e_n·e_v [-], over which a facet ceases to lead. Source: ours.
 ///
@@ -96,20 +96,20 @@ pub(super) fn lead_share(lead: f64) -> f64 {
 ///
 /// Plates along one radius of a wheel differ by their motion alone.
 pub(super) struct Inclined {
-    x2: Lanes,
+    x2: Each,
     cubics: [Cubic; 3],
 }
 
 /// A cubic in x₁ and x₃ for each lane, its coefficients named by their powers.
 struct Cubic {
-    c00: Lanes,
-    c10: Lanes,
-    c20: Lanes,
+    c00: Each,
+    c10: Each,
+    c20: Each,
     c30: f64,
-    c01: Lanes,
-    c11: Lanes,
+    c01: Each,
+    c11: Each,
     c21: f64,
-    c02: Lanes,
+    c02: Each,
     c12: f64,
     c03: f64,
 }
@@ -117,7 +117,7 @@ struct Cubic {
 impl Inclined {
     /// * `x2`: −e_z·e_n [-], not negative
     #[inline(always)]
-    pub(super) fn at(x2: Lanes) -> Self {
+    pub(super) fn at(x2: Each) -> Self {
         // One by one: a map over the three would be a call, and no vectors.
         let [c1, c2, c3] = &COEFFICIENTS;
         let cubics = [Cubic::at(c1, &x2), Cubic::at(c2, &x2), Cubic::at(c3, &x2)];
@@ -127,16 +127,16 @@ impl Inclined {
 
 impl Cubic {
     #[inline(always)]
-    fn at(c: &[f64; 20], x2: &Lanes) -> Self {
+    fn at(c: &[f64; 20], x2: &Each) -> Self {
         Self {
-            c00: lanes(|k| c[0] + x2[k] * (c[2] + x2[k] * (c[5] + x2[k] * c[11]))),
-            c10: lanes(|k| c[1] + x2[k] * (c[7] + x2[k] * c[13])),
-            c20: lanes(|k| c[4] + x2[k] * c[14]),
+            c00: each(|k| c[0] + x2[k] * (c[2] + x2[k] * (c[5] + x2[k] * c[11]))),
+            c10: each(|k| c[1] + x2[k] * (c[7] + x2[k] * c[13])),
+            c20: each(|k| c[4] + x2[k] * c[14]),
             c30: c[10],
-            c01: lanes(|k| c[3] + x2[k] * (c[8] + x2[k] * c[16])),
-            c11: lanes(|k| c[9] + x2[k] * c[19]),
+            c01: each(|k| c[3] + x2[k] * (c[8] + x2[k] * c[16])),
+            c11: each(|k| c[9] + x2[k] * c[19]),
             c21: c[17],
-            c02: lanes(|k| c[6] + x2[k] * c[15]),
+            c02: each(|k| c[6] + x2[k] * c[15]),
             c12: c[18],
             c03: c[12],
         }
@@ -155,17 +155,17 @@ impl Cubic {
 /// f₁, f₂ and f₃ of plates, split into what both of their faces share and what they have against each
 /// other.
 pub(super) struct Faces {
-    x1: Lanes,
-    x2: Lanes,
-    even: [Lanes; 3],
-    odd: [Lanes; 3],
+    x1: Each,
+    x2: Each,
+    even: [Each; 3],
+    odd: [Each; 3],
 }
 
 impl Faces {
     /// * `x1`: −e_z·e_v [-]
     /// * `x3`: e_n·e_v [-], of either face
     #[inline(always)]
-    pub(super) fn new(law: &Inclined, x1: &Lanes, x3: &Lanes) -> Self {
+    pub(super) fn new(law: &Inclined, x1: &Each, x3: &Each) -> Self {
         let mut faces = Self { x1: *x1, x2: law.x2, even: [[0.0; _]; 3], odd: [[0.0; _]; 3] };
         for (i, cubic) in law.cubics.iter().enumerate() {
             for lane in 0..x1.len() {
@@ -181,11 +181,11 @@ impl Faces {
 /// What plates meet, whichever of their faces leads: stress per depth, over ξ [-].
 pub(super) struct Response {
     /// Against the leading face, not negative.
-    pub pressure: Lanes,
+    pub pressure: Each,
     /// The shear along the plate is this times v_t,
-    pub drag: Lanes,
+    pub drag: Each,
     /// less this times z_t.
-    pub lift: Lanes,
+    pub lift: Each,
 }
 
 /// What plates meet. No branch and no call: loops over plates become vector instructions.
@@ -199,9 +199,9 @@ pub(super) struct Response {
 /// * `sliding`: |v_t|² = 1 − x₃² [-]
 /// * `friction`: of the surface, *μ_s* [-]
 #[inline(always)]
-pub(super) fn response(faces: &Faces, x3: &Lanes, sliding: &Lanes, friction: f64) -> Response {
-    let mut met = Response { pressure: [0.0; LANES], drag: [0.0; LANES], lift: [0.0; LANES] };
-    for lane in 0..LANES {
+pub(super) fn response(faces: &Faces, x3: &Each, sliding: &Each, friction: f64) -> Response {
+    let mut met = Response { pressure: [0.0; WIDE], drag: [0.0; WIDE], lift: [0.0; WIDE] };
+    for lane in 0..WIDE {
         let (x1, x2, x3, square) = (faces.x1[lane], faces.x2[lane], x3[lane], sliding[lane]);
         let f = |i: usize| faces.even[i][lane] + x3 * faces.odd[i][lane];
         let (f1, f2, f3) = (f(0), f(1), f(2));
@@ -249,7 +249,7 @@ mod tests {
         let lead = normal.dot(&direction);
         let turn = if normal.z > 0.0 { -1.0 } else { 1.0 };
         let (tangential, up) = (direction - normal * lead, Vec3::z() - normal * normal.z);
-        let same = |x: f64| lanes(|_| x);
+        let same = |x: f64| each(|_| x);
         let x3 = same(turn * lead);
         let faces = Faces::new(&Inclined::at(same(-turn * normal.z)), &same(-direction.z), &x3);
         let met = response(&faces, &x3, &same(tangential.norm_squared()), friction);

@@ -3,19 +3,19 @@
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
 use super::super::forces::WheelForces;
-use super::lanes::{LANES, Lanes, sum};
+use super::super::lanes::{Each, WIDE, sum};
 use super::surface::Rays;
 
 /// Forces [N] on the facets along each ray, in directions of its own: out of the rim, along it the
 /// way of growing angles, and to the left.
 #[derive(Default)]
 pub(super) struct RaySums {
-    outward: Lanes,
-    along: Lanes,
-    across: Lanes,
+    outward: Each,
+    along: Each,
+    across: Each,
     /// Moments [N·m]: force times distance from the axle.
-    along_arm: Lanes,
-    across_arm: Lanes,
+    along_arm: Each,
+    across_arm: Each,
 }
 
 impl RaySums {
@@ -40,24 +40,24 @@ pub(super) struct SideSums {
 /// Forces [N] and moments [N·m] in the wheel frame, for each lane's facets.
 #[derive(Default)]
 pub(super) struct Sums {
-    thrust: Lanes,
-    motion_resistance: Lanes,
-    side_force_from_shear: Lanes,
-    bulldozing_load: Lanes,
-    side_force: Lanes,
-    normal_force: Lanes,
-    torque: Lanes,
-    overturning_moment: Lanes,
-    aligning_moment: Lanes,
+    thrust: Each,
+    motion_resistance: Each,
+    side_force_from_shear: Each,
+    bulldozing_load: Each,
+    side_force: Each,
+    normal_force: Each,
+    torque: Each,
+    overturning_moment: Each,
+    aligning_moment: Each,
     /// The largest normal stress on the rim [Pa], and the angle [rad] where it is.
-    peak: (Lanes, Lanes),
+    peak: (Each, Each),
 }
 
 impl Sums {
     /// A cylinder's facets: what pushes points inward, and all else is shear.
     #[inline(always)]
     pub(super) fn add_cylinder(&mut self, rays: &Rays, forces: &RaySums) {
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             let (sin, cos) = (rays.sin[lane], rays.cos[lane]);
             self.thrust[lane] += forces.along[lane] * cos;
             self.motion_resistance[lane] += forces.outward[lane] * sin;
@@ -68,7 +68,7 @@ impl Sums {
     /// Facets of grousers: whatever meets them is thrust.
     #[inline(always)]
     pub(super) fn add_grousers(&mut self, rays: &Rays, forces: &RaySums) {
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             let (sin, cos) = (rays.sin[lane], rays.cos[lane]);
             self.thrust[lane] += forces.along[lane] * cos + forces.outward[lane] * sin;
         }
@@ -78,7 +78,7 @@ impl Sums {
     /// What both have alike.
     #[inline(always)]
     fn add_upright_forces(&mut self, rays: &Rays, forces: &RaySums) {
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             let (sin, cos) = (rays.sin[lane], rays.cos[lane]);
             self.normal_force[lane] += forces.along[lane] * sin - forces.outward[lane] * cos;
             self.side_force_from_shear[lane] += forces.across[lane];
@@ -94,7 +94,7 @@ impl Sums {
     #[inline(always)]
     pub(super) fn add_sides(&mut self, rays: &Rays, forces: &SideSums, half_width: f64) {
         let SideSums { left, right } = forces;
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             let (sin, cos) = (rays.sin[lane], rays.cos[lane]);
             let forward = |side: &RaySums| side.along[lane] * cos + side.outward[lane] * sin;
             let upward = |side: &RaySums| side.along[lane] * sin - side.outward[lane] * cos;
@@ -137,7 +137,7 @@ impl Sums {
             bulldozing_load: sum(&self.bulldozing_load),
             ..WheelForces::default()
         };
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             if self.peak.0[lane] > forces.max_normal_stress {
                 forces.max_normal_stress = self.peak.0[lane];
                 forces.patch.max_stress = self.peak.1[lane];

@@ -14,11 +14,11 @@
 use super::super::forces::WheelForces;
 use super::super::gauss::Rule;
 use super::super::inputs::Contact;
+use super::super::lanes::{Each, WIDE, each};
 use super::super::patch::ContactPatch;
 use super::Nodes;
 use super::exposure::{Comb, Exposure};
 use super::facet::{self, Faces, Inclined, Response, lead_share};
-use super::lanes::{LANES, Lanes, lanes};
 use super::sums::{RaySums, SideSums, Sums};
 use crate::elementary::{self, wide};
 use crate::soil::Soil;
@@ -65,29 +65,29 @@ impl Motion {
     fn of_hub(&self, rays: &Rays) -> HubVelocity {
         let (forward, sinking) = (self.forward, self.sinking);
         HubVelocity {
-            outward: lanes(|lane| forward * rays.sin[lane] + sinking * rays.cos[lane]),
-            along: lanes(|lane| forward * rays.cos[lane] - sinking * rays.sin[lane]),
+            outward: each(|lane| forward * rays.sin[lane] + sinking * rays.cos[lane]),
+            along: each(|lane| forward * rays.cos[lane] - sinking * rays.sin[lane]),
         }
     }
 
     /// Directions of motion at places of each ray, so far from the hub [m]; downward where nothing moves.
     #[inline(always)]
-    fn directions(&self, rays: &Rays, hub: &HubVelocity, radius: &Lanes) -> Directions {
+    fn directions(&self, rays: &Rays, hub: &HubVelocity, radius: &Each) -> Directions {
         let lateral = self.lateral;
-        let rim = lanes(|lane| hub.along[lane] - self.spin * radius[lane]);
-        let speed = lanes(|lane| {
+        let rim = each(|lane| hub.along[lane] - self.spin * radius[lane]);
+        let speed = each(|lane| {
             let (outward, along) = (hub.outward[lane], rim[lane]);
             (outward * outward + along * along + lateral * lateral).sqrt()
         });
-        let per_speed = lanes(|lane| 1.0 / if speed[lane] > 0.0 { speed[lane] } else { 1.0 });
+        let per_speed = each(|lane| 1.0 / if speed[lane] > 0.0 { speed[lane] } else { 1.0 });
         let moving = |lane: usize, part: f64, still: f64| {
             if speed[lane] > 0.0 { part * per_speed[lane] } else { still }
         };
-        let outward = lanes(|lane| moving(lane, hub.outward[lane], rays.cos[lane]));
-        let along = lanes(|lane| moving(lane, rim[lane], -rays.sin[lane]));
+        let outward = each(|lane| moving(lane, hub.outward[lane], rays.cos[lane]));
+        let along = each(|lane| moving(lane, rim[lane], -rays.sin[lane]));
         Directions {
-            across: lanes(|lane| lateral * per_speed[lane]),
-            down: lanes(|lane| outward[lane] * rays.cos[lane] - along[lane] * rays.sin[lane]),
+            across: each(|lane| lateral * per_speed[lane]),
+            down: each(|lane| outward[lane] * rays.cos[lane] - along[lane] * rays.sin[lane]),
             outward,
             along,
         }
@@ -97,26 +97,26 @@ impl Motion {
 /// Some radii of the wheel, side by side.
 pub(super) struct Rays {
     /// Each stands for this angle [rad].
-    width: Lanes,
+    width: Each,
     /// From straight down [rad].
-    angle: Lanes,
-    pub sin: Lanes,
-    pub cos: Lanes,
+    angle: Each,
+    pub sin: Each,
+    pub cos: Each,
 }
 
 /// The hub's velocity [-] out of the rim, as everywhere on a ray, and along the rim.
 struct HubVelocity {
-    outward: Lanes,
-    along: Lanes,
+    outward: Each,
+    along: Each,
 }
 
 /// Directions of motion [-]: out of the rim, along it the way of growing angles, to the left; and
 /// straight down.
 struct Directions {
-    outward: Lanes,
-    along: Lanes,
-    across: Lanes,
-    down: Lanes,
+    outward: Each,
+    along: Each,
+    across: Each,
+    down: Each,
 }
 
 /// The soil over a circle about the hub: how its angles are integrated.
@@ -128,11 +128,11 @@ struct Arc {
 /// Pieces of both side faces along some radii.
 struct Annulus {
     /// From these radii [m]
-    inner: Lanes,
+    inner: Each,
     /// to this [m].
     outer: f64,
     /// Share of it that is covered [-].
-    share: Lanes,
+    share: Each,
     friction: f64,
 }
 
@@ -188,7 +188,7 @@ impl FacetedWheel {
         let mut sums = [Sums::default(), Sums::default()];
         let motions = [self.motion, self.motion.front_to_back()];
         if let Some(circle) = self.arc_of(self.wheel.radius) {
-            for nodes_of_arc in nodes.arc.chunks_exact(LANES) {
+            for nodes_of_arc in nodes.arc.chunks_exact(WIDE) {
                 let rays = circle.rays(nodes_of_arc);
                 for (motion, sums) in motions.iter().zip(&mut sums) {
                     self.half(motion, &rays, sums).add_wheel(nodes);
@@ -198,7 +198,7 @@ impl FacetedWheel {
         if let Some(comb) = &self.comb
             && let Some(circle) = self.arc_of(self.wheel.shearing_radius())
         {
-            for nodes_of_arc in nodes.arc.chunks_exact(LANES) {
+            for nodes_of_arc in nodes.arc.chunks_exact(WIDE) {
                 let rays = circle.rays(nodes_of_arc);
                 for (motion, sums) in motions.iter().zip(&mut sums) {
                     self.half(motion, &rays, sums).add_comb(comb, nodes);
@@ -238,9 +238,9 @@ impl FacetedWheel {
 impl Arc {
     #[inline(always)]
     fn rays(&self, nodes: &Rule) -> Rays {
-        let (mut width, mut angle) = ([0.0; LANES], [0.0; LANES]);
-        let (mut sin, mut cos) = ([0.0; LANES], [0.0; LANES]);
-        for (lane, (node, weight)) in nodes.iter().enumerate().take(LANES) {
+        let (mut width, mut angle) = ([0.0; WIDE], [0.0; WIDE]);
+        let (mut sin, mut cos) = ([0.0; WIDE], [0.0; WIDE]);
+        for (lane, (node, weight)) in nodes.iter().enumerate().take(WIDE) {
             let (sinh, cosh) = elementary::sinh_cosh(node * self.end);
             width[lane] = weight * self.end * self.layer * cosh;
             angle[lane] = self.layer * sinh;
@@ -257,13 +257,13 @@ impl Half<'_> {
         let FacetedWheel { wheel, friction, surface, .. } = self.facets;
         let open = match &self.facets.comb {
             Some(comb) => self.exposure(comb).rim,
-            None => [1.0; LANES],
+            None => [1.0; WIDE],
         };
         self.add_cylinder(wheel.radius, friction.wheel, &open);
         let disc = Annulus {
-            inner: lanes(|lane| surface / self.rays.cos[lane]),
+            inner: each(|lane| surface / self.rays.cos[lane]),
             outer: wheel.radius,
-            share: [1.0; LANES],
+            share: [1.0; WIDE],
             friction: friction.wheel,
         };
         self.add_sides(&disc, nodes.disc);
@@ -277,9 +277,9 @@ impl Half<'_> {
         let exposure = self.exposure(comb);
         self.add_grousers(comb, &exposure, nodes.height);
         let (rim, tip) = (wheel.radius, wheel.shearing_radius());
-        let shut = lanes(|lane| 1.0 - exposure.rim[lane]);
+        let shut = each(|lane| 1.0 - exposure.rim[lane]);
         self.add_cylinder(tip, friction.soil, &shut);
-        let inner = lanes(|lane| {
+        let inner = each(|lane| {
             let submerged = surface / self.rays.cos[lane];
             if submerged > rim { submerged } else { rim }
         });
@@ -291,31 +291,31 @@ impl Half<'_> {
     #[inline(always)]
     fn exposure(&self, comb: &Comb) -> Exposure {
         let at_tip = self.motion.spin * self.facets.wheel.shearing_radius();
-        comb.exposure(&self.hub.outward, &lanes(|lane| self.hub.along[lane] - at_tip))
+        comb.exposure(&self.hub.outward, &each(|lane| self.hub.along[lane] - at_tip))
     }
 
     #[inline(always)]
-    fn directions(&self, radius: &Lanes) -> Directions {
+    fn directions(&self, radius: &Each) -> Directions {
         self.motion.directions(self.rays, &self.hub, radius)
     }
 
     /// Depths below the soil's surface [m], not negative, of places so far from the hub [m].
     #[inline(always)]
-    fn depths(&self, radius: &Lanes) -> Lanes {
-        lanes(|lane| (radius[lane] * self.rays.cos[lane] - self.facets.surface).max(0.0))
+    fn depths(&self, radius: &Each) -> Each {
+        each(|lane| (radius[lane] * self.rays.cos[lane] - self.facets.surface).max(0.0))
     }
 
     /// Strips of a cylinder about the hub, with a share of their area.
     #[inline(always)]
-    fn add_cylinder(&mut self, radius: f64, friction: f64, share: &Lanes) {
-        let radii = [radius; LANES];
+    fn add_cylinder(&mut self, radius: f64, friction: f64, share: &Each) {
+        let radii = [radius; WIDE];
         let toward = self.directions(&radii);
-        let lead = lanes(|lane| lead_share(toward.outward[lane]));
-        if (0..LANES).all(|lane| lead[lane] * share[lane] == 0.0) {
+        let lead = each(|lane| lead_share(toward.outward[lane]));
+        if (0..WIDE).all(|lane| lead[lane] * share[lane] == 0.0) {
             return;
         }
         let faces = Faces::new(&Inclined::at(self.rays.cos), &toward.down, &toward.outward);
-        let sliding = lanes(|lane| {
+        let sliding = each(|lane| {
             let (along, across) = (toward.along[lane], toward.across[lane]);
             along * along + across * across
         });
@@ -324,7 +324,7 @@ impl Half<'_> {
         let depth = self.depths(&radii);
         let per_width = radius * self.facets.wheel.width;
         let mut forces = RaySums::default();
-        for lane in 0..LANES {
+        for lane in 0..WIDE {
             let area = share[lane] * self.rays.width[lane] * per_width;
             let per_stress = self.facets.stiffness * depth[lane] * lead[lane];
             let stress = per_stress * pressure[lane];
@@ -343,26 +343,26 @@ impl Half<'_> {
         let FacetedWheel { wheel, friction, surface, stiffness, .. } = self.facets;
         let tip = wheel.shearing_radius();
         let per_height = comb.density * wheel.width;
-        let inner = lanes(|lane| {
+        let inner = each(|lane| {
             let (submerged, inner) = (surface / self.rays.cos[lane], tip - exposure.grouser[lane]);
             if inner > submerged { inner } else { submerged }
         });
-        let open = lanes(|lane| (tip - inner[lane]).max(0.0));
+        let open = each(|lane| (tip - inner[lane]).max(0.0));
         let law = Inclined::at(self.rays.sin);
         let mut forces = RaySums::default();
         for (node, weight) in rule {
-            let radius = lanes(|lane| inner[lane] + node * open[lane]);
+            let radius = each(|lane| inner[lane] + node * open[lane]);
             let (toward, depth) = (self.directions(&radius), self.depths(&radius));
             // The face that looks down looks back along the rim.
-            let lead = lanes(|lane| -toward.along[lane]);
-            let sliding = lanes(|lane| {
+            let lead = each(|lane| -toward.along[lane]);
+            let sliding = each(|lane| {
                 let (outward, across) = (toward.outward[lane], toward.across[lane]);
                 outward * outward + across * across
             });
             let faces = Faces::new(&law, &toward.down, &lead);
             let Response { pressure, drag, lift } =
                 facet::response(&faces, &lead, &sliding, friction.wheel);
-            for lane in 0..LANES {
+            for lane in 0..WIDE {
                 let area = exposure.share[lane]
                     * per_height
                     * self.rays.width[lane]
@@ -386,30 +386,30 @@ impl Half<'_> {
         if annulus.share.iter().all(|share| *share == 0.0) {
             return;
         }
-        let thickness = lanes(|lane| (annulus.outer - annulus.inner[lane]).max(0.0));
-        let law = Inclined::at([0.0; LANES]);
+        let thickness = each(|lane| (annulus.outer - annulus.inner[lane]).max(0.0));
+        let law = Inclined::at([0.0; WIDE]);
         let mut forces = SideSums::default();
         for (node, weight) in rule {
-            let radius = lanes(|lane| annulus.inner[lane] + node * thickness[lane]);
+            let radius = each(|lane| annulus.inner[lane] + node * thickness[lane]);
             let (toward, depth) = (self.directions(&radius), self.depths(&radius));
-            let per_stress = lanes(|lane| {
+            let per_stress = each(|lane| {
                 let ring = weight * thickness[lane] * radius[lane] * self.rays.width[lane];
                 self.facets.stiffness * depth[lane] * (annulus.share[lane] * ring)
             });
             let faces = Faces::new(&law, &toward.down, &toward.across);
-            let sliding = lanes(|lane| {
+            let sliding = each(|lane| {
                 let (outward, along) = (toward.outward[lane], toward.along[lane]);
                 outward * outward + along * along
             });
             for (side, sum) in [(1.0, &mut forces.left), (-1.0, &mut forces.right)] {
-                let lead = lanes(|lane| side * toward.across[lane]);
+                let lead = each(|lane| side * toward.across[lane]);
                 // Mostly one side leads and the other one trails everywhere.
                 if lead.iter().all(|lead| lead_share(*lead) == 0.0) {
                     continue;
                 }
                 let Response { pressure, drag, lift } =
                     facet::response(&faces, &lead, &sliding, annulus.friction);
-                for lane in 0..LANES {
+                for lane in 0..WIDE {
                     let (sin, cos) = (self.rays.sin[lane], self.rays.cos[lane]);
                     let outward = drag[lane] * toward.outward[lane] + lift[lane] * cos;
                     let along = drag[lane] * toward.along[lane] - lift[lane] * sin;

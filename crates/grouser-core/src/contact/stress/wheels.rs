@@ -1,42 +1,12 @@
 //! The stresses of many wheels side by side: number by number, as vectors read them.
 
-use std::ops::{Deref, DerefMut};
-
 use super::breaks::{Breaks, Ends, MOST_STEPS, Newton, ZEROS};
 use super::{
     AnisotropicShear, BoundedShear, IsotropicShear, MobilisedShear, RimMotion, ShearLaw,
     StressField, StressLaw,
 };
+use crate::contact::lanes::{Each, WIDE, each};
 use crate::contact::patch::ContactPatch;
-
-/// Wheels that are computed side by side: two of the widest vectors, four of the usual ones, so that
-/// none waits for the result before.
-pub(in crate::contact) const WIDE: usize = 16;
-
-/// One number of each of so many wheels, where the processor reads and writes vectors fastest.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(align(64))]
-pub(in crate::contact) struct Each(pub(in crate::contact) [f64; WIDE]);
-
-impl Each {
-    pub(in crate::contact) const ZERO: Self = Self([0.0; WIDE]);
-}
-
-impl Deref for Each {
-    type Target = [f64; WIDE];
-
-    #[inline(always)]
-    fn deref(&self) -> &[f64; WIDE] {
-        &self.0
-    }
-}
-
-impl DerefMut for Each {
-    #[inline(always)]
-    fn deref_mut(&mut self) -> &mut [f64; WIDE] {
-        &mut self.0
-    }
-}
 
 /// A shear law as two numbers, so that many of the same kind are two rows.
 pub(in crate::contact) trait ShearNumbers: ShearLaw {
@@ -78,13 +48,10 @@ impl MobilisedShear {
     }
 }
 
+/// A number of each law.
 #[inline(always)]
-fn each(laws: &[&StressLaw; WIDE], number: impl Fn(&StressLaw) -> f64) -> Each {
-    let mut numbers = Each::ZERO;
-    for (wheel, law) in laws.iter().enumerate() {
-        numbers[wheel] = number(law);
-    }
-    numbers
+fn each_of(laws: &[&StressLaw; WIDE], number: impl Fn(&StressLaw) -> f64) -> Each {
+    each(|wheel| number(laws[wheel]))
 }
 
 /// The laws of many wheels, all with the same kind of shear law.
@@ -109,22 +76,22 @@ pub(in crate::contact) struct StressLaws {
 impl StressLaws {
     pub(in crate::contact) fn of(laws: &[&StressLaw; WIDE]) -> Self {
         Self {
-            radius: each(laws, |law| law.radius),
-            rim: each(laws, |law| law.motion.rim),
-            forward: each(laws, |law| law.motion.forward),
-            lateral: each(laws, |law| law.motion.lateral),
-            still: each(laws, |law| law.motion.still),
-            pressure: each(laws, |law| law.pressure),
-            scale: each(laws, |law| law.scale),
-            exponent: each(laws, |law| law.exponent),
-            cohesion: each(laws, |law| law.cohesion),
-            friction: each(laws, |law| law.friction),
+            radius: each_of(laws, |law| law.radius),
+            rim: each_of(laws, |law| law.motion.rim),
+            forward: each_of(laws, |law| law.motion.forward),
+            lateral: each_of(laws, |law| law.motion.lateral),
+            still: each_of(laws, |law| law.motion.still),
+            pressure: each_of(laws, |law| law.pressure),
+            scale: each_of(laws, |law| law.scale),
+            exponent: each_of(laws, |law| law.exponent),
+            cohesion: each_of(laws, |law| law.cohesion),
+            friction: each_of(laws, |law| law.friction),
             shear: [
-                each(laws, |law| law.shear.numbers()[0]),
-                each(laws, |law| law.shear.numbers()[1]),
+                each_of(laws, |law| law.shear.numbers()[0]),
+                each_of(laws, |law| law.shear.numbers()[1]),
             ],
-            peak_share: each(laws, |law| law.peak_share),
-            exit_ratio: each(laws, |law| law.exit_ratio),
+            peak_share: each_of(laws, |law| law.peak_share),
+            exit_ratio: each_of(laws, |law| law.exit_ratio),
             kind: laws[0].shear,
         }
     }
@@ -179,7 +146,7 @@ impl<'a> StressFields<'a> {
     /// * `sinkages`: of the wheels [m]
     #[inline(always)]
     pub(in crate::contact) fn new(laws: &'a StressLaws, sinkages: &Each) -> Self {
-        let zeros = Each::ZERO;
+        let zeros = [0.0; WIDE];
         let mut fields = Self {
             laws,
             entry: zeros,
@@ -190,8 +157,8 @@ impl<'a> StressFields<'a> {
             per_scale: zeros,
             squeeze: zeros,
         };
-        for wheel in 0..WIDE {
-            let field = fields.laws.law(wheel).sunk(sinkages[wheel]);
+        for (wheel, &sinkage) in sinkages.iter().enumerate() {
+            let field = fields.laws.law(wheel).sunk(sinkage);
             fields.entry[wheel] = field.patch.entry;
             fields.max_stress[wheel] = field.patch.max_stress;
             fields.exit[wheel] = field.patch.exit;
@@ -220,9 +187,9 @@ impl<'a> StressFields<'a> {
     #[inline(always)]
     pub(in crate::contact) fn breaks(&self) -> [Breaks; WIDE] {
         let none = Ends::default();
-        let mut zeros = [([none; WIDE], Each::ZERO, [false; WIDE]); 2];
+        let mut zeros = [([none; WIDE], [0.0; WIDE], [false; WIDE]); 2];
         for ((ends, angles, found), which) in zeros.iter_mut().zip(ZEROS) {
-            let (mut behind, mut done) = (Each::ZERO, [false; WIDE]);
+            let (mut behind, mut done) = ([0.0; WIDE], [false; WIDE]);
             for wheel in 0..WIDE {
                 let field = self.field(wheel);
                 ends[wheel] = Ends::of(&field, which);
