@@ -84,6 +84,7 @@ struct Integral<'a> {
     rest: Option<Rest>,
 }
 
+#[derive(Default)]
 struct Rest {
     shear_forward: NodeSums,
     normal_back: NodeSums,
@@ -93,26 +94,11 @@ struct Rest {
     lateral_ahead: NodeSums,
 }
 
-impl Rest {
-    #[inline(always)]
-    fn new() -> Self {
-        let zeros = [[0.0; WIDE]; LANES];
-        Self {
-            shear_forward: zeros,
-            normal_back: zeros,
-            shear: zeros,
-            lateral: zeros,
-            lateral_below: zeros,
-            lateral_ahead: zeros,
-        }
-    }
-}
-
 impl<'a> Integral<'a> {
     /// Over the whole arcs.
     #[inline(always)]
     fn new(fields: &'a StressFields<'a>, wheels: &'a Wheels<'a>, all: bool) -> Self {
-        let rest = if all { Some(Rest::new()) } else { None };
+        let rest = all.then(Rest::default);
         let mut integral = Self { fields, wheels, up: [[0.0; WIDE]; LANES], rest };
         match wheels.nodes {
             Nodes::BothSides(blocks) => {

@@ -8,7 +8,7 @@ use crate::{elementary, root};
 
 /// At most this many points divide the arc into pieces on which the stresses are smooth: entry,
 /// exit, stress peak, two zeros of the shear displacement, two of the slip velocity.
-pub(in crate::contact) const MOST_BREAKS: usize = 7;
+const MOST_BREAKS: usize = 7;
 
 impl StressField {
     /// The ends of the pieces of the arc on which the stresses are smooth, in falling order:
@@ -25,7 +25,7 @@ impl StressField {
     }
 
     /// The same with a way to find the zeros of *j_x*: the first after the entry (−1) and the second (1).
-    pub(in crate::contact) fn breaks_with(&self, zero: impl Fn(f64) -> Option<f64>) -> Breaks {
+    pub(super) fn breaks_with(&self, zero: impl Fn(f64) -> Option<f64>) -> Breaks {
         let ContactPatch { entry, max_stress, exit } = self.patch;
         let mut breaks = [entry, max_stress, exit, exit, exit, exit, exit];
         let mut count = 3;
@@ -70,11 +70,7 @@ impl StressField {
     /// The zero of *j_x* between two angles at which its signs differ.
     ///
     /// * `newton`: what Newton's method found, if anything
-    pub(in crate::contact) fn zero_within(
-        &self,
-        (low, high): (f64, f64),
-        newton: Option<f64>,
-    ) -> f64 {
+    pub(super) fn zero_within(&self, (low, high): (f64, f64), newton: Option<f64>) -> f64 {
         /// A corner this near to a piece's end [rad] no longer costs digits.
         const NEAR_ENOUGH: f64 = 1e-12;
         let displacement = |angle: f64| self.displacement_along(angle);
@@ -97,21 +93,21 @@ impl StressField {
 }
 
 /// The zeros of *j_x* that are sought: the first after the entry, and the second.
-pub(in crate::contact) const ZEROS: [f64; 2] = [-1.0, 1.0];
+pub(super) const ZEROS: [f64; 2] = [-1.0, 1.0];
 
 /// How many of the numbers count, and they.
-pub(in crate::contact) type Breaks = (usize, [f64; MOST_BREAKS]);
+pub(super) type Breaks = (usize, [f64; MOST_BREAKS]);
 
 /// The ends of the span in which a zero is sought, and *j_x* there [m].
 #[derive(Clone, Copy, Default)]
-pub(in crate::contact) struct Ends {
-    pub(in crate::contact) angles: (f64, f64),
+pub(super) struct Ends {
+    pub(super) angles: (f64, f64),
     displacements: (f64, f64),
 }
 
 impl Ends {
     #[inline(always)]
-    pub(in crate::contact) fn of(field: &StressField, which: f64) -> Self {
+    pub(super) fn of(field: &StressField, which: f64) -> Self {
         let (low, high) = field.monotone_span(which);
         let displacements = (field.displacement_along(low), field.displacement_along(high));
         Self { angles: (low, high), displacements }
@@ -119,7 +115,7 @@ impl Ends {
 
     /// Whether a zero lies between them.
     #[inline(always)]
-    pub(in crate::contact) fn holds_zero(&self, field: &StressField) -> bool {
+    pub(super) fn holds_zero(&self, field: &StressField) -> bool {
         let (low, high) = self.angles;
         // From the entry on it grows until the rim is as fast as the soil.
         low < high && high < field.patch.entry && self.displacements.0 * self.displacements.1 < 0.0
@@ -127,22 +123,22 @@ impl Ends {
 }
 
 /// Newton's method has found its zero by then, or finds none.
-pub(in crate::contact) const MOST_STEPS: usize = 6;
+pub(super) const MOST_STEPS: usize = 6;
 
 /// Newton's method for a zero of *j_x* but the entry, from where a shallow arc has it.
 ///
 /// With d half the way from the entry, j_x = 0 reads cos(θ_f − d) sin d = d r_s ω/v_x, which to second
 /// order is ⅔ d² − θ_f d + ½ θ_f² = 1 − r_s ω/v_x.
 #[derive(Clone, Copy)]
-pub(in crate::contact) struct Newton {
+pub(super) struct Newton {
     /// From the entry [rad].
-    pub(in crate::contact) behind: f64,
-    pub(in crate::contact) is_done: bool,
+    pub(super) behind: f64,
+    pub(super) is_done: bool,
 }
 
 impl Newton {
     #[inline(always)]
-    pub(in crate::contact) fn started(field: &StressField, which: f64) -> Self {
+    pub(super) fn started(field: &StressField, which: f64) -> Self {
         let RimMotion { rim, forward, .. } = field.law.motion;
         let entry = field.patch.entry;
         let square = (8.0 * (1.0 - rim / forward) - entry * entry) / 3.0;
@@ -151,7 +147,7 @@ impl Newton {
 
     /// A step on, unless it is done.
     #[inline(always)]
-    pub(in crate::contact) fn next(self, field: &StressField) -> Self {
+    pub(super) fn next(self, field: &StressField) -> Self {
         /// The next step is the square of this one [rad].
         const LAST_STEP: f64 = 1e-7;
         let RimMotion { rim, forward, .. } = field.law.motion;
