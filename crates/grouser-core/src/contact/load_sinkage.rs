@@ -148,6 +148,12 @@ impl LoadSinkage {
         let (factor, power) = self.arc(Side::Front).law.shallow();
         (self.area * factor, power)
     }
+
+    /// The power [-] of the sinkage with which F_z of a shallow wheel grows, that of
+    /// [`shallow`](Self::shallow).
+    pub(crate) fn exponent(&self) -> f64 {
+        self.arc(Side::Front).law.shallow_exponent()
+    }
 }
 
 /// The arc of a wheel that enters the soil with its front.

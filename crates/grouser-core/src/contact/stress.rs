@@ -238,7 +238,13 @@ impl StressLaw {
         let scale = self.scale * self.radius;
         let profile = elementary::pow(front * (2.0 - front * node) / scale, n) / (n + 1.0);
         let arc = (2.0 / self.radius).sqrt() * (1.0 + self.exit_ratio.sqrt()) * profile;
-        (self.pressure * arc, n + 0.5)
+        (self.pressure * arc, self.shallow_exponent())
+    }
+
+    /// The power of the sinkage [-] in the same: n + ½.
+    #[inline(always)]
+    pub(super) fn shallow_exponent(&self) -> f64 {
+        self.exponent + 0.5
     }
 }
 

@@ -259,7 +259,7 @@ impl<'a> Curve<'a> {
         mount: &'a Mount,
         known: Option<&Known>,
     ) -> Self {
-        let exponent = relation.as_ref().map_or(USUAL_EXPONENT, |relation| relation.shallow().1);
+        let exponent = relation.as_ref().map_or(USUAL_EXPONENT, LoadSinkage::exponent);
         let (place, slope, change) = match known {
             Some(known) => (known.place, known.slope, difference(&known.slip, &contact.slip)),
             None => (Place::default(), Slope::default(), f64::INFINITY),
