@@ -4,6 +4,7 @@ mod interpolation;
 mod many;
 mod search;
 
+pub(crate) use interpolation::{grows_as_usual, is_usual_step};
 pub use many::{LoadedWheel, settle_each, settle_many};
 
 use self::search::{Search, Start};

@@ -20,6 +20,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::load::{self, LoadSharing};
 use super::parts::Mount;
 use super::reaction::{Ground, ReactionError, Stance, WheelReaction};
+use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
 use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
 use crate::elementary;
@@ -78,10 +79,6 @@ const APART: f64 = 1e-12;
 const MOST_ROUNDS: usize = 8;
 /// Points that a curve goes through: a parabola.
 const POINTS: usize = 3;
-/// No sinkage is further from the one before [ln h].
-const LONGEST_STEP: f64 = 1.0;
-/// F_z grows with a power of h that is this many times its shallow one at most, or at least.
-const STEEPEST: f64 = 4.0;
 
 impl Ground<'_> {
     /// The reaction on every wheel by a search for all of them at once; none where the usual search fails.
@@ -307,9 +304,7 @@ impl<'a> Curve<'a> {
             return (depth < self.axle).then_some(depth);
         }
         let depth = self.depth_at(elementary::ln(load));
-        let step = (depth - self.last().depth).abs();
-        // So that no NaN gets through.
-        (depth < self.axle && step < LONGEST_STEP).then_some(depth)
+        is_usual_step(self.last().depth, depth, self.axle).then_some(depth)
     }
 
     /// Adds a place that was tried; none where F_z does not grow with the sinkage as it should.
@@ -324,8 +319,7 @@ impl<'a> Curve<'a> {
         }
         let before = *self.last();
         let (rise, width) = (place.depth - before.depth, place.load - before.load);
-        let growth = width / rise;
-        let is_usual = growth * STEEPEST > self.exponent && growth < self.exponent * STEEPEST;
+        let is_usual = grows_as_usual(width / rise, self.exponent);
         let places = &self.places[..self.count];
         if !is_usual || places.iter().any(|known| (known.load - place.load).abs() < APART) {
             return None;

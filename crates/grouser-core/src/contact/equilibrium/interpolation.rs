@@ -50,8 +50,6 @@ impl Interpolation {
     pub(super) fn next(&self) -> Next {
         /// Sinkages that are tried: every usual law is solved by then.
         const MOST_STEPS: u32 = 8;
-        /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
-        const STEEPEST: f64 = 4.0;
         /// The next point's error is below the product of the last points' (three, or the only two), times
         /// this.
         const CURVATURE: f64 = 0.05;
@@ -68,13 +66,12 @@ impl Interpolation {
         } else {
             let (before, excess_before) = points[count - 2];
             let slope = (excess - excess_before) / (here - before);
-            if !(slope * STEEPEST > exponent && slope < exponent * STEEPEST) {
+            if !grows_as_usual(slope, exponent) {
                 return Next::Lost;
             }
             interpolate_at_zero(&points[..count])
         };
-        // Negated, so that no NaN gets through.
-        if !(next < axle && (next - here).abs() < LONGEST_STEP) {
+        if !is_usual_step(here, next, axle) {
             return Next::Lost;
         }
         let error: f64 = points[count.saturating_sub(3)..count].iter().map(|p| p.1.abs()).product();
@@ -97,6 +94,22 @@ impl Interpolation {
         }
         self.points[self.count - 1] = point;
     }
+}
+
+/// Whether F_z grows with the sinkage about as it does for a shallow wheel; NaN does not.
+///
+/// * `growth`: the power with which it grows [-], and `exponent`: that of a shallow wheel
+pub(crate) fn grows_as_usual(growth: f64, exponent: f64) -> bool {
+    /// F_z grows with a power of h that is this many times its shallow one at most, or at least.
+    const STEEPEST: f64 = 4.0;
+    growth * STEEPEST > exponent && growth < exponent * STEEPEST
+}
+
+/// Whether a step of a search ends above the axle and is not too long; none to NaN does.
+///
+/// * `here`, `next`, `axle`: ln h before and after the step, and ln r_s
+pub(crate) fn is_usual_step(here: f64, next: f64, axle: f64) -> bool {
+    next < axle && (next - here).abs() < LONGEST_STEP
 }
 
 /// The polynomial x(f) through some points, at f = 0 (Neville).
