@@ -25,6 +25,7 @@
 pub mod contact;
 pub mod elementary;
 pub mod error;
+mod lagrange;
 pub mod mission;
 pub mod newton;
 mod peak;

@@ -18,6 +18,7 @@ use super::point::Point;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::contact::WheelForces;
+use crate::lagrange;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{rolling_velocity, wheel_slips};
 use crate::vehicle::settling::add_weighted;
@@ -301,8 +302,8 @@ impl Stretch {
     fn weights(&self, yaw: f64) -> [f64; 5] {
         match self.nodes.len() {
             1 => [1.0, 0.0, 0.0, 0.0, 0.0],
-            2 => lagrange(&[0.0, 1.0], self.share(yaw)),
-            _ => lagrange(&QUARTERS, self.share(yaw)),
+            2 => lagrange::weights(&[0.0, 1.0], self.share(yaw)),
+            _ => lagrange::weights(&QUARTERS, self.share(yaw)),
         }
     }
 
@@ -355,7 +356,7 @@ fn fill(
             continue;
         }
         let places: Vec<f64> = known.iter().take(5).map(|(at, _)| *at).collect();
-        let weighted = known.iter().zip(lagrange(&places, share));
+        let weighted = known.iter().zip(lagrange::weights::<5>(&places, share));
         let guess = weighted.map(|((_, node), weight)| node.velocities * weight).sum();
         let steady = solver.find(start + share * width, &guess)?;
         known.push((share, steady));
@@ -368,22 +369,12 @@ fn fill(
 /// two, over the fastest rim's speed [-].
 fn roughness(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64 {
     let miss = |at: usize| {
-        let weights = lagrange(&[0.0, 0.5, 1.0], nodes[at].0);
+        let weights: [f64; 3] = lagrange::weights(&[0.0, 0.5, 1.0], nodes[at].0);
         let parabola: Vector3<f64> =
             (0..3).map(|node| nodes[2 * node].1.velocities * weights[node]).sum();
         solver.size(&(nodes[at].1.velocities - parabola))
     };
     miss(1).max(miss(3))
-}
-
-/// Weights of up to five values in the polynomial through them (Lagrange).
-fn lagrange(places: &[f64], at: f64) -> [f64; 5] {
-    let mut weights = [0.0; 5];
-    for (index, (weight, place)) in weights.iter_mut().zip(places).enumerate() {
-        let others = places.iter().enumerate().filter(|(other, _)| *other != index);
-        *weight = others.map(|(_, other)| (at - other) / (place - other)).product();
-    }
-    weights
 }
 
 /// A wheel between its reactions at several steady states; its slip is for the caller to set.

@@ -23,9 +23,9 @@ use super::reaction::{Ground, ReactionError, Stance, WheelReaction};
 use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
 use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
-use crate::elementary;
 use crate::soil::Soil;
 use crate::units::Vec2;
+use crate::{elementary, lagrange};
 
 /// The wheels of a motion nearby: where a search begins.
 #[derive(Clone, Debug, Default)]
@@ -370,17 +370,10 @@ impl<'a> Curve<'a> {
         near <= APART || near <= CLOSE && near * others.max(near) <= EXACT
     }
 
-    /// Weights of the places at a load ln *F_z* (Lagrange).
+    /// Weights of the places at a load ln *F_z*.
     fn weights(&self, load: f64) -> [f64; POINTS] {
-        let mut weights = [0.0; POINTS];
-        for (at, weight) in weights.iter_mut().enumerate().take(self.count) {
-            *weight = 1.0;
-            for other in (0..self.count).filter(|other| *other != at) {
-                let (here, there) = (self.places[at].load, self.places[other].load);
-                *weight *= (load - there) / (here - there);
-            }
-        }
-        weights
+        let loads = self.places.each_ref().map(|place| place.load);
+        lagrange::weights(&loads[..self.count], load)
     }
 
     /// How fast these weights change [1/ln F_z].

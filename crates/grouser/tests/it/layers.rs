@@ -12,6 +12,7 @@ const LAYERS: [&[&str]; 7] = [
         "units",
         "error",
         "elementary",
+        "lagrange",
         "newton",
         "peak",
         "random",
