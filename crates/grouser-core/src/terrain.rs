@@ -12,11 +12,13 @@ pub mod elevation;
 pub mod footprint;
 pub mod height_field;
 pub mod soil_field;
+pub mod surface;
 
 pub use elevation::{ElevationError, ElevationGrid, ElevationModel, Extent};
 pub use footprint::Footprint;
 pub use height_field::HeightField;
 pub use soil_field::{SoilField, SoilScatter};
+pub use surface::{AnalyticTerrain, Surface};
 
 /// Ground that a rover drives on.
 ///

@@ -1,6 +1,7 @@
 //! What the ground of elevation models and of formulas repeats.
 
 mod elevation;
+mod surface;
 
 #[path = "../../examples/by_hand/hakuto.rs"]
 #[allow(dead_code, unused_imports, reason = "of the rover only its sand is needed here")]

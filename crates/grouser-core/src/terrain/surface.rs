@@ -1,0 +1,134 @@
+//! Ground by formulas: planes, ramps, cones, ripples and craters.
+
+mod crater;
+mod shapes;
+
+pub use crater::Crater;
+pub use shapes::{Cone, Incline, Ramp, Ripple};
+
+use std::borrow::Cow;
+
+use super::{Footprint, Patch, Terrain};
+use crate::error::ParameterError;
+use crate::soil::Soil;
+use crate::units::Vec2;
+
+/// A surface whose height and gradient are formulas.
+///
+/// Places are on a map, x east and y north, and heights are against gravity, all in metres. Directions are
+/// from east, counter-clockwise. Where a surface has an edge, between the level ground and a ramp without a
+/// rounding or at the tip of a cone, its gradient is that of one side.
+///
+/// How high does the rim of a fresh crater of 20 m stand, and how deep is its middle?
+///
+/// ```
+/// use grouser_core::terrain::surface::{Crater, Surface};
+/// use grouser_core::units::Vec2;
+///
+/// let crater = Surface::Crater(Crater::fresh(Vec2::zeros(), 20.0));
+/// let height = |x: f64| format!("{:+.2} m", crater.height(Vec2::new(x, 0.0)));
+/// assert_eq!([height(10.0), height(0.0)], ["+0.72 m", "-3.20 m"]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Surface {
+    /// A plane through the origin.
+    Incline(Incline),
+    /// An incline between two level pieces of ground.
+    Ramp(Ramp),
+    /// A hill or a pit of even slope.
+    Cone(Cone),
+    /// Waves of one length.
+    Ripple(Ripple),
+    /// A bowl with a rim.
+    Crater(Crater),
+}
+
+impl Surface {
+    /// That there can be such a surface.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first value that is wrong.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        match self {
+            Self::Incline(incline) => incline.check(),
+            Self::Ramp(ramp) => ramp.check(),
+            Self::Cone(cone) => cone.check(),
+            Self::Ripple(ripple) => ripple.check(),
+            Self::Crater(crater) => crater.check(),
+        }
+    }
+
+    /// Height at a place [m].
+    #[must_use]
+    pub fn height(&self, at: Vec2) -> f64 {
+        match self {
+            Self::Incline(incline) => incline.height(at),
+            Self::Ramp(ramp) => ramp.height(at),
+            Self::Cone(cone) => cone.height(at),
+            Self::Ripple(ripple) => ripple.height(at),
+            Self::Crater(crater) => crater.height(at),
+        }
+    }
+
+    /// How fast the height grows at a place, to the east and to the north [-].
+    #[must_use]
+    pub fn gradient(&self, at: Vec2) -> Vec2 {
+        match self {
+            Self::Incline(incline) => incline.gradient(),
+            Self::Ramp(ramp) => ramp.gradient(at),
+            Self::Cone(cone) => cone.gradient(at),
+            Self::Ripple(ripple) => ripple.gradient(at),
+            Self::Crater(crater) => crater.gradient(at),
+        }
+    }
+}
+
+/// A surface of homogeneous soil, to drive on.
+///
+/// A wheel meets the least-squares plane of the surface at the points of its footprint
+/// ([`Footprint::fit`]).
+///
+/// How steep is a ripple 1 m long and 10 cm from trough to crest, at most, under a wheel?
+///
+/// ```
+/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::terrain::surface::{AnalyticTerrain, Ripple, Surface};
+/// use grouser_core::terrain::{Footprint, Terrain};
+/// use grouser_core::units::Vec2;
+///
+/// let ripple = Ripple { amplitude: 0.05, wavelength: 1.0, across: 0.0, phase: 0.0 };
+/// let terrain = AnalyticTerrain { surface: Surface::Ripple(ripple), soil: hakuto::sand() };
+/// let wheel = Footprint { forward: Vec2::x(), half_length: 0.06, half_width: 0.05 };
+/// let steepest = terrain.patch(Vec2::zeros(), wheel).normal.z.acos();
+/// assert_eq!(format!("{:.1}°", steepest.to_degrees()), "17.1°");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnalyticTerrain {
+    /// Its shape.
+    pub surface: Surface,
+    /// The soil.
+    pub soil: Soil,
+}
+
+impl AnalyticTerrain {
+    /// That there can be such ground.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first value that is wrong.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.soil.check()?;
+        self.surface.check()
+    }
+}
+
+impl Terrain for AnalyticTerrain {
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
+        let fit = footprint.fit(&footprint.points(at).map(|place| self.surface.height(place)));
+        Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
+    }
+
+    fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
+        Cow::Borrowed(&self.soil)
+    }
+}
