@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use grouser::contact::validity::{Finding, Situation};
 use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, forces_many, settle_many};
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::{LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::columns::{LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::{Described, Kind, Misfit, range, study};
 use grouser::error::ParameterError;
 use grouser::soil::Soil;
@@ -45,7 +45,8 @@ struct Stand {
 
 /// What each wheel has of its own.
 struct Inputs<'a> {
-    /// Load [N], or sinkage [mm].
+    /// What is in `pressed`: [`LOAD`] or [`SINKAGE`], in its unit.
+    quantity: Quantity,
     pressed: &'a [f64],
     slip_ratios: &'a [f64],
     slip_angles_deg: &'a [f64],
@@ -127,6 +128,29 @@ impl Stand {
         contact.filter(|_| !self.is_missing(inputs, place))
     }
 
+    /// The wheels of a share by their models, each with its load [N] or sinkage [m]. One whose numbers are
+    /// not all there, or do not go together, has no results.
+    ///
+    /// * `last`: what is written of it in their place
+    fn by_model(
+        &self,
+        inputs: &Inputs<'_>,
+        share: &mut Share<'_>,
+        last: impl Fn(usize) -> f64,
+    ) -> Vec<OfModel> {
+        let mut by_model = Vec::new();
+        for place in share.places.clone() {
+            match self.known_contact(inputs, place) {
+                Some((contact, theory)) => {
+                    let pressed = inputs.quantity.unit.to_si(inputs.pressed[place]);
+                    OfModel::add(&mut by_model, theory, place, (contact, pressed));
+                }
+                None => share.write(place, &NO_WHEEL, last(place), &[]),
+            }
+        }
+        by_model
+    }
+
     /// Whether one of a wheel's numbers is NaN.
     fn is_missing(&self, inputs: &Inputs<'_>, place: usize) -> bool {
         let Inputs { pressed, slip_ratios, slip_angles_deg, .. } = inputs;
@@ -164,8 +188,8 @@ impl Inputs<'_> {
     }
 
     /// Checks that all arrays are of one length and in their ranges.
-    fn check(&self, soils: usize, name: &str, pressed: &RangeInclusive<f64>) -> PyResult<()> {
-        let count = self.pressed.len();
+    fn check(&self, soils: usize, pressed: &RangeInclusive<f64>) -> PyResult<()> {
+        let (name, count) = (self.quantity.name, self.pressed.len());
         let lengths = [self.slip_ratios.len(), self.slip_angles_deg.len()];
         let indices = self.soils.map_or(count, <[i64]>::len);
         if lengths != [count, count] || indices != count {
@@ -247,7 +271,7 @@ impl Share<'_> {
     }
 }
 
-/// Wheels under their loads [N] that settle by one model, and their places.
+/// Wheels of one model, each with its load [N] or sinkage [m], and their places.
 struct OfModel {
     theory: Theory,
     places: Vec<usize>,
@@ -365,25 +389,19 @@ pub(crate) fn settle<'py>(
     vary: &Bound<'py, PyDict>,
 ) -> PyResult<Answer<'py>> {
     let inputs = Inputs {
+        quantity: LOAD,
         pressed: load_n.as_slice()?,
         slip_ratios: slip_ratio.as_slice()?,
         slip_angles_deg: slip_angle_deg.as_slice()?,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
     let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
-    inputs.check(stand.soils.len(), LOAD.name, &study::LOAD_N)?;
+    inputs.check(stand.soils.len(), &study::LOAD_N)?;
     stand.check(py, &inputs)?;
     let compute = |mut share: Share<'_>| {
-        let (mut by_model, mut flags) = (Vec::new(), Vec::new());
-        for place in share.places.clone() {
-            match stand.known_contact(&inputs, place) {
-                Some((contact, theory)) => {
-                    OfModel::add(&mut by_model, theory, place, (contact, inputs.pressed[place]));
-                }
-                None => share.write(place, &NO_WHEEL, f64::NAN, &[]),
-            }
-        }
-        for OfModel { theory, places, wheels } in by_model {
+        let mut flags = Vec::new();
+        for OfModel { theory, places, wheels } in stand.by_model(&inputs, &mut share, |_| f64::NAN)
+        {
             let found = settle_many(theory.model(), &wheels);
             for ((place, (contact, load)), found) in places.into_iter().zip(&wheels).zip(found) {
                 find_flags(&mut flags, contact, theory, *load, found.as_ref().ok());
@@ -419,6 +437,7 @@ pub(crate) fn wheel_forces<'py>(
     vary: &Bound<'py, PyDict>,
 ) -> PyResult<Answer<'py>> {
     let inputs = Inputs {
+        quantity: SINKAGE,
         pressed: sinkage_mm.as_slice()?,
         slip_ratios: slip_ratio.as_slice()?,
         slip_angles_deg: slip_angle_deg.as_slice()?,
@@ -427,7 +446,7 @@ pub(crate) fn wheel_forces<'py>(
     let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
     let depth = |wheel: &Wheel| SINKAGE.unit.from_si(wheel.shearing_radius());
     let deepest = if stand.of_wheels.is_empty() { depth(&stand.wheel) } else { f64::MAX };
-    inputs.check(stand.soils.len(), SINKAGE.name, &(0.0..=deepest))?;
+    inputs.check(stand.soils.len(), &(0.0..=deepest))?;
     stand.check(py, &inputs)?;
     if !stand.of_wheels.is_empty() {
         for (place, sinkage) in inputs.pressed.iter().enumerate() {
@@ -446,23 +465,13 @@ pub(crate) fn wheel_forces<'py>(
         }
     }
     let compute = |mut share: Share<'_>| {
-        let mut by_model = Vec::new();
-        for place in share.places.clone() {
-            let sinkage_mm = inputs.pressed[place];
-            match stand.known_contact(&inputs, place) {
-                Some((contact, theory)) => {
-                    let sunk = (contact, SINKAGE.unit.to_si(sinkage_mm));
-                    OfModel::add(&mut by_model, theory, place, sunk);
-                }
-                None => share.write(place, &NO_WHEEL, sinkage_mm, &[]),
-            }
-        }
-        for OfModel { theory, places, wheels } in by_model {
+        let given = |place: usize| inputs.pressed[place];
+        for OfModel { theory, places, wheels } in stand.by_model(&inputs, &mut share, given) {
             let found = forces_many(theory.model(), &wheels);
             for ((place, (_, sinkage)), forces) in places.into_iter().zip(&wheels).zip(found) {
                 let settled = Settled { sinkage: *sinkage, forces, evaluations: 1 };
                 // Forces at a given depth are no equilibrium: they carry no flags.
-                share.write(place, &wheel_row(&settled), inputs.pressed[place], &[]);
+                share.write(place, &wheel_row(&settled), given(place), &[]);
             }
         }
     };
