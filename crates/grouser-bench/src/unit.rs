@@ -126,8 +126,8 @@ impl Fixtures {
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
             Unit::TraverseDynamicOutcome => outcome(&self.scenario),
             Unit::TraverseQuasiSteadyOutcome => outcome(&self.quasi_steady()),
-            Unit::ControlStep => self.control(&self.scenario),
-            Unit::ControlStepQuasiSteady => self.control(&self.quasi_steady()),
+            Unit::ControlStep => control(&self.scenario),
+            Unit::ControlStepQuasiSteady => control(&self.quasi_steady()),
             Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
@@ -199,20 +199,6 @@ impl Fixtures {
         Done { count: ends.len(), checksum: ends.iter().sum() }
     }
 
-    /// The steps of 20 ms under changing speeds.
-    ///
-    /// # Panics
-    /// If they cannot be computed: those of the fixtures always could.
-    #[must_use]
-    pub fn control_steps(&self, scenario: &Scenario) -> Run {
-        controlled(scenario)
-    }
-
-    fn control(&self, scenario: &Scenario) -> Done {
-        let run = self.control_steps(scenario);
-        Done { count: CONTROL_STEPS, checksum: run.state().rover().position.y }
-    }
-
     /// The scenario with velocities in balance.
     #[must_use]
     pub fn quasi_steady(&self) -> Scenario {
@@ -253,6 +239,11 @@ fn outcome(scenario: &Scenario) -> Done {
     Done { count: 1, checksum: run.last().state.position.y }
 }
 
+fn control(scenario: &Scenario) -> Done {
+    let run = controlled(scenario);
+    Done { count: CONTROL_STEPS, checksum: run.state().rover().position.y }
+}
+
 /// Length of a step under changed speeds [s].
 const CONTROL_PERIOD: f64 = 0.02;
 /// How many of them are one piece of work: 5 s.
@@ -260,7 +251,11 @@ const CONTROL_STEPS: usize = 250;
 
 /// A rover led through these steps under speeds that change at every one: those of both sides rise and fall by a fifth
 /// within 5 s, and by a tenth against each other within 7 s.
-pub(crate) fn controlled(scenario: &Scenario) -> Run {
+///
+/// # Panics
+/// If a step cannot be computed: those of the fixtures always could.
+#[must_use]
+pub fn controlled(scenario: &Scenario) -> Run {
     let wave = |time: f64, period: f64| (TAU * time / period).sin();
     let mut run = Run::new(scenario).expect("the scenario starts");
     let base = scenario.drive.nominal_rim_speed();
