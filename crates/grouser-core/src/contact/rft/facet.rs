@@ -17,10 +17,11 @@
 //! would drive a facet is turned against it, and where the facet is upright. Here the first two pass
 //! over [`BLEND`]; the third, a hundredth of ξ, stays and is met at θ = 0 alone, the edge of every
 //! integral.
-
+//!
 //! Pushing and friction need no vectors: with p = |f₁ + f₂ x₃ + f₃ x₂| against the facet, the shear is
 //! f₂ v_t − f₃ z_t, where v_t and z_t are the parts of e_v and e_z along the facet, and all products of
-//! these two follow from x₁, x₂ and x₃. Whoever has the facets knows v_t and z_t in directions of its own.
+//! these two follow from x₁, x₂ and x₃. So [`response`] gives the factors of v_t and z_t alone, and its
+//! caller, which knows how the facets lie, multiplies them by these vectors.
 //!
 //! Each stage runs over all lanes before the next one begins: the square roots and divisions of some
 //! facets are waited for while others are computed.
@@ -36,7 +37,7 @@ use super::super::lanes::{Each, WIDE, each};
 /// everywhere, so that without a width it would not know which half of it carries the rover.
 pub(super) const BLEND: f64 = 0.02;
 
-/// Coefficients c₁ₖ, c₂ₖ, c₃ₖ [-] of the terms Tₖ of the terms Tₖ, five a line:
+/// Coefficients c₁ₖ, c₂ₖ, c₃ₖ [-] of the terms Tₖ, five a line:
 ///
 /// ```text
 /// 1      x₁     x₂     x₃     x₁²
