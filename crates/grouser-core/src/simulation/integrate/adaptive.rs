@@ -6,11 +6,18 @@
 //! to rest its fastest rate is millions a second: an explicit step would be as short. Both methods
 //! are of order 5, take one step at a time and know nothing of the one before, so that a motion
 //! begins anew at once where wheels change their speeds.
+//!
+//! `setting_off` has the exponential steps with which it begins, `way` what one step knows of the next.
+
+#[cfg(test)]
+mod problems;
+mod setting_off;
+mod way;
 
 use std::ops::Range;
 
+use self::way::{Outlook, STIFF, Way};
 use super::dormand_prince::{ExplicitStep, explicit_step};
-use super::exponential::exponential_step;
 use super::rosenbrock::{Linear, implicit_step};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
 use super::{OnSample, Point, SIZE, Stalled, WITH_MOTORS, rates_at};
@@ -119,69 +126,6 @@ fn led<const N: usize>(
     Ok(way)
 }
 
-/// A motion on its way.
-#[derive(Clone, Copy)]
-struct Way<const N: usize> {
-    /// The last step: when it began [s], how long it is [s], where it led, and how.
-    start: f64,
-    span: f64,
-    step: Step<N>,
-    implicit: bool,
-    next: Outlook<N>,
-    /// When and where the motion was last looked at.
-    seen: (f64, Numbers<N>),
-}
-
-/// What is known of the next step.
-#[derive(Clone, Copy)]
-struct Outlook<const N: usize> {
-    /// The rates at its start, if they were needed already.
-    rates: Option<Numbers<N>>,
-    /// How long it should be [s], and whether implicit.
-    span: f64,
-    implicit: bool,
-    /// Steps of the same method since they last became markedly longer, and how long they were then
-    /// [s].
-    stagnant: (u32, f64),
-}
-
-impl<const N: usize> Outlook<N> {
-    fn first(span: f64, implicit: bool) -> Self {
-        Self { rates: None, span, implicit, stagnant: (0, span) }
-    }
-
-    /// What an explicit or an implicit step knows of the next one.
-    ///
-    /// * `span`: how long that may be for its error [s]
-    /// * `fastest`: the fastest rate of the motion [1/s], from an explicit step at least its order
-    fn after(self, implicit: bool, span: f64, fastest: f64) -> Self {
-        let (count, length) = self.stagnant;
-        let same = implicit == self.implicit && span <= LONGER * length;
-        let (count, length) = if same { (count + 1, length) } else { (0, span) };
-        let stuck = count >= STAGNANT;
-        let stiff = span * fastest > if implicit { MILD } else { STIFF };
-        if stiff && implicit && stuck {
-            return Self::first(SETTLING / fastest, true);
-        }
-        let next = stiff || stuck && !implicit;
-        Self { rates: None, span, implicit: next, stagnant: (count, length) }
-    }
-}
-
-impl<const N: usize> Way<N> {
-    fn end(&self) -> f64 {
-        self.start + self.span
-    }
-
-    /// The point at a time [s] within the last step.
-    fn look(&mut self, time: f64) -> Numbers<N> {
-        let share = if time == self.end() { 1.0 } else { (time - self.start) / self.span };
-        let point = self.step.at(share);
-        self.seen = (time, point);
-        point
-    }
-}
-
 /// More steps than this between two samples mean that the motion chatters.
 const MOST_STEPS: u32 = 100_000;
 /// The shortest step [s]: a speed of a metre a second changes by less than its rounding.
@@ -198,31 +142,6 @@ const RETREAT: f64 = 0.25;
 /// Error of the embedded step, which is of order 4, over that of the step itself, of order 5 [-]: at
 /// least so much. Source: measured, see the tests below.
 const EMBEDDED_EXCESS: f64 = 2.5;
-/// The same of an exponential step, whose embedded one is of order 3 [-]. Source: measured, see the tests below.
-const OVERESTIMATE: f64 = 25.0;
-/// Steps that are longer than this, times the motion's fastest rate, are implicit: explicit ones
-/// are stable up to 3.3. Source: Hairer and Wanner (1996), section IV.2.
-const STIFF: f64 = 3.0;
-/// Steps that are shorter than this, times the same, are explicit. Source: ours, half of it, so that
-/// there is no swinging between both.
-const MILD: f64 = 1.5;
-
-/// Steps that after so many are not this many times as long as the first of them are stuck. Explicit
-/// ones are then followed by an implicit one: their own estimate of the fastest rate may miss it,
-/// and where slip settles steps become longer faster. Source: ours.
-const STAGNANT: u32 = 8;
-const LONGER: f64 = 1.5;
-/// Implicit steps that are stuck are followed by one of this length, times the motion's fastest rate.
-/// They are linear in the rates; where those have a kink, as where a hub all but rests, long steps
-/// keep an error that no shorter one of them loses, and one that follows the fastest motion does.
-const SETTLING: f64 = 0.5;
-
-/// The span [s] that leads from one time to another, rounding included: it must not leave a rest of the way.
-fn whole_span(now: f64, time: f64) -> f64 {
-    let span = time - now;
-    if now + span < time { span.next_up() } else { span }
-}
-
 /// A motion by its rates, to a tolerance.
 struct Motion<F, const N: usize> {
     rates_at: F,
@@ -270,70 +189,6 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
             steps += 1;
             way = Some(next);
         }
-    }
-
-    /// The first steps of a motion, exponential ones: what new speeds of the wheels disturb dies out along an
-    /// exponential. They lead to a time [s], or as far as a few of them do; none where the first fails.
-    ///
-    /// * `first_span`: how long the first step is to be [s], if that is known, and was afterwards
-    fn set_off(
-        &self,
-        start: &(f64, Numbers<N>),
-        time: f64,
-        first_span: &mut Option<f64>,
-        on_step: &dyn Fn(&Way<N>),
-    ) -> Option<Way<N>> {
-        /// Where more steps are needed, or one is shortened more often, motion is no exponential.
-        const MOST_STEPS: u32 = 6;
-        const MOST_SHORTENED: u32 = 2;
-        let (mut now, mut from) = *start;
-        let mut way: Option<Way<N>> = None;
-        let mut longest = first_span.unwrap_or(f64::INFINITY);
-        let mut rates = (self.rates_at)(&from)?;
-        for _ in 0..MOST_STEPS {
-            if now >= time {
-                break;
-            }
-            let linear = Linear::at(&from, rates, self.coupled.clone(), &self.rates_at);
-            let Some(linear) = linear else { break };
-            let mut next = None;
-            for _ in 0..=MOST_SHORTENED {
-                let span = whole_span(now, time).min(longest);
-                if span < SHORTEST {
-                    break;
-                }
-                let step = exponential_step(&from, &linear, span, &self.rates_at);
-                let miss = step.as_ref().map_or(f64::NAN, |step| self.miss(step, OVERESTIMATE));
-                let factor = if miss.is_finite() {
-                    (CAUTION * pow(miss.max(f64::EPSILON), -0.25)).clamp(GROWTH.0, GROWTH.1)
-                } else {
-                    RETREAT
-                };
-                longest = factor * span;
-                // No stage is where the step ends: there must be rates, too.
-                if let Some(step) = step.filter(|_| miss <= 1.0)
-                    && let Some(there) = (self.rates_at)(&step.to)
-                {
-                    rates = there;
-                    let outlook = Outlook { rates: Some(there), ..Outlook::first(longest, true) };
-                    let (start, seen) = (now, (now, from));
-                    next = Some(Way { start, span, step, implicit: true, next: outlook, seen });
-                    break;
-                }
-                longest = longest.min(span);
-            }
-            let Some(next) = next else { break };
-            on_step(&next);
-            if way.is_none() {
-                *first_span = Some(next.next.span.min(next.span / CAUTION));
-            }
-            (now, from) = (next.end(), next.step.to);
-            way = Some(next);
-        }
-        if let Some(way) = way.as_mut().filter(|_| now < time) {
-            way.next = Outlook { rates: Some(rates), ..self.first_outlook(&from, &rates) };
-        }
-        way
     }
 
     /// The next step.
@@ -446,118 +301,8 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
 
 #[cfg(test)]
 mod tests {
+    use super::problems::{DECIDING, Problem, kaps, of, pair, prothero_robinson, van_der_pol};
     use super::*;
-
-    const DECIDING: usize = SIZE - 1;
-
-    /// Numbers<SIZE> that couple: the first two components that may.
-    fn pair(one: f64, other: f64) -> Numbers<SIZE> {
-        let mut numbers = [0.0; SIZE];
-        (numbers[COUPLED.start], numbers[COUPLED.start + 1]) = (one, other);
-        numbers
-    }
-
-    fn of(numbers: &Numbers<SIZE>) -> (f64, f64) {
-        (numbers[COUPLED.start], numbers[COUPLED.start + 1])
-    }
-
-    /// A problem of two numbers, as stiff as 1/ε, and where it is after a while.
-    struct Problem {
-        name: &'static str,
-        rates: Box<dyn Fn(f64, f64) -> (f64, f64)>,
-        start: (f64, f64),
-        until: f64,
-        end: (f64, f64),
-    }
-
-    /// Kaps' problem. Source: Dekker and Verwer (1984), Stability of Runge-Kutta methods for stiff
-    /// nonlinear differential equations; its solution is (e⁻²ᵗ, e⁻ᵗ) for every ε.
-    fn kaps(epsilon: f64) -> Problem {
-        Problem {
-            name: "Kaps",
-            rates: Box::new(move |a, b| {
-                (-(1.0 / epsilon + 2.0) * a + b * b / epsilon, a - b - b * b)
-            }),
-            start: (1.0, 1.0),
-            until: 1.0,
-            end: ((-2.0_f64).exp(), (-1.0_f64).exp()),
-        }
-    }
-
-    /// y' = −(y − sin t)/ε + cos t, with time as the other number: y = sin t. Source: Prothero and
-    /// Robinson (1974), Math. Comp. 28, 145-162.
-    fn prothero_robinson(epsilon: f64) -> Problem {
-        Problem {
-            name: "Prothero-Robinson",
-            rates: Box::new(move |t, y| (1.0, -(y - t.sin()) / epsilon + t.cos())),
-            start: (0.0, 0.0),
-            until: 2.0,
-            end: (2.0, 2.0_f64.sin()),
-        }
-    }
-
-    /// With ε = 1e-6. Source of the end: Mazzia and Magherini (2008), Test set for initial value
-    /// problem solvers, release 2.4, part II, problem VDPOL.
-    fn van_der_pol() -> Problem {
-        Problem {
-            name: "van der Pol",
-            rates: Box::new(|x, v| (v, ((1.0 - x * x) * v - x) / 1e-6)),
-            start: (2.0, 0.0),
-            until: 2.0,
-            end: (1.706_167_732_170_483, -0.892_809_701_024_797_5),
-        }
-    }
-
-    impl Problem {
-        fn rates(&self) -> impl Fn(&Numbers<SIZE>) -> Option<Numbers<SIZE>> + '_ {
-            |numbers| {
-                let (one, other) = of(numbers);
-                let (one, other) = (self.rates)(one, other);
-                Some(pair(one, other))
-            }
-        }
-
-        fn start(&self) -> (f64, Numbers<SIZE>) {
-            (0.0, pair(self.start.0, self.start.1))
-        }
-
-        fn miss(&self, numbers: &Numbers<SIZE>) -> f64 {
-            let (one, other) = of(numbers);
-            (one - self.end.0).abs().max((other - self.end.1).abs())
-        }
-
-        /// Where it is led, in how many explicit and implicit steps.
-        fn led(&self, tolerance: f64) -> (Numbers<SIZE>, [u32; 2]) {
-            let motion =
-                Motion { rates_at: self.rates(), coupled: COUPLED, deciding: DECIDING, tolerance };
-            let counts = std::cell::Cell::new([0, 0]);
-            let count = |way: &Way<SIZE>| {
-                let mut now = counts.get();
-                now[usize::from(way.implicit)] += 1;
-                counts.set(now);
-            };
-            let way = motion.reach(&self.start(), None, self.until, &count);
-            (way.expect("it can be led").look(self.until), counts.get())
-        }
-
-        /// How much it is missed by so many equal steps of one method.
-        fn miss_with(&self, steps: u32, implicit: bool) -> f64 {
-            let (_, mut now) = self.start();
-            let span = self.until / f64::from(steps);
-            for _ in 0..steps {
-                let rates = self.rates()(&now).expect("it has rates");
-                let step = if implicit {
-                    let linear =
-                        Linear::at(&now, rates, COUPLED, &self.rates()).expect("it has rates");
-                    implicit_step(&now, &linear, span, &self.rates())
-                } else {
-                    explicit_step(&now, rates, span, COUPLED, &self.rates()).map(|it| it.step)
-                };
-                now = step.expect("it has rates").to;
-            }
-            self.miss(&now)
-        }
-    }
 
     /// The order that is seen where steps are halved.
     fn order(problem: &Problem, steps: u32, implicit: bool) -> f64 {
@@ -637,46 +382,6 @@ mod tests {
                 );
             }
         }
-    }
-
-    /// What [`OVERESTIMATE`] promises, for motions that settle as slip does: steps that are taken are as exact as the
-    /// tolerance.
-    #[test]
-    fn exponential_steps_that_are_taken_are_as_exact_as_the_tolerance() {
-        let mut taken = 0;
-        for epsilon in [1e-2, 1e-3, 1e-4] {
-            for shift in [1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3] {
-                let problem = Problem { start: (1.0, 1.0 + shift), ..kaps(epsilon) };
-                let (_, from) = problem.start();
-                let rates_at = problem.rates();
-                let rates = rates_at(&from).expect("it has rates");
-                let linear = Linear::at(&from, rates, COUPLED, &rates_at).expect("it has rates");
-                for lengths in [0.5, 2.0, 10.0, 50.0] {
-                    let span = lengths * epsilon;
-                    let step = exponential_step(&from, &linear, span, &rates_at).expect("rates");
-                    let mut exact = from;
-                    for _ in 0..1000 {
-                        let rates = rates_at(&exact).expect("it has rates");
-                        let part = span / 1000.0;
-                        let small = explicit_step(&exact, rates, part, COUPLED, &rates_at);
-                        exact = small.expect("it has rates").step.to;
-                    }
-                    let apart = |i: usize| (step.to[i] - exact[i]).abs();
-                    let error = apart(COUPLED.start).max(apart(COUPLED.start + 1));
-                    let (one, other) = of(&step.error);
-                    let estimate = one.abs().max(other.abs());
-                    for tolerance in [1e-6, 1e-7] {
-                        let is_taken = estimate < OVERESTIMATE * tolerance;
-                        taken += i32::from(is_taken);
-                        assert!(
-                            !is_taken || error < tolerance,
-                            "{epsilon:e}, {shift:e}, {lengths}: {error:e} of {estimate:e}"
-                        );
-                    }
-                }
-            }
-        }
-        assert!(taken > 50, "{taken}");
     }
 
     /// Points within steps are as near, however long those are.
