@@ -309,35 +309,32 @@ impl MobilisedShear {
 pub(super) trait ShearLaw {
     /// What e is raised to at a point: minus the displacements over their moduli [-]. A law with one
     /// modulus has one of them twice.
-    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2];
+    fn decays(&self, slipping: &Slipping) -> [f64; 2];
 
     /// * `strength`: c + σ tan φ [Pa]
     /// * `unmobilised`: e to the power of the [`decays`](Self::decays) [-]
-    fn stresses(
-        &self,
-        strength: f64,
-        unmobilised: [f64; 2],
-        point: &RimPoint,
-        field: &StressField,
-    ) -> (f64, f64);
+    fn stresses(&self, strength: f64, unmobilised: [f64; 2], slipping: &Slipping) -> (f64, f64);
+}
+
+/// How the rim slips over the soil at a point, along and across the wheel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slipping {
+    /// Shear displacement of the soil since it entered, *j_x* and *j_y* [m].
+    displacement: (f64, f64),
+    /// Velocity of the rim against the soil, over the rim's speed [-].
+    velocity: (f64, f64),
 }
 
 impl ShearLaw for AnisotropicShear {
     #[inline(always)]
-    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
-        let (j_x, j_y) = field.displacement(point);
+    fn decays(&self, slipping: &Slipping) -> [f64; 2] {
+        let (j_x, j_y) = slipping.displacement;
         [-j_x.abs() * self.per_longitudinal, -j_y.abs() * self.per_lateral]
     }
 
     #[inline(always)]
-    fn stresses(
-        &self,
-        strength: f64,
-        unmobilised: [f64; 2],
-        point: &RimPoint,
-        field: &StressField,
-    ) -> (f64, f64) {
-        let (j_x, j_y) = field.displacement(point);
+    fn stresses(&self, strength: f64, unmobilised: [f64; 2], slipping: &Slipping) -> (f64, f64) {
+        let (j_x, j_y) = slipping.displacement;
         let across = -strength * mobilised(unmobilised[1], j_y);
         let along = strength * mobilised(unmobilised[0], j_x);
         (along, if j_y == 0.0 { 0.0 } else { across })
@@ -346,19 +343,13 @@ impl ShearLaw for AnisotropicShear {
 
 impl ShearLaw for BoundedShear {
     #[inline(always)]
-    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
-        self.0.decays(point, field)
+    fn decays(&self, slipping: &Slipping) -> [f64; 2] {
+        self.0.decays(slipping)
     }
 
     #[inline(always)]
-    fn stresses(
-        &self,
-        strength: f64,
-        unmobilised: [f64; 2],
-        point: &RimPoint,
-        field: &StressField,
-    ) -> (f64, f64) {
-        let (j_x, j_y) = field.displacement(point);
+    fn stresses(&self, strength: f64, unmobilised: [f64; 2], slipping: &Slipping) -> (f64, f64) {
+        let (j_x, j_y) = slipping.displacement;
         let along = mobilised(unmobilised[0], j_x);
         let across = mobilised(unmobilised[1], j_y);
         let (x_2, y_2) = (along * along, across * across);
@@ -371,22 +362,16 @@ impl ShearLaw for BoundedShear {
 
 impl ShearLaw for IsotropicShear {
     #[inline(always)]
-    fn decays(&self, point: &RimPoint, field: &StressField) -> [f64; 2] {
-        let (j_x, j_y) = field.displacement(point);
+    fn decays(&self, slipping: &Slipping) -> [f64; 2] {
+        let (j_x, j_y) = slipping.displacement;
         [-(j_x * j_x + j_y * j_y).sqrt() * self.per_modulus; 2]
     }
 
     #[inline(always)]
-    fn stresses(
-        &self,
-        strength: f64,
-        unmobilised: [f64; 2],
-        point: &RimPoint,
-        field: &StressField,
-    ) -> (f64, f64) {
+    fn stresses(&self, strength: f64, unmobilised: [f64; 2], slipping: &Slipping) -> (f64, f64) {
         /// Slower than this [-] is at rest; its square is still a number.
         const AT_REST: f64 = 1e-150;
-        let (v_x, v_y) = field.slip_velocity(point);
+        let (v_x, v_y) = slipping.velocity;
         let speed = (v_x * v_x + v_y * v_y).sqrt();
         let per_speed = 1.0 / if speed > AT_REST { speed } else { AT_REST };
         let stress = strength * mobilised(unmobilised[0], 1.0);
@@ -473,8 +458,9 @@ impl StressField {
     /// The stresses at a point of the arc with a [`normal`](Self::normal) stress [Pa].
     #[inline(always)]
     pub(super) fn stress(&self, shear: &impl ShearLaw, normal: f64, point: &RimPoint) -> RimStress {
-        let unmobilised = shear.decays(point, self).map(elementary::exp);
-        let (longitudinal, lateral) = self.shear(shear, normal, unmobilised, point);
+        let slipping = self.slipping(point);
+        let unmobilised = shear.decays(&slipping).map(elementary::exp);
+        let (longitudinal, lateral) = self.shear(shear, normal, unmobilised, &slipping);
         RimStress { normal, longitudinal, lateral }
     }
 
@@ -485,10 +471,16 @@ impl StressField {
         shear: &impl ShearLaw,
         normal: f64,
         unmobilised: [f64; 2],
-        point: &RimPoint,
+        slipping: &Slipping,
     ) -> (f64, f64) {
         let strength = self.law.cohesion + normal * self.law.friction;
-        shear.stresses(strength, unmobilised, point, self)
+        shear.stresses(strength, unmobilised, slipping)
+    }
+
+    /// How the rim slips over the soil at a point of the arc.
+    #[inline(always)]
+    pub(super) fn slipping(&self, point: &RimPoint) -> Slipping {
+        Slipping { displacement: self.displacement(point), velocity: self.slip_velocity(point) }
     }
 
     /// The largest normal stress on the rim, σ_max = σ(θ_m) [Pa].

@@ -238,7 +238,8 @@ impl<'a> Integral<'a> {
         let [first, second] = &mut unmobilised;
         for wheel in 0..WIDE {
             let shear = fields.laws.shear::<L>(wheel);
-            [first[wheel], second[wheel]] = shear.decays(&points.at(wheel), &fields.field(wheel));
+            let slipping = fields.field(wheel).slipping(&points.at(wheel));
+            [first[wheel], second[wheel]] = shear.decays(&slipping);
         }
         for decays in &mut unmobilised[..DECAYS] {
             for decay in decays {
@@ -248,8 +249,9 @@ impl<'a> Integral<'a> {
         let (mut along, mut across) = ([0.0; WIDE], [0.0; WIDE]);
         for wheel in 0..WIDE {
             let left = [unmobilised[0][wheel], unmobilised[1][wheel]];
-            let (shear, point) = (fields.laws.shear::<L>(wheel), points.at(wheel));
-            let stresses = fields.field(wheel).shear(&shear, normal[wheel], left, &point);
+            let (shear, field) = (fields.laws.shear::<L>(wheel), fields.field(wheel));
+            let slipping = field.slipping(&points.at(wheel));
+            let stresses = field.shear(&shear, normal[wheel], left, &slipping);
             (along[wheel], across[wheel]) = stresses;
         }
         (along, across)
