@@ -1,0 +1,111 @@
+//! The system of a file's coordinates, carried along.
+
+/// What a file's coordinates refer to: its keys as they are, and a name to show.
+///
+/// Nothing is computed from them but what unit they are in, so that systems of the Moon and of Mars that no
+/// register has pass through as well.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CoordinateSystem {
+    directory: Vec<u16>,
+    doubles: Vec<f64>,
+    text: String,
+}
+
+/// The three tags of GeoTIFF that describe a coordinate system.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GeoKeys<'a> {
+    /// `GeoKeyDirectoryTag`, 34735.
+    pub directory: &'a [u16],
+    /// `GeoDoubleParamsTag`, 34736.
+    pub doubles: &'a [f64],
+    /// `GeoAsciiParamsTag`, 34737.
+    pub text: &'a str,
+}
+
+/// The tags with the values of keys.
+pub(crate) const DIRECTORY: u16 = 34735;
+pub(crate) const DOUBLES: u16 = 34736;
+pub(crate) const TEXT: u16 = 34737;
+
+/// Keys of GeoTIFF 1.1 (OGC 19-008r4).
+pub(crate) mod key {
+    pub(crate) const MODEL: u16 = 1024;
+    pub(crate) const POINTS_OR_AREAS: u16 = 1025;
+    pub(crate) const CITATION: u16 = 1026;
+    pub(crate) const GEODETIC: u16 = 2048;
+    pub(crate) const GEODETIC_CITATION: u16 = 2049;
+    pub(crate) const SEMI_MAJOR_AXIS: u16 = 2057;
+    pub(crate) const SEMI_MINOR_AXIS: u16 = 2058;
+    pub(crate) const INVERSE_FLATTENING: u16 = 2059;
+    pub(crate) const PROJECTED: u16 = 3072;
+    pub(crate) const PROJECTED_CITATION: u16 = 3073;
+    pub(crate) const PROJECTION: u16 = 3074;
+    pub(crate) const LINEAR_UNIT: u16 = 3076;
+    pub(crate) const LINEAR_UNIT_SIZE: u16 = 3077;
+    pub(crate) const VERTICAL_UNIT: u16 = 4099;
+    /// A value that is none of the register's.
+    pub(crate) const USER_DEFINED: u16 = 32767;
+}
+
+impl CoordinateSystem {
+    pub(crate) fn new(directory: Vec<u16>, doubles: Vec<f64>, text: String) -> Self {
+        Self { directory, doubles, text }
+    }
+
+    /// Whether the file says anything about it.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        !self.directory.is_empty()
+    }
+
+    /// The keys, untouched; empty if the file has none.
+    #[must_use]
+    pub fn keys(&self) -> GeoKeys<'_> {
+        GeoKeys { directory: &self.directory, doubles: &self.doubles, text: &self.text }
+    }
+
+    /// The code of the projected system in the EPSG register, if it has one.
+    #[must_use]
+    pub fn epsg(&self) -> Option<u16> {
+        self.number(key::PROJECTED).filter(|code| !matches!(*code, 0 | key::USER_DEFINED))
+    }
+
+    /// A name for people: the file's own, else the register's code.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let own = [key::PROJECTED_CITATION, key::CITATION, key::GEODETIC_CITATION];
+        let own = own.into_iter().filter_map(|id| self.words(id)).find(|name| !name.is_empty());
+        own.or_else(|| self.epsg().map(|code| format!("EPSG:{code}"))).unwrap_or_else(|| {
+            let name = if self.is_known() { "a system without a name" } else { "not stated" };
+            name.to_owned()
+        })
+    }
+
+    /// The value of a key that is a whole number.
+    pub(crate) fn number(&self, id: u16) -> Option<u16> {
+        self.entry(id).filter(|entry| entry[1] == 0).map(|entry| entry[3])
+    }
+
+    /// The value of a key that is a real number.
+    pub(crate) fn real(&self, id: u16) -> Option<f64> {
+        let entry = self.entry(id).filter(|entry| entry[1] == DOUBLES)?;
+        self.doubles.get(usize::from(entry[3])).copied()
+    }
+
+    /// The value of a key that is text, fit to be shown.
+    pub(crate) fn words(&self, id: u16) -> Option<String> {
+        /// Characters of a name that are shown.
+        const LONGEST: usize = 120;
+        let entry = self.entry(id).filter(|entry| entry[1] == TEXT)?;
+        let (count, start) = (usize::from(entry[2]), usize::from(entry[3]));
+        let bytes = self.text.as_bytes().get(start..)?;
+        let text = String::from_utf8_lossy(&bytes[..count.min(bytes.len())]).into_owned();
+        let shown = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect::<String>();
+        Some(shown.trim_end_matches('|').trim().to_owned())
+    }
+
+    /// A key's identity, tag, count and value.
+    fn entry(&self, id: u16) -> Option<&[u16]> {
+        self.directory.get(4..)?.chunks_exact(4).find(|entry| entry[0] == id)
+    }
+}

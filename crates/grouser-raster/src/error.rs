@@ -1,0 +1,173 @@
+//! Why a file is no elevation model, and what to do about it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use grouser_core::terrain::ElevationError;
+
+/// A file that cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {fault}", file.display())]
+pub struct RasterError {
+    /// The file.
+    pub file: PathBuf,
+    /// What is wrong with it.
+    #[source]
+    pub fault: Fault,
+}
+
+impl RasterError {
+    pub(crate) fn new(file: &Path, fault: Fault) -> Self {
+        Self { file: file.to_owned(), fault }
+    }
+}
+
+/// What is wrong with a file. Commands are those of GDAL.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The disk or its permissions.
+    #[error("cannot be read: {0}")]
+    Disk(#[from] io::Error),
+    /// Nothing is in it.
+    #[error("is empty\nhint: copy or download it again")]
+    Empty,
+    /// Another format.
+    #[error(
+        "is none of GeoTIFF, .npy and xyz text\nhint: gdal_translate -of GTiff IN OUT.tif writes a GeoTIFF of what GDAL reads"
+    )]
+    UnknownFormat,
+    /// More cells than are read.
+    #[error(
+        "has {columns} × {rows} cells, and at most {limit} are read\nhint: cut out the area of the drive: gdal_translate -projwin WEST NORTH EAST SOUTH IN OUT.tif"
+    )]
+    TooLarge {
+        /// Cells in a row.
+        columns: u64,
+        /// Rows.
+        rows: u64,
+        /// The most that are read.
+        limit: u64,
+    },
+    /// The file ends before its content does.
+    #[error(
+        "its header promises {promised} bytes of heights, and the file has {found} bytes\nhint: copy or download it again"
+    )]
+    Truncated {
+        /// Bytes of heights.
+        promised: u64,
+        /// Bytes of the file.
+        found: u64,
+    },
+    /// The memory is not there.
+    #[error("its {cells} cells need more memory than there is")]
+    Memory {
+        /// Cells of the grid.
+        cells: usize,
+    },
+    /// What the decoder says.
+    #[error(
+        "is damaged, or written in a way that is not read: {problem}\nhint: copy or download it again; gdal_translate IN.tif OUT.tif writes it anew"
+    )]
+    Tiff {
+        /// The decoder's words.
+        problem: String,
+    },
+    /// A TIFF of a picture.
+    #[error(
+        "has no georeference: nothing says where it lies and how large its cells are\nhint: give cell size and place, or write them into it: gdal_edit.py -a_ullr WEST NORTH EAST SOUTH FILE.tif"
+    )]
+    NotReferenced,
+    /// Nothing says where an array lies.
+    #[error(
+        "has no cell size: an array of heights needs one, and the place of its south-western point"
+    )]
+    NotPlaced,
+    /// Longitude and latitude.
+    #[error("is in degrees of longitude and latitude, and a rover needs metres\nhint: {command}")]
+    Degrees {
+        /// The command that projects it.
+        command: String,
+    },
+    /// Coordinates from the centre of the body.
+    #[error(
+        "has geocentric coordinates, not those of a map\nhint: gdalwarp -t_srs PROJECTED IN.tif OUT.tif"
+    )]
+    Geocentric,
+    /// Rows that are not from west to east, or columns not from north to south.
+    #[error(
+        "its rows are not level on the map: the grid is rotated, sheared or mirrored\nhint: gdalwarp -r cubic IN.tif OUT.tif writes it north up"
+    )]
+    Rotated,
+    /// Coordinates in feet and the like.
+    #[error(
+        "its coordinates are in {unit}, and a rover needs metres\nhint: gdalwarp -r cubic -t_srs \"$(gdalsrsinfo -o proj4 IN.tif | sed 's/+units=[^ ]*/+units=m/; s/+to_meter=[^ ]*/+units=m/')\" IN.tif OUT.tif"
+    )]
+    Unit {
+        /// The unit.
+        unit: String,
+    },
+    /// Heights in feet and the like.
+    #[error(
+        "its heights are in {unit}, and a rover needs metres\nhint: gdal_calc.py -A IN.tif --outfile=OUT.tif --type=Float32 --calc=\"A*METRES_IN_ONE\""
+    )]
+    HeightUnit {
+        /// The unit.
+        unit: String,
+    },
+    /// No one band was asked for.
+    #[error(
+        "has {bands} bands, and one of them has the heights\nhint: name it, or gdal_translate -b 1 IN.tif OUT.tif"
+    )]
+    Bands {
+        /// How many it has.
+        bands: usize,
+    },
+    /// A band that was asked for.
+    #[error("has no band {band}: it has {bands}, counted from 1")]
+    NoBand {
+        /// The band.
+        band: usize,
+        /// How many there are.
+        bands: usize,
+    },
+    /// Cells that are no heights.
+    #[error(
+        "its cells are {samples}, not heights\nhint: gdal_translate -ot Float32 IN.tif OUT.tif, if they are heights all the same"
+    )]
+    Samples {
+        /// What they are.
+        samples: String,
+    },
+    /// A header of `.npy` that is none.
+    #[error(
+        "its header is not one of .npy: {problem}\nhint: numpy.save(FILE, heights.astype(\"float32\")) writes it anew"
+    )]
+    NpyHeader {
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A line of text that is no point of the grid.
+    #[error("line {line}: {problem}")]
+    Line {
+        /// Its number, from 1.
+        line: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Points that do not make a grid.
+    #[error(
+        "{points} points fill less than a thousandth of the grid of {columns} × {rows} that they lie on\nhint: gdal_grid makes a grid of scattered points"
+    )]
+    Sparse {
+        /// How many there are.
+        points: usize,
+        /// Points in a row.
+        columns: u64,
+        /// Rows.
+        rows: u64,
+    },
+    /// A grid without an elevation model.
+    #[error("{0}")]
+    Elevation(#[from] ElevationError),
+}

@@ -1,0 +1,349 @@
+//! Heights as GeoTIFF, read through `tiff-reader`, which no other file of ours knows.
+//!
+//! Formats: TIFF 6.0 and BigTIFF, GeoTIFF 1.1 (OGC 19-008r4), GDAL's tags 42112 (metadata) and 42113
+//! (nodata). Of several images the first is read that is neither an overview nor a mask. A height is
+//! missing where the cell has the file's nodata value, is NaN, is masked by an internal mask, or lies in a
+//! block that was never written; GDAL's scale and offset are applied to the others. Cells are areas, whose
+//! heights are those of their middles, or points, as the file says (key 1025).
+
+mod advice;
+mod affine;
+mod metadata;
+mod reference;
+
+use std::path::Path;
+
+use tiff_reader::{Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSample};
+
+use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
+use crate::error::{Fault, RasterError};
+use crate::heights::{Heights, checked_cells};
+use crate::{Raster, ReadOptions};
+use metadata::Scaling;
+use reference::Georeference;
+
+/// Tags of TIFF 6.0, GeoTIFF and GDAL.
+mod tag {
+    pub(super) const NEW_SUBFILE_TYPE: u16 = 254;
+    pub(super) const PIXEL_SCALE: u16 = 33550;
+    pub(super) const TIEPOINT: u16 = 33922;
+    pub(super) const TRANSFORMATION: u16 = 34264;
+    pub(super) const GDAL_METADATA: u16 = 42112;
+    pub(super) const GDAL_NODATA: u16 = 42113;
+}
+
+/// Whether a file that starts so is a TIFF.
+pub(crate) fn starts_so(start: &[u8]) -> bool {
+    [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"].iter().any(|magic| start.starts_with(*magic))
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// [`RasterError`] with the file's name, and what to do.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
+    let raster = || {
+        let length = std::fs::metadata(path)?.len();
+        let tiff = TiffFile::open_with_options(path, limits(length, options))?;
+        raster_of(&tiff, length, options)
+    };
+    raster().map_err(|fault| RasterError::new(path, fault))
+}
+
+/// Reads what a file holds.
+///
+/// # Errors
+/// [`Fault`] if it is no elevation model.
+pub fn decode(bytes: Vec<u8>, options: &ReadOptions) -> Result<Raster, Fault> {
+    let length = bytes.len() as u64;
+    let tiff = TiffFile::from_bytes_with_options(bytes, limits(length, options))?;
+    raster_of(&tiff, length, options)
+}
+
+impl From<TiffError> for Fault {
+    fn from(error: TiffError) -> Self {
+        match error {
+            TiffError::Io(error, _) => Self::Disk(error),
+            error => Self::Tiff { problem: error.to_string() },
+        }
+    }
+}
+
+/// What the decoder may take.
+fn limits(length: u64, options: &ReadOptions) -> OpenOptions {
+    /// Bytes of a cell, at most.
+    const CELL: u64 = 8;
+    /// A block is decoded as a whole, even where a small image fills little of it [bytes].
+    const BLOCK: u64 = 1 << 24;
+    let bytes = |bytes: u64| usize::try_from(bytes).unwrap_or(usize::MAX);
+    let mut limits = OpenOptions {
+        // Rows of blocks are read once each.
+        block_cache_bytes: 0,
+        decode_output_bytes: bytes(options.cells.saturating_mul(CELL).saturating_add(BLOCK)),
+        ..OpenOptions::default()
+    };
+    // A tag's values are in the file: no more of them than it is long.
+    let budgets = &mut limits.parse_budgets;
+    budgets.max_tag_value_bytes = budgets.max_tag_value_bytes.min(bytes(length));
+    budgets.max_metadata_value_bytes = budgets.max_metadata_value_bytes.min(bytes(length) * 4);
+    limits
+}
+
+fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Raster, Fault> {
+    let ifd = image(tiff)?;
+    let (columns, rows) = (u64::from(ifd.width()), u64::from(ifd.height()));
+    let cells = checked_cells(columns, rows, options.cells)?;
+    check_samples(ifd)?;
+    let layout = ifd.raster_layout()?;
+    let band = chosen_band(layout.samples_per_pixel, options)?;
+    let coordinates = coordinate_system(ifd);
+    let georeference = Georeference {
+        system: &coordinates,
+        scale: reals(ifd, tag::PIXEL_SCALE),
+        tiepoint: reals(ifd, tag::TIEPOINT),
+        matrix: reals(ifd, tag::TRANSFORMATION),
+    };
+    let (grid, order) = georeference.grid(layout.width, layout.height, options.placement)?;
+    let scaling = metadata::scaling(text(ifd, tag::GDAL_METADATA), band)?;
+    let blocks = Blocks::of(ifd, layout.samples_per_pixel, band);
+    let promised = cells as u64 * (layout.bytes_per_sample * layout.samples_per_pixel) as u64;
+    if blocks.uncompressed && blocks.all_written() && promised > length {
+        return Err(Fault::Truncated { promised, found: length });
+    }
+    let nodata = text(ifd, tag::GDAL_NODATA).and_then(|text| text.trim().parse().ok());
+    let reading = Reading {
+        tiff,
+        ifd,
+        mask: mask(tiff, ifd),
+        band,
+        blocks,
+        scaling,
+        nodata,
+        missing: options.missing,
+    };
+    let mut heights = Heights::new(cells);
+    reading.read(&mut heights, (layout.sample_format, layout.bits_per_sample))?;
+    heights.raster(grid, order, coordinates)
+}
+
+/// The first image that is neither an overview nor a mask.
+fn image(tiff: &TiffFile) -> Result<&Ifd, Fault> {
+    let full = tiff.ifds().iter().find(|ifd| kind(ifd) & (OVERVIEW | MASK) == 0);
+    full.or(tiff.ifds().first()).ok_or(Fault::Tiff { problem: "it has no image".into() })
+}
+
+/// The internal mask of an image, GDAL's `GDAL_TIFF_INTERNAL_MASK`.
+fn mask<'t>(tiff: &'t TiffFile, image: &Ifd) -> Option<&'t Ifd> {
+    let fits = |ifd: &&Ifd| (ifd.width(), ifd.height()) == (image.width(), image.height());
+    tiff.ifds().iter().filter(|ifd| kind(ifd) & (OVERVIEW | MASK) == MASK).find(fits)
+}
+
+const OVERVIEW: u64 = 1;
+const MASK: u64 = 4;
+
+/// The bits of an image's kind.
+fn kind(ifd: &Ifd) -> u64 {
+    ifd.tag(tag::NEW_SUBFILE_TYPE).and_then(|tag| tag.value.as_u64()).unwrap_or(0)
+}
+
+/// The band with the heights, from 0.
+fn chosen_band(bands: usize, options: &ReadOptions) -> Result<usize, Fault> {
+    match options.band {
+        None if bands == 1 => Ok(0),
+        None => Err(Fault::Bands { bands }),
+        Some(band) if (1..=bands).contains(&band) => Ok(band - 1),
+        Some(band) => Err(Fault::NoBand { band, bands }),
+    }
+}
+
+/// That cells are real numbers, not colours.
+fn check_samples(ifd: &Ifd) -> Result<(), Fault> {
+    /// Sample formats of complex numbers, of whole and of real parts.
+    const COMPLEX: [u16; 2] = [5, 6];
+    /// Photometric interpretations of TIFF 6.0: white or black is zero.
+    const GREY: [u16; 2] = [0, 1];
+    /// Colours.
+    const RGB: u16 = 2;
+    const PALETTE: u16 = 3;
+    if ifd.sample_format()?.iter().any(|format| COMPLEX.contains(format)) {
+        return Err(Fault::Samples { samples: "complex numbers".into() });
+    }
+    match ifd.photometric_interpretation() {
+        // Several bands without a meaning are often called red, green and blue.
+        None | Some(RGB) => Ok(()),
+        Some(grey) if GREY.contains(&grey) => Ok(()),
+        Some(PALETTE) => Err(Fault::Samples { samples: "numbers of colours".into() }),
+        Some(other) => Err(Fault::Samples { samples: format!("colours (interpretation {other})") }),
+    }
+}
+
+fn coordinate_system(ifd: &Ifd) -> CoordinateSystem {
+    let directory = ifd.tag(DIRECTORY).and_then(|tag| tag.value.as_u16_slice());
+    let text = text(ifd, TEXT).unwrap_or_default().to_owned();
+    CoordinateSystem::new(directory.unwrap_or_default().to_vec(), reals(ifd, DOUBLES), text)
+}
+
+fn reals(ifd: &Ifd, code: u16) -> Vec<f64> {
+    ifd.tag(code).and_then(|tag: &Tag| tag.value.as_f64_vec()).unwrap_or_default()
+}
+
+fn text(ifd: &Ifd, code: u16) -> Option<&str> {
+    ifd.tag(code)?.value.as_str()
+}
+
+/// The tiles or strips of a band.
+struct Blocks {
+    /// Rows of cells in one.
+    rows: usize,
+    /// Columns of cells in one.
+    columns: usize,
+    /// How many lie side by side.
+    across: usize,
+    /// Whether each of the band's was written, row by row; those beyond the list were.
+    written: Vec<bool>,
+    uncompressed: bool,
+}
+
+impl Blocks {
+    fn of(ifd: &Ifd, bands: usize, band: usize) -> Self {
+        /// No compression, TIFF 6.0.
+        const NONE: u16 = 1;
+        /// Band after band.
+        const PLANAR: u16 = 2;
+        let (rows, columns, offsets, counts) = if ifd.is_tiled() {
+            let (rows, columns) = (ifd.tile_height(), ifd.tile_width());
+            (rows.unwrap_or(1), columns.unwrap_or(1), ifd.tile_offsets(), ifd.tile_byte_counts())
+        } else {
+            (ifd.rows_per_strip(), ifd.width(), ifd.strip_offsets(), ifd.strip_byte_counts())
+        };
+        let (rows, columns) = (rows.clamp(1, ifd.height().max(1)), columns.max(1));
+        let offsets = offsets.unwrap_or_default().into_iter();
+        let written = offsets.zip(counts.unwrap_or_default());
+        let mut written: Vec<bool> =
+            written.map(|(offset, count)| offset != 0 && count != 0).collect();
+        if ifd.planar_configuration() == PLANAR {
+            let of_band = written.len() / bands;
+            written = written.into_iter().skip(band * of_band).take(of_band).collect();
+        }
+        Self {
+            rows: rows as usize,
+            columns: columns as usize,
+            across: ifd.width().div_ceil(columns) as usize,
+            written,
+            uncompressed: ifd.compression() == NONE,
+        }
+    }
+
+    fn all_written(&self) -> bool {
+        self.written.iter().all(|written| *written)
+    }
+
+    /// Whether the block of a cell was written.
+    fn has(&self, row: usize, column: usize) -> bool {
+        let block = row / self.rows * self.across + column / self.columns;
+        self.written.get(block).copied().unwrap_or(true)
+    }
+}
+
+/// All that the heights are read by.
+struct Reading<'t> {
+    tiff: &'t TiffFile,
+    ifd: &'t Ifd,
+    mask: Option<&'t Ifd>,
+    band: usize,
+    blocks: Blocks,
+    scaling: Scaling,
+    nodata: Option<f64>,
+    missing: Option<f64>,
+}
+
+/// A kind of number that cells may be.
+trait Cell: TiffSample + Copy {
+    fn number(self) -> f64;
+    /// The number nearest to another one that such a cell can have.
+    fn nearest(number: f64) -> f64;
+}
+
+macro_rules! cells {
+    ($($kind:ty),+) => {$(
+        impl Cell for $kind {
+            #[allow(clippy::cast_lossless, reason = "one text for all kinds")]
+            fn number(self) -> f64 {
+                self as f64
+            }
+            #[allow(
+                clippy::cast_lossless,
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "the nearest is asked for"
+            )]
+            fn nearest(number: f64) -> f64 {
+                let near = number as $kind as f64;
+                // A number far outside of what a cell can have is no cell's.
+                if (near - number).abs() <= 1e-6 * number.abs() { near } else { f64::NAN }
+            }
+        }
+    )+};
+}
+cells!(f32, f64, i8, i16, i32, i64, u8, u16, u32, u64);
+
+impl Reading<'_> {
+    /// Reads all rows.
+    ///
+    /// * `kind`: TIFF's sample format, and bits
+    fn read(&self, heights: &mut Heights, kind: (u16, u16)) -> Result<(), Fault> {
+        match kind {
+            (1, 8) => self.rows::<u8>(heights),
+            (1, 16) => self.rows::<u16>(heights),
+            (1, 32) => self.rows::<u32>(heights),
+            (1, 64) => self.rows::<u64>(heights),
+            (2, 8) => self.rows::<i8>(heights),
+            (2, 16) => self.rows::<i16>(heights),
+            (2, 32) => self.rows::<i32>(heights),
+            (2, 64) => self.rows::<i64>(heights),
+            (3, 32) => self.rows::<f32>(heights),
+            (3, 64) => self.rows::<f64>(heights),
+            (_, bits) => Err(Fault::Samples { samples: format!("numbers of {bits} bits") }),
+        }
+    }
+
+    fn rows<T: Cell>(&self, heights: &mut Heights) -> Result<(), Fault> {
+        /// Cells that are read at once, where blocks are smaller.
+        const AT_ONCE: usize = 1 << 20;
+        let (rows, columns) = (self.ifd.height() as usize, self.ifd.width() as usize);
+        let block = self.blocks.rows;
+        let step = (AT_ONCE / columns.max(1) / block).max(1) * block;
+        for start in (0..rows).step_by(step) {
+            let count = step.min(rows - start);
+            heights.reserve(count * columns)?;
+            let cells = self
+                .tiff
+                .read_band_window_from_ifd::<T>(self.ifd, self.band, start, 0, count, columns)?;
+            let masked = self.masked(start, count, columns)?;
+            for (at, cell) in cells.iter().enumerate() {
+                let written = self.blocks.has(start + at / columns, at % columns);
+                let shown = masked.get(at).is_none_or(|mask| *mask != 0);
+                let height = if written && shown { self.height(*cell) } else { f64::NAN };
+                heights.push(height);
+            }
+        }
+        Ok(())
+    }
+
+    /// The mask of some rows; none where there is no mask.
+    fn masked(&self, start: usize, count: usize, columns: usize) -> Result<Vec<u8>, Fault> {
+        let Some(mask) = self.mask else { return Ok(Vec::new()) };
+        let mask = self.tiff.read_band_window_from_ifd::<u8>(mask, 0, start, 0, count, columns)?;
+        Ok(mask.iter().copied().collect())
+    }
+
+    fn height<T: Cell>(&self, cell: T) -> f64 {
+        let number = cell.number();
+        let is_missing =
+            |value: Option<f64>| value.is_some_and(|value| T::nearest(value) == number);
+        if is_missing(self.nodata) || is_missing(self.missing) {
+            return f64::NAN;
+        }
+        number * self.scaling.scale + self.scaling.offset
+    }
+}

@@ -1,0 +1,121 @@
+//! The command that projects a grid in degrees.
+
+use super::affine::Affine;
+use crate::coordinate_system::{CoordinateSystem, key};
+
+/// Semi-major axis of the Earth [m]. Source: WGS 84.
+const EARTH: f64 = 6_378_137.0;
+/// Ellipsoids whose axis is that near to it are of the Earth [m].
+const NEAR: f64 = 3_000.0;
+
+/// `gdalwarp` with a projection for the middle of the grid, and cells of about the same size: the zone of
+/// UTM on Earth, else a stereographic one of the file's own body.
+pub(super) fn projection(
+    system: &CoordinateSystem,
+    affine: &Affine,
+    columns: usize,
+    rows: usize,
+) -> String {
+    let middle = affine.middle(0.5 * (columns as f64 - 1.0), 0.5 * (rows as f64 - 1.0));
+    let (longitude, latitude) = (middle.x, middle.y.clamp(-90.0, 90.0));
+    let registered =
+        system.number(key::GEODETIC).is_some_and(|code| !matches!(code, 0 | key::USER_DEFINED));
+    let radius = system.real(key::SEMI_MAJOR_AXIS).filter(|radius| radius.is_finite());
+    let (target, radius) = match radius {
+        Some(radius) if (radius - EARTH).abs() > NEAR => {
+            (stereographic(longitude, latitude, &body(system, radius)), Some(radius))
+        }
+        None if !registered => (stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"), None),
+        _ => (on_earth(longitude, latitude), Some(EARTH)),
+    };
+    let size = radius.map_or("CELL_SIZE_IN_METRES".to_owned(), |radius| {
+        rounded(affine.d.abs().to_radians() * radius)
+    });
+    format!("gdalwarp -t_srs \"{target}\" -tr {size} {size} -r cubic IN.tif OUT.tif")
+}
+
+/// The zone of UTM, or the usual projection of a pole.
+fn on_earth(longitude: f64, latitude: f64) -> String {
+    /// Latitudes that UTM ends at [°].
+    const NORTH: f64 = 84.0;
+    const SOUTH: f64 = -80.0;
+    if latitude > NORTH {
+        return "EPSG:3413".into();
+    }
+    if latitude < SOUTH {
+        return "EPSG:3031".into();
+    }
+    let turned = (longitude + 180.0).rem_euclid(360.0);
+    let zone = 1.0 + (turned / 6.0).floor().min(59.0);
+    let first = if latitude < 0.0 { 32700.0 } else { 32600.0 };
+    format!("EPSG:{}", first + zone)
+}
+
+fn stereographic(longitude: f64, latitude: f64, body: &str) -> String {
+    format!(
+        "+proj=stere +lat_0={latitude:.4} +lon_0={longitude:.4} +k=1 +x_0=0 +y_0=0 {body} +units=m +no_defs"
+    )
+}
+
+/// A body's axes for PROJ.
+fn body(system: &CoordinateSystem, radius: f64) -> String {
+    let flattened = system.real(key::INVERSE_FLATTENING).filter(|inverse| *inverse > 1.0);
+    let by_flattening = flattened.map(|inverse| radius * (1.0 - 1.0 / inverse));
+    match by_flattening.or(system.real(key::SEMI_MINOR_AXIS)) {
+        Some(minor) if minor != radius => format!("+a={radius} +b={minor}"),
+        _ => format!("+R={radius}"),
+    }
+}
+
+/// A length with three digits [m].
+fn rounded(length: f64) -> String {
+    let digits = (2.0 - length.log10().floor()).clamp(0.0, 9.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 9")]
+    let digits = digits as usize;
+    let text = format!("{length:.digits$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn command(directory: &[u16], doubles: &[f64], middle: (f64, f64), cell: f64) -> String {
+        let system = CoordinateSystem::new(directory.to_vec(), doubles.to_vec(), String::new());
+        let (x0, y0) = (middle.0 - 5.0 * cell, middle.1 + 5.0 * cell);
+        projection(&system, &Affine { x0, y0, a: cell, b: 0.0, c: 0.0, d: -cell }, 10, 10)
+    }
+
+    #[test]
+    fn a_grid_in_degrees_gets_a_projection_of_its_own_body() {
+        let wgs_84 = [1, 1, 0, 1, key::GEODETIC, 0, 1, 4326];
+        let alps = command(&wgs_84, &[], (10.5, 46.5), 1.0 / 3600.0);
+        assert_eq!(alps, "gdalwarp -t_srs \"EPSG:32632\" -tr 30.9 30.9 -r cubic IN.tif OUT.tif");
+        for (middle, system) in [
+            ((-70.0, -24.0), "EPSG:32719"),
+            ((179.9, 0.5), "EPSG:32660"),
+            ((190.0, 10.0), "EPSG:32602"),
+            ((20.0, 88.0), "EPSG:3413"),
+            ((20.0, -88.0), "EPSG:3031"),
+        ] {
+            let command = command(&wgs_84, &[], middle, 0.001);
+            assert!(command.contains(&format!("\"{system}\"")), "{command}");
+        }
+        let moon = [1, 1, 0, 2, key::GEODETIC, 0, 1, 32767, key::SEMI_MAJOR_AXIS, 34736, 1, 0];
+        let pole = command(&moon, &[1_737_400.0], (120.0, -89.5), 1.0 / 1024.0);
+        assert!(pole.contains("+proj=stere +lat_0=-89.5000 +lon_0=120.0000"), "{pole}");
+        assert!(pole.contains("+R=1737400 ") && pole.contains("-tr 29.6 29.6"), "{pole}");
+        let mars = [&moon[..], &[key::SEMI_MINOR_AXIS, 34736, 1, 1]].concat();
+        let gale = command(&mars, &[3_396_190.0, 3_376_200.0], (137.4, -4.6), 1.0);
+        assert!(gale.contains("+a=3396190 +b=3376200") && gale.contains("-tr 59275"), "{gale}");
+        let unknown = command(&[1, 1, 0, 0], &[], (1.0, 2.0), 1.0);
+        assert!(
+            unknown.contains("+R=RADIUS_IN_METRES") && unknown.contains("CELL_SIZE"),
+            "{unknown}"
+        );
+    }
+}

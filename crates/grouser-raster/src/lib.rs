@@ -1,0 +1,51 @@
+//! Elevation models from files: GeoTIFF, NumPy arrays and xyz text.
+//!
+//! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a grid, with
+//! the file's coordinate system, which is carried along and not interpreted. [`Raster::model`] makes the
+//! [`ElevationModel`](grouser_core::terrain::ElevationModel) of it that a rover drives on.
+//!
+//! | format | read | coordinates |
+//! |---|---|---|
+//! | [GeoTIFF](geotiff) | tiles and strips, cloud-optimised at full resolution, BigTIFF; deflate, LZW, LERC, Zstandard; real and whole numbers | of the file: projected, in metres, north up |
+//! | [`.npy`](npy) | versions 1 to 3, row by row or column by column, either byte order; real and whole numbers | [`Placement`] |
+//! | [xyz](xyz) | a point in each line, in any order | of the file, in metres |
+//!
+//! What a file promises is compared with its length and with [`ReadOptions::cells`] before memory is taken
+//! for it. A file that cannot be used gives a [`RasterError`] that says what to do.
+//!
+//! How large is an array of heights, and how high is its middle?
+//!
+//! ```
+//! use grouser_core::units::Vec2;
+//! use grouser_raster::{Placement, ReadOptions, npy};
+//!
+//! let mut file = b"\x93NUMPY\x01\x00\x46\x00".to_vec();
+//! file.extend(format!("{:69}\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }").bytes());
+//! for height in [7.0_f32, 8.0, 9.0, 4.0, 5.0, 6.0, 1.0, 2.0, 3.0] {
+//!     file.extend(height.to_le_bytes());
+//! }
+//! let placement = Placement::north_first(Vec2::zeros(), 0.5);
+//! let options = ReadOptions { placement: Some(placement), ..ReadOptions::default() };
+//! let raster = npy::decode(&file, &options)?;
+//! assert_eq!(raster.grid.extent().north_east, Vec2::new(1.0, 1.0));
+//! // The rows of a picture are from north to south, those of a grid from south to north.
+//! assert_eq!(raster.height(0, 0), Some(1.0));
+//! assert_eq!(raster.height(1, 1), Some(5.0));
+//! # Ok::<(), grouser_raster::Fault>(())
+//! ```
+
+mod coordinate_system;
+mod error;
+pub mod geotiff;
+mod heights;
+pub mod npy;
+mod options;
+mod raster;
+mod read;
+pub mod xyz;
+
+pub use coordinate_system::{CoordinateSystem, GeoKeys};
+pub use error::{Fault, RasterError};
+pub use options::{CELLS, Placement, ReadOptions, RowOrder};
+pub use raster::Raster;
+pub use read::read;

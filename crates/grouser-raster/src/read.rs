@@ -1,0 +1,34 @@
+//! Files of any format.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::error::{Fault, RasterError};
+use crate::{Raster, ReadOptions, geotiff, npy, xyz};
+
+/// Reads a file of any of the formats, which its content tells.
+///
+/// # Errors
+/// [`RasterError`] with the file's name, and what to do.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
+    let start = start_of(path).map_err(|fault| RasterError::new(path, fault))?;
+    if geotiff::starts_so(&start) {
+        geotiff::read(path, options)
+    } else if npy::starts_so(&start) {
+        npy::read(path, options)
+    } else if start.contains(&0) {
+        // Text has no zero bytes.
+        Err(RasterError::new(path, Fault::UnknownFormat))
+    } else {
+        xyz::read(path, options)
+    }
+}
+
+/// The first bytes of a file.
+fn start_of(path: &Path) -> Result<Vec<u8>, Fault> {
+    const BYTES: u64 = 64;
+    let mut start = Vec::new();
+    File::open(path)?.take(BYTES).read_to_end(&mut start)?;
+    if start.is_empty() { Err(Fault::Empty) } else { Ok(start) }
+}

@@ -1,0 +1,161 @@
+//! Heights as text: a point in each line, x, y and z in metres, east, north and up.
+//!
+//! Numbers stand apart by spaces, tabs, commas or semicolons; more of them after z are left alone. Lines may
+//! come in any order. Empty lines, those that start with `#` or `//`, and words in the first line are
+//! passed over. Points lie on a regular grid, of which some may be missing; a z of NaN is missing, too.
+
+mod axis;
+
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+
+use grouser_core::terrain::ElevationGrid;
+use grouser_core::units::Vec2;
+
+use crate::error::{Fault, RasterError};
+use crate::heights::{Heights, checked_cells};
+use crate::{CoordinateSystem, Raster, ReadOptions, RowOrder};
+use axis::Axis;
+
+/// Bytes of a line, at most.
+const LONGEST: u64 = 1_000;
+/// Cells of a grid for each point in the file, at most.
+const EMPTY: u64 = 1_000;
+
+/// Reads a file.
+///
+/// # Errors
+/// [`RasterError`] with the file's name, and what to do.
+pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
+    let raster = || decode(BufReader::new(File::open(path)?), options);
+    raster().map_err(|fault| RasterError::new(path, fault))
+}
+
+/// Reads text.
+///
+/// # Errors
+/// [`Fault`] if it does not have points of a grid, with the number of the line.
+pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault> {
+    let points = Points::read(text, options)?;
+    let columns = Axis::of(&points.x).map_err(|fault| points.fault("x", &fault))?;
+    let rows = Axis::of(&points.y).map_err(|fault| points.fault("y", &fault))?;
+    let cells = checked_cells(columns.count, rows.count, options.cells)?;
+    if cells as u64 / EMPTY > points.x.len() as u64 {
+        let points = points.x.len();
+        return Err(Fault::Sparse { points, columns: columns.count, rows: rows.count });
+    }
+    let across = usize::try_from(columns.count).unwrap_or(cells);
+    let mut heights = Heights::new(cells);
+    heights.fill()?;
+    let mut taken = vec![0_u64; cells.div_ceil(64)];
+    for (at, z) in points.z.iter().enumerate() {
+        let (column, row) = (columns.index(points.x[at]), rows.index(points.y[at]));
+        let cell = row * across + column;
+        if (taken[cell / 64] >> (cell % 64)) & 1 == 1 {
+            let problem = "this point was there before: each has one height".into();
+            return Err(Fault::Line { line: points.line(at), problem });
+        }
+        taken[cell / 64] |= 1 << (cell % 64);
+        if Some(*z) != options.missing {
+            heights.set(cell, *z);
+        }
+    }
+    let grid = ElevationGrid {
+        columns: across,
+        rows: usize::try_from(rows.count).unwrap_or(cells),
+        south_west: Vec2::new(columns.first, rows.first),
+        spacing: Vec2::new(columns.spacing, rows.spacing),
+    };
+    heights.raster(grid, RowOrder::SouthFirst, CoordinateSystem::default())
+}
+
+/// The points of a file.
+#[derive(Debug, Default)]
+struct Points {
+    x: Vec<f64>,
+    y: Vec<f64>,
+    z: Vec<f64>,
+    /// The number of each point's line, from 1.
+    lines: Vec<u32>,
+}
+
+impl Points {
+    fn read(mut text: impl BufRead, options: &ReadOptions) -> Result<Self, Fault> {
+        let mut points = Self::default();
+        let mut line = Vec::new();
+        for number in 1_u32.. {
+            line.clear();
+            if text.by_ref().take(LONGEST + 1).read_until(b'\n', &mut line)? == 0 {
+                break;
+            }
+            let fault = |problem: String| Fault::Line { line: number as usize, problem };
+            if line.len() as u64 > LONGEST {
+                return Err(fault(format!("it is longer than {LONGEST} bytes")));
+            }
+            let words = String::from_utf8_lossy(&line);
+            let words = words.trim_start_matches('\u{feff}').trim();
+            if words.is_empty() || words.starts_with('#') || words.starts_with("//") {
+                continue;
+            }
+            let [x, y, z] = match numbers(words) {
+                Ok(numbers) => numbers,
+                // A heading.
+                Err(_) if points.x.is_empty() && number == 1 => continue,
+                Err(problem) => return Err(fault(problem)),
+            };
+            if !x.is_finite() || !y.is_finite() {
+                return Err(fault("x and y must be finite".into()));
+            }
+            if points.x.len() as u64 == options.cells {
+                let (columns, rows) = (options.cells + 1, 1);
+                return Err(Fault::TooLarge { columns, rows, limit: options.cells });
+            }
+            points.push([x, y, z], number);
+        }
+        if points.x.is_empty() { Err(Fault::Empty) } else { Ok(points) }
+    }
+
+    fn push(&mut self, [x, y, z]: [f64; 3], line: u32) {
+        self.x.push(x);
+        self.y.push(y);
+        self.z.push(z);
+        self.lines.push(line);
+    }
+
+    fn line(&self, point: usize) -> usize {
+        self.lines[point] as usize
+    }
+
+    /// What is wrong along one axis, with the line where it shows.
+    fn fault(&self, axis: &str, fault: &axis::Irregular) -> Fault {
+        let problem = match fault {
+            axis::Irregular::OneValue => {
+                format!("all points have the {axis} of this one: they make a line, not a grid")
+            }
+            axis::Irregular::Between { spacing, .. } => format!(
+                "its {axis} is not on the grid of the other points, which are {spacing} m apart\nhint: gdal_grid makes a grid of scattered points"
+            ),
+        };
+        let point = match fault {
+            axis::Irregular::OneValue => 0,
+            axis::Irregular::Between { point, .. } => *point,
+        };
+        Fault::Line { line: self.line(point), problem }
+    }
+}
+
+/// The first three numbers of a line.
+fn numbers(words: &str) -> Result<[f64; 3], String> {
+    let apart = |c: char| c.is_whitespace() || matches!(c, ',' | ';');
+    let mut words = words.split(apart).filter(|word| !word.is_empty());
+    let mut next = |name: &str| {
+        let word =
+            words.next().ok_or_else(|| format!("it has no {name}: x, y and z are expected"))?;
+        word.parse::<f64>().map_err(|_| {
+            let shown: String = word.chars().filter(|c| !c.is_control()).take(20).collect();
+            format!("{name} is no number: {shown}")
+        })
+    };
+    Ok([next("x")?, next("y")?, next("z")?])
+}
