@@ -312,6 +312,7 @@ impl Reading<'_> {
         const AT_ONCE: usize = 1 << 20;
         let (rows, columns) = (self.ifd.height() as usize, self.ifd.width() as usize);
         let block = self.blocks.rows;
+        let all_shown = self.mask.is_none() && self.blocks.all_written();
         let step = (AT_ONCE / columns.max(1) / block).max(1) * block;
         for start in (0..rows).step_by(step) {
             let count = step.min(rows - start);
@@ -320,6 +321,10 @@ impl Reading<'_> {
                 .tiff
                 .read_band_window_from_ifd::<T>(self.ifd, self.band, start, 0, count, columns)?;
             let masked = self.masked(start, count, columns)?;
+            if all_shown {
+                cells.iter().for_each(|cell| heights.push(self.height(*cell)));
+                continue;
+            }
             for (at, cell) in cells.iter().enumerate() {
                 let written = self.blocks.has(start + at / columns, at % columns);
                 let shown = masked.get(at).is_none_or(|mask| *mask != 0);

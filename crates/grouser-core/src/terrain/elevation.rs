@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use super::{Footprint, Patch, Terrain};
 use crate::soil::Soil;
 use crate::units::Vec2;
-use convolution::Stencil;
+use convolution::{POINTS, Stencil};
 use gaps::Known;
 
 /// Ground whose heights are known at the points of a regular grid.
@@ -156,7 +156,8 @@ impl ElevationModel {
         let [column, row] = self.grid.place(at);
         let along_x = Stencil::of_height(column, self.grid.columns);
         let along_y = Stencil::of_height(row, self.grid.rows);
-        self.base + self.convolve(&along_x, &along_y)
+        let rows = self.about(&along_x, &along_y);
+        self.base + along_y.sum(rows.map(|row| along_x.sum(row)))
     }
 
     /// How fast the height grows to the east and to the north [-]. Outside of the extent nothing grows
@@ -167,11 +168,13 @@ impl ElevationModel {
     pub fn gradient(&self, at: Vec2) -> Vec2 {
         let [column, row] = self.grid.place(at);
         let (columns, rows) = (self.grid.columns, self.grid.rows);
+        let along_x = Stencil::of_height(column, columns);
+        let along_y = Stencil::of_height(row, rows);
         let east = Stencil::of_slope(column, columns, self.grid.spacing.x);
         let north = Stencil::of_slope(row, rows, self.grid.spacing.y);
-        let x = self.convolve(&east, &Stencil::of_height(row, rows));
-        let y = self.convolve(&Stencil::of_height(column, columns), &north);
-        Vec2::new(x, y)
+        let about = self.about(&along_x, &along_y);
+        let x = along_y.sum(about.map(|row| east.sum(row)));
+        Vec2::new(x, north.sum(about.map(|row| along_x.sum(row))))
     }
 
     /// Whether the place is between four points whose heights are known.
@@ -185,18 +188,25 @@ impl ElevationModel {
         corners.into_iter().all(|point| self.known.contains(point))
     }
 
-    /// The heights above the base at 16 points, by their weights.
-    fn convolve(&self, along_x: &Stencil, along_y: &Stencil) -> f64 {
-        let mut sum = 0.0;
-        for (row, weight) in along_y.points() {
-            let start = row * self.grid.columns;
-            let mut of_row = 0.0;
-            for (column, weight) in along_x.points() {
-                of_row += weight * f64::from(self.heights[start + column]);
-            }
-            sum += weight * of_row;
+    /// The heights above the base at the 16 points of two stencils, row by row; zero where a small grid has
+    /// no such point, for which there is no weight either.
+    fn about(&self, along_x: &Stencil, along_y: &Stencil) -> [[f64; POINTS]; POINTS] {
+        let ElevationGrid { columns, rows, .. } = self.grid;
+        let start = |row: usize| (along_y.first + row) * columns + along_x.first;
+        if columns >= POINTS && rows >= POINTS {
+            return std::array::from_fn(|row| {
+                let here = self.heights[start(row)..].first_chunk::<POINTS>();
+                here.expect("a stencil is within its grid").map(f64::from)
+            });
         }
-        sum
+        let mut about = [[0.0; POINTS]; POINTS];
+        for (row, heights) in about.iter_mut().enumerate().take(rows) {
+            let here = &self.heights[start(row)..][..columns.min(POINTS)];
+            for (to, height) in heights.iter_mut().zip(here) {
+                *to = f64::from(*height);
+            }
+        }
+        about
     }
 }
 

@@ -1,7 +1,7 @@
 //! Cubic convolution along one axis.
 
 /// How many points an axis reads.
-const POINTS: usize = 4;
+pub(super) const POINTS: usize = 4;
 
 /// Weights of the points about a place, along one axis.
 ///
@@ -11,8 +11,10 @@ const POINTS: usize = 4;
 /// than the grid has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stencil {
-    points: [usize; POINTS],
-    weights: [f64; POINTS],
+    /// The first of the points, which are neighbours.
+    pub(super) first: usize,
+    /// Their weights; zero for points that a short axis does not have.
+    pub(super) weights: [f64; POINTS],
 }
 
 impl Stencil {
@@ -50,32 +52,28 @@ impl Stencil {
         Self::new(cell, count, weights.map(|weight| weight / spacing))
     }
 
-    /// Points and their weights.
-    pub(super) fn points(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
-        self.points.into_iter().zip(self.weights)
-    }
-
     /// The stencil about a cell, with the weights of points beyond the ends given to those inside.
     fn new(cell: usize, count: usize, weights: [f64; POINTS]) -> Self {
         let [before, first, second, after] = weights;
-        let last = count - 1;
-        if count == 2 {
+        if cell > 0 && cell + 2 < count {
+            return Self { first: cell - 1, weights };
+        }
+        let weights = match (cell, count) {
             // A straight line through two points: 2 z_0 − z_1 before it, 2 z_1 − z_0 after it.
-            let weights = [first + 2.0 * before - after, second + 2.0 * after - before, 0.0, 0.0];
-            return Self { points: [0, 1, 1, 1], weights };
-        }
-        let (mut points, mut inside) =
-            ([cell.max(1) - 1, cell, cell + 1, last.min(cell + 2)], weights);
-        if cell == 0 {
-            inside = [0.0, first + 3.0 * before, second - 3.0 * before, after + before];
-            points[0] = 0;
-        }
-        if cell + 2 == count {
-            let [before, first, second, _] = inside;
-            inside = [before + after, first - 3.0 * after, second + 3.0 * after, 0.0];
-            points[3] = last;
-        }
-        Self { points, weights: inside }
+            (_, 2) => [first + 2.0 * before - after, second + 2.0 * after - before, 0.0, 0.0],
+            // 3 z_0 − 3 z_1 + z_2 before the first point.
+            (0, _) => [first + 3.0 * before, second - 3.0 * before, after + before, 0.0],
+            (_, 3) => [before + after, first - 3.0 * after, second + 3.0 * after, 0.0],
+            _ => [0.0, before + after, first - 3.0 * after, second + 3.0 * after],
+        };
+        Self { first: if cell == 0 { 0 } else { count.max(POINTS) - POINTS }, weights }
+    }
+
+    /// The weighted sum of four values: the outer ones first, so that a mirrored one has the same bits.
+    pub(super) fn sum(&self, values: [f64; POINTS]) -> f64 {
+        let [a, b, c, d] = self.weights;
+        let [z_a, z_b, z_c, z_d] = values;
+        (a * z_a + d * z_d) + (b * z_b + c * z_c)
     }
 }
 
