@@ -13,7 +13,7 @@ mod reference;
 
 use std::path::Path;
 
-use tiff_reader::{Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSample};
+use tiff_reader::{ByteOrder, Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSample};
 
 use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
 use crate::error::{Fault, RasterError};
@@ -94,6 +94,7 @@ fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Rast
     let (columns, rows) = (u64::from(ifd.width()), u64::from(ifd.height()));
     let cells = checked_cells(columns, rows, options.cells)?;
     check_samples(ifd)?;
+    check_order(tiff, ifd)?;
     let layout = ifd.raster_layout()?;
     let band = chosen_band(layout.samples_per_pixel, options)?;
     let coordinates = coordinate_system(ifd);
@@ -105,6 +106,7 @@ fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Rast
     };
     let (grid, order) = georeference.grid(layout.width, layout.height, options.placement)?;
     let scaling = metadata::scaling(text(ifd, tag::GDAL_METADATA), band)?;
+    check_block(ifd, cells)?;
     let blocks = Blocks::of(ifd, layout.samples_per_pixel, band);
     let promised = cells as u64 * (layout.bytes_per_sample * layout.samples_per_pixel) as u64;
     if blocks.uncompressed && blocks.all_written() && promised > length {
@@ -154,6 +156,17 @@ fn chosen_band(bands: usize, options: &ReadOptions) -> Result<usize, Fault> {
         Some(band) if (1..=bands).contains(&band) => Ok(band - 1),
         Some(band) => Err(Fault::NoBand { band, bands }),
     }
+}
+
+/// That bytes are in an order that is read as GDAL means it: its LERC has the bytes of big-endian files
+/// exchanged before they are compressed, and the decoder does not exchange them back.
+fn check_order(tiff: &TiffFile, ifd: &Ifd) -> Result<(), Fault> {
+    const LERC: u16 = 34887;
+    if tiff.byte_order() == ByteOrder::LittleEndian || ifd.compression() != LERC {
+        return Ok(());
+    }
+    let problem = "LERC in a big-endian file, whose bytes writers order differently".into();
+    Err(Fault::Tiff { problem })
 }
 
 /// That cells are real numbers, not colours.
@@ -243,6 +256,18 @@ impl Blocks {
         let block = row / self.rows * self.across + column / self.columns;
         self.written.get(block).copied().unwrap_or(true)
     }
+}
+
+/// That a tile is not far larger than the image: it is decoded as a whole.
+fn check_block(ifd: &Ifd, cells: usize) -> Result<(), Fault> {
+    /// Cells of a tile, however small the image.
+    const USUAL: u64 = 1 << 22;
+    let (Some(columns), Some(rows)) = (ifd.tile_width(), ifd.tile_height()) else { return Ok(()) };
+    if u64::from(columns) * u64::from(rows) <= USUAL.max(4 * cells as u64) {
+        return Ok(());
+    }
+    let problem = format!("its tiles have {columns} × {rows} cells, the image has {cells}");
+    Err(Fault::Tiff { problem })
 }
 
 /// All that the heights are read by.

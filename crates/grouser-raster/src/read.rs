@@ -7,6 +7,9 @@ use std::path::Path;
 use crate::error::{Fault, RasterError};
 use crate::{Raster, ReadOptions, geotiff, npy, xyz};
 
+/// What other formats of heights start with, which begin as text: labels of PDS and ISIS, grids of Esri.
+const LABELS: [&[u8]; 6] = [b"PDS_VERSION_ID", b"CCSD", b"Object", b"<?xml", b"ncols", b"NCOLS"];
+
 /// Reads a file of any of the formats, which its content tells.
 ///
 /// # Errors
@@ -17,7 +20,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
         geotiff::read(path, options)
     } else if npy::starts_so(&start) {
         npy::read(path, options)
-    } else if start.contains(&0) {
+    } else if start.contains(&0) || LABELS.iter().any(|label| start.starts_with(label)) {
         // Text has no zero bytes.
         Err(RasterError::new(path, Fault::UnknownFormat))
     } else {

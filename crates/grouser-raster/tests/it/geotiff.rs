@@ -89,6 +89,7 @@ fn what_is_no_map_in_metres_is_refused_with_the_command_that_helps() {
         ("heights-in-feet.tif", &["heights are in ft", "gdal_calc.py"]),
         ("three-bands.tif", &["3 bands", "gdal_translate -b 1"]),
         ("complex.tif", &["complex numbers", "-ot Float32"]),
+        ("big-endian-lerc-i16.tif", &["LERC in a big-endian file", "gdal_translate"]),
         ("no-place.tif", &["no georeference", "cell size"]),
     ] {
         let text = refused(name);
@@ -180,6 +181,22 @@ fn a_header_that_promises_too_much_is_refused() {
     assert!(matches!(few, Fault::TooLarge { limit: 5, .. }), "{few}");
     let nothing = geotiff::decode(tiff(0, 2, &heights), &ReadOptions::default());
     assert!(nothing.is_err());
+    // One strip of 2³¹ rows.
+    let mut block = tiff(3, 2, &heights);
+    let rows_in_a_strip = 10 + 6 * 12 + 8;
+    block[rows_in_a_strip + 3] = 0x80;
+    assert!(geotiff::decode(block, &ReadOptions::default()).is_ok());
+    let tiles = ground::fixture("tiled-deflate-f32.tif");
+    let mut tiles = std::fs::read(tiles).expect("a fixture");
+    let entry = [0x43, 1, 3, 0, 1, 0, 0, 0, 16, 0];
+    // GDAL wrote its list of tags anew: the last one counts.
+    let at = tiles.windows(entry.len()).rposition(|bytes| bytes == entry).expect("a tile's length");
+    // Its value, and that of the width before it.
+    for value in [at + 8, at - 4] {
+        tiles[value..value + 2].copy_from_slice(&[0xf0, 0xff]);
+    }
+    let vast = geotiff::decode(tiles, &ReadOptions::default()).expect_err("refused");
+    assert!(vast.to_string().contains("65520 × 65520 cells"), "{vast}");
 }
 
 #[test]
@@ -198,6 +215,7 @@ fn files_that_are_not_there_or_empty_are_refused() {
         ("empty.tif", &b""[..], "is empty"),
         ("short.tif", b"II*\0", "gdal_translate"),
         ("other.tif", b"\x89PNG\0\0\0", "is none of GeoTIFF, .npy and xyz"),
+        ("DTEEC.IMG", b"PDS_VERSION_ID = PDS3\r\n", "gdal_translate -of GTiff IN OUT.tif"),
     ] {
         std::fs::write(folder.path().join(name), content).expect("written");
         let text = read(name).expect_err("refused").to_string();
