@@ -70,14 +70,20 @@ impl CoordinateSystem {
         self.number(key::PROJECTED).filter(|code| !matches!(*code, 0 | key::USER_DEFINED))
     }
 
-    /// A name for people: the file's own, else the register's code.
+    /// A name for people: the file's own, else the register's code, else the body's radius.
     #[must_use]
     pub fn name(&self) -> String {
+        /// What writers put down where they have no name.
+        const NAMELESS: [&str; 4] = ["", "unknown", "unnamed", "user-defined"];
         let own = [key::PROJECTED_CITATION, key::CITATION, key::GEODETIC_CITATION];
-        let own = own.into_iter().filter_map(|id| self.words(id)).find(|name| !name.is_empty());
-        own.or_else(|| self.epsg().map(|code| format!("EPSG:{code}"))).unwrap_or_else(|| {
-            let name = if self.is_known() { "a system without a name" } else { "not stated" };
-            name.to_owned()
+        let mut own = own.into_iter().filter_map(|id| self.words(id));
+        let own = own.find(|name| !NAMELESS.contains(&name.to_lowercase().as_str()));
+        own.or_else(|| self.epsg().map(|code| format!("EPSG:{code}"))).unwrap_or_else(|| match self
+            .real(key::SEMI_MAJOR_AXIS)
+        {
+            Some(radius) => format!("a system without a name, on a body of radius {radius} m"),
+            None if self.is_known() => "a system without a name".to_owned(),
+            None => "not stated".to_owned(),
         })
     }
 
