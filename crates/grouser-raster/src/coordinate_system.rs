@@ -76,7 +76,12 @@ impl CoordinateSystem {
         /// What writers put down where they have no name.
         const NAMELESS: [&str; 4] = ["", "unknown", "unnamed", "user-defined"];
         let own = [key::PROJECTED_CITATION, key::CITATION, key::GEODETIC_CITATION];
-        let mut own = own.into_iter().filter_map(|id| self.words(id));
+        // Some citations are lists such as `GCS Name = Moon 2000|Datum = …`.
+        let of_list = |text: String| {
+            let name = text.split('|').next().unwrap_or_default();
+            name.split_once("Name = ").map_or(name, |(_, name)| name).trim().to_owned()
+        };
+        let mut own = own.into_iter().filter_map(|id| self.words(id)).map(of_list);
         let own = own.find(|name| !NAMELESS.contains(&name.to_lowercase().as_str()));
         own.or_else(|| self.epsg().map(|code| format!("EPSG:{code}"))).unwrap_or_else(|| match self
             .real(key::SEMI_MAJOR_AXIS)
@@ -107,11 +112,48 @@ impl CoordinateSystem {
         let bytes = self.text.as_bytes().get(start..)?;
         let text = String::from_utf8_lossy(&bytes[..count.min(bytes.len())]).into_owned();
         let shown = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect::<String>();
-        Some(shown.trim_end_matches('|').trim().to_owned())
+        Some(shown.trim().to_owned())
     }
 
     /// A key's identity, tag, count and value.
     fn entry(&self, id: u16) -> Option<&[u16]> {
         self.directory.get(4..)?.chunks_exact(4).find(|entry| entry[0] == id)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn name(text: &str, epsg: u16) -> String {
+        let count = u16::try_from(text.len()).expect("short");
+        let directory = [1, 1, 0, 2, key::CITATION, TEXT, count, 0, key::PROJECTED, 0, 1, epsg];
+        CoordinateSystem::new(directory.to_vec(), Vec::new(), text.to_owned()).name()
+    }
+
+    #[test]
+    fn names_are_those_of_the_file_or_of_the_register() {
+        assert_eq!(name("Moon2000 south pole|", 32767), "Moon2000 south pole");
+        assert_eq!(
+            name("PCS Name = Mars equirectangular|Datum = x|", 32767),
+            "Mars equirectangular"
+        );
+        assert_eq!(name("unnamed|", 32633), "EPSG:32633");
+        assert_eq!(name("unknown|", 32767), "a system without a name");
+        assert_eq!(name("\u{1b}[31mred|", 32767), "[31mred");
+        assert_eq!(CoordinateSystem::default().name(), "not stated");
+    }
+
+    /// A directory may say anything.
+    #[test]
+    fn keys_that_lead_nowhere_are_none() {
+        let directory =
+            [1, 1, 0, 9, key::CITATION, TEXT, 99, 3, key::SEMI_MAJOR_AXIS, DOUBLES, 1, 7];
+        let system = CoordinateSystem::new(directory.to_vec(), vec![1.0], "abcd".into());
+        assert_eq!(system.words(key::CITATION).as_deref(), Some("d"));
+        assert_eq!(
+            (system.real(key::SEMI_MAJOR_AXIS), system.number(key::PROJECTED)),
+            (None, None)
+        );
     }
 }
