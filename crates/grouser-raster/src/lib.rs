@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | [GeoTIFF](geotiff) | tiles and strips, cloud-optimised at full resolution, BigTIFF; deflate, LZW, LERC, Zstandard; real and whole numbers | of the file: projected, in metres, north up |
 //! | [`.npy`](npy) | versions 1 to 3, row by row or column by column, either byte order; real and whole numbers | [`Placement`] |
-//! | [xyz](xyz) | a point in each line, in any order | of the file, in metres |
+//! | [xyz] | a point in each line, in any order | of the file, in metres |
 //!
 //! What a file promises is compared with its length and with [`ReadOptions::cells`] before memory is taken
 //! for it. A file that cannot be used gives a [`RasterError`] that says what to do.
