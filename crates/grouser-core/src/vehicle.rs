@@ -20,13 +20,16 @@ pub mod kinematics;
 pub mod load;
 pub mod motor;
 pub mod parts;
+pub mod posture;
 pub mod reaction;
 pub mod rover;
 pub mod ruts;
 pub(crate) mod settling;
 pub mod speed_control;
 pub mod state;
+pub mod statics;
 pub mod support_polygon;
+pub mod suspension;
 pub mod winding;
 
 pub use battery::{Battery, Terminals};
@@ -38,9 +41,12 @@ pub use motor::{Electrical, Motor};
 pub use parts::{
     Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
+pub use posture::{NoPosture, Posture};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::Rover;
 pub use ruts::Ruts;
 pub use speed_control::{MotorLimits, SpeedControl};
 pub use state::{Acceleration, RoverState, roll_and_pitch};
+pub use statics::{Balance, Resultant};
+pub use suspension::{Bogie, End, Joints, Suspension};
 pub use winding::Winding;

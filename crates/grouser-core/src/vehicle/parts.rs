@@ -7,6 +7,7 @@ use nalgebra::Rotation2;
 use super::battery::Battery;
 use super::motor::Motor;
 use super::state::rotation;
+use super::suspension::Suspension;
 use crate::error::{ParameterError, finite, positive};
 use crate::terrain::Footprint;
 use crate::terrain::footprint::REACH;
@@ -200,6 +201,8 @@ pub struct RoverParts {
     pub mounts: Vec<MountParts>,
     /// Its battery, where that is known.
     pub battery: Option<Battery>,
+    /// What joins the wheels to the body; a rigid rover has none.
+    pub suspension: Option<Suspension>,
 }
 
 /// How far and how fast wheels are steered, as far as that is known.

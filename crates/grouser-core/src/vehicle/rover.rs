@@ -9,6 +9,7 @@ use super::parts::{
     Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
 use super::support_polygon::SupportPolygon;
+use super::suspension::Suspension;
 use crate::error::{ParameterError, finite, positive};
 use crate::terrain::Footprint;
 use crate::units::{Vec2, Vec3};
@@ -58,6 +59,7 @@ impl PartialEq for Rover {
         let (one, other_parts) = (&self.parts, &other.parts);
         one.body == other_parts.body
             && one.battery == other_parts.battery
+            && one.suspension == other_parts.suspension
             && self.mounts == other.mounts
     }
 }
@@ -96,7 +98,9 @@ impl Rover {
         };
         let mounts = mounts.into_iter().map(parts).collect();
         let steering = SteeringParts::default();
-        Self::draft(RoverParts { body, wheel_unit, steering, mounts, battery: None }).checked()
+        let (battery, suspension) = (None, None);
+        Self::draft(RoverParts { body, wheel_unit, steering, mounts, battery, suspension })
+            .checked()
     }
 
     /// A rover of which nothing but the parts is known: to be filled in, and then
@@ -158,6 +162,7 @@ impl Rover {
             }
         }
         check_stance(&mounts)?;
+        parts.suspension.map_or(Ok(()), |suspension| suspension.check(&mounts))?;
         parts.check_axes(&mounts)?;
 
         let (mut mass, mut yaw_inertia) = (body.mass, body.inertia.zz);
@@ -351,6 +356,22 @@ impl Rover {
     #[must_use]
     pub fn battery(&self) -> Option<&Battery> {
         self.parts.battery.as_ref()
+    }
+
+    /// What joins the wheels to the body; a rigid rover has none.
+    #[must_use]
+    pub fn suspension(&self) -> Option<&Suspension> {
+        self.parts.suspension.as_ref()
+    }
+
+    /// The same rover with its wheels on rockers.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where it cannot have them.
+    pub fn on_rockers(&self, suspension: Suspension) -> Result<Self, ParameterError> {
+        let mut rover = self.clone();
+        rover.parts.suspension = Some(suspension);
+        rover.checked()
     }
 
     /// Whether more of its power is known than what motors take: its battery, or how warm motors become.

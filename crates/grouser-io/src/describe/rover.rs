@@ -20,6 +20,7 @@ pub(crate) const BLANK: RoverParts = RoverParts {
     steering: NO_STEERING,
     mounts: Vec::new(),
     battery: None,
+    suspension: None,
 };
 
 const NO_STEERING: SteeringParts = SteeringParts { limit: None, rate: None };

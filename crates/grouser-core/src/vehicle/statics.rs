@@ -1,0 +1,144 @@
+//! Loads of wheels on uneven ground: the balance of every freedom of a rover that stands as its suspension lets it.
+//!
+//! The soil's forces along the ground and its moments are given; sought are the forces along the normals, *N*. Whatever
+//! freedom *k* is moved, all forces together do no work (d'Alembert), with the weight and the inertia at the common centre of
+//! mass, which accelerates along the body's x and y axes:
+//!
+//! ```text
+//! Σ f_i · v_ik + Σ m_i · ω_ik − Σ μ_j F · v_jk = 0        f_i = N_i n_i + t_i        F = Σ f_i
+//! ```
+//!
+//! with the twists (v, ω) of [`Posture`], the moment *m* that a wheel passes on to its hub, its torque first, and the share
+//! *μ* that a part has of the mass: for height, Σ F · e_z balances the weight; for roll and pitch, moments about the
+//! common centre of mass vanish; for rockers and bogies, those about their axes, wheels' weights included.
+//!
+//! A rover on rockers, with or without bogies, or on three wheels has as many freedoms as wheels. A rigid one with more has
+//! the loads of least norm, as on a plane. Links weigh nothing but their wheels.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::load::{LoadSharing, OwnMoments, Tipping};
+use super::posture::{OF_BODY, Posture, StandingWheel};
+use super::rover::Rover;
+use crate::contact::WheelForces;
+use crate::units::Vec3;
+
+/// The soil's forces on a rover, about its body's centre of mass, in the body frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resultant {
+    /// Force [N].
+    pub force: Vec3,
+    /// Moment [N·m].
+    pub moment: Vec3,
+}
+
+/// What carries the moments of a wheel's forces.
+#[derive(Clone, Copy, Debug)]
+pub struct Balance {
+    /// Whether the wheels' torque is in the balances, or their forces act in the ground.
+    pub sharing: LoadSharing,
+    /// Whether the wheels' own overturning and aligning moments act.
+    pub own_moments: OwnMoments,
+}
+
+impl Balance {
+    /// Force along the ground [N] and moment about the hub [N·m] of a wheel, in the ground's coordinates.
+    fn along(&self, wheel: &StandingWheel, radius: f64, forces: &WheelForces) -> (Vec3, Vec3) {
+        let force = forces.drawbar_pull * wheel.forward + forces.side_force * wheel.left;
+        let torque = if self.sharing.has_torque() {
+            -forces.torque * wheel.axle
+        } else {
+            -radius * forces.drawbar_pull * wheel.left
+        };
+        let own = match self.own_moments {
+            OwnMoments::Included => {
+                forces.overturning_moment * wheel.forward + forces.aligning_moment * wheel.normal
+            }
+            // A side force in the ground.
+            OwnMoments::Neglected => radius * forces.side_force * wheel.forward,
+        };
+        (force, torque + own)
+    }
+
+    /// Loads that balance a rover, in the mounts' order [N]; negative where a wheel would have to be held down.
+    ///
+    /// * `weight`: m g [N]
+    /// * `forces`: the soil's, of which those along the ground and the moments count; none for wheels that only stand
+    ///
+    /// # Errors
+    /// [`Tipping`] where no loads balance it.
+    pub fn loads(
+        &self,
+        rover: &Rover,
+        posture: &Posture,
+        weight: f64,
+        forces: &[WheelForces],
+    ) -> Result<Vec<f64>, Tipping> {
+        let wheels = &posture.wheels;
+        if self.sharing == LoadSharing::Uniform {
+            let into = weight * posture.axes()[2].z;
+            return Ok(vec![into / wheels.len() as f64; wheels.len()]);
+        }
+        let centre = centre_of_mass(rover, posture);
+        let [x, y, z] = posture.axes();
+        // Links: what all wheels' share of the acceleration and the weight takes of each force.
+        let mut carried = vec![Vec3::zeros(); posture.freedoms()];
+        for (wheel, mount) in wheels.iter().zip(rover.mounts()) {
+            let share = mount.unit.mass / rover.mass();
+            for (sum, twist) in
+                carried.iter_mut().zip(posture.twists(wheel, [z, x, y], centre)).skip(OF_BODY)
+            {
+                *sum += share * twist.linear;
+            }
+        }
+        let mut matrix = DMatrix::zeros(posture.freedoms(), wheels.len());
+        let mut side = DVector::zeros(posture.freedoms());
+        side[0] = weight * z.z;
+        let still = WheelForces::default();
+        for (column, (wheel, mount)) in wheels.iter().zip(rover.mounts()).enumerate() {
+            let forces = forces.get(column).unwrap_or(&still);
+            let (force, moment) = self.along(wheel, mount.shearing_radius(), forces);
+            let twists = posture.twists(wheel, [z, x, y], centre);
+            for (row, (twist, carried)) in twists.zip(&carried).enumerate() {
+                let way = twist.linear - carried;
+                matrix[(row, column)] = wheel.normal.dot(&way);
+                side[row] -= force.dot(&way) + moment.dot(&twist.angular);
+            }
+        }
+        least_norm(&matrix, &side).ok_or(Tipping)
+    }
+
+    /// The soil's forces together.
+    ///
+    /// * `forces`: of each wheel
+    #[must_use]
+    pub fn resultant(&self, rover: &Rover, posture: &Posture, forces: &[WheelForces]) -> Resultant {
+        let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
+        for ((wheel, mount), forces) in posture.wheels.iter().zip(rover.mounts()).zip(forces) {
+            let (along, own) = self.along(wheel, mount.shearing_radius(), forces);
+            let all = along + forces.normal_force * wheel.normal;
+            force += all;
+            moment += wheel.hub.cross(&all) + own;
+        }
+        let body = posture.ground_from_body;
+        Resultant { force: body.inverse() * force, moment: body.inverse() * moment }
+    }
+}
+
+/// The common centre of mass of body and wheels, seen from the body's, in the ground's coordinates [m].
+#[must_use]
+pub fn centre_of_mass(rover: &Rover, posture: &Posture) -> Vec3 {
+    let wheels = posture.wheels.iter().zip(rover.mounts());
+    wheels.map(|(wheel, mount)| wheel.hub * (mount.unit.mass / rover.mass())).sum()
+}
+
+/// The shortest vector with these balances; none where there is none.
+fn least_norm(matrix: &DMatrix<f64>, side: &DVector<f64>) -> Option<Vec<f64>> {
+    let transposed = matrix.transpose();
+    let shortest = if matrix.is_square() {
+        matrix.clone().lu().solve(side)?
+    } else {
+        &transposed * (matrix * &transposed).lu().solve(side)?
+    };
+    shortest.iter().all(|load| load.is_finite()).then(|| shortest.iter().copied().collect())
+}
