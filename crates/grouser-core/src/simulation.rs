@@ -9,6 +9,7 @@
 //! [`SteadyMotion`] is one such state by itself. A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
 //! [`power`] computes the energy balance.
 
+mod along_ground;
 pub mod controller;
 pub mod equations;
 mod error;
@@ -43,7 +44,9 @@ pub use power::EnergyBalance;
 pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};
 pub use scatter::Scatter;
-pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
+pub use scenario::{
+    Approach, Integrator, Landscape, Motion, Numerics, PlacedTerrain, Scenario, Start,
+};
 pub use state::State;
 pub use steady_motion::SteadyMotion;
 pub use steady_state::{MOST_SLIP, NotSteady};

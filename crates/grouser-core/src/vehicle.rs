@@ -26,6 +26,7 @@ pub mod rover;
 pub mod ruts;
 pub(crate) mod settling;
 pub mod speed_control;
+pub mod standing;
 pub mod state;
 pub mod statics;
 pub mod support_polygon;
@@ -41,11 +42,12 @@ pub use motor::{Electrical, Motor};
 pub use parts::{
     Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
-pub use posture::{NoPosture, Posture};
+pub use posture::{Attitude, NoPosture, Posture};
 pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::Rover;
 pub use ruts::Ruts;
 pub use speed_control::{MotorLimits, SpeedControl};
+pub use standing::{Relief, Standing};
 pub use state::{Acceleration, RoverState, roll_and_pitch};
 pub use statics::{Balance, Resultant};
 pub use suspension::{Bogie, End, Joints, Suspension};

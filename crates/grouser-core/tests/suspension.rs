@@ -174,11 +174,11 @@ fn a_level_rover_with_bogies_carries_a_sixth_on_each_wheel() {
         .expect("six");
     let terrain = ground(plane(0.0, 0.0));
     let posture = stand(&rover, &terrain, Vec2::zeros(), 0.0);
-    let loads = COMPLETE.loads(&rover, &posture, 60.0, &[]).expect("it stands");
+    let loads = COMPLETE.loads(&rover, &posture, 60.0 * Vec3::z(), &[]).expect("it stands");
     loads.iter().for_each(|load| close(*load, 10.0, 1e-9));
     // A torque of 0.3 N·m of each wheel of a bogie loads the rear one by the sum over the bogie's length.
     let torques = [0.0, 0.3, 0.3, 0.0, 0.3, 0.3].map(|torque| forces(0.0, 0.0, torque));
-    let with = COMPLETE.loads(&rover, &posture, 60.0, &torques).expect("it stands");
+    let with = COMPLETE.loads(&rover, &posture, 60.0 * Vec3::z(), &torques).expect("it stands");
     close(with[2] - with[1], 2.0 * 0.6 / 0.4, 1e-9);
 }
 
@@ -196,7 +196,7 @@ fn rockers_and_a_rigid_body_agree_on_a_plane_with_equal_torques() {
         let wheels = [forces(3.0, 2.0, 0.9); 4];
         let loads = |rover: &Rover, wheels: &[WheelForces]| {
             let posture = stand(rover, &terrain, Vec2::zeros(), yaw);
-            COMPLETE.loads(rover, &posture, 60.0, wheels).expect("it stands")
+            COMPLETE.loads(rover, &posture, 60.0 * Vec3::z(), wheels).expect("it stands")
         };
         let (one, other) = (loads(&rigid, &wheels), loads(&rocker, &wheels));
         one.iter().zip(&other).for_each(|(one, other)| close(*one, *other, 60.0 * 1e-9));
@@ -232,7 +232,7 @@ fn every_posture_balances() {
                 })
                 .collect();
             let weight = 70.0;
-            let loads = COMPLETE.loads(&rover, &posture, weight, &wheels).expect("it stands");
+            let loads = COMPLETE.loads(&rover, &posture, weight * Vec3::z(), &wheels).expect("it stands");
             wheels.iter_mut().zip(&loads).for_each(|(wheel, load)| wheel.normal_force = *load);
             let all = COMPLETE.resultant(&rover, &posture, &wheels);
             let [.., z] = posture.axes();
@@ -261,7 +261,7 @@ fn it_tips_where_the_weight_falls_outside() {
         let side = -weight * slope.sin() / 4.0;
         let balance = Balance { own_moments: OwnMoments::Neglected, ..COMPLETE };
         let wheels = [forces(0.0, -side, 0.0); 4];
-        let loads = balance.loads(&rover, &posture, weight, &wheels).expect("loads");
+        let loads = balance.loads(&rover, &posture, weight * Vec3::z(), &wheels).expect("loads");
         let uphill: f64 = loads
             .iter()
             .zip(rover.mounts())

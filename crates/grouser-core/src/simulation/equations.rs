@@ -12,10 +12,12 @@ use crate::site::Site;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
+use crate::vehicle::posture::Attitude;
 use crate::vehicle::reaction::forces_of;
+use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
-    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, ReactionError, Rover,
-    RoverState, Stance, WheelReaction, dynamics, reaction::Ground, settling::Known,
+    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError, Rover,
+    RoverState, Stance, Standing, WheelReaction, dynamics, reaction::Ground, settling::Known,
     settling::Nearby,
 };
 
@@ -36,6 +38,24 @@ pub struct Equations<'a> {
     last: RefCell<Option<(RoverState, Vec<f64>, Evaluation)>>,
     /// The wheels of the last attempt, near which those of the next settle.
     nearby: RefCell<Nearby<'a>>,
+    /// The same on uneven ground, and where the rover stood how.
+    nearby_standing: RefCell<Vec<WheelReaction>>,
+    last_posture: RefCell<Option<(Vec2, f64, Posture)>>,
+}
+
+/// What acts on a rover in motion.
+struct Acting {
+    wheels: Vec<WheelReaction>,
+    /// That of the weight, in the body frame [N].
+    pull: Vec2,
+    /// The soil's force [N] and moment [N·m], in the body frame.
+    soil: (Vec2, f64),
+    /// Velocity of each hub along its wheel and to its left [m/s].
+    hubs: Vec<Vec2>,
+    /// Velocity of the body's centre of mass, in the ground's coordinates [m/s].
+    velocity: Vec2,
+    /// [rad/s]
+    yaw_rate: f64,
 }
 
 /// One evaluation of the motion: its rates, and the wheels that they come from.
@@ -65,7 +85,7 @@ pub struct Rates {
 }
 
 /// Where the search for sinkages and loads begins: the answers agree but for their last digits.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Search {
     /// From shallow sinkages: the same whatever was evaluated before.
     Anew,
@@ -88,6 +108,7 @@ impl<'a> Equations<'a> {
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
             differences: scenario.differences(),
+            relief: scenario.relief(),
         };
         Self::new(ground, rim_speeds)
     }
@@ -107,6 +128,8 @@ impl<'a> Equations<'a> {
             failure: RefCell::new(None),
             last: RefCell::new(None),
             nearby: RefCell::default(),
+            nearby_standing: RefCell::default(),
+            last_posture: RefCell::default(),
         }
     }
 
@@ -138,13 +161,23 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.
     pub fn reactions(&self, state: &RoverState) -> Result<Vec<WheelReaction>, ReactionError> {
-        self.reactions_at(state, &self.ground.stance(state), self.rim_speeds, Search::Anew)
+        self.reactions_anew(state, self.rim_speeds)
+    }
+
+    fn reactions_anew(
+        &self,
+        state: &RoverState,
+        rim_speeds: &[f64],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        if self.ground.is_uneven() {
+            return Ok(self.acting_on_uneven_ground(state, rim_speeds, Search::Anew)?.wheels);
+        }
+        self.reactions_at(state, &self.ground.stance(state), rim_speeds, Search::Anew)
     }
 
     /// The same at a point of a run, whose wheels may turn at other speeds than they are set to.
     pub(super) fn reactions_of(&self, point: &Point) -> Result<Vec<WheelReaction>, ReactionError> {
-        let stance = self.ground.stance(&point.state);
-        self.reactions_at(&point.state, &stance, self.turning(point), Search::Anew)
+        self.reactions_anew(&point.state, self.turning(point))
     }
 
     /// The rim speeds of the wheels at a point of a run [m/s].
@@ -170,8 +203,14 @@ impl<'a> Equations<'a> {
     }
 
     /// The slip of every wheel at a point of a run, from the motion alone.
-    pub(super) fn slips<'s>(&'s self, point: &'s Point) -> impl Iterator<Item = Slip> + 's {
-        wheel_slips(self.ground.rover, &point.state, self.turning(point))
+    pub(super) fn slips(&self, point: &Point) -> Vec<Slip> {
+        let rim_speeds = self.turning(point);
+        if self.ground.is_uneven()
+            && let Ok(standing) = self.standing(&point.state, Search::Anew)
+        {
+            return slips_of(&standing, rim_speeds);
+        }
+        wheel_slips(self.ground.rover, &point.state, rim_speeds).collect()
     }
 
     /// The rates at a state.
@@ -201,30 +240,126 @@ impl<'a> Equations<'a> {
         search: Search,
     ) -> Result<Evaluation, ReactionError> {
         let Ground { rover, own_moments, .. } = self.ground;
-        let stance = self.ground.stance(state);
-        let wheels = self.reactions_at(state, &stance, rim_speeds, search)?;
-        let forces = forces_of(&wheels);
+        let Acting { wheels, pull, soil, hubs, velocity, yaw_rate } =
+            if self.ground.is_uneven() {
+                self.acting_on_uneven_ground(state, rim_speeds, search)?
+            } else {
+                self.acting_on_a_plane(state, rim_speeds, search)?
+            };
         let (acceleration, holding_moment) = match self.held_yaw_rate {
-            None => (dynamics::acceleration(rover, stance.pull, state, forces, own_moments), 0.0),
+            None => (dynamics::acceleration(rover, pull, state, soil), 0.0),
             Some(rate) => {
                 let back = (rate - state.yaw_rate) / BACK_TO_HELD_RATE;
-                dynamics::held_acceleration(rover, stance.pull, state, forces, own_moments, back)
+                dynamics::held_acceleration(rover, pull, state, soil, back)
             }
         };
-        let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount));
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, soil_power) =
-            power::powers(&wheels, wheel_speeds, hubs, aligning_work_rate);
+            power::powers(&wheels, wheel_speeds, hubs.into_iter(), aligning_work_rate);
         let rates = Rates {
-            velocity_slope: stance.slope_from_body * state.velocity,
-            yaw_rate: state.yaw_rate,
+            velocity_slope: velocity,
+            yaw_rate,
             acceleration,
             motor_power: motor_power + holding_moment * state.yaw_rate,
             soil_power,
             electrical_power: power::electrical_power(rover, &wheels, wheel_speeds),
         };
         Ok(Evaluation { rates, wheels })
+    }
+
+    fn acting_on_a_plane(
+        &self,
+        state: &RoverState,
+        rim_speeds: &[f64],
+        search: Search,
+    ) -> Result<Acting, ReactionError> {
+        let Ground { rover, own_moments, .. } = self.ground;
+        let stance = self.ground.stance(state);
+        let wheels = self.reactions_at(state, &stance, rim_speeds, search)?;
+        let soil = dynamics::soil_resultant(rover, forces_of(&wheels), own_moments);
+        let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount)).collect();
+        let velocity = stance.slope_from_body * state.velocity;
+        Ok(Acting { wheels, pull: stance.pull, soil, hubs, velocity, yaw_rate: state.yaw_rate })
+    }
+
+    fn acting_on_uneven_ground(
+        &self,
+        state: &RoverState,
+        rim_speeds: &[f64],
+        search: Search,
+    ) -> Result<Acting, ReactionError> {
+        let Ground { rover, site, .. } = self.ground;
+        let standing = self.standing(state, search)?;
+        let slips = slips_of(&standing, rim_speeds);
+        self.count(|work| work.settled_wheels += slips.len() as u64);
+        let mut near = match search {
+            Search::Anew => Vec::new(),
+            Search::Nearby => std::mem::take(&mut *self.nearby_standing.borrow_mut()),
+        };
+        let wheels = self.ground.reactions_standing(&standing, &slips, &near)?;
+        if search == Search::Nearby {
+            near.clone_from(&wheels);
+            *self.nearby_standing.borrow_mut() = near;
+        }
+        let resultant = self.ground.resultant(&standing, &wheels);
+        let pull = standing.pull(rover.mass() * site.gravity);
+        let motion = standing.motion;
+        Ok(Acting {
+            wheels,
+            pull,
+            soil: (resultant.force.xy(), resultant.moment.z),
+            hubs: motion.hubs,
+            velocity: motion.velocity.xy(),
+            yaw_rate: motion.yaw_rate,
+        })
+    }
+
+    /// How the rover stands and moves in a state. The posture of an attempt is sought from that of the one before, which
+    /// mostly is the same.
+    fn standing(&self, state: &RoverState, search: Search) -> Result<Standing, ReactionError> {
+        if search == Search::Anew {
+            return self.ground.standing(state, None);
+        }
+        let mut last = self.last_posture.borrow_mut();
+        let posture = match &*last {
+            Some((place, yaw, posture)) if *place == state.position && *yaw == state.yaw => posture,
+            other => {
+                let near = other.as_ref().map(|(.., posture)| posture);
+                let sinkages = vec![0.0; self.ground.rover.wheel_count()];
+                let posture = self.ground.posture(state, &sinkages, near)?;
+                &last.insert((state.position, state.yaw, posture)).2
+            }
+        };
+        self.ground.moving(posture.clone(), state)
+    }
+
+    /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane
+    /// where it has no suspension.
+    pub(super) fn attitude(
+        &self,
+        state: &RoverState,
+        wheels: &[WheelReaction],
+    ) -> Option<Attitude> {
+        if !self.ground.is_uneven() || wheels.is_empty() {
+            return None;
+        }
+        let sinkages: Vec<f64> = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
+        let posture = self.ground.posture(state, &sinkages, None).ok()?;
+        Some(posture.attitude())
+    }
+
+    /// Potential energy [J]; what the rover sinks does not count.
+    pub(super) fn potential_energy(&self, state: &RoverState) -> f64 {
+        let Ground { rover, site, .. } = self.ground;
+        if self.ground.is_uneven()
+            && let Ok(standing) = self.ground.standing(state, None)
+        {
+            let Standing { posture, up, .. } = standing;
+            let centre = posture.place + centre_of_mass(rover, &posture);
+            return rover.mass() * site.gravity * centre.dot(&up);
+        }
+        power::potential_energy(rover, site, state)
     }
 
     /// The rover that moves.
@@ -234,8 +369,19 @@ impl<'a> Equations<'a> {
     }
 
     /// Whether the soil differs from place to place.
-    pub(super) fn is_uneven(&self) -> bool {
+    pub(super) fn has_uneven_soil(&self) -> bool {
         self.ground.differences.by_place.is_some()
+    }
+
+    /// Whether the ground has heights of its own.
+    pub(super) fn has_relief(&self) -> bool {
+        self.ground.relief.is_some()
+    }
+
+    /// Rates of place and yaw in a state [m/s, rad/s]; none where the rover does not come to stand.
+    pub(super) fn pose_rates(&self, state: &RoverState) -> Option<(Vec2, f64)> {
+        let motion = self.standing(state, Search::Nearby).ok()?.motion;
+        Some((motion.velocity.xy(), motion.yaw_rate))
     }
 
     /// Where it moves.
@@ -385,4 +531,12 @@ impl<'a> Equations<'a> {
         add(&mut work);
         self.work.set(work);
     }
+}
+
+/// The slip of every wheel of a rover that stands.
+///
+/// * `rim_speeds`: ω r_s of each wheel [m/s]
+fn slips_of(standing: &Standing, rim_speeds: &[f64]) -> Vec<Slip> {
+    let each = standing.motion.hubs.iter().zip(rim_speeds);
+    each.map(|(hub, rim_speed)| Slip::of_motion(*rim_speed, *hub)).collect()
 }

@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 
+use super::along_ground::AlongGround;
 use super::equations::Equations;
 use super::error::RunError;
 use super::integrate::{self, Stalled};
@@ -106,7 +107,7 @@ impl Leg<'_> {
         let mut point = self.state.point;
         let horizon = self.kept_until - self.state.time;
         let started =
-            QuasiSteady::from(equations, carried, &mut point, horizon, self.is_new_command);
+            Steady::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
             // A run starts steady: what its start would cost the motors is not in the energy balance.
@@ -185,7 +186,7 @@ impl Leg<'_> {
         let state = &mut *self.state;
         (state.time, state.point) = (now, *reached);
         state.slip_ratios.clear();
-        state.slip_ratios.extend(equations.slips(reached).map(|slip| slip.ratio));
+        state.slip_ratios.extend(equations.slips(reached).iter().map(|slip| slip.ratio));
         if reached.turning.is_some() {
             state.rim_speeds.copy_from_slice(equations.turning(reached));
         }
@@ -230,6 +231,48 @@ impl Leg<'_> {
             Some(_) => ControlFlow::Break(()),
             None => ControlFlow::Continue(()),
         })
+    }
+}
+
+/// A quasi-steady motion: on a plane, or over uneven ground.
+enum Steady<'a, 'g> {
+    Plane(QuasiSteady<'a, 'g>),
+    Uneven(AlongGround<'a, 'g>),
+}
+
+impl<'a, 'g> Steady<'a, 'g> {
+    fn from(
+        equations: &'a Equations<'g>,
+        carried: Carried,
+        point: &mut Point,
+        horizon: f64,
+        rims_changed: bool,
+    ) -> Result<Self, NotSteady> {
+        if equations.has_relief() {
+            return AlongGround::from(equations, carried, point, rims_changed).map(Self::Uneven);
+        }
+        QuasiSteady::from(equations, carried, point, horizon, rims_changed).map(Self::Plane)
+    }
+
+    fn advance(&mut self, point: &mut Point, span: f64, horizon: f64) -> Result<(), NotSteady> {
+        match self {
+            Self::Plane(motion) => motion.advance(point, span, horizon),
+            Self::Uneven(motion) => motion.advance(point, span, horizon),
+        }
+    }
+
+    fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
+        match self {
+            Self::Plane(motion) => motion.wheels(point),
+            Self::Uneven(motion) => motion.wheels(),
+        }
+    }
+
+    fn carry(self) -> Carried {
+        match self {
+            Self::Plane(motion) => motion.carry(),
+            Self::Uneven(motion) => motion.carry(),
+        }
     }
 }
 

@@ -13,6 +13,7 @@
 
 use nalgebra::Vector3;
 
+use super::along_ground::Stride;
 use super::equations::Equations;
 use super::point::Point;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
@@ -64,20 +65,30 @@ pub(super) struct Stretch {
 /// What one run hands on from one advance to the next.
 #[derive(Clone, Default)]
 pub(super) struct Carried {
-    memory: Memory,
+    pub(super) memory: Memory,
     stretch: Option<Stretch>,
+    /// On uneven ground, the stride under way.
+    pub(super) stride: Option<Stride>,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
 
 impl Carried {
+    /// Of a motion over uneven ground.
+    pub(super) fn along(memory: Memory, stride: Stride) -> Self {
+        Self { memory, stride: Some(stride), ..Self::default() }
+    }
+
     /// The wheels at a point of the motion, if it is one of steady states.
     pub(super) fn wheels(
         &self,
         equations: &Equations<'_>,
         point: &Point,
     ) -> Option<Vec<WheelReaction>> {
-        Some(self.stretch.as_ref()?.wheels(equations, point))
+        match &self.stride {
+            Some(stride) => Some(stride.wheels()),
+            None => Some(self.stretch.as_ref()?.wheels(equations, point)),
+        }
     }
 }
 
@@ -101,10 +112,10 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         horizon: f64,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
-        if equations.is_uneven() {
+        if equations.has_uneven_soil() {
             return Err(NotSteady::UnevenSoil);
         }
-        let Carried { memory, stretch, rolled } = carried;
+        let Carried { memory, stretch, rolled, .. } = carried;
         let yaw = point.state.yaw;
         let rolling = rolling(equations);
         // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is faster.
@@ -131,7 +142,8 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     /// What the next advance starts with.
     pub(super) fn carry(self) -> Carried {
         let rolled = rolling(self.equations);
-        Carried { memory: self.solver.memory(), stretch: Some(self.stretch), rolled }
+        let memory = self.solver.memory();
+        Carried { memory, stretch: Some(self.stretch), stride: None, rolled }
     }
 
     /// The wheels at a point of the motion.
@@ -378,7 +390,7 @@ fn roughness(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64
 }
 
 /// A wheel between its reactions at several steady states; its slip is for the caller to set.
-fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> WheelReaction {
+pub(super) fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> WheelReaction {
     let mut sum: Option<WheelReaction> = None;
     for (reaction, weight) in weighted {
         let blend = sum.get_or_insert_with(|| nothing_of(reaction));

@@ -4,6 +4,7 @@ use super::equations::Equations;
 use super::point::Point;
 use super::power::{self, EnergyBalance};
 use super::supply::{Charge, Supply};
+use crate::vehicle::posture::Attitude;
 use crate::vehicle::{Electrical, RoverState, WheelReaction};
 
 /// The rover at one time.
@@ -31,6 +32,8 @@ pub struct Record {
     pub time: f64,
     /// Pose and velocity.
     pub state: RoverState,
+    /// How it stands on uneven ground, or on a suspension.
+    pub attitude: Option<Attitude>,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
     pub wheels: Vec<WheelRecord>,
     /// Energy since the start.
@@ -48,7 +51,8 @@ impl Record {
         wheels: &[WheelReaction],
         supply: Option<&Supply>,
     ) -> Self {
-        let (rover, site, state) = (equations.rover(), equations.site(), point.state);
+        let (rover, state) = (equations.rover(), point.state);
+        let attitude = equations.attitude(&state, wheels);
         let wheel_speeds: Vec<f64> = rover.wheel_speeds(equations.turning(point)).collect();
         let spin = power::spin_energy(rover, &wheel_speeds);
         let energy = EnergyBalance {
@@ -56,7 +60,7 @@ impl Record {
             motors: point.motors + if point.turning.is_some() { spin } else { 0.0 },
             soil: point.soil,
             kinetic: power::kinetic_energy(rover, &state) + spin,
-            potential: power::potential_energy(rover, site, &state),
+            potential: equations.potential_energy(&state),
             electrical: point.electrical + supply.map_or(0.0, Supply::beside),
         };
         let taken = equations.taken(point, wheels);
@@ -73,7 +77,8 @@ impl Record {
             temperature: supply.and_then(|supply| supply.temperature(wheel)),
         });
         let wheels = wheels.collect();
-        Self { time, state, wheels, energy, battery: supply.and_then(Supply::battery) }
+        let battery = supply.and_then(Supply::battery);
+        Self { time, state, attitude, wheels, energy, battery }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Everything that determines a run.
 
+use std::sync::Arc;
+
 use super::scatter::Scatter;
 pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
@@ -7,9 +9,11 @@ use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::soil::SlopeStability;
+use crate::terrain::{AnalyticTerrain, ElevationModel, Terrain};
+use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{
-    ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Rover, RoverState, Ruts,
+    ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Relief, Rover, RoverState, Ruts,
 };
 
 /// One run of one rover on one plane. It determines its trajectory bit for bit.
@@ -37,6 +41,8 @@ pub struct Scenario {
     pub rover: Rover,
     /// Where it drives.
     pub site: Site,
+    /// Heights of the ground in place of the site's plane, which then is level; the soil is the site's.
+    pub terrain: Option<PlacedTerrain>,
     /// The wheel–soil model.
     pub theory: Theory,
     /// How the weight is shared.
@@ -61,6 +67,24 @@ pub struct Scenario {
     pub duration: f64,
     /// How it is computed.
     pub numerics: Numerics,
+}
+
+/// Ground with heights, and where on it a run starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedTerrain {
+    /// The ground.
+    pub ground: Landscape,
+    /// The start of the rover, of its body's centre of mass seen from above, in the ground's coordinates [m].
+    pub start: Vec2,
+}
+
+/// Ground with heights.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Landscape {
+    /// A map of heights.
+    Elevation(Arc<ElevationModel>),
+    /// Heights by formula.
+    Analytic(Arc<AnalyticTerrain>),
 }
 
 /// How a run is computed and recorded.
@@ -179,6 +203,17 @@ impl Scenario {
             Integrator::Adaptive { tolerance } => positive("tolerance", tolerance),
             Integrator::Rk4 { step } => positive("step [s]", step),
         }
+    }
+
+    /// The heights of the ground, seen from the start.
+    #[must_use]
+    pub fn relief(&self) -> Option<Relief<'_>> {
+        let placed = self.terrain.as_ref()?;
+        let terrain: &dyn Terrain = match &placed.ground {
+            Landscape::Elevation(model) => &**model,
+            Landscape::Analytic(surface) => &**surface,
+        };
+        Some(Relief { terrain, origin: placed.start })
     }
 
     /// How the soil below each wheel differs from that of the site.

@@ -84,6 +84,8 @@ pub(super) struct SteadySolver<'a, 'g> {
     /// Length that makes a yaw rate a speed: the farthest wheel's distance [m].
     reach: f64,
     memory: Memory,
+    /// Where the rover is [m], which matters on uneven ground.
+    place: Vec2,
 }
 
 /// What the last steady state teaches about the next one.
@@ -118,7 +120,23 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
         let arms = equations.rover().load_arms();
         let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
-        Self { equations, scale: fastest, reach, memory }
+        Self { equations, scale: fastest, reach, memory, place: Vec2::zeros() }
+    }
+
+    /// That steady states are sought at another place from now on [m].
+    pub(super) fn go_to(&mut self, place: Vec2) {
+        self.place = place;
+    }
+
+    /// The state of a rover where they are sought.
+    pub(super) fn state_of(&self, yaw: f64, velocities: &Vector3<f64>) -> RoverState {
+        let velocity = Vec2::new(velocities.x, velocities.y);
+        RoverState { position: self.place, yaw, velocity, yaw_rate: velocities.z }
+    }
+
+    /// The fastest that a hub or a rim moves, about [m/s].
+    pub(super) fn speed(&self, velocities: &Vector3<f64>) -> f64 {
+        self.scale * self.size(velocities).max(1e-3)
     }
 
     /// What to begin the next search with.
@@ -244,7 +262,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     /// Accelerations, and how far each rim is from the speed at which its motor turns it under the soil's torque [m/s].
     fn imbalance(&self, yaw: f64, unknown: &DVector<f64>) -> Option<(DVector<f64>, Evaluation)> {
         let (velocities, rim_speeds) = parted(unknown);
-        let here = self.equations.attempt_at(&state_of(yaw, &velocities), &rim_speeds)?;
+        let here = self.equations.attempt_at(&self.state_of(yaw, &velocities), &rim_speeds)?;
         let turned = rim_speeds.iter().zip(&here.wheels).enumerate();
         let off: Vec<f64> = turned
             .map(|(wheel, (rim, it))| rim - self.equations.rim_speed_under(wheel, it))
@@ -364,7 +382,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         velocities: &Vector3<f64>,
         rims: Option<&[f64]>,
     ) -> Option<Evaluation> {
-        let state = state_of(yaw, velocities);
+        let state = self.state_of(yaw, velocities);
         match rims {
             None => self.equations.attempt(&state),
             Some(rims) => self.equations.attempt_at(&state, rims),
@@ -391,12 +409,6 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         }
         Some(jacobian)
     }
-}
-
-/// The state of a rover at the origin.
-pub(super) fn state_of(yaw: f64, velocities: &Vector3<f64>) -> RoverState {
-    let velocity = Vec2::new(velocities.x, velocities.y);
-    RoverState { position: Vec2::zeros(), yaw, velocity, yaw_rate: velocities.z }
 }
 
 fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {

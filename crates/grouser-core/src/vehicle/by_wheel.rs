@@ -2,7 +2,7 @@
 
 use super::ruts::Ruts;
 use crate::error::{ParameterError, finite, positive};
-use crate::soil::SoilDifference;
+use crate::soil::{Compaction, Soil, SoilDifference};
 use crate::terrain::SoilField;
 use crate::units::Vec2;
 
@@ -144,6 +144,30 @@ impl Differences<'_> {
         match (by_wheel, by_place) {
             (Some(one), Some(other)) => Some(one.and(other)),
             (one, other) => one.or(other),
+        }
+    }
+
+    /// The soil below a wheel on a slope.
+    ///
+    /// * `steepness`: tangent of the slope [-]
+    /// * `rut`: what the wheels before it left
+    /// * `soil`: that of the ground
+    pub(super) fn soil_on(
+        &self,
+        steepness: f64,
+        wheel: usize,
+        place: Vec2,
+        rut: Option<Compaction>,
+        soil: &Soil,
+    ) -> Soil {
+        let rut = rut.filter(|rut| *rut != Compaction::NONE);
+        match (self.of(wheel, place), rut) {
+            (None, None) => soil.on_slope(steepness),
+            (Some(difference), None) => soil.differing(difference).on_slope(steepness),
+            (None, Some(rut)) => soil.compacted(rut).on_slope(steepness),
+            (Some(difference), Some(rut)) => {
+                soil.differing(difference).compacted(rut).on_slope(steepness)
+            }
         }
     }
 }

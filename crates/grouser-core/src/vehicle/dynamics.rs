@@ -46,16 +46,15 @@ pub fn soil_resultant<'a>(
 /// The acceleration under the soil's forces on the wheels and the weight.
 ///
 /// * `pull`: that of the weight, *(G_x, G_y)* of [`slope_pull`](super::load::slope_pull) [N]
-/// * `wheels`: the soil's forces on each wheel, in the mounts' order
+/// * `soil`: [`soil_resultant`]
 #[must_use]
-pub fn acceleration<'a>(
+pub fn acceleration(
     rover: &Rover,
     pull: Vec2,
     state: &RoverState,
-    wheels: impl IntoIterator<Item = &'a WheelForces>,
-    own_moments: OwnMoments,
+    soil: (Vec2, f64),
 ) -> Acceleration {
-    let right_hand_side = right_hand_side(rover, pull, state, wheels, own_moments);
+    let right_hand_side = right_hand_side(rover, pull, state, soil);
     // m I > |S|² for every rigid body, so the matrix has an inverse.
     let rates = mass_matrix(rover).lu().solve(&right_hand_side).unwrap_or_default();
     Acceleration { velocity_rate: rates.xy(), yaw_acceleration: rates.z }
@@ -66,15 +65,14 @@ pub fn acceleration<'a>(
 ///
 /// * `yaw_acceleration`: *γ''* [rad/s²]
 #[must_use]
-pub fn held_acceleration<'a>(
+pub fn held_acceleration(
     rover: &Rover,
     pull: Vec2,
     state: &RoverState,
-    wheels: impl IntoIterator<Item = &'a WheelForces>,
-    own_moments: OwnMoments,
+    soil: (Vec2, f64),
     yaw_acceleration: f64,
 ) -> (Acceleration, f64) {
-    let right_hand_side = right_hand_side(rover, pull, state, wheels, own_moments);
+    let right_hand_side = right_hand_side(rover, pull, state, soil);
     let (m, s) = (rover.mass(), rover.first_moment());
     let x_rate = (right_hand_side.x + s.y * yaw_acceleration) / m;
     let y_rate = (right_hand_side.y - s.x * yaw_acceleration) / m;
@@ -89,14 +87,12 @@ fn mass_matrix(rover: &Rover) -> Matrix3<f64> {
 }
 
 /// Forces [N] and moment [N·m] of soil and weight, and what turning takes of them.
-fn right_hand_side<'a>(
+fn right_hand_side(
     rover: &Rover,
     pull: Vec2,
     state: &RoverState,
-    wheels: impl IntoIterator<Item = &'a WheelForces>,
-    own_moments: OwnMoments,
+    (soil_force, soil_moment): (Vec2, f64),
 ) -> Vector3<f64> {
-    let (soil_force, soil_moment) = soil_resultant(rover, wheels, own_moments);
     let force = soil_force + pull;
     let moment = soil_moment + rover.centre_of_mass().perp(&pull);
     let (m, s) = (rover.mass(), rover.first_moment());

@@ -44,6 +44,19 @@ pub struct Posture {
     joint_count: usize,
 }
 
+/// How a rover's body stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attitude {
+    /// Height of the body's centre of mass, in the ground's coordinates [m].
+    pub height: f64,
+    /// Roll, *φ* [rad]: positive with the right side down.
+    pub roll: f64,
+    /// Pitch, *θ* [rad]: positive with the nose up.
+    pub pitch: f64,
+    /// The joints.
+    pub joints: Joints,
+}
+
 /// A wheel on its piece of ground, in the ground's coordinates.
 #[derive(Clone, Debug)]
 pub struct StandingWheel {
@@ -140,6 +153,13 @@ impl Posture {
             pose.move_by(&step);
         }
         Err(NoPosture { place, gap: change })
+    }
+
+    /// How the body stands.
+    #[must_use]
+    pub fn attitude(&self) -> Attitude {
+        let Self { place, roll, pitch, joints, .. } = *self;
+        Attitude { height: place.z, roll, pitch, joints }
     }
 
     /// The body's x, y and z axes.

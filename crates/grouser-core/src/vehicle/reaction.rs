@@ -7,15 +7,17 @@ use nalgebra::Rotation2;
 use super::by_wheel::Differences;
 use super::load::{self, LoadSharing, OwnMoments, Tipping};
 use super::parts::Mount;
+use super::posture::NoPosture;
 use super::rover::Rover;
 use super::ruts::Ruts;
 use super::settling::{Known, Nearby};
+use super::standing::Relief;
 use super::state::RoverState;
 use crate::contact::{
     Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle_from, settle_many,
 };
 use crate::site::Site;
-use crate::soil::{Compaction, Soil};
+use crate::soil::Soil;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 
@@ -34,6 +36,8 @@ pub struct Ground<'a> {
     pub own_moments: OwnMoments,
     /// How the soil below each wheel differs from that of the site.
     pub differences: Differences<'a>,
+    /// Heights of the ground, where that is no plane.
+    pub relief: Option<Relief<'a>>,
 }
 
 /// One wheel, settled under its load.
@@ -53,6 +57,21 @@ pub enum ReactionError {
     /// The weight falls outside the wheels.
     #[error(transparent)]
     Tipping(#[from] Tipping),
+    /// The rover does not come to stand.
+    #[error(transparent)]
+    NoPosture(#[from] NoPosture),
+    /// The ground is not known there.
+    #[error(
+        "wheel {wheel} is at x = {x:.3} m, y = {y:.3} m, where the map has no heights",
+        x = place.x,
+        y = place.y
+    )]
+    OffTheMap {
+        /// The wheel's name.
+        wheel: String,
+        /// Where it meets the ground, in the map's coordinates [m].
+        place: Vec2,
+    },
     /// One wheel's load is more than the soil carries.
     #[error("wheel {wheel}: {source}")]
     Wheel {
@@ -235,16 +254,8 @@ impl<'a> Ground<'a> {
         for (wheel, (&slip, mount)) in slips.iter().zip(rover.mounts()).enumerate() {
             let at = place + slope_from_body * mount.position.xy();
             let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
-            let difference = differences.of(wheel, at);
-            let rut = ruts.as_ref().map(|ruts| ruts[wheel]).filter(|it| *it != Compaction::NONE);
-            let soil = match (difference, rut) {
-                (None, None) => soil.on_slope(steepness),
-                (Some(difference), None) => soil.differing(difference).on_slope(steepness),
-                (None, Some(rut)) => soil.compacted(rut).on_slope(steepness),
-                (Some(difference), Some(rut)) => {
-                    soil.differing(difference).compacted(rut).on_slope(steepness)
-                }
-            };
+            let rut = ruts.as_ref().map(|ruts| ruts[wheel]);
+            let soil = differences.soil_on(steepness, wheel, at, rut, &soil);
             contacts.push(Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity });
         }
     }

@@ -62,7 +62,7 @@ impl Balance {
 
     /// Loads that balance a rover, in the mounts' order [N]; negative where a wheel would have to be held down.
     ///
-    /// * `weight`: m g [N]
+    /// * `weight`: m g, against gravity, in the ground's coordinates [N]
     /// * `forces`: the soil's, of which those along the ground and the moments count; none for wheels that only stand
     ///
     /// # Errors
@@ -71,12 +71,12 @@ impl Balance {
         &self,
         rover: &Rover,
         posture: &Posture,
-        weight: f64,
+        weight: Vec3,
         forces: &[WheelForces],
     ) -> Result<Vec<f64>, Tipping> {
         let wheels = &posture.wheels;
         if self.sharing == LoadSharing::Uniform {
-            let into = weight * posture.axes()[2].z;
+            let into = weight.dot(&posture.axes()[2]);
             return Ok(vec![into / wheels.len() as f64; wheels.len()]);
         }
         let centre = centre_of_mass(rover, posture);
@@ -93,7 +93,7 @@ impl Balance {
         }
         let mut matrix = DMatrix::zeros(posture.freedoms(), wheels.len());
         let mut side = DVector::zeros(posture.freedoms());
-        side[0] = weight * z.z;
+        side[0] = weight.dot(&z);
         let still = WheelForces::default();
         for (column, (wheel, mount)) in wheels.iter().zip(rover.mounts()).enumerate() {
             let forces = forces.get(column).unwrap_or(&still);

@@ -121,7 +121,8 @@ fn lost_in_flight(duration: f64, acceleration: impl Fn(&RoverState) -> Accelerat
 fn without_forces(state: &RoverState) -> Acceleration {
     let rover = lopsided();
     let wheels = vec![WheelForces::default(); rover.wheel_count()];
-    dynamics::acceleration(&rover, Vec2::zeros(), state, &wheels, OwnMoments::Included)
+    let soil = dynamics::soil_resultant(&rover, &wheels, OwnMoments::Included);
+    dynamics::acceleration(&rover, Vec2::zeros(), state, soil)
 }
 
 /// A rover that nothing touches keeps momentum, angular momentum and energy, with its centre of mass
@@ -282,7 +283,8 @@ proptest! {
             .collect();
         let site = site(slope);
         let pull = load::slope_pull(&rover, &site, &state);
-        let ours = dynamics::acceleration(&rover, pull, &state, &wheels, OwnMoments::Included);
+        let soil = dynamics::soil_resultant(&rover, &wheels, OwnMoments::Included);
+        let ours = dynamics::acceleration(&rover, pull, &state, soil);
         let theirs = by_the_common_centre(&rover, &site, &state, &wheels);
         let size = theirs.velocity_rate.norm() + theirs.yaw_acceleration.abs() + 1.0;
         // Rounding of a 3 by 3 solution; light bodies with far wheels are the worst conditioned.
@@ -312,7 +314,8 @@ fn own_moments_turn_the_rover_only_if_they_are_included() {
     let wheels = vec![wheel_force(0.0, 0.0, 0.1); 4];
     let turning = |own_moments| {
         let state = RoverState::default();
-        dynamics::acceleration(&rover, Vec2::zeros(), &state, &wheels, own_moments).yaw_acceleration
+        let soil = dynamics::soil_resultant(&rover, &wheels, own_moments);
+        dynamics::acceleration(&rover, Vec2::zeros(), &state, soil).yaw_acceleration
     };
     assert_eq!(turning(OwnMoments::Neglected), 0.0);
     // 0.4 N·m about the common centre, where the inertia is I − m c².

@@ -134,6 +134,7 @@ impl CardDrives<'_> {
             own_moments: study.own_moments,
             by_wheel: ByWheel::ALIKE,
             scatter: Scatter::NONE,
+            terrain: None,
             ruts: Ruts::Fresh,
             drive: DriveLaw::Constant(self.study.rim_speed),
             yaw: None,

@@ -1,0 +1,266 @@
+//! Quasi-steady motion over uneven ground: steady velocities at every pose, which is integrated by strides.
+//!
+//! The steady state depends on place and yaw, so there is no table of it ([`quasi_steady`](super::quasi_steady)): a stride is a
+//! step of the midpoint rule, with a steady state in its middle and at its end, each sought from the one before. It is as
+//! long as the ground's curvature lets it be, and no longer than a wheel's radius. What is looked at within a stride is
+//! interpolated between its ends (Hermite).
+
+use nalgebra::Vector3;
+
+use super::equations::Equations;
+use super::point::Point;
+use super::quasi_steady::{Carried, blended, rolling};
+use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
+use super::turning::Turning;
+use crate::units::Vec2;
+use crate::vehicle::{Mount, WheelReaction};
+
+/// The velocity changes by this share of the rims' over half a stride [-]: the rest that the midpoint rule leaves is
+/// below the square of it. Source: ours.
+const CHANGE: f64 = 0.03;
+/// A stride whose velocity changes by more than so many times that is taken again, half as long [-].
+const TOO_MUCH: f64 = 2.0;
+/// The shortest stride, over a wheel's radius [-]: below, the ground has an edge.
+const SHORTEST: f64 = 1e-3;
+
+/// The motion of a rover over uneven ground whose wheels turn at given speeds.
+pub(super) struct AlongGround<'a, 'g> {
+    equations: &'a Equations<'g>,
+    solver: SteadySolver<'a, 'g>,
+    stride: Stride,
+    /// How long the next one may be [s].
+    next: f64,
+}
+
+/// A piece of way between two steady states.
+#[derive(Clone)]
+pub(super) struct Stride {
+    from: Node,
+    to: Node,
+    /// [s]
+    length: f64,
+    /// How far into it the rover is [s].
+    gone: f64,
+}
+
+/// A pose with its steady state.
+#[derive(Clone)]
+struct Node {
+    place: Vec2,
+    yaw: f64,
+    steady: SteadyState,
+    /// Rates of the pose: of the place [m/s] and of the yaw [rad/s].
+    rates: (Vec2, f64),
+}
+
+impl<'a, 'g> AlongGround<'a, 'g> {
+    /// The motion from a point on; sets the point's velocities to their steady state.
+    ///
+    /// * `carried`: of the run so far
+    /// * `rims_changed`: whether the wheels had other speeds so far
+    pub(super) fn from(
+        equations: &'a Equations<'g>,
+        carried: Carried,
+        point: &mut Point,
+        rims_changed: bool,
+    ) -> Result<Self, NotSteady> {
+        let Carried { memory, stride, .. } = carried;
+        let guess = match &stride {
+            Some(stride) => stride.steady().velocities,
+            None => rolling(equations),
+        };
+        let memory = if rims_changed { Memory::default() } else { memory };
+        let mut solver = SteadySolver::new(equations, memory);
+        if let Some(stride) = stride.filter(|_| !rims_changed) {
+            let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
+            return Ok(Self { equations, solver, stride, next });
+        }
+        let (place, yaw) = (point.state.position, point.state.yaw);
+        let from = Node::at(equations, &mut solver, place, yaw, &guess)
+            .or_else(|_| Node::at(equations, &mut solver, place, yaw, &rolling(equations)))?;
+        solver.settling_time(&from.steady)?;
+        let stride = Stride { to: from.clone(), from, length: 0.0, gone: 0.0 };
+        let mut motion = Self { equations, solver, stride, next: f64::INFINITY };
+        motion.set_velocities(point);
+        Ok(motion)
+    }
+
+    /// What the next advance starts with.
+    pub(super) fn carry(self) -> Carried {
+        Carried::along(self.solver.memory(), self.stride)
+    }
+
+    /// The wheels at the point that it has come to.
+    pub(super) fn wheels(&self) -> Vec<WheelReaction> {
+        self.stride.wheels()
+    }
+
+    /// Goes on for a while [s].
+    ///
+    /// * `horizon`: how long the rims will keep their speeds [s], at least the span
+    pub(super) fn advance(
+        &mut self,
+        point: &mut Point,
+        span: f64,
+        horizon: f64,
+    ) -> Result<(), NotSteady> {
+        let mut left = span;
+        while left > 0.0 {
+            let remaining = self.stride.length - self.stride.gone;
+            if remaining <= 0.0 {
+                self.stride = self.stride_on(left.max(horizon - (span - left)))?;
+                continue;
+            }
+            if left < remaining {
+                self.go(point, self.stride.gone + left);
+                break;
+            }
+            self.go(point, self.stride.length);
+            left -= remaining;
+        }
+        Ok(())
+    }
+
+    /// Goes on within the stride to a time since its start [s].
+    fn go(&mut self, point: &mut Point, time: f64) {
+        let before = self.stride.pose();
+        let powers_before = self.stride.powers();
+        let way = time - self.stride.gone;
+        self.stride.gone = time;
+        let after = self.stride.pose();
+        point.state.position += after.0 - before.0;
+        point.state.yaw += after.1 - before.1;
+        let powers: Vec<f64> =
+            powers_before.iter().zip(self.stride.powers()).map(|(a, b)| 0.5 * way * (a + b)).collect();
+        point.motors += powers[0];
+        point.soil += powers[1];
+        point.electrical += powers[2];
+        self.set_velocities(point);
+    }
+
+    fn set_velocities(&mut self, point: &mut Point) {
+        point.turning = self.stride.turning();
+        let velocities = self.stride.velocities();
+        point.jump(self.equations.rover(), |state| {
+            state.velocity = velocities.xy();
+            state.yaw_rate = velocities.z;
+        });
+    }
+
+    /// The stride after this one.
+    ///
+    /// * `most`: its longest time [s]
+    fn stride_on(&mut self, most: f64) -> Result<Stride, NotSteady> {
+        let from = self.stride.to.clone();
+        let radii = self.equations.rover().mounts().iter().map(Mount::shearing_radius);
+        let radius = radii.fold(f64::INFINITY, f64::min);
+        let speed = self.solver.speed(&from.steady.velocities);
+        let longest = radius / speed;
+        let mut length = self.next.min(longest);
+        loop {
+            // A rest that is hardly one would be a stride of its own.
+            let step = if length > 0.9 * most { most } else { length };
+            let attempt = self.stride_from(&from, step);
+            let change = attempt.as_ref().map_or(f64::INFINITY, |(_, change)| *change);
+            if change > TOO_MUCH * CHANGE && step > SHORTEST * longest {
+                length = 0.5 * step;
+                continue;
+            }
+            let (stride, change) = attempt?;
+            self.equations.count(|work| work.steps += 1);
+            self.next = step * (CHANGE / change.max(1e-12)).clamp(0.5, 2.0);
+            return Ok(stride);
+        }
+    }
+
+    /// A stride, and by how much the velocity changes in its first half, over the fastest rim's [-].
+    fn stride_from(&mut self, from: &Node, length: f64) -> Result<(Stride, f64), NotSteady> {
+        let equations = self.equations;
+        let half = 0.5 * length;
+        let (place, yaw) = (from.place + half * from.rates.0, from.yaw + half * from.rates.1);
+        let middle = Node::at(equations, &mut self.solver, place, yaw, &from.steady.velocities)?;
+        let change = middle.steady.velocities - from.steady.velocities;
+        let (place, yaw) = (from.place + length * middle.rates.0, from.yaw + length * middle.rates.1);
+        let guess = from.steady.velocities + 2.0 * change;
+        let to = Node::at(equations, &mut self.solver, place, yaw, &guess)?;
+        self.solver.settling_time(&to.steady)?;
+        let turned = middle.rates.1 - from.rates.1;
+        let size = self.solver.size(&change).max(self.solver.size(&Vector3::new(0.0, 0.0, turned)));
+        Ok((Stride { from: from.clone(), to, length, gone: 0.0 }, size))
+    }
+}
+
+impl Node {
+    /// * `guess`: velocities near the steady ones
+    fn at(
+        equations: &Equations<'_>,
+        solver: &mut SteadySolver<'_, '_>,
+        place: Vec2,
+        yaw: f64,
+        guess: &Vector3<f64>,
+    ) -> Result<Self, NotSteady> {
+        solver.go_to(place);
+        let steady = solver.find(yaw, guess)?;
+        let state = solver.state_of(yaw, &steady.velocities);
+        let rates = equations.pose_rates(&state).ok_or(NotSteady::NoSteadyState)?;
+        Ok(Self { place, yaw, steady, rates })
+    }
+}
+
+impl Stride {
+    /// How far into it the rover is [-].
+    fn share(&self) -> f64 {
+        if self.length > 0.0 { self.gone / self.length } else { 0.0 }
+    }
+
+    /// Place and yaw.
+    fn pose(&self) -> (Vec2, f64) {
+        let (s, h) = (self.share(), self.length);
+        // The cubic with both ends' values and rates.
+        let to = s * s * (3.0 - 2.0 * s);
+        let (rate_from, rate_to) = (h * s * (1.0 - s) * (1.0 - s), h * s * s * (s - 1.0));
+        let Self { from, to: end, .. } = self;
+        let place = from.place
+            + to * (end.place - from.place)
+            + rate_from * from.rates.0
+            + rate_to * end.rates.0;
+        let yaw =
+            from.yaw + to * (end.yaw - from.yaw) + rate_from * from.rates.1 + rate_to * end.rates.1;
+        (place, yaw)
+    }
+
+    fn velocities(&self) -> Vector3<f64> {
+        let s = self.share();
+        (1.0 - s) * self.from.steady.velocities + s * self.to.steady.velocities
+    }
+
+    fn powers(&self) -> [f64; 3] {
+        let s = self.share();
+        let [from, to] = [&self.from.steady.powers, &self.to.steady.powers];
+        [0, 1, 2].map(|which| (1.0 - s) * from[which] + s * to[which])
+    }
+
+    /// The steady state nearest to where the rover is.
+    fn steady(&self) -> &SteadyState {
+        if self.share() < 0.5 { &self.from.steady } else { &self.to.steady }
+    }
+
+    fn turning(&self) -> Option<Turning> {
+        let [from, to] = [self.from.steady.turning?, self.to.steady.turning?];
+        let s = self.share();
+        let numbers = from.numbers().into_iter().flatten().zip(to.numbers().into_iter().flatten());
+        Some(Turning::of(&numbers.map(|(from, to)| (1.0 - s) * from + s * to).collect::<Vec<_>>()))
+    }
+
+    /// The wheels.
+    pub(super) fn wheels(&self) -> Vec<WheelReaction> {
+        let s = self.share();
+        let pairs = self.from.steady.wheels.iter().zip(&self.to.steady.wheels);
+        pairs
+            .map(|(from, to)| {
+                let slip = if s < 0.5 { from.slip } else { to.slip };
+                WheelReaction { slip, ..blended([(from, 1.0 - s), (to, s)].into_iter()) }
+            })
+            .collect()
+    }
+}
