@@ -1,6 +1,7 @@
 //! Postures and loads on uneven ground: planes, closed forms, balances and virtual work.
 
 #[path = "../examples/by_hand/hakuto.rs"]
+#[expect(dead_code, reason = "not all of it is needed here")]
 mod hakuto;
 
 use std::borrow::Cow;
@@ -65,7 +66,7 @@ fn rocker_bogie() -> Rover {
 
 fn stand(rover: &Rover, terrain: &dyn Terrain, place: Vec2, yaw: f64) -> Posture {
     let sinkages = vec![0.0; rover.wheel_count()];
-    Posture::of(rover, terrain, place, yaw, &sinkages, None).expect("it stands")
+    Posture::of(rover, terrain, place, yaw, &sinkages).expect("it stands")
 }
 
 const COMPLETE: Balance =
@@ -232,7 +233,8 @@ fn every_posture_balances() {
                 })
                 .collect();
             let weight = 70.0;
-            let loads = COMPLETE.loads(&rover, &posture, weight * Vec3::z(), &wheels).expect("it stands");
+            let loads =
+                COMPLETE.loads(&rover, &posture, weight * Vec3::z(), &wheels).expect("it stands");
             wheels.iter_mut().zip(&loads).for_each(|(wheel, load)| wheel.normal_force = *load);
             let all = COMPLETE.resultant(&rover, &posture, &wheels);
             let [.., z] = posture.axes();

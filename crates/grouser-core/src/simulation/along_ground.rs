@@ -130,8 +130,11 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         let after = self.stride.pose();
         point.state.position += after.0 - before.0;
         point.state.yaw += after.1 - before.1;
-        let powers: Vec<f64> =
-            powers_before.iter().zip(self.stride.powers()).map(|(a, b)| 0.5 * way * (a + b)).collect();
+        let powers: Vec<f64> = powers_before
+            .iter()
+            .zip(self.stride.powers())
+            .map(|(a, b)| 0.5 * way * (a + b))
+            .collect();
         point.motors += powers[0];
         point.soil += powers[1];
         point.electrical += powers[2];
@@ -180,7 +183,8 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         let (place, yaw) = (from.place + half * from.rates.0, from.yaw + half * from.rates.1);
         let middle = Node::at(equations, &mut self.solver, place, yaw, &from.steady.velocities)?;
         let change = middle.steady.velocities - from.steady.velocities;
-        let (place, yaw) = (from.place + length * middle.rates.0, from.yaw + length * middle.rates.1);
+        let (place, yaw) =
+            (from.place + length * middle.rates.0, from.yaw + length * middle.rates.1);
         let guess = from.steady.velocities + 2.0 * change;
         let to = Node::at(equations, &mut self.solver, place, yaw, &guess)?;
         self.solver.settling_time(&to.steady)?;

@@ -12,13 +12,13 @@ use crate::site::Site;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
-use crate::vehicle::posture::Attitude;
+use crate::vehicle::posture::{Attitude, StandingMotion};
 use crate::vehicle::reaction::forces_of;
 use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
-    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError, Rover,
-    RoverState, Stance, Standing, WheelReaction, dynamics, reaction::Ground, settling::Known,
-    settling::Nearby,
+    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError,
+    Rover, RoverState, Stance, Standing, WheelReaction, dynamics, reaction::Ground,
+    settling::Known, settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -52,6 +52,8 @@ struct Acting {
     soil: (Vec2, f64),
     /// Velocity of each hub along its wheel and to its left [m/s].
     hubs: Vec<Vec2>,
+    /// How fast links turn about their axles [rad/s]; on a plane none does.
+    turns: Vec<f64>,
     /// Velocity of the body's centre of mass, in the ground's coordinates [m/s].
     velocity: Vec2,
     /// [rad/s]
@@ -206,9 +208,9 @@ impl<'a> Equations<'a> {
     pub(super) fn slips(&self, point: &Point) -> Vec<Slip> {
         let rim_speeds = self.turning(point);
         if self.ground.is_uneven()
-            && let Ok(standing) = self.standing(&point.state, Search::Anew)
+            && let Ok(standing) = self.standing(&point.state)
         {
-            return slips_of(&standing, rim_speeds);
+            return slips_of(self.ground.rover, &standing, rim_speeds);
         }
         wheel_slips(self.ground.rover, &point.state, rim_speeds).collect()
     }
@@ -240,7 +242,7 @@ impl<'a> Equations<'a> {
         search: Search,
     ) -> Result<Evaluation, ReactionError> {
         let Ground { rover, own_moments, .. } = self.ground;
-        let Acting { wheels, pull, soil, hubs, velocity, yaw_rate } =
+        let Acting { wheels, pull, soil, hubs, turns, velocity, yaw_rate } =
             if self.ground.is_uneven() {
                 self.acting_on_uneven_ground(state, rim_speeds, search)?
             } else {
@@ -255,8 +257,11 @@ impl<'a> Equations<'a> {
         };
         let aligning_work_rate =
             if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
-        let (motor_power, soil_power) =
+        let (motor_power, mut soil_power) =
             power::powers(&wheels, wheel_speeds, hubs.into_iter(), aligning_work_rate);
+        for (forces, turn) in forces_of(&wheels).zip(turns) {
+            soil_power += forces.torque * turn;
+        }
         let rates = Rates {
             velocity_slope: velocity,
             yaw_rate,
@@ -280,7 +285,8 @@ impl<'a> Equations<'a> {
         let soil = dynamics::soil_resultant(rover, forces_of(&wheels), own_moments);
         let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount)).collect();
         let velocity = stance.slope_from_body * state.velocity;
-        Ok(Acting { wheels, pull: stance.pull, soil, hubs, velocity, yaw_rate: state.yaw_rate })
+        let (pull, yaw_rate, turns) = (stance.pull, state.yaw_rate, Vec::new());
+        Ok(Acting { wheels, pull, soil, hubs, turns, velocity, yaw_rate })
     }
 
     fn acting_on_uneven_ground(
@@ -290,14 +296,15 @@ impl<'a> Equations<'a> {
         search: Search,
     ) -> Result<Acting, ReactionError> {
         let Ground { rover, site, .. } = self.ground;
-        let standing = self.standing(state, search)?;
-        let slips = slips_of(&standing, rim_speeds);
+        let standing = self.standing(state)?;
+        let slips = slips_of(rover, &standing, rim_speeds);
         self.count(|work| work.settled_wheels += slips.len() as u64);
         let mut near = match search {
             Search::Anew => Vec::new(),
             Search::Nearby => std::mem::take(&mut *self.nearby_standing.borrow_mut()),
         };
-        let wheels = self.ground.reactions_standing(&standing, &slips, &near)?;
+        let wheels =
+            self.ground.reactions_standing(&standing.posture, standing.up, &slips, &near)?;
         if search == Search::Nearby {
             near.clone_from(&wheels);
             *self.nearby_standing.borrow_mut() = near;
@@ -310,24 +317,20 @@ impl<'a> Equations<'a> {
             pull,
             soil: (resultant.force.xy(), resultant.moment.z),
             hubs: motion.hubs,
+            turns: motion.turns,
             velocity: motion.velocity.xy(),
             yaw_rate: motion.yaw_rate,
         })
     }
 
-    /// How the rover stands and moves in a state. The posture of an attempt is sought from that of the one before, which
-    /// mostly is the same.
-    fn standing(&self, state: &RoverState, search: Search) -> Result<Standing, ReactionError> {
-        if search == Search::Anew {
-            return self.ground.standing(state, None);
-        }
+    /// How the rover stands and moves in a state. The posture depends on its place and yaw alone, which mostly are those of
+    /// the evaluation before.
+    fn standing(&self, state: &RoverState) -> Result<Standing, ReactionError> {
         let mut last = self.last_posture.borrow_mut();
         let posture = match &*last {
             Some((place, yaw, posture)) if *place == state.position && *yaw == state.yaw => posture,
-            other => {
-                let near = other.as_ref().map(|(.., posture)| posture);
-                let sinkages = vec![0.0; self.ground.rover.wheel_count()];
-                let posture = self.ground.posture(state, &sinkages, near)?;
+            _ => {
+                let posture = self.ground.standing_posture(state)?;
                 &last.insert((state.position, state.yaw, posture)).2
             }
         };
@@ -345,7 +348,7 @@ impl<'a> Equations<'a> {
             return None;
         }
         let sinkages: Vec<f64> = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
-        let posture = self.ground.posture(state, &sinkages, None).ok()?;
+        let posture = self.ground.posture(state, &sinkages).ok()?;
         Some(posture.attitude())
     }
 
@@ -353,7 +356,7 @@ impl<'a> Equations<'a> {
     pub(super) fn potential_energy(&self, state: &RoverState) -> f64 {
         let Ground { rover, site, .. } = self.ground;
         if self.ground.is_uneven()
-            && let Ok(standing) = self.ground.standing(state, None)
+            && let Ok(standing) = self.standing(state)
         {
             let Standing { posture, up, .. } = standing;
             let centre = posture.place + centre_of_mass(rover, &posture);
@@ -380,7 +383,7 @@ impl<'a> Equations<'a> {
 
     /// Rates of place and yaw in a state [m/s, rad/s]; none where the rover does not come to stand.
     pub(super) fn pose_rates(&self, state: &RoverState) -> Option<(Vec2, f64)> {
-        let motion = self.standing(state, Search::Nearby).ok()?.motion;
+        let motion = self.standing(state).ok()?.motion;
         Some((motion.velocity.xy(), motion.yaw_rate))
     }
 
@@ -535,8 +538,12 @@ impl<'a> Equations<'a> {
 
 /// The slip of every wheel of a rover that stands.
 ///
-/// * `rim_speeds`: ω r_s of each wheel [m/s]
-fn slips_of(standing: &Standing, rim_speeds: &[f64]) -> Vec<Slip> {
-    let each = standing.motion.hubs.iter().zip(rim_speeds);
-    each.map(|(hub, rim_speed)| Slip::of_motion(*rim_speed, *hub)).collect()
+/// * `rim_speeds`: ω r_s of each wheel on its link [m/s]
+fn slips_of(rover: &Rover, standing: &Standing, rim_speeds: &[f64]) -> Vec<Slip> {
+    let StandingMotion { hubs, turns, .. } = &standing.motion;
+    let each = hubs.iter().zip(turns).zip(rover.mounts()).zip(rim_speeds);
+    each.map(|(((hub, turn), mount), rim_speed)| {
+        Slip::of_motion(rim_speed + mount.shearing_radius() * turn, *hub)
+    })
+    .collect()
 }

@@ -106,8 +106,7 @@ impl Leg<'_> {
     ) -> Result<Carried, Ended> {
         let mut point = self.state.point;
         let horizon = self.kept_until - self.state.time;
-        let started =
-            Steady::from(equations, carried, &mut point, horizon, self.is_new_command);
+        let started = Steady::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
             // A run starts steady: what its start would cost the motors is not in the energy balance.

@@ -390,7 +390,9 @@ fn roughness(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64
 }
 
 /// A wheel between its reactions at several steady states; its slip is for the caller to set.
-pub(super) fn blended<'a>(weighted: impl Iterator<Item = (&'a WheelReaction, f64)>) -> WheelReaction {
+pub(super) fn blended<'a>(
+    weighted: impl Iterator<Item = (&'a WheelReaction, f64)>,
+) -> WheelReaction {
     let mut sum: Option<WheelReaction> = None;
     for (reaction, weight) in weighted {
         let blend = sum.get_or_insert_with(|| nothing_of(reaction));

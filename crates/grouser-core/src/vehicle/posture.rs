@@ -97,6 +97,9 @@ pub struct StandingMotion {
     pub yaw_rate: f64,
     /// Velocity of each hub along its wheel, and to the wheel's left, on the ground [m/s].
     pub hubs: Vec<Vec2>,
+    /// How fast the link that carries each wheel turns about its axle [rad/s]: by so much more than its motor turns it on the
+    /// link it turns on the ground.
+    pub turns: Vec<f64>,
 }
 
 /// No posture was found.
@@ -118,7 +121,6 @@ impl Posture {
     /// * `place`: below the body's centre of mass [m]
     /// * `yaw`: of the nose, seen from above, from x towards y [rad]
     /// * `sinkages`: of each wheel [m]
-    /// * `near`: a posture near it, from which it is sought
     ///
     /// # Errors
     /// [`NoPosture`] where the wheels do not come to stand.
@@ -128,14 +130,12 @@ impl Posture {
         place: Vec2,
         yaw: f64,
         sinkages: &[f64],
-        near: Option<&Self>,
     ) -> Result<Self, NoPosture> {
         /// Changes below this end the search [m]; rounding of map coordinates of 10⁴ km is a thousandth of it.
         const SETTLED: f64 = 1e-12;
         const MOST_STEPS: usize = 60;
-        let mut pose = near.map_or_else(|| Pose::level_with(rover, terrain, place, yaw), Pose::of);
-        let mut normals: Option<Vec<Vec3>> =
-            near.map(|near| near.wheels.iter().map(|wheel| wheel.normal).collect());
+        let mut pose = Pose::level_with(rover, terrain, place, yaw);
+        let mut normals: Option<Vec<Vec3>> = None;
         let scale = rover.centre_height();
         let mut change = f64::INFINITY;
         for _ in 0..MOST_STEPS {
@@ -146,7 +146,7 @@ impl Posture {
                 most.max(if freedom == 0 { by.abs() } else { scale * by.abs() })
             });
             // Rounding ends it where it goes no further.
-            if change <= SETTLED || change < 1e3 * SETTLED && change >= 0.5 * before {
+            if change <= SETTLED || change < 10.0 * SETTLED && change >= 0.5 * before {
                 return Ok(posture);
             }
             normals = Some(posture.wheels.iter().map(|wheel| wheel.normal).collect());
@@ -195,17 +195,20 @@ impl Posture {
         );
         let lost = NoPosture { place: self.place.xy(), gap: f64::INFINITY };
         let rates = rates.ok_or(lost)?;
-        let hubs = self.wheels.iter().map(|wheel| {
-            let twists = self.twists(wheel, [z, x, y], Vec3::zeros());
-            let own: Vec3 = twists.zip(rates.iter()).map(|(it, rate)| it.linear * *rate).sum();
-            let velocity = free(wheel) + own;
-            Vec2::new(velocity.dot(&wheel.forward), velocity.dot(&wheel.left))
-        });
-        let hubs = hubs.collect();
+        let (mut hubs, mut turns) = (Vec::new(), Vec::new());
+        for wheel in &self.wheels {
+            let (mut velocity, mut turned) = (free(wheel), turning);
+            for (twist, rate) in self.twists(wheel, [z, x, y], Vec3::zeros()).zip(rates.iter()) {
+                velocity += *rate * twist.linear;
+                turned += *rate * twist.angular;
+            }
+            hubs.push(Vec2::new(velocity.dot(&wheel.forward), velocity.dot(&wheel.left)));
+            turns.push(turned.dot(&wheel.axle));
+        }
         let velocity = given + rates[0] * z;
         let nose = (turning + rates[1] * x + rates[2] * y).cross(&x);
         let yaw_rate = x.xy().perp(&nose.xy()) / x.xy().norm_squared();
-        Ok(StandingMotion { velocity, yaw_rate, hubs })
+        Ok(StandingMotion { velocity, yaw_rate, hubs, turns })
     }
 
     /// What the freedoms do to a wheel: the body's, then those of the joints.
@@ -273,11 +276,6 @@ struct Pose {
 }
 
 impl Pose {
-    fn of(posture: &Posture) -> Self {
-        let Posture { place, roll, pitch, joints, .. } = *posture;
-        Self { height: place.z, roll, pitch, joints }
-    }
-
     /// Of a rover on the mean plane below all of it.
     fn level_with(rover: &Rover, terrain: &dyn Terrain, place: Vec2, yaw: f64) -> Self {
         let (sin, cos) = sin_cos(yaw);

@@ -80,6 +80,9 @@ pub enum ReactionError {
         /// What is wrong with it.
         source: SettleError,
     },
+    /// Loads and reactions of wheels on uneven ground did not settle on each other.
+    #[error("no wheel loads were found that balance the rover with the soil's forces under them")]
+    LoadsDoNotSettle,
     /// Loads and torques did not settle on each other.
     #[error(
         "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}"
@@ -121,7 +124,7 @@ impl<'a> Ground<'a> {
 
     /// The reaction on every wheel, in the mounts' order.
     ///
-    /// Where the loads depend on the wheels' own torque or moments, loads and reactions are
+    /// Wheels on rockers stand as these let them on a plane. Where the loads depend on the wheels' own torque or moments, loads and reactions are
     /// computed in turn until they agree.
     ///
     /// # Errors
@@ -149,6 +152,9 @@ impl<'a> Ground<'a> {
         slips: &[Slip],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
+        if self.rover.suspension().is_some() {
+            return self.reactions_on_links(stance, slips, near);
+        }
         let mut contacts = Vec::with_capacity(slips.len());
         self.meet(stance, slips, &mut contacts);
         if self.is_coupled()

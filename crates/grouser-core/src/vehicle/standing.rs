@@ -5,20 +5,21 @@
 //! only stand, or from those of a motion nearby.
 
 use std::borrow::Cow;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::load::Tipping;
 use super::posture::{Posture, StandingMotion};
-use super::reaction::{Ground, ReactionError, WheelReaction, forces_of};
-use super::statics::{Balance, Resultant};
+use super::reaction::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::state::RoverState;
+use super::statics::{Balance, Resultant};
 use crate::contact::{Contact, LoadedWheel, Settled, Slip, WheelForces, settle_each};
-use crate::newton;
+use crate::elementary::wide::atan2;
 use crate::soil::Soil;
 use crate::terrain::{Footprint, Patch, Terrain};
 use crate::units::{Vec2, Vec3};
+use crate::{newton, root};
 
 /// Heights of the ground, seen from the place where a rover starts.
 #[derive(Clone, Copy)]
@@ -79,23 +80,17 @@ impl Ground<'_> {
 
     /// How the rover stands in a state, with its wheels sunk.
     ///
-    /// * `near`: a posture near it
-    ///
     /// # Errors
     /// [`ReactionError`] beyond the known ground, and where the wheels do not come to stand.
-    pub fn posture(
-        &self,
-        state: &RoverState,
-        sinkages: &[f64],
-        near: Option<&Posture>,
-    ) -> Result<Posture, ReactionError> {
-        let soil = self.site.terrain.soil(state.position, self.rover.footprint(&state.slope_from_body()));
+    pub fn posture(&self, state: &RoverState, sinkages: &[f64]) -> Result<Posture, ReactionError> {
+        let soil =
+            self.site.terrain.soil(state.position, self.rover.footprint(&state.slope_from_body()));
         let flat = Flat(&soil);
         let terrain: &dyn Terrain = match &self.relief {
             Some(relief) => relief,
             None => &flat,
         };
-        let posture = Posture::of(self.rover, terrain, state.position, state.yaw, sinkages, near)?;
+        let posture = Posture::of(self.rover, terrain, state.position, state.yaw, sinkages)?;
         for (wheel, mount) in posture.wheels.iter().zip(self.rover.mounts()) {
             if !terrain.covers(wheel.at, wheel.footprint) {
                 let origin = self.relief.map_or(Vec2::zeros(), |relief| relief.origin);
@@ -106,16 +101,12 @@ impl Ground<'_> {
         Ok(posture)
     }
 
-    /// How the rover stands and moves in a state.
+    /// How the rover stands in a state on ground that is firm.
     ///
     /// # Errors
     /// As of [`posture`](Self::posture).
-    pub fn standing(
-        &self,
-        state: &RoverState,
-        near: Option<&Posture>,
-    ) -> Result<Standing, ReactionError> {
-        self.moving(self.posture(state, &vec![0.0; self.rover.wheel_count()], near)?, state)
+    pub fn standing_posture(&self, state: &RoverState) -> Result<Posture, ReactionError> {
+        self.posture(state, &vec![0.0; self.rover.wheel_count()])
     }
 
     /// How the rover moves that stands so in a state.
@@ -138,15 +129,17 @@ impl Ground<'_> {
         Vec3::new(unit.uphill.x, unit.uphill.y, unit.into)
     }
 
-    /// The reaction on every wheel of a rover that stands, in the mounts' order.
+    /// The reaction on every wheel of a rover that stands so, in the mounts' order.
     ///
+    /// * `up`: against gravity, in the ground's coordinates
     /// * `near`: of all wheels in a motion nearby, or of none
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or loads and reactions do not agree.
     pub fn reactions_standing(
         &self,
-        standing: &Standing,
+        posture: &Posture,
+        up: Vec3,
         slips: &[Slip],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
@@ -154,23 +147,19 @@ impl Ground<'_> {
         const AGREED: f64 = 1e-13;
         /// This is enough where rounding lets steps become no shorter [-].
         const NEARLY: f64 = 1e-11;
-        let contacts = self.contacts(&standing.posture, slips);
         let weight = self.rover.mass() * self.site.gravity;
-        let near_forces: Vec<WheelForces> = forces_of(near).copied().collect();
-        let first = self.loads(standing, weight, &near_forces)?;
-        let guess = DVector::from_vec(first);
+        let contacts = self.contacts(posture, slips);
+        let sought = Sought { ground: self, posture, contacts, weight: weight * up, near };
+        let forces: Vec<WheelForces> = forces_of(near).copied().collect();
+        let guess = if near.is_empty() {
+            DVector::from_vec(sought.balanced(&forces)?)
+        } else {
+            DVector::from_iterator(near.len(), near.iter().map(|wheel| wheel.load))
+        };
         let size = |step: &DVector<f64>| step.amax() / weight;
-        let (failure, last) = (RefCell::new(None), Cell::new(f64::INFINITY));
+        let last = Cell::new(f64::INFINITY);
         let found = newton::zero_near(
-            |loads| {
-                let wheels = self.settle_standing(&contacts, loads.as_slice(), near);
-                let next = wheels.and_then(|wheels| {
-                    let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
-                    let next = self.loads(standing, weight, &forces)?;
-                    Ok((loads - DVector::from_vec(next), wheels))
-                });
-                next.map_err(|error| *failure.borrow_mut() = Some(error)).ok()
-            },
+            |loads| sought.next(loads).ok(),
             &guess,
             DMatrix::identity(guess.len(), guess.len()),
             size,
@@ -180,14 +169,32 @@ impl Ground<'_> {
                 size(step) <= AGREED || size(step) <= NEARLY && size(step) >= before
             },
         );
-        let Some(found) = found else {
-            let unsettled = ReactionError::Unsettled { rounds: 0, change: f64::INFINITY };
-            return Err(failure.into_inner().unwrap_or(unsettled));
+        let (loads, wheels) = match found {
+            Some(found) => (found.at, found.value),
+            // Where wheels lift, loads have corners, which Newton's steps do not find.
+            None => sought.by_small_steps(guess, NEARLY * weight)?,
         };
-        if found.at.iter().any(|load| *load < 0.0) {
+        if loads.iter().any(|load| *load < -NEARLY * weight) {
             return Err(Tipping.into());
         }
-        Ok(found.value)
+        Ok(wheels)
+    }
+
+    /// The same of a rover on a suspension on a plane.
+    ///
+    /// # Errors
+    /// As of [`reactions_standing`](Self::reactions_standing).
+    pub(super) fn reactions_on_links(
+        &self,
+        stance: &Stance,
+        slips: &[Slip],
+        near: &[WheelReaction],
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let turn = stance.slope_from_body;
+        let yaw = atan2(turn[(1, 0)], turn[(0, 0)]);
+        let state = RoverState { position: stance.place, yaw, ..RoverState::default() };
+        let posture = self.standing_posture(&state)?;
+        self.reactions_standing(&posture, self.up(&state), slips, near)
     }
 
     /// The soil's forces together, of wheels that stand.
@@ -199,15 +206,6 @@ impl Ground<'_> {
 
     fn balance(&self) -> Balance {
         Balance { sharing: self.sharing, own_moments: self.own_moments }
-    }
-
-    fn loads(
-        &self,
-        standing: &Standing,
-        weight: f64,
-        forces: &[WheelForces],
-    ) -> Result<Vec<f64>, Tipping> {
-        self.balance().loads(self.rover, &standing.posture, weight * standing.up, forces)
     }
 
     /// What each wheel meets.
@@ -227,11 +225,13 @@ impl Ground<'_> {
     }
 
     /// The wheels under their loads [N]; one that is lifted has none.
+    ///
+    /// * `near`: a sinkage near which each is expected [m]
     fn settle_standing(
         &self,
         contacts: &[Contact],
         loads: &[f64],
-        near: &[WheelReaction],
+        near: impl Fn(usize) -> Option<f64>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let loaded: Vec<LoadedWheel<'_>> = contacts
             .iter()
@@ -241,16 +241,143 @@ impl Ground<'_> {
                 model: self.model,
                 contact,
                 load: load.max(0.0),
-                guess: near.get(wheel).map(|near| near.settled.sinkage),
+                guess: near(wheel),
             })
             .collect();
         let settled = settle_each(&loaded).into_iter().zip(&loaded).zip(self.rover.mounts());
         settled
             .map(|((settled, wheel), mount)| {
-                let of = |settled: Settled| WheelReaction { slip: wheel.contact.slip, load: wheel.load, settled };
+                let of = |settled: Settled| WheelReaction {
+                    slip: wheel.contact.slip,
+                    load: wheel.load,
+                    settled,
+                };
                 let named = |source| ReactionError::Wheel { wheel: mount.name.clone(), source };
                 settled.map(of).map_err(named)
             })
             .collect()
+    }
+}
+
+/// Loads of wheels that stand, on their way to those that balance the rover.
+struct Sought<'a> {
+    ground: &'a Ground<'a>,
+    posture: &'a Posture,
+    contacts: Vec<Contact>,
+    /// m g, against gravity [N].
+    weight: Vec3,
+    /// The wheels in a motion nearby, or none.
+    near: &'a [WheelReaction],
+}
+
+impl Sought<'_> {
+    /// How far loads [N] are from those that balance the forces under them, and the wheels under them.
+    fn next(
+        &self,
+        loads: &DVector<f64>,
+    ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
+        let near = |wheel: usize| self.near.get(wheel).map(|near| near.settled.sinkage);
+        let wheels = self.ground.settle_standing(&self.contacts, loads.as_slice(), near)?;
+        let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
+        let balanced = DVector::from_vec(self.balanced(&forces)?);
+        let next = match self.warp() {
+            Some(warp) => self.warped(&warp, &wheels, &balanced)?,
+            None => balanced,
+        };
+        Ok((loads - next, wheels))
+    }
+
+    /// Loads that balance the rover and the wheels under them, by steps that go a part of the way.
+    ///
+    /// * `agreed`: the last step of a load [N]
+    fn by_small_steps(
+        &self,
+        mut loads: DVector<f64>,
+        agreed: f64,
+    ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
+        const MOST_STEPS: usize = 400;
+        let mut share = 0.7;
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let (off, wheels) = self.next(&loads)?;
+            let size = off.amax();
+            if size <= agreed {
+                return Ok((loads, wheels));
+            }
+            if size > 0.9 * before {
+                share = f64::max(0.7 * share, 0.05);
+            }
+            before = size;
+            loads -= share * off;
+        }
+        Err(ReactionError::LoadsDoNotSettle)
+    }
+
+    fn balanced(&self, forces: &[WheelForces]) -> Result<Vec<f64>, Tipping> {
+        let Self { ground, posture, weight, .. } = self;
+        ground.balance().loads(ground.rover, posture, *weight, forces)
+    }
+
+    /// The gaps that a rigid rover with more wheels than freedoms cannot close [m], if there are any.
+    fn warp(&self) -> Option<DVector<f64>> {
+        /// Less than this is rounding [m].
+        const FLAT: f64 = 1e-10;
+        let gaps = self.posture.wheels.iter().map(|wheel| wheel.gap);
+        let gaps = DVector::from_iterator(self.posture.wheels.len(), gaps);
+        (self.posture.freedoms() < gaps.len() && gaps.norm() > FLAT).then_some(gaps)
+    }
+
+    /// The loads of a rigid rover on warped ground: those of least norm, and as much along the warp as makes the sinkages
+    /// differ by it from those under loads of least norm. A wheel that would have to pull is lifted.
+    ///
+    /// ```text
+    /// p · (h(N) − h(N°)) = −|gaps|        p = gaps / |gaps|        N = N° + λ p
+    /// ```
+    ///
+    /// * `balanced`: the loads of least norm, *N°* [N]
+    fn warped(
+        &self,
+        gaps: &DVector<f64>,
+        wheels: &[WheelReaction],
+        balanced: &DVector<f64>,
+    ) -> Result<DVector<f64>, ReactionError> {
+        /// A difference of sinkages that is none [m].
+        const SAME: f64 = 1e-15;
+        let size = gaps.norm();
+        let mode = gaps / size;
+        let under = |along: f64| {
+            let loads = balanced + along * &mode;
+            let near = |wheel: usize| Some(wheels[wheel].settled.sinkage).filter(|it| *it > 0.0);
+            self.ground.settle_standing(&self.contacts, loads.as_slice(), near)
+        };
+        let least = under(0.0)?;
+        let failure = Cell::new(None);
+        let miss = |along: f64| match under(along) {
+            Ok(wheels) => {
+                let change = |(wheel, least): (&WheelReaction, &WheelReaction)| {
+                    wheel.settled.sinkage - least.settled.sinkage
+                };
+                let changes = wheels.iter().zip(&least).map(change);
+                size + changes.zip(mode.iter()).map(|(change, share)| share * change).sum::<f64>()
+            }
+            Err(error) => {
+                failure.set(Some(error));
+                f64::NAN
+            }
+        };
+        let lifts = |(share, load): (&f64, &f64)| {
+            if *share > 0.0 { -load / share } else { f64::NEG_INFINITY }
+        };
+        let lifted = mode.iter().zip(balanced.iter()).map(lifts).fold(f64::NEG_INFINITY, f64::max);
+        let low = (lifted, if lifted < 0.0 { miss(lifted) } else { 0.0 });
+        let along = if low.1 < 0.0 {
+            root::bracketed(&miss, low, (0.0, size), 0.0, SAME).0
+        } else {
+            lifted
+        };
+        if let Some(error) = failure.take() {
+            return Err(error);
+        }
+        Ok(balanced + along * mode)
     }
 }

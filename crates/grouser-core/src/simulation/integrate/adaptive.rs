@@ -100,7 +100,11 @@ fn led<const N: usize>(
     on_sample: &mut OnSample<'_>,
 ) -> Result<Option<Way<N>>, Stalled> {
     let more = equations.moving_motors();
-    let coupled = if equations.has_uneven_soil() || equations.has_relief() { COUPLED_BY_PLACE } else { COUPLED };
+    let coupled = if equations.has_uneven_soil() || equations.has_relief() {
+        COUPLED_BY_PLACE
+    } else {
+        COUPLED
+    };
     let coupled = coupled.start..coupled.end + more;
     let deciding = SIZE - 1 + more;
     let rates_at = |y: &Numbers<N>| rates_at(equations, y);
