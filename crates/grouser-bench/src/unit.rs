@@ -173,7 +173,7 @@ impl Fixtures {
         let rim_speeds = vec![speed; rover.wheel_count()];
         let (sharing, own_moments) = (*sharing, *own_moments);
         let (model, differences) = (theory.model(), self.scenario.differences());
-        let ground = Ground { rover, site, model, sharing, own_moments, differences };
+        let ground = Ground { rover, site, model, sharing, own_moments, differences, relief: None };
         let equations = Equations::new(ground, &rim_speeds);
         let mut state = self.scenario.start_state(&rim_speeds);
         let mut sum = 0.0;

@@ -77,6 +77,7 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
+        terrain: None,
         ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },

@@ -50,6 +50,7 @@ pub(crate) fn blank() -> Scenario {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
+        terrain: None,
         ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },

@@ -123,6 +123,7 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
         yaw: None,
         by_wheel: grouser::vehicle::ByWheel::ALIKE,
         scatter: grouser::simulation::Scatter::NONE,
+        terrain: None,
         ruts: grouser::vehicle::Ruts::Fresh,
         stability: grouser::soil::SlopeStability::USUAL,
         start: Start { yaw, motion: Motion::Rolling },

@@ -57,7 +57,7 @@ proptest! {
         let differences = Differences::NONE;
         let model = theory.model();
         let ground =
-            Ground { rover: &rover, site: &site, model, sharing, own_moments, differences };
+            Ground { rover: &rover, site: &site, model, sharing, own_moments, differences, relief: None };
         let state = RoverState { yaw, ..RoverState::default() };
         let stance = ground.stance(&state);
         let all = |shift: f64| {

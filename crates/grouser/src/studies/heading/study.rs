@@ -132,6 +132,7 @@ impl HeadingStudy {
             sharing: self.sharing,
             own_moments: self.own_moments,
             differences: Differences::NONE,
+            relief: None,
         }
     }
 
