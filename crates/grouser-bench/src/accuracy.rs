@@ -4,7 +4,7 @@ use grouser::contact::{Ishigami, Rft, WheelForces, WheelSoilModel as _, settle};
 use grouser::simulation::{Integrator, Run, Scenario};
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::vehicle::dynamics;
-use grouser::vehicle::reaction::forces_of;
+use grouser::vehicle::ground::forces_of;
 
 use crate::fixtures::Fixtures;
 use crate::unit::controlled;

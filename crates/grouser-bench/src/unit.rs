@@ -9,7 +9,7 @@ use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
-use grouser::vehicle::reaction::Ground;
+use grouser::vehicle::ground::Ground;
 use rayon::prelude::*;
 
 use crate::fixtures::Fixtures;

@@ -59,6 +59,14 @@ pub trait Terrain {
     /// * `footprint`: how far from there the ground counts
     fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_>;
 
+    /// As [`patch`](Self::patch), of a place seen from an origin, so that the numbers of a far origin cost no precision.
+    ///
+    /// * `origin`: in the ground's coordinates [m]
+    /// * `at`: seen from there [m]
+    fn patch_from(&self, origin: Vec2, at: Vec2, footprint: Footprint) -> Patch<'_> {
+        self.patch(origin + at, footprint)
+    }
+
     /// The soil of that patch.
     fn soil(&self, at: Vec2, footprint: Footprint) -> Cow<'_, Soil> {
         self.patch(at, footprint).soil

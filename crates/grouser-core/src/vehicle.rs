@@ -16,6 +16,7 @@ pub mod drive;
 pub mod drive_unit;
 pub mod dynamics;
 pub mod estimate;
+pub mod ground;
 pub mod kinematics;
 pub mod load;
 pub mod motor;
@@ -37,17 +38,17 @@ pub use battery::{Battery, Terminals};
 pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
 pub use drive_unit::{Drive, Driven};
+pub use ground::{Ground, ReactionError, Relief, Stance, WheelReaction};
 pub use load::{LoadSharing, OwnMoments};
 pub use motor::{Electrical, Motor};
 pub use parts::{
     Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };
 pub use posture::{Attitude, NoPosture, Posture};
-pub use reaction::{Ground, ReactionError, Stance, WheelReaction};
 pub use rover::Rover;
 pub use ruts::Ruts;
 pub use speed_control::{MotorLimits, SpeedControl};
-pub use standing::{Relief, Standing};
+pub use standing::Standing;
 pub use state::{Acceleration, RoverState, roll_and_pitch};
 pub use statics::{Balance, Resultant};
 pub use suspension::{Bogie, End, Joints, Suspension};

@@ -1,7 +1,6 @@
 //! Runs over uneven ground: a tilted plane is the plane, both ways of computing agree, and energy is kept.
 
 #[path = "../examples/by_hand/hakuto.rs"]
-#[expect(dead_code, reason = "not all of it is needed here")]
 mod hakuto;
 
 use std::sync::Arc;
@@ -73,6 +72,11 @@ fn a_tilted_plane_is_the_plane() {
         for (azimuth, is_map) in [(90.0, false), (217.0, false), (-25.0, true)] {
             let uphill = deg(azimuth);
             let incline = Incline { slope, uphill };
+            let is_rigid = plane.rover.suspension().is_none();
+            if is_map && is_rigid && plane.numerics.approach == Approach::Dynamic {
+                // The rounding of heights warps the ground, which takes a rigid rover minutes.
+                continue;
+            }
             let (ground, start) = if is_map {
                 let middle = Vec2::new(512_345.0, -2_100_020.0);
                 (map(&plane, incline, middle), middle)
@@ -129,46 +133,42 @@ fn ripple(plane: &Scenario, rover: &Rover) -> Scenario {
     scenario
 }
 
-/// Over ripples quasi-steady and dynamic runs lead to the same place, and motors' work is the soil's and the height's.
+/// Over ripples quasi-steady and dynamic runs lead to the same place, and motors' work is the soil's and the height's. On
+/// rockers no normal force does work; a rigid rover on warped ground sinks and rises on single wheels as it goes, which is
+/// the rest.
 #[test]
 fn over_ripples_both_ways_agree_and_energy_is_kept() {
     let base = &scenarios()[0];
-    for rover in [on_rockers(&base.rover), base.rover.clone()] {
-        let t = std::time::Instant::now();
+    for (rover, lost) in [(on_rockers(&base.rover), 5e-3), (base.rover.clone(), 0.05)] {
+        let dynamic = run(&ripple(base, &rover));
         let mut steady = ripple(base, &rover);
         steady.numerics.approach = Approach::QuasiSteady;
         let steady = run(&steady);
-        eprintln!("steady {:?} {:?}", t.elapsed(), steady.work);
-        let dynamic = run(&ripple(base, &rover));
-        eprintln!("dynamic {:?} {:?}", t.elapsed(), dynamic.work);
-        let (one, other) = (dynamic.last(), steady.last());
-        eprintln!("{:?} {:?}", dynamic.work, steady.work);
-        let off = (one.state.position - other.state.position).norm();
-        eprintln!("{} off {off:e} yaw {:e}", one.state.position, one.state.yaw - other.state.yaw);
+        assert!(steady.work.evaluations * 5 < dynamic.work.evaluations);
+        let (one, other) = (dynamic.last().state, steady.last().state);
+        let off = (one.position - other.position).norm();
+        assert!(one.position.norm() > 1.0 && off < 2e-3 * one.position.norm(), "{off:e} m off");
+        assert!((one.yaw - other.yaw).abs() < deg(0.2), "{one:?} and {other:?}");
         for trajectory in [&dynamic, &steady] {
             let (first, last) = (trajectory.records[0].energy, trajectory.last().energy);
             let kept = last.soil + last.potential - first.potential + last.kinetic - first.kinetic;
-            eprintln!("{} {} {}", last.motors, kept, last.potential - first.potential);
-            let a = trajectory.records.iter().filter_map(|r| r.attitude);
-            eprintln!(
-                "{:?}",
-                a.fold((0.0f64, 0.0f64, 0.0f64), |m, a| (
-                    m.0.max(a.roll.abs()),
-                    m.1.max(a.pitch.abs()),
-                    m.2.max(a.joints.rocker.abs())
-                ))
-            );
+            assert!((last.motors - kept).abs() < lost * last.motors, "{} and {kept}", last.motors);
+            let pitches = trajectory.records.iter().filter_map(|record| record.attitude);
+            let steepest = pitches.map(|it| it.pitch.abs()).fold(0.0, f64::max);
+            assert!(steepest > deg(10.0), "{steepest}");
         }
     }
 }
 
+/// On a map a drive ends in words where that does.
 #[test]
-fn timing() {
-    for plane in scenarios() {
-        let incline = Incline { slope: plane.site.terrain.slope, uphill: deg(65.0) };
-        let middle = Vec2::new(512_345.0, -2_100_020.0);
-        let t = std::time::Instant::now();
-        let r = run(&over(&plane, map(&plane, incline, middle), middle));
-        eprintln!("{:?} {:?}", t.elapsed(), r.work);
-    }
+fn a_drive_that_leaves_the_map_says_where() {
+    let plane = &scenarios()[1];
+    let incline = Incline { slope: deg(3.0), uphill: deg(90.0) };
+    let middle = Vec2::new(2000.0, -500.0);
+    let start = middle + Vec2::new(9.3, 0.0);
+    let mut scenario = over(plane, map(plane, incline, middle), start);
+    scenario.start.yaw = 0.0;
+    let error = Run::new(&scenario).and_then(Run::to_end).expect_err("the map ends").to_string();
+    assert!(error.contains("where the map has no heights"), "{error}");
 }

@@ -1,16 +1,17 @@
 //! Postures and loads on uneven ground: planes, closed forms, balances and virtual work.
 
 #[path = "../examples/by_hand/hakuto.rs"]
-#[expect(dead_code, reason = "not all of it is needed here")]
 mod hakuto;
 
 use std::borrow::Cow;
 
-use grouser_core::contact::WheelForces;
+use grouser_core::contact::{Slip, WheelForces};
+use grouser_core::site::Site;
 use grouser_core::terrain::{Footprint, Patch, Terrain};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{
-    Balance, Bogie, End, LoadSharing, Mount, OwnMoments, Posture, Rover, RoverState, Suspension,
+    Balance, Bogie, End, Ground, LoadSharing, Mount, OwnMoments, Posture, Relief, Rover,
+    RoverState, Suspension, WheelReaction,
 };
 
 /// Ground of some heights.
@@ -176,7 +177,9 @@ fn a_level_rover_with_bogies_carries_a_sixth_on_each_wheel() {
     let terrain = ground(plane(0.0, 0.0));
     let posture = stand(&rover, &terrain, Vec2::zeros(), 0.0);
     let loads = COMPLETE.loads(&rover, &posture, 60.0 * Vec3::z(), &[]).expect("it stands");
-    loads.iter().for_each(|load| close(*load, 10.0, 1e-9));
+    for load in &loads {
+        close(*load, 10.0, 1e-9);
+    }
     // A torque of 0.3 N·m of each wheel of a bogie loads the rear one by the sum over the bogie's length.
     let torques = [0.0, 0.3, 0.3, 0.0, 0.3, 0.3].map(|torque| forces(0.0, 0.0, torque));
     let with = COMPLETE.loads(&rover, &posture, 60.0 * Vec3::z(), &torques).expect("it stands");
@@ -187,7 +190,9 @@ fn a_level_rover_with_bogies_carries_a_sixth_on_each_wheel() {
 #[test]
 fn rockers_and_a_rigid_body_agree_on_a_plane_with_equal_torques() {
     let mut mounts = rigid().mounts().to_vec();
-    mounts.iter_mut().for_each(|mount| mount.position.x = 0.18 * mount.position.x.signum());
+    for mount in &mut mounts {
+        mount.position.x = 0.18 * mount.position.x.signum();
+    }
     let rigid = Rover::new(*rigid().body(), mounts).expect("it stands");
     let rocker =
         rigid.on_rockers(Suspension { pivot: Vec2::new(0.0, 0.03), bogie: None }).expect("four");
@@ -200,7 +205,9 @@ fn rockers_and_a_rigid_body_agree_on_a_plane_with_equal_torques() {
             COMPLETE.loads(rover, &posture, 60.0 * Vec3::z(), wheels).expect("it stands")
         };
         let (one, other) = (loads(&rigid, &wheels), loads(&rocker, &wheels));
-        one.iter().zip(&other).for_each(|(one, other)| close(*one, *other, 60.0 * 1e-9));
+        for (one, other) in one.iter().zip(&other) {
+            close(*one, *other, 60.0 * 1e-9);
+        }
         // They part by the difference of the sides' torques, which turns the rockers against each other.
         let sides =
             rigid.mounts().iter().map(|mount| if mount.position.y > 0.0 { 0.5 } else { 1.3 });
@@ -235,7 +242,9 @@ fn every_posture_balances() {
             let weight = 70.0;
             let loads =
                 COMPLETE.loads(&rover, &posture, weight * Vec3::z(), &wheels).expect("it stands");
-            wheels.iter_mut().zip(&loads).for_each(|(wheel, load)| wheel.normal_force = *load);
+            for (wheel, load) in wheels.iter_mut().zip(&loads) {
+                wheel.normal_force = *load;
+            }
             let all = COMPLETE.resultant(&rover, &posture, &wheels);
             let [.., z] = posture.axes();
             close(all.force.z, weight * z.z, 1e-8 * weight);
@@ -271,5 +280,63 @@ fn it_tips_where_the_weight_falls_outside() {
             .map(|(load, _)| load)
             .sum();
         assert_eq!(uphill > 0.0, stands, "{loads:?}");
+    }
+}
+
+/// On twisted ground the soil decides how a rigid rover's four wheels share: their sinkages differ by the twist, until one is
+/// lifted; rockers turn, and their wheels share as on a plane.
+#[test]
+fn twisted_ground_loads_a_rigid_rover_across_and_turns_rockers() {
+    let scenario = hakuto::traverse().expect("it stands");
+    let site = Site::plane(scenario.site.terrain.soil, 0.0, scenario.site.gravity);
+    let settled = |rover: &Rover, twist: f64| -> (Posture, Vec<WheelReaction>) {
+        let terrain = ground(|at: Vec2| twist * at.x * at.y);
+        let reaction = Ground {
+            rover,
+            site: &site,
+            model: scenario.theory.model(),
+            sharing: scenario.sharing,
+            own_moments: scenario.own_moments,
+            differences: scenario.differences(),
+            relief: Some(Relief { terrain: &terrain, origin: Vec2::zeros() }),
+        };
+        let posture = reaction.standing_posture(&RoverState::default()).expect("it stands");
+        let slips = [Slip::on_test_stand(0.2, 0.0); 4];
+        let wheels = reaction.reactions_standing(&posture, Vec3::z(), &slips, &[]);
+        (posture, wheels.expect("it is carried"))
+    };
+    let weight = rigid().mass() * site.gravity;
+    let (_, flat) = settled(&rigid(), 0.0);
+    for (twist, lifts) in [(0.02, 0), (0.1, 0), (1.0, 1)] {
+        let (posture, wheels) = settled(&rigid(), twist);
+        let sum: f64 = wheels.iter().map(|wheel| wheel.load).sum();
+        close(sum, weight, if twist < 0.5 { 2e-3 } else { 0.1 } * weight);
+        assert_eq!(
+            wheels.iter().filter(|wheel| wheel.load < 1e-9).count(),
+            lifts,
+            "{twist}: {wheels:?}"
+        );
+        let gaps: Vec<f64> = posture.wheels.iter().map(|wheel| wheel.gap).collect();
+        let size = gaps.iter().map(|gap| gap * gap).sum::<f64>().sqrt();
+        let differ: f64 = wheels
+            .iter()
+            .zip(&flat)
+            .zip(&gaps)
+            .map(|((one, other), gap)| gap / size * (one.settled.sinkage - other.settled.sinkage))
+            .sum();
+        if lifts == 0 {
+            close(differ, -size, 0.02 * size);
+        } else {
+            assert!(-differ < 0.9 * size, "{differ} of {size}");
+        }
+
+        let (posture, wheels) = settled(&rocker(), twist);
+        assert!(posture.wheels.iter().all(|wheel| wheel.gap.abs() < 1e-9));
+        assert!(posture.joints.rocker.abs() > 0.2 * twist, "{:?}", posture.joints);
+        if twist < 0.5 {
+            for (wheel, flat) in wheels.iter().zip(&flat) {
+                close(wheel.load, flat.load, 0.1 * flat.load);
+            }
+        }
     }
 }

@@ -11,14 +11,14 @@ use crate::contact::Slip;
 use crate::site::Site;
 use crate::terrain::Terrain;
 use crate::units::Vec2;
+use crate::vehicle::ground::forces_of;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::posture::{Attitude, StandingMotion};
-use crate::vehicle::reaction::forces_of;
 use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError,
-    Rover, RoverState, Stance, Standing, WheelReaction, dynamics, reaction::Ground,
-    settling::Known, settling::Nearby,
+    Rover, RoverState, Stance, Standing, WheelReaction, dynamics, ground::Ground, settling::Known,
+    settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.

@@ -235,8 +235,8 @@ impl Leg<'_> {
 
 /// A quasi-steady motion: on a plane, or over uneven ground.
 enum Steady<'a, 'g> {
-    Plane(QuasiSteady<'a, 'g>),
-    Uneven(AlongGround<'a, 'g>),
+    Plane(Box<QuasiSteady<'a, 'g>>),
+    Uneven(Box<AlongGround<'a, 'g>>),
 }
 
 impl<'a, 'g> Steady<'a, 'g> {
@@ -248,9 +248,11 @@ impl<'a, 'g> Steady<'a, 'g> {
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
         if equations.has_relief() {
-            return AlongGround::from(equations, carried, point, rims_changed).map(Self::Uneven);
+            return AlongGround::from(equations, carried, point, rims_changed)
+                .map(|motion| Self::Uneven(Box::new(motion)));
         }
-        QuasiSteady::from(equations, carried, point, horizon, rims_changed).map(Self::Plane)
+        QuasiSteady::from(equations, carried, point, horizon, rims_changed)
+            .map(|motion| Self::Plane(Box::new(motion)))
     }
 
     fn advance(&mut self, point: &mut Point, span: f64, horizon: f64) -> Result<(), NotSteady> {

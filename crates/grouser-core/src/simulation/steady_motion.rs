@@ -10,7 +10,7 @@ use super::steady_state::{Memory, NotSteady, SteadySolver};
 use crate::elementary::wide;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
-use crate::vehicle::reaction::Ground;
+use crate::vehicle::ground::Ground;
 
 /// A steady motion at a yaw: forces and yaw moment are balanced, so that the rover goes straight on or turns at a
 /// steady rate.

@@ -153,11 +153,15 @@ impl ElevationModel {
     /// * `at`: the place on the map [m]
     #[must_use]
     pub fn height(&self, at: Vec2) -> f64 {
-        let [column, row] = self.grid.place(at);
+        self.base + self.above_base_at(self.grid.place(at))
+    }
+
+    /// The height above the base [m] at a place in cells from the first point.
+    fn above_base_at(&self, [column, row]: [f64; 2]) -> f64 {
         let along_x = Stencil::of_height(column, self.grid.columns);
         let along_y = Stencil::of_height(row, self.grid.rows);
         let rows = self.about(&along_x, &along_y);
-        self.base + along_y.sum(rows.map(|row| along_x.sum(row)))
+        along_y.sum(rows.map(|row| along_x.sum(row)))
     }
 
     /// How fast the height grows to the east and to the north [-]. Outside of the extent nothing grows
@@ -212,8 +216,16 @@ impl ElevationModel {
 
 impl Terrain for ElevationModel {
     fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        let fit = footprint.fit(&footprint.points(at).map(|place| self.height(place)));
-        Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
+        self.patch_from(Vec2::zeros(), at, footprint)
+    }
+
+    fn patch_from(&self, origin: Vec2, at: Vec2, footprint: Footprint) -> Patch<'_> {
+        // Neither the map's place nor its height is added before differences are taken.
+        let from = origin - self.grid.south_west;
+        let above = |place: Vec2| self.above_base_at(self.grid.cells(from + place));
+        let fit = footprint.fit(&footprint.points(at).map(above));
+        let soil = Cow::Borrowed(&self.soil);
+        Patch { height: self.base + fit.height, normal: fit.normal, soil }
     }
 
     fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {

@@ -146,7 +146,7 @@ impl Posture {
                 most.max(if freedom == 0 { by.abs() } else { scale * by.abs() })
             });
             // Rounding ends it where it goes no further.
-            if change <= SETTLED || change < 10.0 * SETTLED && change >= 0.5 * before {
+            if change <= SETTLED || change < 1e3 * SETTLED && change >= 0.5 * before {
                 return Ok(posture);
             }
             normals = Some(posture.wheels.iter().map(|wheel| wheel.normal).collect());

@@ -2,130 +2,21 @@
 
 use std::borrow::Cow;
 
-use nalgebra::Rotation2;
-
 use super::by_wheel::Differences;
-use super::load::{self, LoadSharing, OwnMoments, Tipping};
+use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
+use super::load;
 use super::parts::Mount;
-use super::posture::NoPosture;
-use super::rover::Rover;
 use super::ruts::Ruts;
 use super::settling::{Known, Nearby};
-use super::standing::Relief;
-use super::state::RoverState;
-use crate::contact::{
-    Contact, SettleError, Settled, Slip, WheelForces, WheelSoilModel, settle_from, settle_many,
-};
-use crate::site::Site;
+use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
 use crate::soil::Soil;
-use crate::terrain::Terrain;
 use crate::units::Vec2;
 
-/// What decides the soil's reaction on a rover, besides its motion.
-#[derive(Clone, Copy)]
-pub struct Ground<'a> {
-    /// The rover.
-    pub rover: &'a Rover,
-    /// Where it is.
-    pub site: &'a Site<dyn Terrain>,
-    /// The wheel–soil model.
-    pub model: &'a dyn WheelSoilModel,
-    /// How the weight is shared.
-    pub sharing: LoadSharing,
-    /// Whether the wheels' own moments act on the rover.
-    pub own_moments: OwnMoments,
-    /// How the soil below each wheel differs from that of the site.
-    pub differences: Differences<'a>,
-    /// Heights of the ground, where that is no plane.
-    pub relief: Option<Relief<'a>>,
-}
-
-/// One wheel, settled under its load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelReaction {
-    /// How it moves against the soil.
-    pub slip: Slip,
-    /// Its load [N].
-    pub load: f64,
-    /// Its sinkage and the soil's forces.
-    pub settled: Settled,
-}
-
-/// Why the wheels do not settle.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ReactionError {
-    /// The weight falls outside the wheels.
-    #[error(transparent)]
-    Tipping(#[from] Tipping),
-    /// The rover does not come to stand.
-    #[error(transparent)]
-    NoPosture(#[from] NoPosture),
-    /// The ground is not known there.
-    #[error(
-        "wheel {wheel} is at x = {x:.3} m, y = {y:.3} m, where the map has no heights",
-        x = place.x,
-        y = place.y
-    )]
-    OffTheMap {
-        /// The wheel's name.
-        wheel: String,
-        /// Where it meets the ground, in the map's coordinates [m].
-        place: Vec2,
-    },
-    /// One wheel's load is more than the soil carries.
-    #[error("wheel {wheel}: {source}")]
-    Wheel {
-        /// The wheel's name.
-        wheel: String,
-        /// What is wrong with it.
-        source: SettleError,
-    },
-    /// Loads and reactions of wheels on uneven ground did not settle on each other.
-    #[error("no wheel loads were found that balance the rover with the soil's forces under them")]
-    LoadsDoNotSettle,
-    /// Loads and torques did not settle on each other.
-    #[error(
-        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}"
-    )]
-    Unsettled {
-        /// How often they were computed.
-        rounds: u32,
-        /// Change of the moments in the last round, over weight times track [-].
-        change: f64,
-    },
-}
-
-/// Where a rover stands, and how its weight acts there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stance {
-    /// Position of the body's centre of mass, in the slope frame [m].
-    pub place: Vec2,
-    /// The rotation that takes vectors of the body frame to the slope frame.
-    pub slope_from_body: Rotation2<f64>,
-    /// The weight's part into the ground [N].
-    pub weight: f64,
-    /// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N].
-    pub pull: Vec2,
-    /// Tangent of the ground's inclination [-].
-    pub steepness: f64,
-}
-
 impl<'a> Ground<'a> {
-    /// Where the rover stands in a state, and how its weight acts there.
-    #[must_use]
-    pub fn stance(&self, state: &RoverState) -> Stance {
-        let slope_from_body = state.slope_from_body();
-        let weight = load::weight(self.rover, self.site, state, &slope_from_body);
-        let pull = load::pull(&weight, &slope_from_body);
-        let (into, along) = (weight.into, weight.uphill.norm());
-        let steepness = if into > 0.0 { along / into } else { 0.0 };
-        Stance { place: state.position, slope_from_body, weight: into, pull, steepness }
-    }
-
     /// The reaction on every wheel, in the mounts' order.
     ///
-    /// Wheels on rockers stand as these let them on a plane. Where the loads depend on the wheels' own torque or moments, loads and reactions are
-    /// computed in turn until they agree.
+    /// Where the loads depend on the wheels' own torque or moments, loads and reactions are computed in
+    /// turn until they agree. Wheels on rockers are loaded as these let them.
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or the turns do not agree.
@@ -164,13 +55,6 @@ impl<'a> Ground<'a> {
             return Ok(wheels);
         }
         self.settle_in_turns(stance, &contacts, near)
-    }
-
-    /// Whether loads depend on the wheels' forces.
-    pub(super) fn is_coupled(&self) -> bool {
-        let Self { sharing, own_moments, .. } = *self;
-        sharing.has_torque()
-            || (own_moments == OwnMoments::Included && sharing != LoadSharing::Uniform)
     }
 
     /// The reaction on every wheel, loads and wheels in turn.
@@ -337,11 +221,6 @@ impl Mixing {
 fn along_one(change: Vec2, found: Vec2, secant: (Vec2, Vec2)) -> Vec2 {
     let size = secant.0.norm_squared();
     if size == 0.0 { found } else { found - secant.1 * (secant.0.dot(&change) / size) }
-}
-
-/// The soil's forces of each wheel.
-pub fn forces_of(wheels: &[WheelReaction]) -> impl Iterator<Item = &WheelForces> {
-    wheels.iter().map(|wheel| &wheel.settled.forces)
 }
 
 #[cfg(test)]

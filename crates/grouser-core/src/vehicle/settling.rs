@@ -17,9 +17,9 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
+use super::ground::{Ground, ReactionError, Stance, WheelReaction};
 use super::load::{self, LoadSharing};
 use super::parts::Mount;
-use super::reaction::{Ground, ReactionError, Stance, WheelReaction};
 use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
 use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};

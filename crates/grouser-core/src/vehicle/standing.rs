@@ -9,9 +9,9 @@ use std::cell::Cell;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load::Tipping;
 use super::posture::{Posture, StandingMotion};
-use super::reaction::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::state::RoverState;
 use super::statics::{Balance, Resultant};
 use crate::contact::{Contact, LoadedWheel, Settled, Slip, WheelForces, settle_each};
@@ -20,25 +20,6 @@ use crate::soil::Soil;
 use crate::terrain::{Footprint, Patch, Terrain};
 use crate::units::{Vec2, Vec3};
 use crate::{newton, root};
-
-/// Heights of the ground, seen from the place where a rover starts.
-#[derive(Clone, Copy)]
-pub struct Relief<'a> {
-    /// The ground; its soil is not asked for.
-    pub terrain: &'a dyn Terrain,
-    /// The start of the rover in its coordinates [m].
-    pub origin: Vec2,
-}
-
-impl Terrain for Relief<'_> {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        self.terrain.patch(self.origin + at, footprint)
-    }
-
-    fn covers(&self, at: Vec2, footprint: Footprint) -> bool {
-        self.terrain.covers(self.origin + at, footprint)
-    }
-}
 
 /// The plane of the slope frame: level in it.
 struct Flat<'a>(&'a Soil);
@@ -281,7 +262,7 @@ impl Sought<'_> {
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
         let balanced = DVector::from_vec(self.balanced(&forces)?);
         let next = match self.warp() {
-            Some(warp) => self.warped(&warp, &wheels, &balanced)?,
+            Some(warp) => self.warped(&warp, &balanced)?,
             None => balanced,
         };
         Ok((loads - next, wheels))
@@ -338,7 +319,6 @@ impl Sought<'_> {
     fn warped(
         &self,
         gaps: &DVector<f64>,
-        wheels: &[WheelReaction],
         balanced: &DVector<f64>,
     ) -> Result<DVector<f64>, ReactionError> {
         /// A difference of sinkages that is none [m].
@@ -347,8 +327,8 @@ impl Sought<'_> {
         let mode = gaps / size;
         let under = |along: f64| {
             let loads = balanced + along * &mode;
-            let near = |wheel: usize| Some(wheels[wheel].settled.sinkage).filter(|it| *it > 0.0);
-            self.ground.settle_standing(&self.contacts, loads.as_slice(), near)
+            // From no guess: what a guess leaves in the last digits disturbs an integrator's steps.
+            self.ground.settle_standing(&self.contacts, loads.as_slice(), |_| None)
         };
         let least = under(0.0)?;
         let failure = Cell::new(None);

@@ -43,7 +43,7 @@ pub struct Balance {
 
 impl Balance {
     /// Force along the ground [N] and moment about the hub [N·m] of a wheel, in the ground's coordinates.
-    fn along(&self, wheel: &StandingWheel, radius: f64, forces: &WheelForces) -> (Vec3, Vec3) {
+    fn along(self, wheel: &StandingWheel, radius: f64, forces: &WheelForces) -> (Vec3, Vec3) {
         let force = forces.drawbar_pull * wheel.forward + forces.side_force * wheel.left;
         let torque = if self.sharing.has_torque() {
             -forces.torque * wheel.axle
@@ -68,7 +68,7 @@ impl Balance {
     /// # Errors
     /// [`Tipping`] where no loads balance it.
     pub fn loads(
-        &self,
+        self,
         rover: &Rover,
         posture: &Posture,
         weight: Vec3,
@@ -112,7 +112,7 @@ impl Balance {
     ///
     /// * `forces`: of each wheel
     #[must_use]
-    pub fn resultant(&self, rover: &Rover, posture: &Posture, forces: &[WheelForces]) -> Resultant {
+    pub fn resultant(self, rover: &Rover, posture: &Posture, forces: &[WheelForces]) -> Resultant {
         let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
         for ((wheel, mount), forces) in posture.wheels.iter().zip(rover.mounts()).zip(forces) {
             let (along, own) = self.along(wheel, mount.shearing_radius(), forces);

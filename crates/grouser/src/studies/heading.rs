@@ -48,7 +48,7 @@ use crate::simulation::Scenario;
 use crate::simulation::scenario::neglected_moments;
 use crate::site::Site;
 use crate::units::STEEPEST_SLOPE;
-use crate::vehicle::reaction::forces_of;
+use crate::vehicle::ground::forces_of;
 use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
 /// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The

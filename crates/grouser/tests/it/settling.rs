@@ -4,8 +4,8 @@
 use grouser::contact::{Contact, Slip, Theory};
 use grouser::site::Site;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
+use grouser::vehicle::ground::{Ground, WheelReaction, forces_of};
 use grouser::vehicle::load;
-use grouser::vehicle::reaction::{Ground, WheelReaction, forces_of};
 use grouser::vehicle::{Differences, LoadSharing, OwnMoments, RoverState};
 use proptest::prelude::*;
 

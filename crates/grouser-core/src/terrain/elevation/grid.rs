@@ -75,8 +75,12 @@ impl ElevationGrid {
 
     /// A place in cells from the first point: to the east and to the north.
     pub(super) fn place(&self, at: Vec2) -> [f64; 2] {
-        let from = at - self.south_west;
-        [from.x / self.spacing.x, from.y / self.spacing.y]
+        self.cells(at - self.south_west)
+    }
+
+    /// A way [m] in cells, to the east and to the north.
+    pub(super) fn cells(&self, way: Vec2) -> [f64; 2] {
+        [way.x / self.spacing.x, way.y / self.spacing.y]
     }
 
     /// Column and row of the cell's point in the south-west; none for a place outside of the grid.

@@ -12,7 +12,7 @@ use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::units::{STEEPEST_SLOPE, Vec2};
-use crate::vehicle::reaction::{Ground, forces_of};
+use crate::vehicle::ground::{Ground, forces_of};
 use crate::vehicle::{ReactionError, Rover, RoverState, WheelReaction, dynamics};
 
 /// (s, c, α): slip ratio, crab angle c = γ + δ − χ, slope.

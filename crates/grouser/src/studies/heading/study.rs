@@ -9,7 +9,7 @@ use crate::simulation::{NotSteady, SteadyMotion};
 use crate::site::Site;
 use crate::soil::{SlopeStability, Soil};
 use crate::units::Vec2;
-use crate::vehicle::reaction::Ground;
+use crate::vehicle::ground::Ground;
 use crate::vehicle::{Differences, LoadSharing, OwnMoments, Rover};
 
 /// Finds heading offsets of a rover on a soil, for any slope.

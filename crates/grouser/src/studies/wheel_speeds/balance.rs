@@ -10,8 +10,8 @@ use crate::elementary::wide::{cos, sin};
 use crate::simulation::equations::Equations;
 use crate::simulation::steady_state;
 use crate::units::Vec2;
+use crate::vehicle::ground::forces_of;
 use crate::vehicle::kinematics::wheel_slips;
-use crate::vehicle::reaction::forces_of;
 use crate::vehicle::{RoverState, WheelReaction, dynamics};
 
 /// Force, and moment over the farthest wheel's distance, that are left over: both over the weight, along and across
