@@ -2,47 +2,17 @@
 
 mod interpolation;
 mod many;
+mod one;
 mod search;
+mod settled;
 
 pub(crate) use interpolation::{grows_as_usual, is_usual_step};
-pub use many::{LoadedWheel, settle_each, settle_many};
+pub use many::{settle_each, settle_many};
+pub use settled::{LoadedWheel, SettleError, Settled};
 
-use self::search::{Search, Start};
-use super::discrepancy;
-use super::forces::WheelForces;
+use self::one::{settle_wheel, settle_wheel_counted};
 use super::inputs::Contact;
-use super::load_sinkage::LoadSinkage;
 use super::model::WheelSoilModel;
-
-/// A wheel that has sunk until the soil carries it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settled {
-    /// Sinkage of the grouser tips, *h* [m].
-    pub sinkage: f64,
-    /// The soil's reaction there.
-    pub forces: WheelForces,
-    /// How often the model was evaluated, for F_z alone or for all forces.
-    pub evaluations: u32,
-}
-
-/// Why no sinkage carries the load.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum SettleError {
-    /// Even sunk to the axle, the soil carries less than the wheel's load.
-    #[error("the soil carries at most {capacity:.4} N down to axle depth, the load is {load:.4} N")]
-    SunkToAxle {
-        /// The wheel's load [N].
-        load: f64,
-        /// The most that the soil carries at any sinkage down to the axle [N].
-        capacity: f64,
-    },
-    /// The load is not a number that a wheel can carry.
-    #[error("a wheel load must be finite and not negative, it is {load} N")]
-    BadLoad {
-        /// The load [N].
-        load: f64,
-    },
-}
 
 /// The smallest sinkage at which the soil carries `load` [N] (F_z = W), and the forces there.
 ///
@@ -104,10 +74,6 @@ pub fn settle_from(
     settle_wheel(&LoadedWheel { model, contact, load, guess: Some(guess) })
 }
 
-fn settle_wheel(wheel: &LoadedWheel<'_>) -> Result<Settled, SettleError> {
-    settle_wheel_counted(wheel).0
-}
-
 /// As [`settle`], with how often the model was evaluated, for F_z alone or for all forces, whatever came
 /// of it: what the answer cost.
 ///
@@ -119,43 +85,4 @@ pub fn settle_counted(
     load: f64,
 ) -> (Result<Settled, SettleError>, u32) {
     settle_wheel_counted(&LoadedWheel { model, contact, load, guess: None })
-}
-
-/// The result, and how often the model was evaluated.
-fn settle_wheel_counted(wheel: &LoadedWheel<'_>) -> (Result<Settled, SettleError>, u32) {
-    let &LoadedWheel { model, contact, load, .. } = wheel;
-    if !(load.is_finite() && load >= 0.0) {
-        return (Err(SettleError::BadLoad { load }), 0);
-    }
-    if load == 0.0 {
-        let forces = model.forces(contact, 0.0);
-        return (Ok(Settled { sinkage: 0.0, forces, evaluations: 1 }), 1);
-    }
-    settle_ready(wheel, model.load_sinkage(contact).as_ref())
-}
-
-/// The same under a load that a wheel can carry, and that is not 0.
-///
-/// * `relation`: of the wheel, if its model has one
-fn settle_ready(
-    wheel: &LoadedWheel<'_>,
-    relation: Option<&LoadSinkage>,
-) -> (Result<Settled, SettleError>, u32) {
-    let mut search = Search::new(wheel, relation, Start::of(wheel, relation));
-    let settled = search.root().map(|log_sinkage| {
-        let (sinkage, forces) = search.reaction(log_sinkage);
-        Settled::of(wheel.contact, sinkage, forces, search.evaluations())
-    });
-    (settled, search.evaluations())
-}
-
-impl Settled {
-    /// What a model finds, with what the soil's discrepancy adds.
-    fn of(contact: &Contact, sinkage: f64, forces: WheelForces, evaluations: u32) -> Self {
-        Self {
-            sinkage: discrepancy::corrected_sinkage(contact, sinkage),
-            forces: discrepancy::corrected(contact, forces),
-            evaluations,
-        }
-    }
 }

@@ -20,17 +20,20 @@
 
 mod exposure;
 mod facet;
+mod nodes;
+mod rays;
 mod sums;
 mod surface;
 
 use super::coulomb::bounded;
 use super::forces::WheelForces;
-use super::gauss::{GAUSS_3, GAUSS_16, GAUSS_64, Rule};
+use super::gauss::{GAUSS_3, GAUSS_16, GAUSS_64};
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
+use nodes::Nodes;
 use surface::FacetedWheel;
 
 /// Three-dimensional resistive force theory.
@@ -39,17 +42,6 @@ pub struct Rft {
     nodes: Nodes,
     /// Without it, the best that the processor has.
     set: Option<InstructionSet>,
-}
-
-/// The rules of the integrals over facets.
-#[derive(Clone, Copy, Debug)]
-struct Nodes {
-    /// Over half the arc; they fill the lanes.
-    arc: &'static Rule,
-    /// Along a ray of the side face.
-    disc: &'static Rule,
-    /// Over the height of a grouser.
-    height: &'static Rule,
 }
 
 impl Default for Rft {

@@ -10,10 +10,10 @@
 )]
 
 use super::interpolation::{Interpolation, Next};
+use super::one::{settle_ready, settle_wheel};
 use super::search::{Start, excess, sinkage_at};
-use super::{SettleError, Settled, settle_ready, settle_wheel};
+use super::settled::{LoadedWheel, SettleError, Settled};
 use crate::contact::batch::{FEWEST, Groups, Kind, Lanes};
-use crate::contact::discrepancy;
 use crate::contact::inputs::Contact;
 use crate::contact::kernel::InstructionSet;
 use crate::contact::kernel::dispatch::Work;
@@ -21,21 +21,6 @@ use crate::contact::kernel::wheels::Reactions;
 use crate::contact::lanes::{Each, WIDE, each};
 use crate::contact::load_sinkage::{Arc, LoadSinkage, Reaction};
 use crate::contact::model::WheelSoilModel;
-
-/// A wheel under its load: what settles.
-#[derive(Clone, Copy)]
-pub struct LoadedWheel<'a> {
-    /// The wheel–soil model.
-    pub model: &'a dyn WheelSoilModel,
-    /// The wheel on its soil, in its motion.
-    pub contact: &'a Contact,
-    /// Its load [N].
-    pub load: f64,
-    /// A sinkage [m] near which the answer is expected, if one is known ([`settle_from`]).
-    ///
-    /// [`settle_from`]: super::settle_from
-    pub guess: Option<f64>,
-}
 
 /// Many independent wheels under their loads [N], in their order; each has the bits that it has
 /// alone.
@@ -77,14 +62,6 @@ pub fn settle_each(wheels: &[LoadedWheel<'_>]) -> Vec<Result<Settled, SettleErro
 
 /// Wheels that search together: what a processor's nearest cache holds.
 const TOGETHER: usize = 32;
-
-impl LoadedWheel<'_> {
-    /// The model's own sinkage at the guess [m]; NaN if there is none.
-    pub(super) fn usable_guess(&self) -> f64 {
-        let usable = self.guess.filter(|guess| guess.is_finite() && *guess > 0.0);
-        usable.map_or(f64::NAN, |guess| discrepancy::own_sinkage(self.contact, guess))
-    }
-}
 
 /// A wheel on its way.
 struct Searching<'a> {

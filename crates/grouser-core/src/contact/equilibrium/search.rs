@@ -8,7 +8,7 @@
 use std::f64::consts::LN_10;
 
 use super::interpolation::{Interpolation, LOAD_TOLERANCE, LONGEST_STEP, Next, Point};
-use super::{LoadedWheel, SettleError};
+use super::settled::{LoadedWheel, SettleError};
 use crate::contact::forces::WheelForces;
 use crate::contact::inputs::Contact;
 use crate::contact::load_sinkage::LoadSinkage;

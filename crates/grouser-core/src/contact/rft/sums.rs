@@ -4,7 +4,7 @@
 
 use super::super::forces::WheelForces;
 use super::super::lanes::{Each, WIDE, sum};
-use super::surface::Rays;
+use super::rays::Rays;
 
 /// Forces [N] on the facets along each ray, in directions of its own: out of the rim, along it the
 /// way of growing angles, and to the left.

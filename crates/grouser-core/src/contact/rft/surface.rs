@@ -16,9 +16,10 @@ use super::super::gauss::Rule;
 use super::super::inputs::Contact;
 use super::super::lanes::{Each, WIDE, each};
 use super::super::patch::ContactPatch;
-use super::Nodes;
 use super::exposure::{Comb, Exposure};
 use super::facet::{self, Faces, Inclined, Response, lead_share};
+use super::nodes::Nodes;
+use super::rays::Rays;
 use super::sums::{RaySums, SideSums, Sums};
 use crate::elementary::{self, wide};
 use crate::soil::Soil;
@@ -92,16 +93,6 @@ impl Motion {
             along,
         }
     }
-}
-
-/// Some radii of the wheel, side by side.
-pub(super) struct Rays {
-    /// Each stands for this angle [rad].
-    width: Each,
-    /// From straight down [rad].
-    angle: Each,
-    pub sin: Each,
-    pub cos: Each,
 }
 
 /// The hub's velocity [-] out of the rim, as everywhere on a ray, and along the rim.
