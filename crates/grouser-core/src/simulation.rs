@@ -27,6 +27,7 @@ pub mod scatter;
 pub mod scenario;
 mod state;
 mod steady_motion;
+mod steady_run;
 pub mod steady_state;
 mod supply;
 mod times;

@@ -18,6 +18,7 @@ pub mod dynamics;
 pub mod estimate;
 pub mod ground;
 pub mod kinematics;
+mod links;
 pub mod load;
 pub mod motor;
 pub mod parts;

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
-use super::quasi_steady::{Carried, blended, rolling};
+use super::quasi_steady::{blended, rolling};
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::units::Vec2;
@@ -32,9 +32,23 @@ pub(super) struct AlongGround<'a, 'g> {
     next: f64,
 }
 
+/// What one run hands on from one advance to the next.
+#[derive(Clone)]
+pub(super) struct Carried {
+    memory: Memory,
+    stride: Stride,
+}
+
+impl Carried {
+    /// The wheels where the rover is.
+    pub(super) fn wheels(&self) -> Vec<WheelReaction> {
+        self.stride.wheels()
+    }
+}
+
 /// A piece of way between two steady states.
 #[derive(Clone)]
-pub(super) struct Stride {
+struct Stride {
     from: Node,
     to: Node,
     /// [s]
@@ -60,18 +74,20 @@ impl<'a, 'g> AlongGround<'a, 'g> {
     /// * `rims_changed`: whether the wheels had other speeds so far
     pub(super) fn from(
         equations: &'a Equations<'g>,
-        carried: Carried,
+        carried: Option<Carried>,
         point: &mut Point,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
-        let Carried { memory, stride, .. } = carried;
-        let guess = match &stride {
-            Some(stride) => stride.steady().velocities,
+        let guess = match &carried {
+            Some(carried) => carried.stride.steady().velocities,
             None => rolling(equations),
         };
-        let memory = if rims_changed { Memory::default() } else { memory };
+        let (memory, stride) = match carried.filter(|_| !rims_changed) {
+            Some(Carried { memory, stride }) => (memory, Some(stride)),
+            None => (Memory::default(), None),
+        };
         let mut solver = SteadySolver::new(equations, memory);
-        if let Some(stride) = stride.filter(|_| !rims_changed) {
+        if let Some(stride) = stride {
             let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
             return Ok(Self { equations, solver, stride, next });
         }
@@ -87,7 +103,7 @@ impl<'a, 'g> AlongGround<'a, 'g> {
 
     /// What the next advance starts with.
     pub(super) fn carry(self) -> Carried {
-        Carried::along(self.solver.memory(), self.stride)
+        Carried { memory: self.solver.memory(), stride: self.stride }
     }
 
     /// The wheels at the point that it has come to.
@@ -257,7 +273,7 @@ impl Stride {
     }
 
     /// The wheels.
-    pub(super) fn wheels(&self) -> Vec<WheelReaction> {
+    fn wheels(&self) -> Vec<WheelReaction> {
         let s = self.share();
         let pairs = self.from.steady.wheels.iter().zip(&self.to.steady.wheels);
         pairs

@@ -5,17 +5,16 @@
 
 use std::ops::ControlFlow;
 
-use super::along_ground::AlongGround;
 use super::equations::Equations;
 use super::error::RunError;
 use super::integrate::{self, Stalled};
 use super::method::Method;
 use super::outcome::{Outcome, StuckBecause};
 use super::point::Point;
-use super::quasi_steady::{Carried, QuasiSteady};
 use super::record::Record;
 use super::scenario::{Integrator, Scenario};
 use super::state::State;
+use super::steady_run::{Carried, SteadyRun};
 use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
@@ -106,7 +105,7 @@ impl Leg<'_> {
     ) -> Result<Carried, Ended> {
         let mut point = self.state.point;
         let horizon = self.kept_until - self.state.time;
-        let started = Steady::from(equations, carried, &mut point, horizon, self.is_new_command);
+        let started = SteadyRun::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
             // A run starts steady: what its start would cost the motors is not in the energy balance.
@@ -230,50 +229,6 @@ impl Leg<'_> {
             Some(_) => ControlFlow::Break(()),
             None => ControlFlow::Continue(()),
         })
-    }
-}
-
-/// A quasi-steady motion: on a plane, or over uneven ground.
-enum Steady<'a, 'g> {
-    Plane(Box<QuasiSteady<'a, 'g>>),
-    Uneven(Box<AlongGround<'a, 'g>>),
-}
-
-impl<'a, 'g> Steady<'a, 'g> {
-    fn from(
-        equations: &'a Equations<'g>,
-        carried: Carried,
-        point: &mut Point,
-        horizon: f64,
-        rims_changed: bool,
-    ) -> Result<Self, NotSteady> {
-        if equations.has_relief() {
-            return AlongGround::from(equations, carried, point, rims_changed)
-                .map(|motion| Self::Uneven(Box::new(motion)));
-        }
-        QuasiSteady::from(equations, carried, point, horizon, rims_changed)
-            .map(|motion| Self::Plane(Box::new(motion)))
-    }
-
-    fn advance(&mut self, point: &mut Point, span: f64, horizon: f64) -> Result<(), NotSteady> {
-        match self {
-            Self::Plane(motion) => motion.advance(point, span, horizon),
-            Self::Uneven(motion) => motion.advance(point, span, horizon),
-        }
-    }
-
-    fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
-        match self {
-            Self::Plane(motion) => motion.wheels(point),
-            Self::Uneven(motion) => motion.wheels(),
-        }
-    }
-
-    fn carry(self) -> Carried {
-        match self {
-            Self::Plane(motion) => motion.carry(),
-            Self::Uneven(motion) => motion.carry(),
-        }
     }
 }
 

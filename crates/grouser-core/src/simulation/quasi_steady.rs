@@ -13,7 +13,6 @@
 
 use nalgebra::Vector3;
 
-use super::along_ground::Stride;
 use super::equations::Equations;
 use super::point::Point;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
@@ -65,30 +64,20 @@ pub(super) struct Stretch {
 /// What one run hands on from one advance to the next.
 #[derive(Clone, Default)]
 pub(super) struct Carried {
-    pub(super) memory: Memory,
+    memory: Memory,
     stretch: Option<Stretch>,
-    /// On uneven ground, the stride under way.
-    pub(super) stride: Option<Stride>,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
 
 impl Carried {
-    /// Of a motion over uneven ground.
-    pub(super) fn along(memory: Memory, stride: Stride) -> Self {
-        Self { memory, stride: Some(stride), ..Self::default() }
-    }
-
     /// The wheels at a point of the motion, if it is one of steady states.
     pub(super) fn wheels(
         &self,
         equations: &Equations<'_>,
         point: &Point,
     ) -> Option<Vec<WheelReaction>> {
-        match &self.stride {
-            Some(stride) => Some(stride.wheels()),
-            None => Some(self.stretch.as_ref()?.wheels(equations, point)),
-        }
+        Some(self.stretch.as_ref()?.wheels(equations, point))
     }
 }
 
@@ -115,7 +104,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         if equations.has_uneven_soil() {
             return Err(NotSteady::UnevenSoil);
         }
-        let Carried { memory, stretch, rolled, .. } = carried;
+        let Carried { memory, stretch, rolled } = carried;
         let yaw = point.state.yaw;
         let rolling = rolling(equations);
         // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is faster.
@@ -143,7 +132,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     pub(super) fn carry(self) -> Carried {
         let rolled = rolling(self.equations);
         let memory = self.solver.memory();
-        Carried { memory, stretch: Some(self.stretch), stride: None, rolled }
+        Carried { memory, stretch: Some(self.stretch), rolled }
     }
 
     /// The wheels at a point of the motion.

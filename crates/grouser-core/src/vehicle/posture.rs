@@ -18,9 +18,10 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
+use super::links::{Carried, Hinge};
 use super::rover::Rover;
 use super::state::RoverState;
-use super::suspension::{Carried, Joints};
+use super::suspension::{Joints, Suspension};
 use crate::elementary::wide::{atan2, sin_cos};
 use crate::terrain::{Footprint, Terrain};
 use crate::units::{Vec2, Vec3};
@@ -333,9 +334,7 @@ impl Pose {
             let over = place + hub - Vec3::new(at.x, at.y, patch.height);
             let forward = axle.cross(&normal);
             let forward = forward / forward.norm().max(1e-9);
-            let hinge = |it: &super::suspension::Hinge| {
-                (it.joint, it.sense * across, ground_from_body * it.pivot)
-            };
+            let hinge = |it: &Hinge| (it.joint, it.sense * across, ground_from_body * it.pivot);
             StandingWheel {
                 hub,
                 axle,
@@ -355,7 +354,7 @@ impl Pose {
             joints,
             ground_from_body,
             wheels: mounts.iter().enumerate().map(wheel).collect(),
-            joint_count: suspension.map_or(0, super::suspension::Suspension::joint_count),
+            joint_count: suspension.map_or(0, Suspension::joint_count),
         }
     }
 }

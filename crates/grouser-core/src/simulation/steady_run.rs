@@ -1,0 +1,104 @@
+//! A quasi-steady motion: on a plane, or over uneven ground.
+
+use super::along_ground::{self, AlongGround};
+use super::equations::Equations;
+use super::point::Point;
+use super::quasi_steady::{self, QuasiSteady};
+use super::steady_state::NotSteady;
+use crate::vehicle::WheelReaction;
+
+/// The motion of a rover whose wheels turn at given speeds, with steady velocities.
+pub(super) enum SteadyRun<'a, 'g> {
+    Plane(Box<QuasiSteady<'a, 'g>>),
+    Uneven(Box<AlongGround<'a, 'g>>),
+}
+
+/// What one run hands on from one advance to the next.
+#[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "the large one is the usual one")]
+pub(super) enum Carried {
+    Plane(quasi_steady::Carried),
+    Uneven(Box<along_ground::Carried>),
+}
+
+impl Default for Carried {
+    fn default() -> Self {
+        Self::Plane(quasi_steady::Carried::default())
+    }
+}
+
+impl Carried {
+    /// The wheels at a point of the motion, if it is one of steady states.
+    pub(super) fn wheels(
+        &self,
+        equations: &Equations<'_>,
+        point: &Point,
+    ) -> Option<Vec<WheelReaction>> {
+        match self {
+            Self::Plane(carried) => carried.wheels(equations, point),
+            Self::Uneven(carried) => Some(carried.wheels()),
+        }
+    }
+}
+
+impl<'a, 'g> SteadyRun<'a, 'g> {
+    /// The motion from a point on; sets the point's velocities to their steady state.
+    ///
+    /// * `carried`: of the run so far
+    /// * `horizon`: how long the rims will keep their speeds [s]
+    /// * `rims_changed`: whether they were others so far
+    pub(super) fn from(
+        equations: &'a Equations<'g>,
+        carried: Carried,
+        point: &mut Point,
+        horizon: f64,
+        rims_changed: bool,
+    ) -> Result<Self, NotSteady> {
+        if equations.has_relief() {
+            let carried = match carried {
+                Carried::Uneven(carried) => Some(*carried),
+                Carried::Plane(_) => None,
+            };
+            let motion = AlongGround::from(equations, carried, point, rims_changed)?;
+            return Ok(Self::Uneven(Box::new(motion)));
+        }
+        let carried = match carried {
+            Carried::Plane(carried) => carried,
+            Carried::Uneven(_) => quasi_steady::Carried::default(),
+        };
+        let motion = QuasiSteady::from(equations, carried, point, horizon, rims_changed)?;
+        Ok(Self::Plane(Box::new(motion)))
+    }
+
+    /// Goes on for a while.
+    ///
+    /// * `span`: how long [s]
+    /// * `horizon`: how long the rims will keep their speeds [s], at least the span
+    pub(super) fn advance(
+        &mut self,
+        point: &mut Point,
+        span: f64,
+        horizon: f64,
+    ) -> Result<(), NotSteady> {
+        match self {
+            Self::Plane(motion) => motion.advance(point, span, horizon),
+            Self::Uneven(motion) => motion.advance(point, span, horizon),
+        }
+    }
+
+    /// The wheels at a point of the motion.
+    pub(super) fn wheels(&self, point: &Point) -> Vec<WheelReaction> {
+        match self {
+            Self::Plane(motion) => motion.wheels(point),
+            Self::Uneven(motion) => motion.wheels(),
+        }
+    }
+
+    /// What the next advance starts with.
+    pub(super) fn carry(self) -> Carried {
+        match self {
+            Self::Plane(motion) => Carried::Plane(motion.carry()),
+            Self::Uneven(motion) => Carried::Uneven(Box::new(motion.carry())),
+        }
+    }
+}
