@@ -13,12 +13,14 @@ pub mod footprint;
 pub mod height_field;
 pub mod soil_field;
 pub mod surface;
+pub mod zones;
 
 pub use elevation::{ElevationError, ElevationGrid, ElevationModel, Extent};
 pub use footprint::Footprint;
 pub use height_field::HeightField;
 pub use soil_field::{SoilField, SoilScatter};
 pub use surface::{AnalyticTerrain, Surface};
+pub use zones::{Share, SoilZones, ZonePolygon, ZonesError};
 
 /// Ground that a rover drives on.
 ///

@@ -27,6 +27,7 @@ pub mod reaction;
 pub mod rover;
 pub mod ruts;
 pub(crate) mod settling;
+mod several_soils;
 pub mod speed_control;
 pub mod standing;
 pub mod state;

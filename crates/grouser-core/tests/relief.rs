@@ -17,7 +17,11 @@ use grouser_core::vehicle::{Rover, Suspension};
 /// The scenario on ground with heights in place of its plane.
 fn over(scenario: &Scenario, ground: Landscape, start: Vec2) -> Scenario {
     let site = Site::plane(scenario.site.terrain.soil, 0.0, scenario.site.gravity);
-    Scenario { site, terrain: Some(PlacedTerrain { ground, start }), ..scenario.clone() }
+    Scenario {
+        site,
+        terrain: Some(PlacedTerrain { ground, start, soils: None }),
+        ..scenario.clone()
+    }
 }
 
 fn surface(scenario: &Scenario, surface: Surface) -> Landscape {

@@ -298,7 +298,7 @@ fn twisted_ground_loads_a_rigid_rover_across_and_turns_rockers() {
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
             differences: scenario.differences(),
-            relief: Some(Relief { terrain: &terrain, origin: Vec2::zeros() }),
+            relief: Some(Relief { terrain: &terrain, origin: Vec2::zeros(), soils: None }),
         };
         let posture = reaction.standing_posture(&RoverState::default()).expect("it stands");
         let slips = [Slip::on_test_stand(0.2, 0.0); 4];

@@ -2,7 +2,7 @@
 //!
 //! The steady state depends on place and yaw, so there is no table of it ([`quasi_steady`](super::quasi_steady)): a stride is a
 //! step of the midpoint rule, with a steady state in its middle and at its end, each sought from the one before. It is as
-//! long as the ground's curvature lets it be, and no longer than a wheel's radius. What is looked at within a stride is
+//! long as the ground's curvature lets it be, and no longer than a wheel's radius, or half of it where soils differ by zone. What is looked at within a stride is
 //! interpolated between its ends (Hermite).
 
 use nalgebra::Vector3;
@@ -20,6 +20,10 @@ use crate::vehicle::{Mount, WheelReaction};
 const CHANGE: f64 = 0.03;
 /// A stride whose velocity changes by more than so many times that is taken again, half as long [-].
 const TOO_MUCH: f64 = 2.0;
+/// The longest stride over zones of soil, over a wheel's radius [-]: at a border the velocity changes within a footprint.
+/// Source: measured; a way of 1 m over a border is off by 0.3 mm with strides as long as the radius, by less than 0.1 mm with
+/// these.
+const BY_ZONES: f64 = 0.5;
 /// The shortest stride, over a wheel's radius [-]: below, the ground has an edge.
 const SHORTEST: f64 = 1e-3;
 
@@ -174,7 +178,8 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         let radii = self.equations.rover().mounts().iter().map(Mount::shearing_radius);
         let radius = radii.fold(f64::INFINITY, f64::min);
         let speed = self.solver.speed(&from.steady.velocities);
-        let longest = radius / speed;
+        let share = if self.equations.has_zones() { BY_ZONES } else { 1.0 };
+        let longest = share * radius / speed;
         let mut length = self.next.min(longest);
         loop {
             // A rest that is hardly one would be a stride of its own.

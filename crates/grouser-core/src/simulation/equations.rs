@@ -381,6 +381,11 @@ impl<'a> Equations<'a> {
         self.ground.relief.is_some()
     }
 
+    /// Whether the soil differs by zone.
+    pub(super) fn has_zones(&self) -> bool {
+        self.ground.relief.is_some_and(|relief| relief.soils.is_some())
+    }
+
     /// Rates of place and yaw in a state [m/s, rad/s]; none where the rover does not come to stand.
     pub(super) fn pose_rates(&self, state: &RoverState) -> Option<(Vec2, f64)> {
         let motion = self.standing(state).ok()?.motion;

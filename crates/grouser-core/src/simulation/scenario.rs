@@ -9,7 +9,7 @@ use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::site::Site;
 use crate::soil::SlopeStability;
-use crate::terrain::{AnalyticTerrain, ElevationModel, Terrain};
+use crate::terrain::{AnalyticTerrain, ElevationModel, SoilZones, Terrain};
 use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{
@@ -41,7 +41,8 @@ pub struct Scenario {
     pub rover: Rover,
     /// Where it drives.
     pub site: Site,
-    /// Heights of the ground in place of the site's plane, which then is level; the soil is the site's.
+    /// Heights of the ground in place of the site's plane, which then is level; the soil is the site's
+    /// where there are no zones of others.
     pub terrain: Option<PlacedTerrain>,
     /// The wheel–soil model.
     pub theory: Theory,
@@ -76,6 +77,8 @@ pub struct PlacedTerrain {
     pub ground: Landscape,
     /// The start of the rover, of its body's centre of mass seen from above, in the ground's coordinates [m].
     pub start: Vec2,
+    /// Zones of other soils than the site's, in the ground's coordinates, if there are any.
+    pub soils: Option<Arc<SoilZones>>,
 }
 
 /// Ground with heights.
@@ -213,7 +216,7 @@ impl Scenario {
             Landscape::Elevation(model) => &**model,
             Landscape::Analytic(surface) => &**surface,
         };
-        Some(Relief { terrain, origin: placed.start })
+        Some(Relief { terrain, origin: placed.start, soils: placed.soils.as_deref() })
     }
 
     /// How the soil below each wheel differs from that of the site.

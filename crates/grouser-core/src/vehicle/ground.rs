@@ -9,7 +9,7 @@ use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::{SettleError, Settled, Slip, WheelForces, WheelSoilModel};
 use crate::site::Site;
-use crate::terrain::{Footprint, Patch, Terrain};
+use crate::terrain::{Footprint, Patch, SoilZones, Terrain};
 use crate::units::Vec2;
 
 /// What decides the soil's reaction on a rover, besides its motion.
@@ -108,6 +108,8 @@ pub struct Relief<'a> {
     pub terrain: &'a dyn Terrain,
     /// The start of the rover in its coordinates [m].
     pub origin: Vec2,
+    /// Zones of other soils than the site's, if there are any.
+    pub soils: Option<&'a SoilZones>,
 }
 
 impl Terrain for Relief<'_> {

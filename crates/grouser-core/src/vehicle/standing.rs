@@ -12,12 +12,13 @@ use nalgebra::{DMatrix, DVector};
 use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load::Tipping;
 use super::posture::{Posture, StandingMotion};
+use super::several_soils::Met;
 use super::state::RoverState;
 use super::statics::{Balance, Resultant};
 use crate::contact::{Contact, LoadedWheel, Settled, Slip, WheelForces, settle_each};
 use crate::elementary::wide::atan2;
 use crate::soil::Soil;
-use crate::terrain::{Footprint, Patch, Terrain};
+use crate::terrain::{Footprint, Patch, Share, Terrain};
 use crate::units::{Vec2, Vec3};
 use crate::{newton, root};
 
@@ -129,8 +130,8 @@ impl Ground<'_> {
         /// This is enough where rounding lets steps become no shorter [-].
         const NEARLY: f64 = 1e-11;
         let weight = self.rover.mass() * self.site.gravity;
-        let contacts = self.contacts(posture, slips);
-        let sought = Sought { ground: self, posture, contacts, weight: weight * up, near };
+        let met = self.met(posture, slips);
+        let sought = Sought { ground: self, posture, met, weight: weight * up, near };
         let forces: Vec<WheelForces> = forces_of(near).copied().collect();
         let guess = if near.is_empty() {
             DVector::from_vec(sought.balanced(&forces)?)
@@ -190,17 +191,32 @@ impl Ground<'_> {
     }
 
     /// What each wheel meets.
-    fn contacts(&self, posture: &Posture, slips: &[Slip]) -> Vec<Contact> {
+    fn met(&self, posture: &Posture, slips: &[Slip]) -> Vec<Met> {
         let Self { rover, site, ref differences, .. } = *self;
         let ruts = differences.ruts.of_wheels(rover, slips);
         let each = posture.wheels.iter().zip(rover.mounts()).zip(slips).enumerate();
         each.map(|(number, ((standing, mount), slip))| {
-            let soil = site.terrain.soil(standing.at, standing.footprint);
+            let own = site.terrain.soil(standing.at, standing.footprint);
             let normal = standing.normal;
             let steepness = normal.xy().norm() / normal.z;
             let rut = ruts.as_ref().map(|ruts| ruts[number]);
-            let soil = differences.soil_on(steepness, number, standing.at, rut, &soil);
-            Contact { wheel: mount.unit.wheel, soil, slip: *slip, gravity: site.gravity }
+            let on_slope =
+                |soil: &Soil| differences.soil_on(steepness, number, standing.at, rut, soil);
+            let met = |soil| {
+                Met::one(Contact {
+                    wheel: mount.unit.wheel,
+                    soil,
+                    slip: *slip,
+                    gravity: site.gravity,
+                })
+            };
+            let zoned = self.relief.and_then(|relief| Some((relief.soils?, relief.origin)));
+            let Some((zones, origin)) = zoned else { return met(on_slope(&own)) };
+            let shares = zones.under(origin, standing.at, standing.footprint);
+            let soils = shares
+                .iter()
+                .map(|Share { soil, weight }| (on_slope(soil.unwrap_or(&own)), *weight));
+            met(on_slope(&own)).on(soils.collect())
         })
         .collect()
     }
@@ -210,17 +226,19 @@ impl Ground<'_> {
     /// * `near`: a sinkage near which each is expected [m]
     fn settle_standing(
         &self,
-        contacts: &[Contact],
+        met: &[Met],
         loads: &[f64],
         near: impl Fn(usize) -> Option<f64>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let loaded: Vec<LoadedWheel<'_>> = contacts
+        let mixtures: Vec<_> = met.iter().map(|met| met.mixture(self.model)).collect();
+        let loaded: Vec<LoadedWheel<'_>> = met
             .iter()
+            .zip(&mixtures)
             .zip(loads)
             .enumerate()
-            .map(|(wheel, (contact, load))| LoadedWheel {
-                model: self.model,
-                contact,
+            .map(|(wheel, ((met, mixture), load))| LoadedWheel {
+                model: mixture.as_ref().map_or(self.model, |mixture| mixture),
+                contact: met.contact(),
                 load: load.max(0.0),
                 guess: near(wheel),
             })
@@ -244,7 +262,7 @@ impl Ground<'_> {
 struct Sought<'a> {
     ground: &'a Ground<'a>,
     posture: &'a Posture,
-    contacts: Vec<Contact>,
+    met: Vec<Met>,
     /// m g, against gravity [N].
     weight: Vec3,
     /// The wheels in a motion nearby, or none.
@@ -258,7 +276,7 @@ impl Sought<'_> {
         loads: &DVector<f64>,
     ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
         let near = |wheel: usize| self.near.get(wheel).map(|near| near.settled.sinkage);
-        let wheels = self.ground.settle_standing(&self.contacts, loads.as_slice(), near)?;
+        let wheels = self.ground.settle_standing(&self.met, loads.as_slice(), near)?;
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
         let balanced = DVector::from_vec(self.balanced(&forces)?);
         let next = match self.warp() {
@@ -328,7 +346,7 @@ impl Sought<'_> {
         let under = |along: f64| {
             let loads = balanced + along * &mode;
             // From no guess: what a guess leaves in the last digits disturbs an integrator's steps.
-            self.ground.settle_standing(&self.contacts, loads.as_slice(), |_| None)
+            self.ground.settle_standing(&self.met, loads.as_slice(), |_| None)
         };
         let least = under(0.0)?;
         let failure = Cell::new(None);

@@ -2,6 +2,7 @@
 
 mod elevation;
 mod surface;
+mod zones;
 
 #[path = "../../examples/by_hand/hakuto.rs"]
 #[allow(dead_code, unused_imports, reason = "of the rover only its sand is needed here")]

@@ -57,7 +57,7 @@ impl ElevationGrid {
     }
 
     /// The number of points of a grid that can have a model.
-    pub(super) fn checked_points(&self) -> Result<usize, ElevationError> {
+    pub(in crate::terrain) fn checked_points(&self) -> Result<usize, ElevationError> {
         let Self { columns, rows, south_west, spacing } = *self;
         if columns < 2 || rows < 2 {
             return Err(ElevationError::TooFewPoints { columns, rows });
@@ -79,7 +79,7 @@ impl ElevationGrid {
     }
 
     /// A way [m] in cells, to the east and to the north.
-    pub(super) fn cells(&self, way: Vec2) -> [f64; 2] {
+    pub(in crate::terrain) fn cells(&self, way: Vec2) -> [f64; 2] {
         [way.x / self.spacing.x, way.y / self.spacing.y]
     }
 
