@@ -52,7 +52,7 @@ fn beyond(turn: f64, soil: Soil) -> SoilZones {
     let (sin, cos) = turn.sin_cos();
     let corner = |x: f64, y: f64| Vec2::new(BORDER + cos * x - sin * y, sin * x + cos * y);
     let ring = vec![corner(0.0, -9.0), corner(9.0, -9.0), corner(9.0, 9.0), corner(0.0, 9.0)];
-    let polygon = ZonePolygon { soil: 0, rings: vec![ring] };
+    let polygon = ZonePolygon { soil: Some(0), rings: vec![ring] };
     SoilZones::from_polygons(&[polygon], vec![soil]).expect("zones")
 }
 
@@ -85,7 +85,7 @@ fn zones_of_the_same_soil_change_no_bit() {
             let soil = plain.site.terrain.soil;
             let [low, high] = [Vec2::new(-5.0, -5.0), Vec2::new(5.0, 5.0)];
             let ring = vec![low, Vec2::new(5.0, -5.0), high, Vec2::new(-5.0, 5.0)];
-            let everywhere = ZonePolygon { soil: 0, rings: vec![ring] };
+            let everywhere = ZonePolygon { soil: Some(0), rings: vec![ring] };
             let same = SoilZones::from_polygons(&[everywhere], vec![soil]).expect("zones");
             assert!(run(&with(plain.clone(), same)).records == without);
             // A quasi-steady run takes shorter strides over zones.
@@ -225,7 +225,7 @@ fn a_turned_and_moved_map_of_zones_gives_the_same_run() {
             let ground = Landscape::Elevation(Arc::new(model));
             let ring = [(0.3, -1.0), (0.7, -0.6), (0.8, 2.0), (0.35, 0.9)];
             let ring = ring.map(|(x, y)| turned(Vec2::new(x, y))).to_vec();
-            let polygon = ZonePolygon { soil: 0, rings: vec![ring] };
+            let polygon = ZonePolygon { soil: Some(0), rings: vec![ring] };
             let soils = SoilZones::from_polygons(&[polygon], vec![loose()]).expect("zones");
             scenario.terrain =
                 Some(PlacedTerrain { ground, start: middle, soils: Some(Arc::new(soils)) });
@@ -252,7 +252,7 @@ fn polygons_and_the_raster_of_them_give_the_same_run() {
     let plain = on_slope(deg(5.0), Approach::Dynamic);
     let [low, high] = [Vec2::new(0.45, -0.5), Vec2::new(0.85, 0.1)];
     let ring = vec![low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-    let polygon = ZonePolygon { soil: 0, rings: vec![ring] };
+    let polygon = ZonePolygon { soil: Some(0), rings: vec![ring] };
     let by_polygons = SoilZones::from_polygons(&[polygon], vec![loose()]).expect("zones");
     let south_west = Vec2::new(-0.5, -1.0) + Vec2::new(0.025, 0.025);
     let grid = ElevationGrid { columns: 60, rows: 40, south_west, spacing: Vec2::new(0.05, 0.05) };

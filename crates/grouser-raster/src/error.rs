@@ -3,7 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grouser_core::terrain::ElevationError;
+use grouser_core::terrain::zones::MOST_SOILS;
+use grouser_core::terrain::{ElevationError, Extent, ZonesError};
+
+use crate::zones::key::{ZoneKey, listed};
 
 /// A file that cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -167,6 +170,91 @@ pub enum Fault {
         /// Rows.
         rows: u64,
     },
+    /// More classes or names than zones can have.
+    #[error(
+        "has {zones} classes or more, and zones have at most {MOST_SOILS} soils\nhint: class numbers are wanted, not heights; gdal_calc.py groups them"
+    )]
+    TooManyZones {
+        /// How many.
+        zones: usize,
+    },
+    /// A cell that is no class.
+    #[error(
+        "the cell at x = {x} m, y = {y} m is {number}, and class numbers are whole\nhint: gdalwarp -r near IN.tif OUT.tif keeps them whole where it projects"
+    )]
+    NoClass {
+        /// Its number.
+        number: f64,
+        /// To the east [m].
+        x: f64,
+        /// To the north [m].
+        y: f64,
+    },
+    /// Classes without a soil.
+    #[error("the legend has no soil for: {}", listed(keys))]
+    NotInLegend {
+        /// What the file calls them.
+        keys: Vec<ZoneKey>,
+    },
+    /// Text that is no GeoJSON.
+    #[error("is no GeoJSON: {problem}")]
+    GeoJson {
+        /// What is wrong with it, and where.
+        problem: String,
+    },
+    /// A large text.
+    #[error(
+        "is larger than {} MiB\nhint: ogr2ogr -simplify TOLERANCE -spat WEST SOUTH EAST NORTH OUT.geojson IN.geojson",
+        limit >> 20
+    )]
+    LargeGeoJson {
+        /// The most that is read [bytes].
+        limit: u64,
+    },
+    /// A geometry by itself, or something else.
+    #[error(
+        "is of type {kind}, and polygons with a property \"soil\" are a Feature or a FeatureCollection"
+    )]
+    NoFeatures {
+        /// Its type.
+        kind: String,
+    },
+    /// A feature that is no zone.
+    #[error("feature {number}, counted from 1: {problem}")]
+    Feature {
+        /// Which.
+        number: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A coordinate system of longitude and latitude.
+    #[error(
+        "its coordinates are degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+    )]
+    SystemInDegrees {
+        /// The system's name.
+        name: String,
+    },
+    /// Numbers that are longitude and latitude.
+    #[error(
+        "its coordinates look like degrees of longitude and latitude: none lies on the ground, and all are within ±360 and ±90\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+    )]
+    ZonesInDegrees,
+    /// Zones of another place.
+    #[error(
+        "none of its zones lies on the ground: they are within x = {} to {} m, y = {} to {} m, and the heights within x = {} to {} m, y = {} to {} m\nhint: both need the same projection; gdalsrsinfo FILE shows it",
+        zones.south_west.x, zones.north_east.x, zones.south_west.y, zones.north_east.y,
+        ground.south_west.x, ground.north_east.x, ground.south_west.y, ground.north_east.y
+    )]
+    Elsewhere {
+        /// What the zones span.
+        zones: Extent,
+        /// What the heights span.
+        ground: Extent,
+    },
+    /// No zones.
+    #[error("{0}")]
+    Zones(#[from] ZonesError),
     /// A grid without an elevation model.
     #[error("{0}")]
     Elevation(#[from] ElevationError),

@@ -18,7 +18,7 @@ use tiff_reader::{ByteOrder, Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSam
 use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{Raster, ReadOptions};
+use crate::{Content, Raster, ReadOptions};
 use metadata::Scaling;
 use reference::Georeference;
 
@@ -93,7 +93,7 @@ fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Rast
     let ifd = image(tiff)?;
     let (columns, rows) = (u64::from(ifd.width()), u64::from(ifd.height()));
     let cells = checked_cells(columns, rows, options.cells)?;
-    check_samples(ifd)?;
+    check_samples(ifd, options.content)?;
     check_order(tiff, ifd)?;
     let layout = ifd.raster_layout()?;
     let band = chosen_band(layout.samples_per_pixel, options)?;
@@ -170,7 +170,7 @@ fn check_order(tiff: &TiffFile, ifd: &Ifd) -> Result<(), Fault> {
 }
 
 /// That cells are real numbers, not colours.
-fn check_samples(ifd: &Ifd) -> Result<(), Fault> {
+fn check_samples(ifd: &Ifd, content: Content) -> Result<(), Fault> {
     /// Sample formats of complex numbers, of whole and of real parts.
     const COMPLEX: [u16; 2] = [5, 6];
     /// Photometric interpretations of TIFF 6.0: white or black is zero.
@@ -185,6 +185,7 @@ fn check_samples(ifd: &Ifd) -> Result<(), Fault> {
         // Several bands without a meaning are often called red, green and blue.
         None | Some(RGB) => Ok(()),
         Some(grey) if GREY.contains(&grey) => Ok(()),
+        Some(PALETTE) if content == Content::Classes => Ok(()),
         Some(PALETTE) => Err(Fault::Samples { samples: "numbers of colours".into() }),
         Some(other) => Err(Fault::Samples { samples: format!("colours (interpretation {other})") }),
     }

@@ -1,4 +1,4 @@
-//! Elevation models from files: GeoTIFF, NumPy arrays and xyz text.
+//! Elevation models, and zones of soil, from files: GeoTIFF, NumPy arrays, xyz text and GeoJSON.
 //!
 //! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a grid, with
 //! the file's coordinate system, which is carried along and not interpreted. [`Raster::model`] makes the
@@ -9,6 +9,9 @@
 //! | [GeoTIFF](geotiff) | tiles and strips, cloud-optimised at full resolution, BigTIFF; deflate, LZW, LERC, Zstandard; real and whole numbers | of the file: projected, in metres, north up |
 //! | [`.npy`](npy) | versions 1 to 3, row by row or column by column, either byte order; real and whole numbers | [`Placement`] |
 //! | [xyz] | a point in each line, in any order | of the file, in metres |
+//!
+//! [`read_zones`] reads which soil lies where: class numbers from the same formats, or polygons from
+//! [GeoJSON](zones::geojson).
 //!
 //! What a file promises is compared with its length and with [`ReadOptions::cells`] before memory is taken
 //! for it. A file that cannot be used gives a [`RasterError`] that says what to do.
@@ -43,9 +46,11 @@ mod options;
 mod raster;
 mod read;
 pub mod xyz;
+pub mod zones;
 
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use error::{Fault, RasterError};
-pub use options::{CELLS, Placement, ReadOptions, RowOrder};
+pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;
+pub use zones::{ZoneKey, ZoneMap, read_zones};

@@ -11,17 +11,29 @@ pub const CELLS: u64 = 1 << 28;
 pub struct ReadOptions {
     /// Where a grid lies whose file does not say so: `.npy`, or a TIFF without a georeference.
     pub placement: Option<Placement>,
-    /// Which band of a GeoTIFF has the heights, from 1; needed where it has several.
+    /// Which band of a GeoTIFF has the heights or classes, from 1; needed where it has several.
     pub band: Option<usize>,
     /// A height that stands for a missing one, beside those that the file declares [m].
     pub missing: Option<f64>,
     /// The most cells that are read.
     pub cells: u64,
+    /// What the cells are.
+    pub content: Content,
+}
+
+/// What the cells of a file are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Content {
+    /// Heights [m].
+    #[default]
+    Heights,
+    /// Class numbers, which may be those of a palette.
+    Classes,
 }
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { placement: None, band: None, missing: None, cells: CELLS }
+        Self { placement: None, band: None, missing: None, cells: CELLS, content: Content::Heights }
     }
 }
 

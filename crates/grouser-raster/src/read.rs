@@ -29,7 +29,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
 }
 
 /// The first bytes of a file.
-fn start_of(path: &Path) -> Result<Vec<u8>, Fault> {
+pub(crate) fn start_of(path: &Path) -> Result<Vec<u8>, Fault> {
     const BYTES: u64 = 64;
     let mut start = Vec::new();
     File::open(path)?.take(BYTES).read_to_end(&mut start)?;

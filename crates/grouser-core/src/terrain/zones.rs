@@ -46,7 +46,7 @@ use polygons::PolygonZones;
 ///
 /// let corners = [(2.0, -5.0), (9.0, -5.0), (9.0, 5.0), (2.0, 5.0)];
 /// let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
-/// let zones = SoilZones::from_polygons(&[ZonePolygon { soil: 0, rings }], vec![hakuto::sand()])?;
+/// let zones = SoilZones::from_polygons(&[ZonePolygon { soil: Some(0), rings }], vec![hakuto::sand()])?;
 /// let wheel = Footprint { forward: Vec2::x(), half_length: 0.05, half_width: 0.04 };
 /// let shares = zones.under(Vec2::zeros(), Vec2::new(1.99, 0.0), wheel);
 /// let passed = shares.iter().find(|share| share.soil.is_some()).map(|share| share.weight);
@@ -97,8 +97,9 @@ impl SoilZones {
     /// [`ZonesError`] for a polygon with coordinates that are not finite, and for a soil that is none.
     pub fn from_polygons(polygons: &[ZonePolygon], soils: Vec<Soil>) -> Result<Self, ZonesError> {
         check(&soils)?;
-        if let Some(polygon) = polygons.iter().find(|polygon| polygon.soil >= soils.len()) {
-            return Err(ZonesError::NoSoil { zone: polygon.soil, soils: soils.len() });
+        let mut named = polygons.iter().filter_map(|polygon| polygon.soil);
+        if let Some(zone) = named.find(|zone| *zone >= soils.len()) {
+            return Err(ZonesError::NoSoil { zone, soils: soils.len() });
         }
         Ok(Self { map: Map::Polygons(PolygonZones::new(polygons)?), soils })
     }

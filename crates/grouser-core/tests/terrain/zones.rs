@@ -33,7 +33,7 @@ fn wheel(heading: f64) -> Footprint {
 
 fn rectangle(soil: usize, low: (f64, f64), high: (f64, f64)) -> ZonePolygon {
     let corners = [(low.0, low.1), (high.0, low.1), (high.0, high.1), (low.0, high.1)];
-    ZonePolygon { soil, rings: vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()] }
+    ZonePolygon { soil: Some(soil), rings: vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()] }
 }
 
 /// Numbers from 0 to 1 that repeat: a linear congruence by Knuth's constants.
@@ -122,7 +122,7 @@ fn shares_of_crossing_polygons_are_those_of_small_pieces() {
         let polygons: Vec<ZonePolygon> = (0..3)
             .map(|soil| {
                 let ring = (0..5).map(|_| random_place(&mut random, 0.3)).collect();
-                ZonePolygon { soil, rings: vec![ring] }
+                ZonePolygon { soil: Some(soil), rings: vec![ring] }
             })
             .collect();
         let zones = SoilZones::from_polygons(&polygons, soils(3)).expect("zones");
@@ -188,7 +188,7 @@ fn shares_turn_and_move_with_the_map() {
         let (sin, cos) = sin_cos(turn);
         let turned = |at: Vec2| Vec2::new(cos * at.x - sin * at.y, sin * at.x + cos * at.y);
         let shares = |origin: Vec2, ring: Vec<Vec2>, at: Vec2, heading: f64| {
-            let polygon = ZonePolygon { soil: 0, rings: vec![ring] };
+            let polygon = ZonePolygon { soil: Some(0), rings: vec![ring] };
             let zones = SoilZones::from_polygons(&[polygon], soils(1)).expect("zones");
             let shares = zones.under(origin, at, wheel(heading));
             shares.iter().filter(|it| it.soil.is_some()).map(|it| it.weight).sum::<f64>()
@@ -217,7 +217,7 @@ fn very_many_borders_below_a_wheel_are_counted_by_points() {
             Vec2::new(0.2 + 0.1 * cos, 0.2 + 0.1 * sin)
         })
         .collect();
-    let star = [ZonePolygon { soil: 1, rings: vec![star] }];
+    let star = [ZonePolygon { soil: Some(1), rings: vec![star] }];
     let star = SoilZones::from_polygons(&star, soils(2)).expect("zones");
     for zones in [&fine, &star] {
         for heading in [0.0, 0.4] {
@@ -241,7 +241,7 @@ fn what_are_no_zones_says_so() {
     assert_eq!(by_grid(vec![0, 1, 2, 0]), ZonesError::NoSoil { zone: 2, soils: 2 });
     assert_eq!(by_grid(vec![0]), ZonesError::Count { columns: 2, rows: 2, given: 1 });
     let by_polygon = |corners: Vec<Vec2>| {
-        let polygon = ZonePolygon { soil: 0, rings: vec![corners] };
+        let polygon = ZonePolygon { soil: Some(0), rings: vec![corners] };
         SoilZones::from_polygons(&[polygon], soils(1)).expect_err("wrong")
     };
     let line = vec![Vec2::zeros(), Vec2::x()];

@@ -4,6 +4,7 @@ use std::fs;
 
 use fastrand::Rng;
 use grouser_core::units::Vec2;
+use grouser_raster::zones::geojson;
 use grouser_raster::{Fault, Placement, Raster, ReadOptions, geotiff, npy, xyz};
 
 use crate::ground;
@@ -113,6 +114,35 @@ fn every_truncation_is_refused_or_read() {
 #[test]
 fn damaged_files_are_refused_or_read() {
     check_damages(USUAL);
+}
+
+/// Polygons are finite and make zones, whatever was damaged.
+#[test]
+fn damaged_geojson_is_refused_or_read() {
+    let text = br#"{"type": "FeatureCollection", "crs": {"properties": {"name": "EPSG:32633"}}, "features": [
+        {"type": "Feature", "properties": {"soil": "dune"}, "geometry": {"type": "MultiPolygon",
+            "coordinates": [[[[0, 0], [10.5, 0], [10, 1e1], [0, 0]], [[1, 1], [2, 1], [2, 2], [1, 1]]]]}},
+        {"type": "Feature", "properties": {"soil": -3}, "geometry": {"type": "Polygon",
+            "coordinates": [[[0, 0, 5], [10.5, 0, 7], [10, 10, 7], [0, 0, 5]]]}}]}"#;
+    let mut read = 0;
+    for seed in 0..USUAL {
+        let mut damaged = text.to_vec();
+        damage(&mut damaged, &mut Rng::with_seed(seed));
+        match geojson::decode(&damaged) {
+            Ok(map) => {
+                read += 1;
+                let legend: Vec<_> = map.keys().iter().map(|key| (key.clone(), None)).collect();
+                let zones = map.with_legend(&legend, Vec::new());
+                let zones = zones.unwrap_or_else(|fault| panic!("seed {seed}: {fault}"));
+                assert_eq!(zones.zone(Vec2::new(5.0, 1.0)), None);
+            }
+            Err(fault) => {
+                let text = fault.to_string();
+                assert!(!text.is_empty() && text.len() < 2_000, "seed {seed}: {text}");
+            }
+        }
+    }
+    assert!(read > 10, "{read}");
 }
 
 #[test]

@@ -5,3 +5,8 @@ mod geotiff;
 mod ground;
 mod npy;
 mod xyz;
+mod zones;
+
+#[path = "../../../grouser-core/examples/by_hand/hakuto.rs"]
+#[allow(dead_code, unused_imports, reason = "of the rover only its sand is needed here")]
+mod hakuto;

@@ -12,8 +12,8 @@ use crate::units::Vec2;
 /// Ground of one soil within rings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ZonePolygon {
-    /// Which of the soils, from 0.
-    pub soil: usize,
+    /// Which of the soils, from 0; none for the ground's own.
+    pub soil: Option<usize>,
     /// Its outline and its holes: the corners of each [m], in either sense, the last one joined to the first.
     pub rings: Vec<Vec<Vec2>>,
 }
@@ -36,7 +36,7 @@ pub(super) struct PolygonZones {
     /// In the order of polygons.
     edges: Vec<Edge>,
     /// The soil of each polygon.
-    soils: Vec<usize>,
+    soils: Vec<Option<usize>>,
     /// How high a band is [m].
     height: f64,
     /// Which of the edges reach into each band, in their order.
@@ -122,7 +122,7 @@ impl PolygonZones {
             current.1 = !current.1;
         }
         last = if current.1 { Some(current.0) } else { last };
-        last.map(|polygon| self.soils[polygon as usize])
+        last.and_then(|polygon| self.soils[polygon as usize])
     }
 
     pub(super) fn borders(&self, about: Vec2, reach: Vec2) -> Option<Vec<Border>> {

@@ -1,0 +1,63 @@
+//! Zones of soil as files: class numbers of a raster, or polygons of GeoJSON.
+//!
+//! A raster of any of the formats of [`read`](crate::read()) whose cells are whole numbers, or [GeoJSON](geojson)
+//! whose polygons have a property `soil`. [`ZoneMap`] is what the file says; a legend says which soil each
+//! number or name means.
+//!
+//! Which zone of a file lies at a place?
+//!
+//! ```
+//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::units::Vec2;
+//! use grouser_raster::zones::{ZoneKey, geojson};
+//!
+//! let file = br#"{"type": "Feature", "properties": {"soil": "dune"}, "geometry":
+//!     {"type": "Polygon", "coordinates": [[[0, 0], [900, 0], [900, 900], [0, 0]]]}}"#;
+//! let map = geojson::decode(file)?;
+//! assert_eq!(map.keys(), [ZoneKey::Name("dune".into())]);
+//! let legend = [(ZoneKey::Name("dune".into()), Some(0))];
+//! let zones = map.with_legend(&legend, vec![hakuto::sand()])?;
+//! assert_eq!(zones.zone(Vec2::new(800.0, 100.0)), Some(0));
+//! # Ok::<(), grouser_raster::Fault>(())
+//! ```
+
+mod classes;
+pub mod geojson;
+pub(crate) mod key;
+mod map;
+
+pub use key::ZoneKey;
+pub use map::ZoneMap;
+
+use std::path::Path;
+
+use grouser_core::terrain::Extent;
+
+use crate::error::{Fault, RasterError};
+use crate::read::start_of;
+use crate::{Content, ReadOptions, read};
+
+/// Reads zones from a file of any format, which its content tells.
+///
+/// * `options`: of a raster
+/// * `ground`: the extent of the heights that the zones are for, if that is known
+///
+/// # Errors
+/// [`RasterError`] with the file's name, and what to do; also for zones none of which lies on the ground.
+pub fn read_zones(
+    path: &Path,
+    options: &ReadOptions,
+    ground: Option<&Extent>,
+) -> Result<ZoneMap, RasterError> {
+    let zones = || {
+        let map = if geojson::starts_so(&start_of(path)?) {
+            geojson::read(path)?
+        } else {
+            let options = ReadOptions { content: Content::Classes, ..*options };
+            classes::of(&read(path, &options).map_err(|error| error.fault)?)?
+        };
+        map.check_place(ground)?;
+        Ok(map)
+    };
+    zones().map_err(|fault: Fault| RasterError::new(path, fault))
+}

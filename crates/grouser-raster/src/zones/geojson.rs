@@ -1,0 +1,137 @@
+//! Zones as polygons of GeoJSON (RFC 7946), in metres of the map.
+//!
+//! Features have a geometry, `Polygon` or `MultiPolygon`, and a property `soil`: a name or a class number. Later features
+//! cover earlier ones; within a polygon, a ring in a ring is a hole. By the standard, coordinates are degrees of longitude
+//! and latitude; here they are those of the map that a rover drives on, as GDAL writes them with `-t_srs`.
+
+mod syntax;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use grouser_core::units::Vec2;
+
+use self::syntax::{Coordinates, Feature, Geometry, Root};
+use super::key::ZoneKey;
+use super::map::ZoneMap;
+use crate::error::Fault;
+
+/// The largest file that is read [bytes]; polygons take some times as much memory.
+pub const LARGEST_FILE: u64 = 1 << 25;
+
+/// Whether a file that starts so is JSON.
+pub(super) fn starts_so(start: &[u8]) -> bool {
+    let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
+    start.trim_ascii_start().first() == Some(&b'{')
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// [`Fault`] if it has no polygons with soils.
+pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    decode(&bytes)
+}
+
+/// Reads what a file holds.
+///
+/// # Errors
+/// [`Fault`] if it has no polygons with soils.
+pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(Fault::LargeGeoJson { limit: LARGEST_FILE });
+    }
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let root: Root = serde_json::from_slice(text)
+        .map_err(|error| Fault::GeoJson { problem: error.to_string() })?;
+    if let Some(name) = root.system().filter(|name| is_in_degrees(name)) {
+        return Err(Fault::SystemInDegrees { name: shown(name) });
+    }
+    let features = match root.kind.as_str() {
+        "FeatureCollection" => root.features,
+        "Feature" => vec![Feature { geometry: root.geometry, properties: root.properties }],
+        kind => return Err(Fault::NoFeatures { kind: shown(kind) }),
+    };
+    let mut polygons = Vec::new();
+    for (number, feature) in (1..).zip(features) {
+        let fault = |problem: String| Fault::Feature { number, problem };
+        let key = key_of(&feature).map_err(fault)?;
+        for rings in polygons_of(feature.geometry).map_err(fault)? {
+            polygons.push((key.clone(), rings));
+        }
+    }
+    ZoneMap::of_polygons(polygons)
+}
+
+/// Whether a coordinate system of that name has degrees.
+fn is_in_degrees(name: &str) -> bool {
+    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and latitude end in two zeros.
+    let name = name.to_uppercase();
+    let of_body = name.contains("IAU") && name.ends_with("00");
+    of_body || ["CRS84", "CRS:84", ":4326", ":4979"].iter().any(|one| name.ends_with(one))
+}
+
+/// What a feature calls its soil.
+fn key_of(feature: &Feature) -> Result<ZoneKey, String> {
+    const WANTED: &str = "hint: ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson IN makes it of a property UNIT";
+    match feature.properties.as_ref().and_then(|properties| properties.soil.as_ref()) {
+        Some(syntax::Soil::Key(key)) => Ok(key.clone()),
+        Some(syntax::Soil::Other) => {
+            Err(format!("its property \"soil\" is neither a text nor a whole number\n{WANTED}"))
+        }
+        None => Err(format!("it has no property \"soil\"\n{WANTED}")),
+    }
+}
+
+/// The rings of each polygon of a geometry.
+fn polygons_of(geometry: Option<Geometry>) -> Result<Vec<Vec<Vec<Vec2>>>, String> {
+    let Some(Geometry { kind, coordinates }) = geometry else {
+        return Err("it has no geometry".to_owned());
+    };
+    let polygons = match kind.as_str() {
+        "Polygon" => vec![coordinates],
+        "MultiPolygon" => coordinates.list("polygons")?,
+        kind => {
+            let kind = shown(kind);
+            return Err(format!("its geometry is a {kind}: Polygon and MultiPolygon are zones"));
+        }
+    };
+    let rings = |polygon: Coordinates| -> Result<Vec<Vec<Vec2>>, String> {
+        (1..).zip(polygon.list("rings")?).map(|(number, ring)| ring_of(number, ring)).collect()
+    };
+    polygons.into_iter().map(rings).collect()
+}
+
+/// The corners of a ring, each once.
+fn ring_of(number: u32, ring: Coordinates) -> Result<Vec<Vec2>, String> {
+    /// Places of the smallest ring, a triangle with its first corner again.
+    const FEWEST: usize = 4;
+    let places = ring.list("places")?;
+    let mut corners =
+        places.into_iter().map(Coordinates::place).collect::<Result<Vec<Vec2>, String>>()?;
+    let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
+        return Err(format!("its ring {number} is empty"));
+    };
+    if first != last {
+        return Err(format!(
+            "its ring {number} is not closed: it begins at {}, {} and ends at {}, {}",
+            first.x, first.y, last.x, last.y
+        ));
+    }
+    if corners.len() < FEWEST {
+        let count = corners.len();
+        return Err(format!("its ring {number} has {count} places, and the smallest has {FEWEST}"));
+    }
+    corners.pop();
+    Ok(corners)
+}
+
+/// A word of the file, fit to be shown.
+fn shown(word: &str) -> String {
+    const LONGEST: usize = 60;
+    let shown: String = word.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
+    if shown.is_empty() { "nothing".to_owned() } else { shown }
+}

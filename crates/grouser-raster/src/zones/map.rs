@@ -1,0 +1,139 @@
+//! Zones before their soils are known.
+
+use grouser_core::soil::Soil;
+use grouser_core::terrain::zones::{MOST_SOILS, NO_ZONE};
+use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
+use grouser_core::units::Vec2;
+
+use super::key::ZoneKey;
+use crate::error::Fault;
+
+/// Zones as a file has them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ZoneMap {
+    /// Ascending.
+    keys: Vec<ZoneKey>,
+    shape: Shape,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    /// The number of each cell's key, or [`NO_ZONE`].
+    Cells(ElevationGrid, Vec<u8>),
+    /// Each with the number of its key in place of a soil's.
+    Polygons(Vec<ZonePolygon>, Option<Extent>),
+}
+
+impl ZoneMap {
+    /// * `keys`: ascending
+    /// * `cells`: the number of each cell's key, or [`NO_ZONE`]
+    pub(super) fn of_cells(keys: Vec<ZoneKey>, grid: ElevationGrid, cells: Vec<u8>) -> Self {
+        Self { keys, shape: Shape::Cells(grid, cells) }
+    }
+
+    /// * `polygons`: each with its key
+    pub(super) fn of_polygons(polygons: Vec<(ZoneKey, Vec<Vec<Vec2>>)>) -> Result<Self, Fault> {
+        let mut keys: Vec<ZoneKey> = polygons.iter().map(|(key, _)| key.clone()).collect();
+        keys.sort();
+        keys.dedup();
+        check_count(&keys)?;
+        let corners = || polygons.iter().flat_map(|(_, rings)| rings.iter().flatten().copied());
+        let low = corners().reduce(|one, other| one.inf(&other));
+        let high = corners().reduce(|one, other| one.sup(&other));
+        let extent = low.zip(high);
+        let extent = extent.map(|(south_west, north_east)| Extent { south_west, north_east });
+        let number = |key: &ZoneKey| keys.binary_search(key).unwrap_or(keys.len());
+        let polygons = polygons
+            .into_iter()
+            .map(|(key, rings)| ZonePolygon { soil: Some(number(&key)), rings })
+            .collect();
+        Ok(Self { keys, shape: Shape::Polygons(polygons, extent) })
+    }
+
+    /// All that the file calls its zones, ascending.
+    #[must_use]
+    pub fn keys(&self) -> &[ZoneKey] {
+        &self.keys
+    }
+
+    /// The corners of all zones; none if the file has no zone.
+    #[must_use]
+    pub fn extent(&self) -> Option<Extent> {
+        match &self.shape {
+            Shape::Cells(grid, _) => Some(grid.extent()),
+            Shape::Polygons(_, extent) => *extent,
+        }
+    }
+
+    /// The zones with their soils.
+    ///
+    /// * `legend`: for each key which of the soils it means, or none for the scenario's own
+    ///
+    /// # Errors
+    /// [`Fault::NotInLegend`] with all keys of the file that the legend does not have.
+    pub fn with_legend(
+        self,
+        legend: &[(ZoneKey, Option<usize>)],
+        soils: Vec<Soil>,
+    ) -> Result<SoilZones, Fault> {
+        let meaning =
+            |key: &ZoneKey| legend.iter().find(|(of, _)| of == key).map(|(_, soil)| *soil);
+        let missing: Vec<_> =
+            self.keys.iter().filter(|key| meaning(key).is_none()).cloned().collect();
+        if !missing.is_empty() {
+            return Err(Fault::NotInLegend { keys: missing });
+        }
+        let soil_of: Vec<Option<usize>> =
+            self.keys.iter().map(|key| meaning(key).flatten()).collect();
+        Ok(match self.shape {
+            Shape::Cells(grid, mut cells) => {
+                let number = |soil: Option<usize>| {
+                    soil.map_or(Some(NO_ZONE), |soil| u8::try_from(soil).ok())
+                };
+                let too_many = Fault::TooManyZones { zones: soils.len() };
+                let numbers: Option<Vec<u8>> = soil_of.iter().map(|soil| number(*soil)).collect();
+                let numbers = numbers.ok_or(too_many)?;
+                for cell in cells.iter_mut().filter(|cell| **cell != NO_ZONE) {
+                    *cell = numbers[usize::from(*cell)];
+                }
+                SoilZones::from_grid(grid, cells, soils)?
+            }
+            Shape::Polygons(polygons, _) => {
+                let of_soil = polygons.into_iter().map(|ZonePolygon { soil, rings }| ZonePolygon {
+                    soil: soil.and_then(|key| soil_of[key]),
+                    rings,
+                });
+                SoilZones::from_polygons(&of_soil.collect::<Vec<_>>(), soils)?
+            }
+        })
+    }
+
+    /// That some of the zones lie on the ground that they are for.
+    pub(super) fn check_place(&self, ground: Option<&Extent>) -> Result<(), Fault> {
+        let (Some(ground), Some(zones)) = (ground, self.extent()) else { return Ok(()) };
+        let apart = zones.south_west.x > ground.north_east.x
+            || zones.south_west.y > ground.north_east.y
+            || zones.north_east.x < ground.south_west.x
+            || zones.north_east.y < ground.south_west.y;
+        if !apart {
+            return Ok(());
+        }
+        let are_degrees = zones.south_west.x >= -360.0
+            && zones.north_east.x <= 360.0
+            && zones.south_west.y >= -90.0
+            && zones.north_east.y <= 90.0;
+        Err(if are_degrees {
+            Fault::ZonesInDegrees
+        } else {
+            Fault::Elsewhere { zones, ground: *ground }
+        })
+    }
+}
+
+/// That there are no more zones than can be told apart.
+pub(super) fn check_count(keys: &[ZoneKey]) -> Result<(), Fault> {
+    if keys.len() > MOST_SOILS {
+        return Err(Fault::TooManyZones { zones: keys.len() });
+    }
+    Ok(())
+}
