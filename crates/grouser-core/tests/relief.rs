@@ -12,7 +12,7 @@ use grouser_core::site::Site;
 use grouser_core::terrain::surface::{AnalyticTerrain, Cone, Incline, Ripple, Surface};
 use grouser_core::terrain::{ElevationGrid, ElevationModel};
 use grouser_core::units::{Vec2, deg};
-use grouser_core::vehicle::{Rover, Suspension};
+use grouser_core::vehicle::{Rover, Ruts, Suspension};
 
 /// The scenario on ground with heights in place of its plane.
 fn over(scenario: &Scenario, ground: Landscape, start: Vec2) -> Scenario {
@@ -108,6 +108,34 @@ fn a_tilted_plane_is_the_plane() {
             let (climbed, rose) =
                 (rise(&on_plane.records[0], one), rise(&on_relief.records[0], other));
             assert!((climbed - rose).abs() < 1e-3 * one.energy.motors, "{climbed} and {rose}");
+        }
+    }
+}
+
+/// Wheels that follow in ruts meet soil as compacted on ground with heights as on the plane, uphill, where all of them do, and
+/// across, where the rover's yaw decides how much of a wheel is in the rut.
+#[test]
+fn ruts_on_a_tilted_plane_are_those_of_the_plane() {
+    for mut plane in scenarios() {
+        plane.duration = 10.0;
+        for (yaw, is_all) in [(deg(90.0), true), (deg(4.0), false)] {
+            plane.start.yaw = yaw;
+            let slope = plane.site.terrain.slope;
+            let end = |ruts: Ruts| {
+                let plane = Scenario { ruts, ..plane.clone() };
+                let incline = Incline { slope, uphill: deg(90.0) };
+                let ground = surface(&plane, Surface::Incline(incline));
+                let mut over = over(&plane, ground, Vec2::zeros());
+                over.start.yaw = (yaw.sin() * slope.cos()).atan2(yaw.cos());
+                let place = run(&over).last().state.position;
+                let on_plane = run(&plane).last().state.position;
+                (on_plane, Vec2::new(place.x, place.y / slope.cos()))
+            };
+            let [(fresh, _), (rutted, over)] = [Ruts::Fresh, Ruts::Compacted].map(end);
+            let by_ruts = (rutted - fresh).norm();
+            assert!(by_ruts > if is_all { 5e-3 } else { 5e-4 }, "{by_ruts}");
+            let off = (over - rutted).norm();
+            assert!(off < 0.01 * by_ruts, "{off:e} m off, ruts move by {by_ruts:e} m");
         }
     }
 }

@@ -181,6 +181,8 @@ impl Scenario {
     /// [`ParameterError`] for the first value that is wrong.
     pub fn check(&self) -> Result<(), ParameterError> {
         self.site.check()?;
+        let zones = self.terrain.as_ref().and_then(|placed| placed.soils.as_ref());
+        zones.map_or(Ok(()), |zones| zones.check())?;
         self.drive.check(&self.rover)?;
         self.by_wheel.check(self.rover.wheel_count())?;
         self.scatter.check()?;

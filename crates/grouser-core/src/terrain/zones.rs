@@ -12,8 +12,11 @@ pub use error::ZonesError;
 pub use number::{MOST_SOILS, NO_ZONE};
 pub use polygons::ZonePolygon;
 
+use std::sync::Arc;
+
 use super::elevation::ElevationGrid;
 use super::footprint::Footprint;
+use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::units::Vec2;
 use grid::GridZones;
@@ -55,7 +58,7 @@ use polygons::PolygonZones;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoilZones {
-    map: Map,
+    map: Arc<Map>,
     soils: Vec<Soil>,
 }
 
@@ -88,7 +91,7 @@ impl SoilZones {
         if let Some(zone) = named.copied().find(|zone| usize::from(*zone) >= soils.len()) {
             return Err(ZonesError::NoSoil { zone: zone.into(), soils: soils.len() });
         }
-        Ok(Self { map: Map::Grid(GridZones::new(grid, zones)?), soils })
+        Ok(Self { map: Arc::new(Map::Grid(GridZones::new(grid, zones)?)), soils })
     }
 
     /// Zones of polygons; a later one covers those before it.
@@ -101,13 +104,26 @@ impl SoilZones {
         if let Some(zone) = named.find(|zone| *zone >= soils.len()) {
             return Err(ZonesError::NoSoil { zone, soils: soils.len() });
         }
-        Ok(Self { map: Map::Polygons(PolygonZones::new(polygons)?), soils })
+        Ok(Self { map: Arc::new(Map::Polygons(PolygonZones::new(polygons)?)), soils })
     }
 
     /// The soils.
     #[must_use]
     pub fn soils(&self) -> &[Soil] {
         &self.soils
+    }
+
+    /// The same, to be changed: a clone with other soils shares the places.
+    pub fn soils_mut(&mut self) -> &mut [Soil] {
+        &mut self.soils
+    }
+
+    /// That there can be such soils.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first value that is wrong.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.soils.iter().try_for_each(Soil::check)
     }
 
     /// Which of the soils lies at a place [m]; none where there is no zone.

@@ -9,8 +9,9 @@
 //!
 //! with the distance L of both wheels and the angle γ_track between the line through them and the way. Nothing is
 //! remembered: the way is taken to be straight as the rover moves now, which holds for steady motion on a plane. A rover
-//! that has just turned, or set out, has ruts here that it has not made yet. The bottom of a rut, λh below the surface,
-//! counts as the ground of the wheel that rolls in it; the pose does not follow those few millimetres.
+//! that has just turned, or set out, has ruts here that it has not made yet. On uneven ground distances between wheels are
+//! those in the body's plane. The bottom of a rut, λh below the surface, counts as the ground of the wheel that rolls in it; the
+//! pose does not follow those few millimetres.
 
 use super::parts::Mount;
 use super::rover::Rover;
