@@ -195,7 +195,7 @@ pub(crate) struct PartArgs {
     pub(crate) soil: Option<String>,
 }
 
-/// Rover, soil and slope of a run.
+/// Rover, soil and ground of a run.
 #[derive(Debug, Args)]
 pub(crate) struct SlopeArgs {
     #[command(flatten)]
@@ -203,6 +203,23 @@ pub(crate) struct SlopeArgs {
     /// Inclination of the slope [°].
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
+    #[command(flatten)]
+    pub(crate) terrain: TerrainArgs,
+}
+
+/// Ground with heights, in place of a slope.
+#[derive(Debug, Args)]
+pub(crate) struct TerrainArgs {
+    /// A map of heights to drive on: a GeoTIFF in metres, `.npy`, or text with x, y and z in each line. Places
+    /// and the yaw are then the map's: x east, y north, yaw from east to the left.
+    #[arg(long, value_name = "FILE", conflicts_with = "slope_deg")]
+    pub(crate) terrain: Option<String>,
+    /// Where the body's centre of mass is at the start, on the map [m]; without it the map's middle.
+    #[arg(long, value_name = "X", requires = "start_y_m", allow_negative_numbers = true)]
+    pub(crate) start_x_m: Option<f64>,
+    /// The same, to the north [m].
+    #[arg(long, value_name = "Y", requires = "start_x_m", allow_negative_numbers = true)]
+    pub(crate) start_y_m: Option<f64>,
 }
 
 /// How a run is computed, and what else is made of it.

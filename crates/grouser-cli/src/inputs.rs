@@ -21,7 +21,7 @@ pub(crate) use self::heading::{heading, heading_map};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::traverse::traverse;
-use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs};
+use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 
@@ -218,6 +218,26 @@ fn run_settings(
     }
     if let Some(slope) = &slope.slope_deg {
         overrides.flag("--slope-deg", &format!("{kind}.slope_deg"), slope)?;
+    }
+    terrain_settings(overrides, kind, &slope.terrain)
+}
+
+/// The flags of ground with heights, which stands in place of a document's ground.
+fn terrain_settings(
+    overrides: &mut Overrides,
+    kind: Kind,
+    args: &TerrainArgs,
+) -> Result<(), Failure> {
+    if let Some(file) = &args.terrain {
+        overrides.leave_out(kind, &["terrain"]);
+        overrides.leave_out(kind, &["slope_deg"]);
+        // What a flag names is looked for from here, not from the document's folder.
+        overrides.flag_text("--terrain", &format!("{kind}.terrain.file"), file)?;
+    }
+    if let (Some(x), Some(y)) = (args.start_x_m, args.start_y_m) {
+        let written = format!("{x} --start-y-m {y}");
+        let key = format!("{kind}.terrain.start_m");
+        overrides.flag_numbers("--start-x-m", &key, &written, &[x, y])?;
     }
     Ok(())
 }

@@ -159,7 +159,7 @@ pub(crate) fn did_you_mean(keys: &[impl AsRef<str>]) -> Option<String> {
 }
 
 /// The keys that choose among tables; a table has one of them.
-const LAWS: [&str; 2] = ["law", "distribution"];
+const LAWS: [&str; 3] = ["law", "distribution", "surface"];
 
 /// The key that chooses among some tables.
 fn law_key(tables: &[&Json]) -> &'static str {

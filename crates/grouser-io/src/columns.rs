@@ -85,6 +85,12 @@ pub const TIME: Quantity = quantity("time_s", S);
 pub const X: Quantity = quantity("x_m", M);
 /// Uphill.
 pub const Y: Quantity = quantity("y_m", M);
+/// Height on a map.
+pub const Z: Quantity = quantity("z_m", M);
+/// Roll of the body, positive with its right side down.
+pub const ROLL: Quantity = quantity("roll_deg", DEG);
+/// Pitch of the body, positive with its nose up.
+pub const PITCH: Quantity = quantity("pitch_deg", DEG);
 /// Slope of the ground.
 pub const SLOPE: Quantity = quantity("slope_deg", DEG);
 /// The steepest slope.

@@ -12,6 +12,7 @@ pub(crate) mod rover;
 pub(crate) mod run;
 pub(crate) mod scenario;
 pub(crate) mod soil;
+pub(crate) mod terrain;
 pub(crate) mod uncertainty;
 pub(crate) mod wheel;
 

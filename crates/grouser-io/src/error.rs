@@ -235,6 +235,9 @@ pub enum Problem {
     /// A file of legs that is none.
     #[error("not a file of legs: {0}")]
     NoLegs(String),
+    /// A map of heights that is none, or a place beyond it.
+    #[error("{0}")]
+    NoTerrain(String),
     /// Parts of a document that do not go together.
     #[error("{0}")]
     Conflict(&'static str),

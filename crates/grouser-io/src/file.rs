@@ -74,6 +74,14 @@ pub fn broken_link(path: &Path) -> Option<PathBuf> {
     is_broken.then(|| fs::read_link(path).ok()).flatten()
 }
 
+/// That a path leads to a file that ends, for those who open it themselves.
+///
+/// # Errors
+/// As [`read`].
+pub(crate) fn check_regular(path: &Path) -> Result<(), FileProblem> {
+    open(path).map(drop)
+}
+
 /// Opens a file without waiting.
 fn open(path: &Path) -> Result<File, FileProblem> {
     let failed = |error: io::Error| failed(path, &error);

@@ -65,6 +65,7 @@ mod source;
 mod stated;
 pub mod statistics;
 pub mod table;
+mod terrain_file;
 mod text;
 mod tree;
 mod uncertain_soil;

@@ -1,7 +1,9 @@
 //! Missions as documents say them: legs with keys, each of which becomes a leg with a manoeuvre.
 
-use super::columns::{CURRENT, ENERGY, Quantity, SLIP_RATIO, TEMPERATURE, TIME, TORQUE, quantity};
-use super::unit::{DEG, M, ONE};
+use super::columns::{
+    CURRENT, ENERGY, PITCH, Quantity, ROLL, SLIP_RATIO, TEMPERATURE, TIME, TORQUE, quantity,
+};
+use super::unit::{M, ONE};
 use grouser_core::mission::{
     Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Steering, Stop,
 };
@@ -35,8 +37,8 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
         Limited::SlipRatio => SLIP_RATIO,
         Limited::Drift => quantity("drift_m", M),
         Limited::Sinkage => quantity("sinkage_ratio", ONE),
-        Limited::Roll => quantity("roll_deg", DEG),
-        Limited::Pitch => quantity("pitch_deg", DEG),
+        Limited::Roll => ROLL,
+        Limited::Pitch => PITCH,
         Limited::Torque => TORQUE,
         Limited::Time => TIME,
         Limited::Energy => ENERGY,
@@ -122,9 +124,10 @@ impl Plan {
     /// The mission of some legs, with the speed of each.
     pub(crate) fn mission_of(&self, legs: &[LegKeys]) -> Mission {
         let mut speed = None;
+        let origin = self.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
         let legs = legs.iter().map(|keys| {
             speed = keys.speed.clone().or(speed.take());
-            keys.leg(speed.as_ref())
+            keys.leg(speed.as_ref(), origin)
         });
         Mission {
             scenario: self.scenario.clone(),
@@ -144,7 +147,9 @@ impl Plan {
 
 impl LegKeys {
     /// The manoeuvres that are given, with their keys: one, of a leg that is one.
-    fn manoeuvres(&self) -> Vec<(&'static str, Manoeuvre)> {
+    ///
+    /// * `origin`: where the mission starts, in the coordinates of its places [m]
+    fn manoeuvres(&self, origin: Vec2) -> Vec<(&'static str, Manoeuvre)> {
         let reverse = self.reverse;
         let drive = self.drive.map(|distance| {
             ("drive_m", Manoeuvre::Drive { distance, by: self.by.unwrap_or_default() })
@@ -153,22 +158,24 @@ impl LegKeys {
         let arc = self
             .arc
             .map(|Arc { radius, angle }| ("arc", Manoeuvre::Arc { radius, angle, reverse }));
-        let goto = self
-            .goto
-            .map(|Waypoint { place, within }| ("goto", Manoeuvre::Goto { place, within, reverse }));
+        let goto = self.goto.map(|Waypoint { place, within }| {
+            ("goto", Manoeuvre::Goto { place: place - origin, within, reverse })
+        });
         let wait = self.wait.map(|time| ("wait_s", Manoeuvre::Wait { time }));
         [drive, turn, arc, goto, wait].into_iter().flatten().collect()
     }
 
     /// The leg, of keys that go together.
-    fn leg(&self, speed: Option<&PerWheel>) -> Leg {
-        let manoeuvres = self.manoeuvres();
+    ///
+    /// * `origin`: as in [`manoeuvres`](Self::manoeuvres)
+    fn leg(&self, speed: Option<&PerWheel>, origin: Vec2) -> Leg {
+        let manoeuvres = self.manoeuvres(origin);
         let manoeuvre = manoeuvres.first().map_or(Manoeuvre::Wait { time: 0.0 }, |(_, it)| *it);
         let usual = Leg::new(manoeuvre);
         let heading = match (self.held, self.toward) {
             (Some(Held::Hold), _) => Heading::Hold,
             (Some(Held::Contour), _) => Heading::Contour,
-            (Some(Held::Toward), Some(to)) => Heading::Toward(to.place),
+            (Some(Held::Toward), Some(to)) => Heading::Toward(to.place - origin),
             (Some(Held::Crab), _) => Heading::Crab { angle: self.crab.unwrap_or(0.0) },
             _ => Heading::Free,
         };
@@ -206,7 +213,8 @@ impl LegKeys {
         &self,
         speed: Option<&PerWheel>,
     ) -> Option<(&'static str, String, &'static str)> {
-        let given: Vec<&str> = self.manoeuvres().into_iter().map(|(key, _)| key).collect();
+        let given: Vec<&str> =
+            self.manoeuvres(Vec2::zeros()).into_iter().map(|(key, _)| key).collect();
         let [manoeuvre] = given[..] else {
             let (key, what) = match given[..] {
                 [] => ("", "says nothing to do".to_owned()),

@@ -359,7 +359,7 @@ impl Override {
     }
 
     fn is_a_law(&self) -> bool {
-        self.path.last().is_some_and(|key| key == "law")
+        self.path.last().is_some_and(|key| key == "law" || key == "surface")
     }
 
     fn no_such_entry(&self, count: usize) -> DocumentError {

@@ -20,6 +20,7 @@ use super::overrides::Overrides;
 use super::presets::Preset;
 use super::priors;
 use super::source::Source;
+use super::terrain_file;
 use super::text;
 use super::tree::{Entry, Node, Origin, Value};
 use super::uncertain_soil;
@@ -154,7 +155,7 @@ fn read<V: Described>(
         key => document.part(Kind::Soil, key),
     });
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let value = V::of(&document).settled().map_err(|misfit| misfit.of(&tree))?;
+    let value = V::read(&document, &tree)?;
     let mut companions = Vec::new();
     let uncertain = match kind.soil_key() {
         Some(key) => {
@@ -240,6 +241,9 @@ fn complete(
     }
     if kind == Kind::Mission {
         legs_file::put_in(tree)?;
+    }
+    if matches!(kind, Kind::Scenario | Kind::Mission) {
+        terrain_file::locate(tree);
     }
     let has = |key: &str| tree.entry(key).map(|entry| &entry.node.value);
     let has_rows = matches!(has(PRIORS_KEY), Some(Value::Table(_)));

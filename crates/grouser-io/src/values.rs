@@ -6,11 +6,12 @@ mod mission;
 pub(crate) use mission::check_stops;
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use super::campaign::{Settings, Stand};
 use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
 use super::describe::power::{MOTOR, NO_MOTOR};
-use super::describe::run::ROVER_OF_PARTS;
+use super::describe::run::{ROVER_OF_PARTS, SLOPE, TERRAIN};
 use super::describe::scenario::SCENARIO;
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
 use super::describe::wheel::WHEEL;
@@ -20,11 +21,12 @@ use super::error::{DocumentError, Problem};
 use super::field::Inner;
 use super::kind::Kind;
 use super::priors;
+use super::terrain_file;
 use super::tree::Node;
 use super::unit::DEG;
 use grouser_core::contact::{Theory, validity};
 use grouser_core::error::ParameterError;
-use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
+use grouser_core::simulation::{Landscape, PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
 use grouser_core::vehicle::{Inertia, LoadSharing, Motor, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
@@ -85,6 +87,28 @@ pub trait Described: Clone + 'static {
 
     /// Takes over what follows from several keys of the document.
     fn follow(&mut self, _document: &Document) {}
+
+    /// Takes over what stands in files that the document names.
+    ///
+    /// * `tree`: the document as it was written
+    ///
+    /// # Errors
+    /// [`DocumentError`] for a file that is not what it should be.
+    fn fetch(&mut self, _document: &Document, _tree: &Node) -> Result<(), DocumentError> {
+        Ok(())
+    }
+
+    /// What a document means, with what stands in files that it names, all of it in force.
+    ///
+    /// * `tree`: the document as it was written
+    ///
+    /// # Errors
+    /// [`DocumentError`] for files that are wrong, and values that do not go together.
+    fn read(document: &Document, tree: &Node) -> Result<Self, DocumentError> {
+        let mut value = Self::of(document);
+        value.fetch(document, tree)?;
+        value.settled().map_err(|misfit| misfit.of(tree))
+    }
 
     /// The value, all of it in force.
     ///
@@ -394,10 +418,15 @@ impl Described for Scenario {
         self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }
 
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
+        terrain_file::read(self, document, tree)
+    }
+
     fn settled(self) -> Result<Self, Misfit> {
         let rover = self.rover.settled().map_err(|misfit| misfit.within("rover"))?;
         let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
-        let run = Self { rover, site: self.site.with_soil(soil), ..self };
+        let mut run = Self { rover, site: self.site.with_soil(soil), ..self };
+        settle_terrain(&mut run)?;
         check_sample_count(run.duration, run.numerics.sample_interval)
             .map_err(Misfit::at("sample_interval_s"))?;
         let with_names = |misfit: Misfit| {
@@ -423,6 +452,28 @@ impl Described for Scenario {
         }
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
+    }
+}
+
+/// Gives ground with heights the scenario's soil; checks that it can be, and has no slope beside them.
+fn settle_terrain(run: &mut Scenario) -> Result<(), Misfit> {
+    let soil = run.site.terrain.soil;
+    let Some(placed) = &mut run.terrain else { return Ok(()) };
+    if run.site.terrain.slope != 0.0 {
+        let problem = Problem::Conflict("the terrain says how the ground is inclined");
+        return Err(Misfit::new(SLOPE, problem).with_hint("leave out `slope_deg`, or `[terrain]`"));
+    }
+    if run.yaw.is_some() {
+        let problem = Problem::Conflict("a yaw is held over time on planes alone");
+        let hint = "on ground with heights a mission's leg with a heading steers";
+        return Err(Misfit::new("drive.yaw_deg", problem).with_hint(hint));
+    }
+    match &mut placed.ground {
+        Landscape::Analytic(ground) => {
+            Arc::make_mut(ground).soil = soil;
+            ground.surface.check().map_err(Misfit::at(TERRAIN))
+        }
+        Landscape::Elevation(_) => Ok(()),
     }
 }
 

@@ -8,6 +8,7 @@ use grouser::studies::validity::RoverOnSlope;
 use grouser_core::contact::validity::Flag;
 use grouser_core::mission::{BackOut, Leg, LegOutcome};
 use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
+use grouser_core::units::Vec2;
 use grouser_pictures::motion::{Follower, Pose};
 
 use crate::LogError;
@@ -188,7 +189,12 @@ impl<W: Write> Log<W> {
     /// # Errors
     /// As [`event`](Self::event).
     pub fn leg_began(&mut self, time: f64, number: usize, leg: &Leg) -> Result<(), LogError> {
-        self.event(time, Level::Info, &leg_name(number), &format!("began: {}", in_words(leg)))
+        self.event(
+            time,
+            Level::Info,
+            &leg_name(number),
+            &format!("began: {}", in_words(leg, Vec2::zeros())),
+        )
     }
 
     /// Says what became of a leg.

@@ -1,5 +1,7 @@
 //! Where the results of a run go, besides what is printed.
 
+use grouser::simulation::Scenario;
+
 use super::{animation, log};
 use crate::args::{OutputArgs, RunArgs};
 use crate::failure::Failure;
@@ -22,5 +24,15 @@ impl<'a> Destinations<'a> {
         let animation = animation.transpose()?;
         let log = run.mcap.as_deref().map(|it| log::Target::of(it, has_folder, may_replace));
         Ok(Self { animation, log: log.transpose()?, folder })
+    }
+
+    /// That pictures and logs can show the ground.
+    pub(super) fn check(&self, scenario: &Scenario) -> Result<(), Failure> {
+        let shows = self.animation.is_some() || self.log.is_some();
+        if !shows || scenario.terrain.is_none() {
+            return Ok(());
+        }
+        let text = "--animate and --mcap show planes, not yet ground with heights\nhint: --out writes a page";
+        Err(Failure::Usage(text.to_owned()))
     }
 }

@@ -24,8 +24,10 @@ use crate::output::{self, Format};
 use crate::report::REPORT;
 
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
-    let Destinations { mut folder, animation, log } = Destinations::of(&args.run, &args.output)?;
+    let destinations = Destinations::of(&args.run, &args.output)?;
     let document = inputs::mission::read(args)?;
+    destinations.check(&document.value.scenario)?;
+    let Destinations { mut folder, animation, log } = destinations;
     let missions = document.value.missions();
     if log.is_some() && missions.len() > 1 {
         let text = "--mcap logs one mission: this one has alternatives, each of which would be one";

@@ -6,7 +6,7 @@ mod page;
 use grouser::contact::validity::Flag;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
-use grouser::document::columns::{MODEL, TIME, X, Y, YAW};
+use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
 use grouser::document::table::{Row, Table};
 use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
@@ -23,7 +23,7 @@ use crate::args::{EVERY_MODEL, TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::{Rows, four_digits, metres};
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
@@ -32,14 +32,16 @@ use crate::report::REPORT;
 const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
-    let Destinations { mut folder, animation, log } = Destinations::of(&args.run, &args.output)?;
-    if log.is_some() && args.setting.each_model().len() > 1 {
+    let destinations = Destinations::of(&args.run, &args.output)?;
+    if destinations.log.is_some() && args.setting.each_model().len() > 1 {
         let text = "--mcap logs one run: name one model with --model";
         return Err(Failure::Usage(text.to_owned()));
     }
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
+    destinations.check(&all[0].scenario.value)?;
+    let Destinations { mut folder, animation, log } = destinations;
     if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
     }
@@ -224,7 +226,7 @@ fn tell_end(run: &Trajectory) {
 
 /// Some of the records with the means of their wheels, the model where nobody names one, and the outcome.
 fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
-    let samples = run::brief(run, LINES);
+    let samples = run::brief(run, &scenario.value, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
     let simulation = match (run.method.name(), run.method.reason()) {
@@ -233,17 +235,23 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
         (word, None) => format!("\nsimulation: {word}"),
     };
     let reason = reason(run);
-    let [x, y, yaw] = [X, Y, YAW].map(|quantity| {
-        let last = samples.numbers(quantity.name).last().copied().flatten();
-        four_digits(last.unwrap_or(f64::NAN))
-    });
+    let last = |quantity: Quantity| {
+        samples.numbers(quantity.name).last().copied().flatten().unwrap_or(f64::NAN)
+    };
+    let place = match scenario.value.terrain {
+        None => format!("x {} m, y {} m", metres(last(X)), metres(last(Y))),
+        Some(_) => {
+            format!("x {} m, y {} m, z {} m", metres(last(X)), metres(last(Y)), metres(last(Z)))
+        }
+    };
+    let yaw = four_digits(last(YAW));
     let battery = if scenario.value.rover.has_motors() {
         format!(", {} J from the battery", four_digits(end.energy.electrical))
     } else {
         String::new()
     };
     let outcome = format!(
-        "{} after {} s{reason}; x {x} m, y {y} m, yaw {yaw}°, {} J{battery}{simulation}\n",
+        "{} after {} s{reason}; {place}, yaw {yaw}°, {} J{battery}{simulation}\n",
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),

@@ -3,8 +3,8 @@
 use std::borrow::Borrow;
 
 use grouser::contact::validity::Flag;
-use grouser::document::columns::STATUS;
 use grouser::document::columns::flags::FLAGS;
+use grouser::document::columns::{STATUS, X, Y, Z};
 use grouser::document::escape;
 use grouser::document::table::{BETWEEN_NAMES, Table};
 use serde::Serialize;
@@ -73,8 +73,13 @@ impl Rows {
 
     /// The cells of some columns, for reading.
     pub(crate) fn cells(&self, columns: &[impl AsRef<str>]) -> Vec<Vec<String>> {
-        let cell =
-            |row: &Map<String, Value>, column: &str| row.get(column).map_or(String::new(), short);
+        let cell = |row: &Map<String, Value>, column: &str| match row.get(column) {
+            None => String::new(),
+            Some(value) if PLACES.contains(&column) => {
+                value.as_f64().map_or_else(|| short(value), metres)
+            }
+            Some(value) => short(value),
+        };
         let cells = |row| columns.iter().map(|column| cell(row, column.as_ref())).collect();
         self.0.iter().map(cells).collect()
     }
@@ -188,6 +193,16 @@ pub(crate) fn short(value: &Value) -> String {
     }
 }
 
+/// Columns of places, which on a map are far from the origin.
+const PLACES: [&str; 3] = [X.name, Y.name, Z.name];
+
+/// A place [m], to the millimetre, or with four significant digits where these are finer.
+pub(crate) fn metres(value: f64) -> String {
+    /// From here on four digits are coarser than a millimetre [m].
+    const FAR: f64 = 10.0;
+    if value.abs() < FAR { four_digits(value) } else { trimmed(&format!("{value:.3}")) }
+}
+
 /// A number with four significant digits.
 pub(crate) fn four_digits(value: f64) -> String {
     /// What is smaller is left over where terms cancel, in any unit of ours.
@@ -243,6 +258,13 @@ mod tests {
             (123_456_789.0, "1.235e8"),
         ] {
             assert_eq!(four_digits(value), text);
+        }
+    }
+
+    #[test]
+    fn places_are_read_to_the_millimetre() {
+        for (value, text) in [(0.123_456, "0.1235"), (-25_871.123_4, "-25871.123"), (12.0, "12")] {
+            assert_eq!(metres(value), text);
         }
     }
 

@@ -2,18 +2,19 @@
 //! that repeats the answer.
 
 use grouser::contact::validity::Finding;
-use grouser::document::Loaded;
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STEERING_RECORD, WHEEL_RECORD,
+    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::{Column, Quantity, TIME};
+use grouser::document::columns::{Column, Quantity, SLOPE, TIME, X, Y};
 use grouser::document::table::Table;
 use grouser::document::unit::ONE;
-use grouser::vehicle::Rover;
+use grouser::document::{Document, Loaded};
+use grouser::simulation::Scenario;
 
 use super::page::Page;
 use crate::chart::{Chart, Series, Style};
+use crate::output::rows::four_digits;
 use crate::output::text::capitalised;
 
 /// What an answer was computed from.
@@ -95,11 +96,13 @@ pub(crate) fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
 }
 
 /// What the channels of a run are.
-pub(crate) fn run_meanings(rover: &Rover) -> Vec<Meaning> {
+pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
+    let rover = &scenario.rover;
     let has_motors = rover.has_motors();
     let electrical = |columns: Vec<Meaning>| if has_motors { columns } else { Vec::new() };
     [
         meanings(&RECORD),
+        if scenario.terrain.is_some() { meanings(&STANDING) } else { Vec::new() },
         electrical(meanings(&ELECTRICAL_RECORD)),
         meanings(&WHEEL_RECORD),
         meanings(&WHEEL),
@@ -111,15 +114,38 @@ pub(crate) fn run_meanings(rover: &Rover) -> Vec<Meaning> {
     .collect()
 }
 
+/// The slope of the ground, or what has its heights.
+///
+/// * `document`: of the run
+pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
+    if scenario.terrain.is_none() {
+        let slope = SLOPE.unit.from_si(scenario.site.terrain.slope);
+        return format!("slope: {}°", four_digits(slope));
+    }
+    let shape = document.text("terrain.file").or_else(|| document.text("terrain.surface"));
+    format!("terrain: {}", shape.unwrap_or("unnamed"))
+}
+
 /// Every channel of a run over time.
 ///
 /// * `table`: a row for each record
-pub(crate) fn over_time(page: &mut Page, table: &Table, rover: &Rover) {
+pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
     page.heading("The rover over time");
-    page.charts(&by_unit(table, TIME, &RECORD));
+    if scenario.terrain.is_some() {
+        // Coordinates on a map are too far apart for one axis.
+        for place in [X.name, Y.name] {
+            let column: Vec<_> = RECORD.into_iter().filter(|it| it.name == place).collect();
+            page.charts(&by_unit(table, TIME, &column));
+        }
+        page.charts(&by_unit(table, TIME, &STANDING));
+        let others = RECORD.into_iter().filter(|it| ![X.name, Y.name].contains(&it.name));
+        page.charts(&by_unit(table, TIME, &others.collect::<Vec<_>>()));
+    } else {
+        page.charts(&by_unit(table, TIME, &RECORD));
+    }
     page.charts(&by_unit(table, TIME, &ELECTRICAL_RECORD));
     page.heading("Each wheel over time");
-    let mounts = rover.mounts().iter();
+    let mounts = scenario.rover.mounts().iter();
     let wheels: Vec<(String, String)> =
         mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
     page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));

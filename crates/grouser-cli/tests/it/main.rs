@@ -23,6 +23,7 @@ mod scrambled;
 mod simulated;
 mod slip_from_current;
 mod terminal;
+mod terrain;
 mod validate;
 mod validity;
 mod yaws;

@@ -109,14 +109,14 @@ impl Limits {
     pub(super) fn passed_as(&self, run: &Run, known: Known<'_>) -> Option<Stopped> {
         let [sinkage, torque, current] = self.of_wheels(run);
         let state = run.state();
-        let [roll, pitch] = roll_and_pitch(run.scenario().site.terrain.slope, known.seen.yaw);
+        let roll_and_pitch = || roll_and_pitch_of(run, known.seen.yaw);
         let value = |stop: &Stop| match stop.limited {
             Limited::SlipRatio => Some(self.odometer.over(stop.over)?.slip_ratio),
             Limited::Drift => Some(self.odometer.over(stop.over)?.drift),
             Limited::OffPath => Some(known.off_path),
             Limited::Sinkage => Some(sinkage),
-            Limited::Roll => Some(roll.abs()),
-            Limited::Pitch => Some(pitch.abs()),
+            Limited::Roll => Some(roll_and_pitch()[0].abs()),
+            Limited::Pitch => Some(roll_and_pitch()[1].abs()),
             Limited::Torque => Some(torque),
             Limited::Time => Some(state.time() - self.start_time),
             Limited::Energy => Some(state.motor_work() - self.start_work),
@@ -159,5 +159,14 @@ impl Limits {
             [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs(), current]
         });
         each.fold([0.0; 3], |most, one| [0, 1, 2].map(|i| f64::max(most[i], one[i])))
+    }
+}
+
+/// How the rover leans [rad]: as it stands on ground with heights, or on the plane by the yaw that it knows.
+fn roll_and_pitch_of(run: &Run, yaw: f64) -> [f64; 2] {
+    let standing = run.scenario().terrain.as_ref().and_then(|_| run.now().standing());
+    match standing {
+        Some(standing) => [standing.roll, standing.pitch],
+        None => roll_and_pitch(run.scenario().site.terrain.slope, yaw),
     }
 }

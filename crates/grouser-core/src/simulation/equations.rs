@@ -386,6 +386,11 @@ impl<'a> Equations<'a> {
         self.ground.relief.is_some_and(|relief| relief.soils.is_some())
     }
 
+    /// Where the run started, in the coordinates of ground with heights [m].
+    pub(super) fn origin(&self) -> Option<Vec2> {
+        self.ground.relief.map(|relief| relief.origin)
+    }
+
     /// Rates of place and yaw in a state [m/s, rad/s]; none where the rover does not come to stand.
     pub(super) fn pose_rates(&self, state: &RoverState) -> Option<(Vec2, f64)> {
         let motion = self.standing(state).ok()?.motion;

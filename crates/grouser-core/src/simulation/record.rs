@@ -4,6 +4,7 @@ use super::equations::Equations;
 use super::point::Point;
 use super::power::{self, EnergyBalance};
 use super::supply::{Charge, Supply};
+use crate::units::Vec2;
 use crate::vehicle::posture::Attitude;
 use crate::vehicle::{Electrical, RoverState, WheelReaction};
 
@@ -32,6 +33,8 @@ pub struct Record {
     pub time: f64,
     /// Pose and velocity.
     pub state: RoverState,
+    /// Where the run started, in the coordinates of ground with heights [m]; none on a plane. Positions are seen from there.
+    pub origin: Option<Vec2>,
     /// How it stands on uneven ground, or on a suspension.
     pub attitude: Option<Attitude>,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
@@ -78,7 +81,21 @@ impl Record {
         });
         let wheels = wheels.collect();
         let battery = supply.and_then(Supply::battery);
-        Self { time, state, attitude, wheels, energy, battery }
+        let origin = equations.origin();
+        Self { time, state, origin, attitude, wheels, energy, battery }
+    }
+
+    /// Where the body's centre of mass is, seen from above [m]: in the coordinates of ground with heights, or in the
+    /// slope frame.
+    #[must_use]
+    pub fn place(&self) -> Vec2 {
+        self.origin.map_or(self.state.position, |origin| origin + self.state.position)
+    }
+
+    /// How it stands on ground with heights; none on a plane.
+    #[must_use]
+    pub fn standing(&self) -> Option<&Attitude> {
+        self.attitude.as_ref().filter(|_| self.origin.is_some())
     }
 }
 

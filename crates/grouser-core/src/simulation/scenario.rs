@@ -16,7 +16,7 @@ use crate::vehicle::{
     ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Relief, Rover, RoverState, Ruts,
 };
 
-/// One run of one rover on one plane. It determines its trajectory bit for bit.
+/// One run of one rover on one plane, or over ground with heights. It determines its trajectory bit for bit.
 ///
 /// How much farther does the rover drift on a slope of 15° than on one of 10°, in the same 20 s?
 ///
@@ -183,12 +183,20 @@ impl Scenario {
         self.site.check()?;
         let zones = self.terrain.as_ref().and_then(|placed| placed.soils.as_ref());
         zones.map_or(Ok(()), |zones| zones.check())?;
+        if self.terrain.is_some() && self.site.terrain.slope != 0.0 {
+            let expected = "0: the terrain has the heights";
+            return Err(ParameterError::new("slope [rad]", self.site.terrain.slope, expected));
+        }
         self.drive.check(&self.rover)?;
         self.by_wheel.check(self.rover.wheel_count())?;
         self.scatter.check()?;
         self.stability.check()?;
         finite("start yaw [rad]", self.start.yaw)?;
         if let Some(yaw) = &self.yaw {
+            if self.terrain.is_some() {
+                let expected = "none: a yaw is held on planes alone";
+                return Err(ParameterError::new("yaw over time [rad]", yaw.at(0.0), expected));
+            }
             yaw.check()?;
             if self.start.yaw != 0.0 && self.start.yaw != yaw.at(0.0) {
                 let expected = "that of the yaw over time, or left out";

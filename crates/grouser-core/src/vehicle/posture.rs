@@ -22,7 +22,7 @@ use super::links::{Carried, Hinge};
 use super::rover::Rover;
 use super::state::RoverState;
 use super::suspension::{Joints, Suspension};
-use crate::elementary::wide::{atan2, sin_cos};
+use crate::elementary::wide::{acos, atan2, cos, sin_cos};
 use crate::terrain::{Footprint, Terrain};
 use crate::units::{Vec2, Vec3};
 
@@ -56,6 +56,15 @@ pub struct Attitude {
     pub pitch: f64,
     /// The joints.
     pub joints: Joints,
+}
+
+impl Attitude {
+    /// How far the body's z axis is from the vertical [rad].
+    #[must_use]
+    pub fn tilt(&self) -> f64 {
+        let (level_across, level_along) = (cos(self.roll), cos(self.pitch));
+        acos(level_across * level_along)
+    }
 }
 
 /// A wheel on its piece of ground, in the ground's coordinates.

@@ -11,6 +11,7 @@ use super::about::{assumed, notes, purpose, schema, source};
 use super::differences::{LARGEST_SEED, room};
 use super::run::{OfScenario, Run};
 use super::scenario::{self, FASTEST, PAPERS_SLIP, USUAL_LIMIT};
+use super::terrain::FARTHEST;
 use grouser_core::mission::{Limited, Measure, Sensors, Steering, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
@@ -34,7 +35,7 @@ pub(crate) fn blank() -> Plan {
 }
 
 pub(crate) static MISSION: Table<Plan> = Table {
-    doc: "Legs that a rover drives one after the other over a plane of soil, and limits at which it stops.",
+    doc: "Legs that a rover drives one after the other over a plane of soil, or over ground with heights, and limits at which it stops.",
     fields: &[
         schema("mission/1"),
         purpose(),
@@ -46,6 +47,7 @@ pub(crate) static MISSION: Table<Plan> = Table {
         Run::MODEL,
         Run::GRAVITY,
         Run::SLOPE,
+        Run::TERRAIN,
         Run::SAMPLE_INTERVAL,
         Run::LOAD_TRANSFER,
         Run::WHEEL_MOMENTS,
@@ -371,7 +373,7 @@ static ARC: Table<Arc> = Table {
 const NEAR: f64 = 0.1;
 
 static WAYPOINT: Table<Waypoint> = Table {
-    doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the mission starts.",
+    doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the mission starts; on ground with heights, on its map.",
     fields: &[
         X,
         Y,
@@ -383,20 +385,21 @@ static WAYPOINT: Table<Waypoint> = Table {
 };
 
 static PLACE: Table<Waypoint> = Table {
-    doc: "A place in the slope frame: x along the contour, y uphill, from where the mission starts.",
+    doc: "A place in the slope frame: x along the contour, y uphill, from where the mission starts; on ground with heights, on its map.",
     fields: &[X, Y],
 };
 
-const X: Field<Waypoint> = place("x_m", "Along the contour", |to| Some(&mut to.place.x));
+const X: Field<Waypoint> =
+    place("x_m", "Along the contour, or on the map", |to| Some(&mut to.place.x));
 const Y: Field<Waypoint> =
-    place("y_m", "Uphill, measured along the slope", |to| Some(&mut to.place.y));
+    place("y_m", "Uphill, measured along the slope, or on the map", |to| Some(&mut to.place.y));
 
 const fn place(
     key: &'static str,
     doc: &'static str,
     reach: fn(&mut Waypoint) -> Option<&mut f64>,
 ) -> Field<Waypoint> {
-    number(key, M, -LONGEST_WAY..=LONGEST_WAY, doc, reach)
+    number(key, M, -FARTHEST..=FARTHEST, doc, reach)
 }
 
 /// The limits, one under the name of each number.

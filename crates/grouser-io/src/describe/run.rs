@@ -8,12 +8,20 @@ use super::about::{gravity, model};
 use super::differences;
 use super::rover;
 use super::soil;
-use grouser_core::simulation::{Approach, Motion, Numerics, Scatter, Scenario, Start};
+use super::terrain;
+use grouser_core::simulation::{
+    Approach, Motion, Numerics, PlacedTerrain, Scatter, Scenario, Start,
+};
 use grouser_core::soil::Soil;
 use grouser_core::vehicle::{ByWheel, LoadSharing, OwnMoments, Rover, RoverParts, Ruts};
 
 /// The slope on which the source's Table 4 is best met [°].
 const PAPERS_SLOPE: f64 = 10.0;
+
+/// The key of ground with heights.
+pub(crate) const TERRAIN: &str = "terrain";
+/// The key of the plane's inclination.
+pub(crate) const SLOPE: &str = "slope_deg";
 
 /// A rover by its parts.
 pub(crate) static ROVER_OF_PARTS: At<Rover, RoverParts> =
@@ -42,6 +50,10 @@ impl<T: OfScenario> Run<T> {
         &At { inner: &differences::BY_WHEEL, at: |all| &mut all.scenario().by_wheel };
     const OF_SCATTER: &At<T, Scatter> =
         &At { inner: &differences::SCATTER, at: |all| &mut all.scenario().scatter };
+    const OF_TERRAIN: &At<T, PlacedTerrain> = &At {
+        inner: &terrain::TERRAIN,
+        at: |all| all.scenario().terrain.get_or_insert_with(terrain::blank),
+    };
     const OF_START: &At<T, Start> = &At { inner: &START, at: |all| &mut all.scenario().start };
 
     pub(super) const ROVER: Field<T> = part(
@@ -63,10 +75,16 @@ impl<T: OfScenario> Run<T> {
     pub(super) const GRAVITY: Field<T> =
         gravity("Gravity, g", |all: &mut T| Some(&mut all.scenario().site.gravity));
     pub(super) const SLOPE: Field<T> =
-        number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |all: &mut T| {
+        number(SLOPE, DEG, 0.0..=60.0, "Inclination of the plane, α", |all: &mut T| {
             Some(&mut all.scenario().site.terrain.slope)
         })
         .or(PAPERS_SLOPE);
+    pub(super) const TERRAIN: Field<T> = table(
+        TERRAIN,
+        "Ground with heights, in place of the plane; `slope_deg` is then left out, or 0.",
+        Self::OF_TERRAIN,
+    )
+    .optional();
     pub(super) const SAMPLE_INTERVAL: Field<T> = number(
         "sample_interval_s",
         S,

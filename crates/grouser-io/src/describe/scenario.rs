@@ -60,7 +60,7 @@ pub(crate) fn blank() -> Scenario {
 }
 
 pub(crate) static SCENARIO: Table<Scenario> = Table {
-    doc: "One run of one rover on one plane of soil.",
+    doc: "One run of one rover over a plane of soil, or over ground with heights.",
     fields: &[
         schema("scenario/1"),
         purpose(),
@@ -72,6 +72,7 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
         Run::MODEL,
         Run::GRAVITY,
         Run::SLOPE,
+        Run::TERRAIN,
         positive("duration_s", S, LONGEST_DURATION, "How long the run lasts", |run: &mut Scenario| {
             Some(&mut run.duration)
         })

@@ -2,9 +2,10 @@
 
 use super::super::describe::mission::{self, MISSION};
 use super::super::document::Document;
-use super::super::error::Problem;
+use super::super::error::{DocumentError, Problem};
 use super::super::field::Inner;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
+use super::super::tree::Node;
 use super::super::unit::DEG;
 use super::{Described, Misfit};
 use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then};
@@ -128,6 +129,10 @@ impl Described for Plan {
 
     fn follow(&mut self, document: &Document) {
         self.scenario.follow(document);
+    }
+
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
+        self.scenario.fetch(document, tree)
     }
 
     fn settled(self) -> Result<Self, Misfit> {

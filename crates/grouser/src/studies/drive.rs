@@ -5,11 +5,11 @@ use crate::simulation::{Record, Trajectory, WheelRecord};
 /// Length, drift and means of a traverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
-    /// Length of the way [m], from record to record.
+    /// Length of the way [m], from record to record, with the height of ground that has heights.
     pub distance: f64,
     /// Drift per metre travelled, −*y*/distance [m/m], −1 to 1: positive downhill, as
     /// [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift). Missing for a rover that did not
-    /// move.
+    /// move, and on ground with heights, which has no one direction uphill.
     pub drift: Option<f64>,
     /// Slip ratio [-], the mean over wheels and records. Missing where no record has its wheels.
     pub slip_ratio: Option<f64>,
@@ -35,7 +35,15 @@ impl Drive {
         const STILL: f64 = 1e-9;
         let last = run.last();
         let steps = run.records.windows(2);
-        let length = |pair: &[Record]| (pair[1].state.position - pair[0].state.position).norm();
+        let length = |pair: &[Record]| {
+            let height = |record: &Record| record.standing().map_or(0.0, |it| it.height);
+            let level = (pair[1].state.position - pair[0].state.position).norm();
+            if pair[0].origin.is_none() {
+                level
+            } else {
+                level.hypot(height(&pair[1]) - height(&pair[0]))
+            }
+        };
         let distance: f64 = steps.map(length).sum();
         let per_metre = |quantity: f64| (distance > STILL).then(|| quantity / distance);
         let energy = last.energy.motors;
@@ -44,7 +52,11 @@ impl Drive {
         let current = currents.reduce(f64::max);
         Self {
             distance,
-            drift: per_metre(0.0 - last.state.position.y),
+            drift: if last.origin.is_none() {
+                per_metre(0.0 - last.state.position.y)
+            } else {
+                None
+            },
             slip_ratio: mean(run, |wheel| wheel.reaction.slip.ratio),
             sinkage: mean(run, |wheel| wheel.reaction.settled.sinkage),
             power: (last.time > 0.0).then(|| energy / last.time),

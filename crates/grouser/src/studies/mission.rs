@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::mission::{Leg, LegReport, Mission, MissionError, MissionReport, MissionRun};
+use crate::units::Vec2;
 
 /// A mission that was driven, leg by leg.
 #[derive(Clone, Debug)]
@@ -26,6 +27,9 @@ pub struct DrivenLeg {
     pub leg: Leg,
     /// What became of it.
     pub report: LegReport,
+    /// Where the mission starts, in the coordinates of ground with heights [m]; zero on a plane. Places of leg and report
+    /// are seen from there.
+    pub origin: Vec2,
 }
 
 impl DrivenMission {
@@ -64,11 +68,13 @@ impl DrivenMission {
     /// The legs of a mission that were begun.
     #[must_use]
     pub fn of(name: &str, mission: &Mission, report: MissionReport) -> Self {
+        let origin = mission.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
         let legs = mission.legs.iter().zip(&report.legs).enumerate();
         let legs = legs.map(|(place, (leg, report))| DrivenLeg {
             number: place + 1,
             leg: leg.clone(),
             report: report.clone(),
+            origin,
         });
         Self { name: name.to_owned(), planned: mission.legs.len(), legs: legs.collect(), report }
     }

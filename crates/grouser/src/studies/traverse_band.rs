@@ -225,8 +225,8 @@ impl At {
     /// The rover where it is, with its wheels spinning, down to their axles.
     fn stuck(record: &Record, rover: &Rover) -> Self {
         Self {
-            x: record.state.position.x,
-            y: record.state.position.y,
+            x: record.place().x,
+            y: record.place().y,
             yaw: record.state.yaw,
             slip_ratio: 1.0,
             sinkage: rover.mean_axle_height(),

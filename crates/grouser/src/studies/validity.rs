@@ -4,7 +4,7 @@ use crate::contact::Theory;
 use crate::contact::validity::{Finding, Situation, union};
 use crate::simulation::{Record, Scenario, Trajectory};
 use crate::soil::Soil;
-use crate::vehicle::{Rover, WheelReaction};
+use crate::vehicle::{Attitude, Rover, WheelReaction};
 
 /// A rover on a slope of some soil.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ pub struct RoverOnSlope<'a> {
     pub gravity: f64,
     /// The wheel–soil model.
     pub theory: Theory,
-    /// Slope, *α* [rad].
+    /// Slope, *α* [rad]; on ground with heights that of the body is in its place.
     pub slope: f64,
 }
 
@@ -71,7 +71,9 @@ impl<'a> RoverOnSlope<'a> {
     /// The flags of one record of a run.
     #[must_use]
     pub fn at(&self, record: &Record) -> Vec<Finding> {
-        self.findings(record.wheels.iter().map(|wheel| &wheel.reaction))
+        let slope = record.standing().map_or(self.slope, Attitude::tilt);
+        let there = Self { slope, ..*self };
+        there.findings(record.wheels.iter().map(|wheel| &wheel.reaction))
     }
 
     /// The flags that any record of a run raises, in the order of time and of the list.

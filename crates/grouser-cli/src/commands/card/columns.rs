@@ -1,9 +1,9 @@
 //! The table of the card: a row for each slope, a column for each thing that a driver sets, reads or may not exceed.
 
 use grouser::document::columns::card::{
-    CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, ROLL, SLIP_LIMIT, TIPPING_MARGIN,
+    CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, SLIP_LIMIT, TIPPING_MARGIN,
 };
-use grouser::document::columns::{CURRENT, Quantity, SINKAGE, TORQUE};
+use grouser::document::columns::{CURRENT, Quantity, ROLL, SINKAGE, TORQUE};
 use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};

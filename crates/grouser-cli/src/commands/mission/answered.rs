@@ -7,7 +7,7 @@ use grouser::document::{LoadedMission, escape};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_pictures::path_of;
 
-use crate::output::rows::four_digits;
+use crate::output::rows::{four_digits, metres};
 use crate::output::text::capitalised;
 
 /// A document of a mission, and what was driven: one mission, or all alternatives.
@@ -32,7 +32,11 @@ impl Answered {
 
     /// The path from above.
     pub(super) fn path(&self, way: &DrivenMission) -> String {
-        path_of("Path on the slope", &self.document.value.scenario.rover, &way.report)
+        let title = match self.document.value.scenario.terrain {
+            None => "Path on the slope",
+            Some(_) => "Path from above, from the start",
+        };
+        path_of(title, &self.document.value.scenario.rover, &way.report)
     }
 }
 
@@ -65,8 +69,8 @@ pub(super) fn sentence(way: &DrivenMission) -> String {
         "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J{taken}",
         capitalised(way.report.outcome()).replace('_', " "),
         four_digits(end.time),
-        four_digits(end.state.position.x),
-        four_digits(end.state.position.y),
+        metres(end.place().x),
+        metres(end.place().y),
         four_digits(YAW.unit.from_si(end.state.yaw)),
         four_digits(way.report.energy()),
     )

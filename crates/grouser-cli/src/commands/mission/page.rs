@@ -1,16 +1,15 @@
 //! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
 
+use grouser::document::columns::ENERGY;
 use grouser::document::columns::mission::{
     ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
 };
 use grouser::document::columns::run;
-use grouser::document::columns::{ENERGY, SLOPE};
 
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 
 use super::answered::{Answered, reasons, sentence};
 use crate::chart::Bars;
-use crate::output::rows::four_digits;
 use crate::report::answer::{self, Basis, axis, meanings, over_time, run_meanings};
 use crate::report::page::Page;
 
@@ -45,7 +44,7 @@ pub(super) fn html(answered: &Answered) -> String {
             columns.extend(meanings(&ELECTRICAL_MISSION));
         }
     }
-    columns.extend(run_meanings(&scenario.rover));
+    columns.extend(run_meanings(scenario));
     let basis = Basis::new("grouser mission mission.toml".to_owned());
     let basis = basis.with("mission.toml", &answered.document);
     answer::close(page, &findings, &columns, &basis)
@@ -58,7 +57,7 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
     }
     page.drawing(
         &answered.path(way),
-        "The path on the slope from above, to scale, uphill at the top, a colour for each leg. The rover is drawn at \
+        "The path from above, to scale, uphill or north at the top, a colour for each leg. The rover is drawn at \
          the start, in grey, and where each leg ended, with its number; a cross marks a leg that did not end as it says.",
     );
     let legs = way.table();
@@ -68,17 +67,16 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
         page.list(reasons.lines());
     }
     page.drawing(&energy(way), "Work of the motors in each leg, with the turn before it.");
-    over_time(page, &answered.records(way), &answered.document.value.scenario.rover);
+    over_time(page, &answered.records(way), &answered.document.value.scenario);
 }
 
 fn what_was_driven(answered: &Answered) -> Vec<String> {
     let document = &answered.document.document;
     let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
-    let slope = answered.document.value.scenario.site.terrain.slope;
     let mut lines = vec![
         format!("rover: {}", name("rover.name")),
         format!("soil: {}", name("soil.name")),
-        format!("slope: {}°", four_digits(SLOPE.unit.from_si(slope))),
+        answer::ground(document, &answered.document.value.scenario),
     ];
     lines.extend(document.text("notes").map(str::to_owned));
     lines

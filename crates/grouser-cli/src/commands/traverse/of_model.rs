@@ -87,9 +87,12 @@ pub(super) fn chart(all: &[OfModel]) -> Chart {
     }
     for (place, of_model) in all.iter().enumerate() {
         let records = of_model.run.records.iter();
-        let points = records.map(|record| (record.state.position.x, record.state.position.y));
+        let points = records.map(|record| (record.place().x, record.place().y));
         let name = if all.len() > 1 { of_model.name() } else { "" };
         series.push(Series::new(name, Style::Line, place + 1, points));
+    }
+    if all.iter().any(|it| it.scenario.value.terrain.is_some()) {
+        return Chart::new("Path on the map", ("east, x [m]", "north, y [m]"), series);
     }
     Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
 }

@@ -2,18 +2,17 @@
 
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{self, TIME_BAND};
-use grouser::document::columns::{
-    Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, SLOPE, TIME, X, Y, YAW,
-};
+use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW};
 use grouser::document::table::Table;
 use grouser::simulation::Trajectory;
 use grouser::studies::drive::Drive;
+use grouser::units::Vec2;
 
 use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
-use crate::output::rows::four_digits;
+use crate::output::rows::{four_digits, metres};
 use crate::output::text::capitalised;
 use crate::report::answer::{self, Basis, axis, over_time, run_meanings};
 use crate::report::page::Page;
@@ -27,7 +26,10 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
     page.list(what_was_run(&all[0]));
     page.drawing(
         &chart(all).to_svg(),
-        "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0.",
+        match all[0].scenario.value.terrain {
+            None => "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0.",
+            Some(_) => "The path, seen from above.",
+        },
     );
     match all {
         [one] => channels(&mut page, one),
@@ -37,29 +39,41 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         .iter()
         .flat_map(|it| run::each_findings(&it.run, &it.scenario.value).into_iter().flatten())
         .collect();
-    let columns = all.first().map_or(Vec::new(), |it| run_meanings(&it.scenario.value.rover));
+    let columns = all.first().map_or(Vec::new(), |it| run_meanings(&it.scenario.value));
     answer::close(page, &findings, &columns, &basis(args, all))
 }
 
 /// Where a rover ended up, and what that took.
 fn sentence(run: &Trajectory) -> String {
     let (end, drive) = (run.last(), Drive::of(run));
-    let [x, y] = [end.state.position.x, end.state.position.y];
-    let side = if y < 0.0 { "below" } else { "above" };
-    let yaw = YAW.unit.from_si(end.state.yaw);
+    let yaw = four_digits(YAW.unit.from_si(end.state.yaw));
+    let place = match end.standing() {
+        Some(standing) => format!(
+            "at x {} m, y {} m and a height of {} m, the nose at {yaw}° from east",
+            metres(end.place().x),
+            metres(end.place().y),
+            metres(standing.height),
+        ),
+        None => on_slope(end.state.position, &yaw),
+    };
     let energy = drive
         .energy_per_metre
         .map_or(String::new(), |it| format!(", {} J for each metre", four_digits(it)));
     format!(
-        "{} after {} s{}: {} m along the contour and {} m {side} it, the nose at {}° (positive \
-         uphill). The motors did {} J{energy}.",
+        "{} after {} s{}: {place}. The motors did {} J{energy}.",
         capitalised(run.outcome.name()).replace('_', " "),
         four_digits(end.time),
         reason(run),
-        four_digits(x),
-        four_digits(y.abs()),
-        four_digits(yaw),
         four_digits(drive.energy),
+    )
+}
+
+/// Where the rover is on a slope [m], and how it is turned [°].
+fn on_slope(place: Vec2, yaw: &str) -> String {
+    let side = if place.y < 0.0 { "below" } else { "above" };
+    let (along, off) = (four_digits(place.x), four_digits(place.y.abs()));
+    format!(
+        "{along} m along the contour and {off} m {side} it, the nose at {yaw}° (positive uphill)"
     )
 }
 
@@ -69,10 +83,7 @@ fn what_was_run(first: &OfModel) -> Vec<String> {
     let mut lines = vec![
         format!("rover: {}", name("rover.name")),
         format!("soil: {}", name("soil.name")),
-        format!(
-            "slope: {}°",
-            four_digits(SLOPE.unit.from_si(first.scenario.value.site.terrain.slope))
-        ),
+        answer::ground(document, &first.scenario.value),
     ];
     if let Some(band) = &first.band {
         lines.push(format!("{} samples of soil and model", band.run.completed.trials));
@@ -89,7 +100,7 @@ fn channels(page: &mut Page, of: &OfModel) {
             &TIME_BAND[1..].iter().filter_map(|column| band(&table, column)).collect::<Vec<_>>(),
         );
     }
-    over_time(page, &table, &of.scenario.value.rover);
+    over_time(page, &table, &of.scenario.value);
 }
 
 /// A quantity over time with its band.
@@ -118,8 +129,10 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
     names.extend(run::summary_brief());
     page.rows("The end and the means, by model", &summaries, &names);
     page.heading("Over time, by model");
-    let tables: Vec<(&str, Table)> =
-        all.iter().map(|it| (it.name(), run::brief(&it.run, it.run.records.len() - 1))).collect();
+    let tables: Vec<(&str, Table)> = all
+        .iter()
+        .map(|it| (it.name(), run::brief(&it.run, &it.scenario.value, it.run.records.len() - 1)))
+        .collect();
     let of = |quantity: Quantity| {
         let series = tables.iter().enumerate().map(|(place, (name, table))| {
             let points = table.points(TIME.name, quantity.name);

@@ -5,18 +5,14 @@ use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::{
-    CURRENT, Column, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE, SLIP_RATIO,
-    SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
+    CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
+    SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
 use crate::contact::Theory;
 use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
-/// What instruments show when the nose is set.
-pub const ROLL: Quantity = quantity("roll_deg", DEG);
-/// The same.
-pub const PITCH: Quantity = quantity("pitch_deg", DEG);
 /// Pitch with the nose too low by what a driver sets it to, and too high.
 pub const PITCH_ENDS: [Quantity; 2] =
     [quantity("pitch_least_deg", DEG), quantity("pitch_most_deg", DEG)];

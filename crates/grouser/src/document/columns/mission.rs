@@ -14,6 +14,7 @@ use crate::mission::{
     Taken,
 };
 use crate::studies::mission::{DrivenLeg, DrivenMission};
+use crate::units::Vec2;
 
 impl DrivenMission {
     /// What became of its legs: a row for each that was begun.
@@ -63,8 +64,8 @@ pub const MISSION: [Column<DrivenMission>; 10] = [
         it.ways().filter_map(|leg| leg.slip_ratio).reduce(f64::max)
     }),
     TIME.number("Time at the end", |it| it.report.last().time),
-    X.number("Along the contour, at the end", |it| it.report.last().state.position.x),
-    Y.number("Uphill, at the end", |it| it.report.last().state.position.y),
+    X.number("Along the contour, at the end", |it| it.report.last().place().x),
+    Y.number("Uphill, at the end", |it| it.report.last().place().y),
     ENERGY.number("Work of the motors", |it| it.report.energy()),
 ];
 
@@ -124,7 +125,7 @@ const ALTERNATIVE: &str = "alternative";
 /// A leg.
 pub const LEG: [Column<DrivenLeg>; 15] = [
     whole("leg", "Number of the leg, from 1", |it| Some(it.number)),
-    text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg))),
+    text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg, it.origin))),
     text(
         OUTCOME,
         "`completed`, `stopped` by a limit, `immobilised`, `sliding`, `tipped_over` or `brown_out`",
@@ -152,9 +153,9 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     ),
     text("reason", "Why it did not end as it says", DrivenLeg::reason),
     X.number("Along the contour, where it ended, of the body's centre of mass", |it| {
-        it.report.end.position.x
+        it.origin.x + it.report.end.position.x
     }),
-    Y.number("Uphill, where it ended", |it| it.report.end.position.y),
+    Y.number("Uphill, where it ended", |it| it.origin.y + it.report.end.position.y),
     YAW.number("Yaw where it ended, positive where the nose points uphill", |it| it.report.end.yaw),
     maybe("back_out_m", M, "How far it drove back out of the leg", |it| {
         Some(it.report.back_out.as_ref()?.distance)
@@ -308,11 +309,24 @@ fn passed(stop: &Stop, value: f64) -> String {
     format!("{} {value:.digits$}{unit}{over}", quantity.label())
 }
 
+/// A coordinate that was written as it stands and is kept as seen from an origin [m].
+fn as_written(seen: f64, origin: f64) -> f64 {
+    /// What the difference and the sum of two coordinates may change [1/m].
+    const STEPS: f64 = 1e6;
+    if origin == 0.0 { seen } else { ((origin + seen) * STEPS).round() / STEPS }
+}
+
 /// What a leg says: `drive 2 m on the contour`.
+///
+/// * `origin`: where its mission starts, in the coordinates of its places [m]
 #[must_use]
-pub fn in_words(leg: &Leg) -> String {
+pub fn in_words(leg: &Leg, origin: Vec2) -> String {
     let deg = |angle: f64| format!("{}°", YAW.unit.as_given(angle));
     let side = |angle: f64| if angle < 0.0 { "right" } else { "left" };
+    let on_map = |place: Vec2| {
+        let [x, y] = [0, 1].map(|axis| as_written(place[axis], origin[axis]));
+        format!("{x}, {y}")
+    };
     let back = |reverse: bool| if reverse { " backward" } else { "" };
     let what = match leg.manoeuvre {
         Manoeuvre::Drive { distance, by } => {
@@ -326,7 +340,7 @@ pub fn in_words(leg: &Leg) -> String {
             format!("arc {angle} {side}, radius {radius} m{}{steered}", back(reverse))
         }
         Manoeuvre::Goto { place, reverse, .. } => {
-            format!("go to {}, {} m{}", place.x, place.y, back(reverse))
+            format!("go to {} m{}", on_map(place), back(reverse))
         }
         Manoeuvre::Wait { time } => format!("wait {time} s"),
     };
@@ -334,7 +348,7 @@ pub fn in_words(leg: &Leg) -> String {
         Heading::Free => String::new(),
         Heading::Hold => ", yaw held".to_owned(),
         Heading::Contour => ", on the contour".to_owned(),
-        Heading::Toward(place) => format!(", toward {}, {} m", place.x, place.y),
+        Heading::Toward(place) => format!(", toward {} m", on_map(place)),
         Heading::Crab { .. } => ", wheels crab".to_owned(),
     };
     let yaw = leg.yaw.map_or(String::new(), |yaw| format!(", from yaw {}", deg(yaw)));

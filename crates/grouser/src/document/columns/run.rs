@@ -9,9 +9,9 @@ use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
-    CURRENT, Column, ENERGY, ENERGY_PER_METRE, LOAD, POWER, PROBABILITY_COMPLETED, Quantity,
-    SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TEMPERATURE, TIME, WHEEL_SPEED, X, Y, YAW, number,
-    quantity, text, whole,
+    CURRENT, Column, ENERGY, ENERGY_PER_METRE, LOAD, PITCH, POWER, PROBABILITY_COMPLETED, Quantity,
+    ROLL, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TEMPERATURE, TIME, WHEEL_SPEED, X, Y, YAW, Z,
+    number, quantity, text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -21,13 +21,16 @@ use crate::studies::traverse_band::{RunBand, TimeBand};
 use crate::studies::validity::{Raised, RoverOnSlope};
 use crate::vehicle::Mount;
 
-/// The rover at one time. Positions are of the body's centre of mass, in the slope frame; speeds in the body
+/// The rover at one time. Positions are of the body's centre of mass, in the slope frame or on the map; speeds in the body
 /// frame.
 pub const RECORD: [Column<Record>; 12] = [
     TIME.number("Time", |it| it.time),
-    X.number("Along the contour, of the body's centre of mass", |it| it.state.position.x),
-    Y.number("Uphill", |it| it.state.position.y),
-    YAW.number("Yaw, positive where the nose points uphill", |it| it.state.yaw),
+    X.number("Of the body's centre of mass: along the contour, or on a map", |it| it.place().x),
+    Y.number("Uphill, or on a map", |it| it.place().y),
+    YAW.number(
+        "Yaw, positive where the nose points uphill; on a map from its x axis, to the left",
+        |it| it.state.yaw,
+    ),
     number("forward_speed_m_s", M_S, "Speed along the body", |it| it.state.velocity.x),
     number("lateral_speed_m_s", M_S, "Speed across the body, positive to the left", |it| {
         it.state.velocity.y
@@ -40,6 +43,13 @@ pub const RECORD: [Column<Record>; 12] = [
     number("potential_energy_j", J, "Potential energy, zero at the start's height", |it| {
         it.energy.potential
     }),
+];
+
+/// How the rover stands on ground with heights: beside [`RECORD`].
+pub const STANDING: [Column<Record>; 3] = [
+    Z.maybe("Height of the body's centre of mass", |it| Some(it.standing()?.height)),
+    ROLL.maybe("Roll, positive with the right side down", |it| Some(it.standing()?.roll)),
+    PITCH.maybe("Pitch, positive with the nose up", |it| Some(it.standing()?.pitch)),
 ];
 
 /// What motors take, of a rover whose motors are known: beside [`RECORD`].
@@ -167,6 +177,9 @@ pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
 pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     let rover = &scenario.rover;
     let mut table = Table::of(&RECORD, &run.records);
+    if scenario.terrain.is_some() {
+        table = table.and(&STANDING, &run.records.iter().map(Some).collect::<Vec<_>>());
+    }
     if rover.has_motors() {
         table = table.and(&ELECTRICAL_RECORD, &run.records.iter().map(Some).collect::<Vec<_>>());
     }
@@ -268,6 +281,7 @@ pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
     Table::default()
         .and(outcome, &run_row)
         .and(END, &end)
+        .and(STANDING.iter().filter(|_| scenario.terrain.is_some()), &end)
         .and(&DRIVE, &[Some(&drive)])
         .and(ELECTRICAL_DRIVE.iter().filter(|_| has_motors), &[Some(&drive)])
         .and(&FLAGS, &[Some(&findings)])
@@ -308,13 +322,18 @@ fn mean(record: &Record, of: fn(&WheelRecord) -> f64) -> Option<f64> {
 ///
 /// * `lines`: how many besides the start, at most
 #[must_use]
-pub fn brief(run: &Trajectory, lines: usize) -> Table {
+pub fn brief(run: &Trajectory, scenario: &Scenario, lines: usize) -> Table {
     let last = run.records.len() - 1;
     let lines = lines.min(last);
     let rows: Vec<_> =
         (0..=lines).map(|line| Some(&run.records[line * last / lines.max(1)])).collect();
     let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
-    Table::default().and(END, &rows).and(&MEANS, &rows).and(&RECORD[power..=power], &rows)
+    let standing = STANDING.iter().filter(|_| scenario.terrain.is_some());
+    Table::default()
+        .and(END, &rows)
+        .and(standing, &rows)
+        .and(&MEANS, &rows)
+        .and(&RECORD[power..=power], &rows)
 }
 
 /// A run with its records as one object of JSON: what became of the rover, `final`, and `samples`.
@@ -355,6 +374,9 @@ impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        if self.scenario.terrain.is_some() {
+            STANDING.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        }
         if self.scenario.rover.has_motors() {
             ELECTRICAL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
         }

@@ -1,0 +1,185 @@
+//! Ground with heights: maps that are driven on, places in their coordinates, and maps that cannot be used.
+
+use std::fmt::Write as _;
+
+use crate::bad_input::check_is_refusal;
+use crate::program::{Place, keys, number};
+use serde_json::Value;
+
+/// Where the south-western point of the test's maps is [m].
+const CORNER: [f64; 2] = [-25_000.0, 310_000.0];
+
+/// A map of 6 m by 6 m as text, each point with the height of a formula of the way from its corner.
+fn map(height: impl Fn(f64, f64) -> f64) -> String {
+    let mut text = String::new();
+    for (row, column) in (0..=60).flat_map(|row| (0..=60).map(move |column| (row, column))) {
+        let [x, y] = [column, row].map(|cells| 0.1 * f64::from(cells));
+        let [east, north] = [CORNER[0] + x, CORNER[1] + y];
+        let _ = writeln!(text, "{east:.1} {north:.1} {:.9}", height(x, y));
+    }
+    text
+}
+
+/// A drive over a map, from a place seen from its corner.
+fn drive(place: &Place, from: [f64; 2], more: &str) -> Value {
+    let [x, y] = [0, 1].map(|axis| CORNER[axis] + from[axis]);
+    place.json(&format!("traverse --terrain map.xyz --start-x-m {x} --start-y-m {y} {more}"))
+}
+
+fn numbers<const N: usize>(of: &Value, keys: [&str; N]) -> [f64; N] {
+    keys.map(|key| number(&of[key]))
+}
+
+/// What a drive over a plane comes to, by the plane's axes and by the map's: 0.1 % in the way, the drift, slip, heading and
+/// work, whichever way the plane rises.
+#[test]
+fn a_plane_as_a_map_is_the_plane() {
+    let place = Place::new();
+    let slope = 10_f64.to_radians();
+    let plane = place.json("traverse --slope-deg 10 --yaw-deg 5");
+    let [along, uphill, yaw] = numbers(&plane["final"], ["x_m", "y_m", "yaw_deg"]);
+    for rises in [90.0_f64, 30.0] {
+        let turned = rises.to_radians();
+        let height = |x: f64, y: f64| slope.tan() * (x * turned.cos() + y * turned.sin());
+        place.write("map.xyz", map(height));
+        // A yaw on the plane, seen from above and from east.
+        let on_map = |yaw: f64| {
+            let (sin, cos) = yaw.to_radians().sin_cos();
+            (slope.cos() * sin).atan2(cos).to_degrees() + rises - 90.0
+        };
+        let from = [3.0, 3.0];
+        let run = drive(&place, from, &format!("--yaw-deg {}", on_map(5.0)));
+        let [x, y, z] = numbers(&run["final"], ["x_m", "y_m", "z_m"]);
+        let [east, north] = [x - CORNER[0] - from[0], y - CORNER[1] - from[1]];
+        // The body leans by another 0.2° once its wheels have side forces.
+        let start = number(&run["samples"][0]["z_m"]);
+        assert!((z - start - uphill * slope.sin()).abs() < 2e-4, "{z} {start}");
+        let across = east * turned.sin() - north * turned.cos();
+        let up = (east * turned.cos() + north * turned.sin()) / slope.cos();
+        assert!((across - along).abs() < 1e-3 * along, "rises {rises}: {across} {along}");
+        assert!((up - uphill).abs() < 1e-3 * along, "rises {rises}: {up} {uphill}");
+        let heading = number(&run["final"]["yaw_deg"]);
+        assert!((heading - on_map(yaw)).abs() < 1e-3 * 5.0, "{heading} {}", on_map(yaw));
+        let work = [&run, &plane].map(|run| number(&run["energy_j"]));
+        assert!((work[0] / work[1] - 1.0).abs() < 1e-3, "{work:?}");
+        for wheel in 0..4 {
+            let slip =
+                [&run, &plane].map(|run| number(&run["final"]["wheels"][wheel]["slip_ratio"]));
+            assert!((slip[0] - slip[1]).abs() < 1e-4, "{slip:?}");
+        }
+        let [roll, pitch] = numbers(&run["samples"][0], ["roll_deg", "pitch_deg"]);
+        // By the slope's parts across and along the body, but for the wheels' sinkages.
+        assert!((roll - 9.96).abs() < 0.3 && (pitch - 0.87).abs() < 0.3, "{roll} {pitch}");
+    }
+}
+
+/// The contract of places: the start is where it was asked for, or in the map's middle, and heights are metres of the map.
+#[test]
+fn places_are_those_of_the_map() {
+    let place = Place::new();
+    place.write("map.xyz", map(|_, _| 1234.5));
+    let run = drive(&place, [1.5, 2.0], "--yaw-deg 90 --duration-s 2");
+    let [x, y, z, yaw] = numbers(&run["samples"][0], ["x_m", "y_m", "z_m", "yaw_deg"]);
+    assert_eq!([x, y, yaw], [CORNER[0] + 1.5, CORNER[1] + 2.0, 90.0]);
+    assert!((1234.55..1234.70).contains(&z), "{z}");
+    let end = numbers(&run["final"], ["x_m", "y_m"]);
+    assert!((end[0] - x).abs() < 1e-6 && (0.1..0.12).contains(&(end[1] - y)), "{end:?}");
+    let middle = place.json("traverse --terrain map.xyz --duration-s 1");
+    assert_eq!(numbers(&middle["samples"][0], ["x_m", "y_m"]), [CORNER[0] + 3.0, CORNER[1] + 3.0]);
+    let plane = place.json("traverse --duration-s 1");
+    assert!(!keys(&plane["final"]).contains(&"z_m"));
+}
+
+/// What a folder keeps repeats the run from anywhere, and its table and page know the heights.
+#[test]
+fn a_folder_repeats_a_drive_over_a_map() {
+    let place = Place::new();
+    place.write("map.xyz", map(|x, _| 0.1 * x));
+    let first = drive(&place, [2.0, 2.0], "--duration-s 2 --out out");
+    let again = place.json("traverse out/scenario.toml");
+    assert_eq!(first["final"], again["final"]);
+    let head = place.read("out/traverse.csv").lines().next().expect("columns").to_owned();
+    assert!(head.contains(",z_m,roll_deg,pitch_deg,"), "{head}");
+    let page = place.read("out/report.html");
+    assert!(page.contains("map.xyz") && page.contains("Height of the body"));
+    let table = place.line("traverse out/scenario.toml").stdout;
+    assert!(table.contains("x -22998") || table.contains("x -24997."), "{table}");
+}
+
+#[test]
+fn ground_by_formulas_stands_in_documents() {
+    let place = Place::new();
+    let head = "schema = \"scenario/1\"\nname = \"ripples\"\nsimulation = \"quasi-steady\"\n";
+    let ripple = "[terrain]\nsurface = \"ripple\"\namplitude_m = 0.02\nwavelength_m = 2.0\nstart_m = [0.5, 3.0]\n";
+    place.write("s.toml", format!("{head}{ripple}"));
+    let run = place.json("traverse s.toml");
+    let [x, y] = numbers(&run["samples"][0], ["x_m", "y_m"]);
+    assert_eq!([x, y], [0.5, 3.0]);
+    // On a crest the body is level, and its hubs as far above it as on a plane.
+    assert!(number(&run["samples"][0]["pitch_deg"]).abs() < 0.3);
+    let steepest = (0.02 * std::f64::consts::PI).atan().to_degrees();
+    let pitches = run["samples"].as_array().expect("samples").iter();
+    let lowest = pitches.map(|it| number(&it["pitch_deg"])).fold(0.0, f64::min);
+    assert!((-1.1 * steepest..-0.7 * steepest).contains(&lowest), "{lowest} {steepest}");
+    let crater = "--set scenario.terrain.surface=crater --set scenario.terrain.diameter_m=10 --set scenario.terrain.depth_m=1 --set scenario.terrain.rim_height_m=0.2 --set scenario.terrain.rim_width_m=2";
+    let at_rim = place
+        .json(&format!("traverse s.toml {crater} --start-x-m -5 --start-y-m 0 --duration-s 1"));
+    let [rim, level] = [&at_rim, &run].map(|run| number(&run["samples"][0]["z_m"]));
+    assert!((rim - 0.2 - (level - 0.02)).abs() < 0.02, "{rim} {level}");
+}
+
+/// Legs over a map go to its places; roll and pitch stop a rover by how it stands.
+#[test]
+fn missions_are_driven_on_maps() {
+    let place = Place::new();
+    place.write("map.xyz", map(|x, _| 0.02 * (x - 3.0).max(0.0).powi(2)));
+    let [x, y] = [CORNER[0] + 2.0, CORNER[1] + 3.0];
+    let goto = format!("[[leg]]\nspeed_m_s = 0.06\ngoto = {{ x_m = {}, y_m = {y} }}\n", x + 3.0);
+    let head = "schema = \"mission/1\"\nname = \"m\"\nsimulation = \"quasi-steady\"\n";
+    place.write("m.toml", format!("{head}{goto}"));
+    let start = format!("--terrain map.xyz --start-x-m {x} --start-y-m {y}");
+    let all = place.json(&format!("mission m.toml {start}"));
+    assert_eq!(all["outcome"], "completed");
+    let leg = &all["legs"][0];
+    let within = (number(&leg["x_m"]) - x - 3.0).hypot(number(&leg["y_m"]) - y);
+    assert!(within < 0.11, "{within}");
+    assert_eq!(leg["manoeuvre"], format!("go to {}, {y} m", x + 3.0));
+    place.write("m.toml", format!("{head}[stop]\npitch_deg = {{ above = 3.0 }}\n{goto}"));
+    let stopped = place.json(&format!("mission m.toml {start} --out out"));
+    assert_eq!(stopped["legs"][0]["stopped_by"], "pitch_deg");
+    assert!((number(&stopped["final"]["pitch_deg"]) - 3.0).abs() < 0.1, "{}", stopped["final"]);
+}
+
+#[test]
+fn maps_that_cannot_be_driven_on_are_refused() {
+    let place = Place::new();
+    place.write("map.xyz", map(|_, _| 0.0));
+    place.write("words.xyz", "here be craters\n".to_owned());
+    let mut array = b"\x93NUMPY\x01\x00\x46\x00".to_vec();
+    array.extend(
+        format!("{:69}\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }").bytes(),
+    );
+    array.extend([0; 36]);
+    place.write("map.npy", array);
+    for (line, expected) in [
+        ("--terrain none.tif", "there is no such file"),
+        ("--terrain .", "this is a folder"),
+        ("--terrain words.xyz", "line 1"),
+        ("--terrain map.npy", "give `terrain.cell_size_m`"),
+        ("--terrain map.xyz --slope-deg 5", "cannot be used with"),
+        ("--terrain map.xyz --set scenario.slope_deg=5", "leave out `slope_deg`"),
+        ("--terrain map.xyz --start-x-m 5 --start-y-m 5", "x is from -25000 to -24994 m"),
+        ("--terrain map.xyz --start-x-m 5", "--start-y-m"),
+        ("--terrain map.xyz --start-x-m nan --start-y-m 0", "finite"),
+        ("--terrain map.xyz --yaw-deg [[0,1],[5,2]]", "on planes alone"),
+        ("--terrain map.xyz --animate a.gif", "not yet ground with heights"),
+    ] {
+        let refused = check_is_refusal(&place.line(&format!("traverse {line}")), 2);
+        assert!(refused.contains(expected), "{line}: {refused}");
+    }
+    let cells = "--set scenario.terrain.cell_size_m=2 --set scenario.terrain.south_west_m=[100,50]";
+    let run = place.json(&format!("traverse --terrain map.npy {cells} --duration-s 1"));
+    assert_eq!(numbers(&run["samples"][0], ["x_m", "y_m"]), [102.0, 52.0]);
+    let gone = place.line("traverse --terrain map.xyz --duration-s 90 --simulation quasi-steady");
+    assert!(gone.stderr.contains("where the map has no heights"), "{}", gone.stderr);
+}

@@ -1,0 +1,129 @@
+//! Maps of heights that scenarios and missions name.
+
+use std::path::{Path, absolute};
+use std::sync::Arc;
+
+use super::describe::run::{SLOPE, TERRAIN};
+use super::describe::terrain::{BAND, CELL_SIZE, FILE, MISSING, SOUTH_WEST, START};
+use super::document::Document;
+use super::error::{DocumentError, Problem};
+use super::file;
+use super::tree::{Entry, Node, Value};
+use grouser_core::simulation::{Landscape, Scenario};
+use grouser_core::soil::Soil;
+use grouser_core::terrain::{ElevationModel, Extent};
+use grouser_core::units::Vec2;
+use grouser_raster::{Fault, Placement, ReadOptions, RowOrder};
+
+/// Gives a map that a document names its whole path, so that the resolved document finds it from anywhere, and ground
+/// with heights no slope beside them.
+pub(crate) fn locate(tree: &mut Node) {
+    let Some(entry) = tree.entry_mut(TERRAIN) else { return };
+    let key_origin = entry.key_origin.clone();
+    if let Some(Entry { node, .. }) = entry.node.entry_mut(FILE)
+        && let Value::String(name) = &mut node.value
+        && !name.is_empty()
+        && let Ok(path) = absolute(node.origin.text.folder.join(&name))
+    {
+        *name = path.display().to_string();
+    }
+    if let Value::Table(entries) = &mut tree.value
+        && entries.iter().all(|entry| entry.key != SLOPE)
+    {
+        let node = Node { value: Value::Float(0.0), origin: key_origin.clone() };
+        entries.push(Entry { key: SLOPE.to_owned(), key_origin, node });
+    }
+}
+
+/// Reads the map that a scenario's document names, if it names one, and puts it into the scenario.
+///
+/// * `tree`: the document as it was written
+pub(crate) fn read(
+    scenario: &mut Scenario,
+    document: &Document,
+    tree: &Node,
+) -> Result<(), DocumentError> {
+    let soil = scenario.site.terrain.soil;
+    let Some(placed) = &mut scenario.terrain else { return Ok(()) };
+    let Some(path) = document.text(&key(FILE)) else { return Ok(()) };
+    let fault = |key_of: &str, (problem, hint)| {
+        DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
+    };
+    let model = model(Path::new(path), document, soil).map_err(|found| fault(FILE, found))?;
+    if document.get(&key(START)).is_none() {
+        placed.start = middle(model.extent());
+    } else if !contains(model.extent(), placed.start) {
+        let (x, y) = (placed.start.x, placed.start.y);
+        let problem = format!("the start, x {x} m, y {y} m, is beyond the map {path}");
+        return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
+    }
+    placed.ground = Landscape::Elevation(Arc::new(model));
+    Ok(())
+}
+
+fn key(of_terrain: &str) -> String {
+    format!("{TERRAIN}.{of_terrain}")
+}
+
+type Found = (Problem, Option<String>);
+
+fn model(path: &Path, document: &Document, soil: Soil) -> Result<ElevationModel, Found> {
+    // Neither a device nor a pipe is waited for.
+    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
+    let options = options(document);
+    let raster = grouser_raster::read(path, &options).map_err(|error| found(&error.fault))?;
+    raster.model(soil).map_err(|error| found(&error.into()))
+}
+
+/// How the file is to be read.
+fn options(document: &Document) -> ReadOptions {
+    let number = |of: &str| document.number(&key(of));
+    let cell_size = number(CELL_SIZE);
+    let corner = |axis: usize| number(&format!("{SOUTH_WEST}.{axis}")).unwrap_or(0.0);
+    let placement = cell_size.map(|size| Placement {
+        south_west: Vec2::new(corner(0), corner(1)),
+        spacing: Vec2::new(size, size),
+        rows: RowOrder::NorthFirst,
+    });
+    let band = document.get(&key(BAND)).and_then(serde_json::Value::as_u64);
+    ReadOptions {
+        placement,
+        band: band.and_then(|band| usize::try_from(band).ok()),
+        missing: number(MISSING),
+        ..ReadOptions::default()
+    }
+}
+
+/// A fault of a file, with the keys that help.
+fn found(fault: &Fault) -> Found {
+    let own_hint = match fault {
+        Fault::NotPlaced | Fault::NotReferenced => Some(
+            "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is not the origin",
+        ),
+        Fault::Bands { .. } => Some("`terrain.band` says which has the heights, from 1"),
+        _ => None,
+    };
+    if let Fault::Disk(error) = fault {
+        let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
+        return (problem, None);
+    }
+    let text = format!("the map {fault}");
+    let (what, hint) =
+        text.split_once("\nhint: ").map_or((&*text, None), |(what, hint)| (what, Some(hint)));
+    let hint = own_hint.or(hint).map(str::to_owned);
+    (Problem::NoTerrain(what.to_owned()), hint)
+}
+
+fn middle(extent: Extent) -> Vec2 {
+    0.5 * (extent.south_west + extent.north_east)
+}
+
+fn contains(extent: Extent, at: Vec2) -> bool {
+    let Extent { south_west, north_east } = extent;
+    (south_west.x..=north_east.x).contains(&at.x) && (south_west.y..=north_east.y).contains(&at.y)
+}
+
+fn spans(extent: Extent) -> String {
+    let Extent { south_west: low, north_east: high } = extent;
+    format!("x is from {} to {} m, y from {} to {} m", low.x, high.x, low.y, high.y)
+}
