@@ -35,6 +35,11 @@ pub enum Fault {
     /// Nothing is in it.
     #[error("is empty\nhint: copy or download it again")]
     Empty,
+    /// Text without any point.
+    #[error(
+        "has no points: a line of it has x, y and z in metres\nhint: gdal_translate -of GTiff IN OUT.tif writes a GeoTIFF of what GDAL reads"
+    )]
+    NoPoints,
     /// Another format.
     #[error(
         "is none of GeoTIFF, .npy and xyz text\nhint: gdal_translate -of GTiff IN OUT.tif writes a GeoTIFF of what GDAL reads"

@@ -113,7 +113,7 @@ impl Points {
             }
             points.push([x, y, z], number);
         }
-        if points.x.is_empty() { Err(Fault::Empty) } else { Ok(points) }
+        if points.x.is_empty() { Err(Fault::NoPoints) } else { Ok(points) }
     }
 
     fn push(&mut self, [x, y, z]: [f64; 3], line: u32) {

@@ -154,7 +154,7 @@ fn missions_are_driven_on_maps() {
 fn maps_that_cannot_be_driven_on_are_refused() {
     let place = Place::new();
     place.write("map.xyz", map(|_, _| 0.0));
-    place.write("words.xyz", "here be craters\n".to_owned());
+    place.write("words.xyz", "here be craters\n");
     let mut array = b"\x93NUMPY\x01\x00\x46\x00".to_vec();
     array.extend(
         format!("{:69}\n", "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 3), }").bytes(),
@@ -164,7 +164,7 @@ fn maps_that_cannot_be_driven_on_are_refused() {
     for (line, expected) in [
         ("--terrain none.tif", "there is no such file"),
         ("--terrain .", "this is a folder"),
-        ("--terrain words.xyz", "line 1"),
+        ("--terrain words.xyz", "the map has no points"),
         ("--terrain map.npy", "give `terrain.cell_size_m`"),
         ("--terrain map.xyz --slope-deg 5", "cannot be used with"),
         ("--terrain map.xyz --set scenario.slope_deg=5", "leave out `slope_deg`"),

@@ -31,6 +31,9 @@ pub(crate) const BAND: &str = "band";
 /// A height that stands for a missing one.
 pub(crate) const MISSING: &str = "missing_m";
 
+/// How steep a formula's ground is.
+const SLOPE: &str = "slope_deg";
+
 /// Level ground, which is there before anything is said of it.
 const LEVEL: Surface = Surface::Incline(Incline { slope: 0.0, uphill: 0.0 });
 
@@ -156,14 +159,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     slope(|it| Some(&mut ramp(it)?.slope)),
                     uphill("Direction in which it rises, from east to the left", |it| Some(&mut ramp(it)?.uphill)),
                     positive("length_m", M, LARGEST, "Its length on the map", |it| Some(&mut ramp(it)?.length)),
-                    number(
-                        "rounding_m",
-                        M,
-                        0.0..=LARGEST,
-                        "Length on the map over which the slope changes, at its foot and at its top",
-                        |it| Some(&mut ramp(it)?.rounding),
-                    )
-                    .or(0.0),
+                    rounding("Length on the map over which the slope changes, at its foot and at its top", |it| Some(&mut ramp(it)?.rounding)),
                     STARTS,
                 ],
             },
@@ -178,21 +174,11 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     place("tip_m", "Where its axis is, x and y; left out, the origin", |terrain, axis| {
                         cone(terrain)?.tip.get_mut(axis)
                     }),
-                    number(
-                        "slope_deg",
-                        DEG,
-                        -STEEPEST..=STEEPEST,
+                    number(SLOPE, DEG, -STEEPEST..=STEEPEST,
                         "Inclination: above 0 a hill, below a pit",
                         |it| Some(&mut cone(it)?.slope),
                     ),
-                    number(
-                        "rounding_m",
-                        M,
-                        0.0..=LARGEST,
-                        "How far from the axis the tip is rounded",
-                        |it| Some(&mut cone(it)?.rounding),
-                    )
-                    .or(0.0),
+                    rounding("How far from the axis the tip is rounded", |it| Some(&mut cone(it)?.rounding)),
                     STARTS,
                 ],
             },
@@ -286,7 +272,7 @@ const fn place(
 
 /// How steep it is.
 const fn slope(reach: fn(&mut PlacedTerrain) -> Option<&mut f64>) -> Field<PlacedTerrain> {
-    number("slope_deg", DEG, 0.0..=STEEPEST, "Inclination", reach)
+    number(SLOPE, DEG, 0.0..=STEEPEST, "Inclination", reach)
 }
 
 /// A direction on the map.
@@ -295,4 +281,12 @@ const fn uphill(
     reach: fn(&mut PlacedTerrain) -> Option<&mut f64>,
 ) -> Field<PlacedTerrain> {
     number("direction_deg", DEG, -360.0..=360.0, doc, reach).or(0.0)
+}
+
+/// A length over which an edge is rounded.
+const fn rounding(
+    doc: &'static str,
+    reach: fn(&mut PlacedTerrain) -> Option<&mut f64>,
+) -> Field<PlacedTerrain> {
+    number("rounding_m", M, 0.0..=LARGEST, doc, reach).or(0.0)
 }

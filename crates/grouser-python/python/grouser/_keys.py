@@ -824,6 +824,56 @@ class RoverKeys:
             ...
 
 
+class ScenarioTerrain(TypedDict, total=False):
+    """Ground with heights, in place of the plane; `slope_deg` is then left out, or 0."""
+
+    surface: str
+    """The law; may be left out."""
+    file: str
+    """A GeoTIFF in metres of a projection, a NumPy array (.npy), or text with x, y and z in each
+    line: a path from this document's folder."""
+    start_m: tuple[float, ...]
+    """Where the body's centre of mass is at the start, on the map, x and y; left out, the middle
+    of the map, or the origin of a formula [m]."""
+    cell_size_m: float
+    """Distance between neighbouring points of a file that does not say it [m]."""
+    south_west_m: tuple[float, ...]
+    """The point farthest to the south and west of a file that does not say it, x and y: the middle
+    of its cell; left out, the origin [m]."""
+    band: int
+    """Which band of a GeoTIFF has the heights, from 1."""
+    missing_m: float
+    """A height that stands for a missing one, beside those that the file declares [m]."""
+    slope_deg: float
+    """Inclination [°]."""
+    direction_deg: float
+    """Direction in which it rises, from east to the left [°]."""
+    foot_m: tuple[float, ...]
+    """A place on the line where it starts, x and y; left out, the origin [m]."""
+    length_m: float
+    """Its length on the map [m]."""
+    rounding_m: float
+    """Length on the map over which the slope changes, at its foot and at its top [m]."""
+    tip_m: tuple[float, ...]
+    """Where its axis is, x and y; left out, the origin [m]."""
+    amplitude_m: float
+    """Half of the height from trough to crest [m]."""
+    wavelength_m: float
+    """Distance from crest to crest [m]."""
+    phase_deg: float
+    """Phase at the origin [°]."""
+    centre_m: tuple[float, ...]
+    """Where its centre is, x and y; left out, the origin [m]."""
+    diameter_m: float
+    """Diameter of the crest [m]."""
+    depth_m: float
+    """How far the centre is below the crest [m]."""
+    rim_height_m: float
+    """How far the crest is above the ground about it [m]."""
+    rim_width_m: float
+    """How far from the crest the ground is level again [m]."""
+
+
 class ScenarioDrive(TypedDict, total=False):
     """What turns the wheels."""
 
@@ -938,6 +988,11 @@ class ScenarioKeys:
         @property
         def slope_deg(self) -> float:
             """Inclination of the plane, α [°]."""
+            ...
+
+        @property
+        def terrain(self) -> ScenarioTerrain:
+            """Ground with heights, in place of the plane; `slope_deg` is then left out, or 0."""
             ...
 
         @property
@@ -1198,9 +1253,9 @@ class MissionLegGoto(TypedDict, total=False):
     that is not ahead."""
 
     x_m: float
-    """Along the contour [m]."""
+    """Along the contour, or on the map [m]."""
     y_m: float
-    """Uphill, measured along the slope [m]."""
+    """Uphill, measured along the slope, or on the map [m]."""
     within_m: float
     """How near is near enough [m]."""
 
@@ -1221,9 +1276,9 @@ class MissionLegToward(TypedDict, total=False):
     """The place towards which the nose is held."""
 
     x_m: float
-    """Along the contour [m]."""
+    """Along the contour, or on the map [m]."""
     y_m: float
-    """Uphill, measured along the slope [m]."""
+    """Uphill, measured along the slope, or on the map [m]."""
 
 
 class MissionLegStop(TypedDict, total=False):
@@ -1354,6 +1409,11 @@ class MissionKeys:
         @property
         def slope_deg(self) -> float:
             """Inclination of the plane, α [°]."""
+            ...
+
+        @property
+        def terrain(self) -> ScenarioTerrain:
+            """Ground with heights, in place of the plane; `slope_deg` is then left out, or 0."""
             ...
 
         @property

@@ -52,8 +52,8 @@ fn lines_that_are_no_points_are_refused_by_their_number() {
 
 #[test]
 fn what_is_no_grid_is_refused() {
-    assert!(matches!(decode(""), Err(Fault::Empty)));
-    assert!(matches!(decode("# nothing\n"), Err(Fault::Empty)));
+    assert!(matches!(decode(""), Err(Fault::NoPoints)));
+    assert!(matches!(decode("# nothing\n"), Err(Fault::NoPoints)));
     let far = decode("0 0 1\n1 1 2\n2 2 1\n1e9 1e9 3\n");
     assert!(matches!(far, Err(Fault::TooLarge { .. })), "{far:?}");
     let few = decode("0 0 1\n1 1 2\n2 2 1\n999 999 3\n");

@@ -1,5 +1,6 @@
 //! A traverse in a few numbers: its length, drift, slip, sinkage and energy.
 
+use crate::elementary::wide::hypot;
 use crate::simulation::{Record, Trajectory, WheelRecord};
 
 /// Length, drift and means of a traverse.
@@ -41,7 +42,7 @@ impl Drive {
             if pair[0].origin.is_none() {
                 level
             } else {
-                level.hypot(height(&pair[1]) - height(&pair[0]))
+                hypot(level, height(&pair[1]) - height(&pair[0]))
             }
         };
         let distance: f64 = steps.map(length).sum();

@@ -5,7 +5,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::super::limited_quantity;
 use super::super::table::Table;
 use super::super::unit::M;
-use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STATE_OF_CHARGE};
+use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STANDING, STATE_OF_CHARGE};
 use super::{
     CURRENT, Column, ENERGY, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, text, whole,
 };
@@ -238,7 +238,9 @@ pub struct MissionObject<'a> {
 impl Serialize for MissionObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let DrivenMission { name, report, .. } = self.mission;
-        let end = Table::of(END, std::slice::from_ref(report.last()));
+        let last = [Some(report.last())];
+        let standing = STANDING.iter().filter(|_| report.last().origin.is_some());
+        let end = Table::default().and(END, &last).and(standing, &last);
         let mut map = serializer.serialize_map(None)?;
         if !name.is_empty() {
             map.serialize_entry(ALTERNATIVE, name)?;
