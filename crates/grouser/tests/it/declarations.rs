@@ -16,7 +16,7 @@ use grouser::mission::Limited;
 use serde_json::Value;
 
 /// Keys that name different numbers in different places, and how many rows they have.
-const DIFFERENT_NUMBERS: [(&str, usize); 11] = [
+const DIFFERENT_NUMBERS: [(&str, usize); 12] = [
     // Of the soil in itself, and between soil and wheel.
     ("friction_angle_deg", 2),
     // Of the body, and of a wheel with its motor.
@@ -30,6 +30,8 @@ const DIFFERENT_NUMBERS: [(&str, usize); 11] = [
     ("gravity_m_s2", 2),
     // Of the plane, and of ground by a formula.
     ("slope_deg", 2),
+    // Of a layer that would slide, and of a crater.
+    ("depth_m", 2),
     // At the start, over time, and before a leg.
     ("yaw_deg", 3),
     // Of a leg, and formerly of two drives.
