@@ -39,7 +39,7 @@ const LEVEL: Surface = Surface::Incline(Incline { slope: 0.0, uphill: 0.0 });
 
 /// Ground before its numbers are put in.
 pub(super) fn blank() -> PlacedTerrain {
-    PlacedTerrain { ground: by_formula(LEVEL), start: Vec2::zeros() }
+    PlacedTerrain { ground: by_formula(LEVEL), start: Vec2::zeros(), soils: None }
 }
 
 fn by_formula(surface: Surface) -> Landscape {
