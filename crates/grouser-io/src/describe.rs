@@ -15,6 +15,7 @@ pub(crate) mod soil;
 pub(crate) mod terrain;
 pub(crate) mod uncertainty;
 pub(crate) mod wheel;
+pub(crate) mod zones;
 
 use serde_json::Value as Json;
 

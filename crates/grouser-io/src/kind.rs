@@ -112,6 +112,7 @@ impl Kind {
             Self::Scenario | Self::Mission => &[
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
+                Part { kind: Self::Soil, path: &["terrain", "zone", EACH, "soil"], default: None },
             ],
             Self::Campaign => &[
                 Part { kind: Self::Scenario, path: &["scenario"], default: None },

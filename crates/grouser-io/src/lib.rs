@@ -73,6 +73,7 @@ pub mod uncertainty;
 pub mod unit;
 mod values;
 pub mod varied;
+mod zones_file;
 
 pub use check::{meant_keys, nearest};
 pub use data_set::{DataSet, DataSetCase, LoadedDataSet, Tested, read_data_set};

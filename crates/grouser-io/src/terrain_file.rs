@@ -5,28 +5,33 @@ use std::sync::Arc;
 
 use super::describe::run::{SLOPE, TERRAIN};
 use super::describe::terrain::{BAND, CELL_SIZE, FILE, MISSING, SOUTH_WEST, START};
+use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
 use super::tree::{Entry, Node, Value};
+use super::zones_file;
 use grouser_core::simulation::{Landscape, Scenario};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{ElevationModel, Extent};
 use grouser_core::units::Vec2;
 use grouser_raster::{Fault, Placement, ReadOptions, RowOrder};
 
-/// Gives a map that a document names its whole path, so that the resolved document finds it from anywhere, and ground
+/// Gives maps that a document names their whole paths, so that the resolved document finds them from anywhere, and ground
 /// with heights no slope beside them.
 pub(crate) fn locate(tree: &mut Node) {
     let Some(entry) = tree.entry_mut(TERRAIN) else { return };
     let key_origin = entry.key_origin.clone();
-    if let Some(Entry { node, .. }) = entry.node.entry_mut(FILE)
-        && let Value::String(name) = &mut node.value
-        && !name.is_empty()
-        && let Ok(path) = absolute(node.origin.text.folder.join(&name))
-    {
-        *name = path.display().to_string();
+    for key in [FILE, SOIL_FILE] {
+        if let Some(Entry { node, .. }) = entry.node.entry_mut(key)
+            && let Value::String(name) = &mut node.value
+            && !name.is_empty()
+            && let Ok(path) = absolute(node.origin.text.folder.join(&name))
+        {
+            *name = path.display().to_string();
+        }
     }
+    zones_file::name_presets(&mut entry.node);
     if let Value::Table(entries) = &mut tree.value
         && entries.iter().all(|entry| entry.key != SLOPE)
     {
@@ -45,7 +50,9 @@ pub(crate) fn read(
 ) -> Result<(), DocumentError> {
     let soil = scenario.site.terrain.soil;
     let Some(placed) = &mut scenario.terrain else { return Ok(()) };
-    let Some(path) = document.text(&key(FILE)) else { return Ok(()) };
+    let Some(path) = document.text(&key(FILE)) else {
+        return zones_file::read(placed, soil, document, tree);
+    };
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
     };
@@ -58,25 +65,26 @@ pub(crate) fn read(
         return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
     }
     placed.ground = Landscape::Elevation(Arc::new(model));
-    Ok(())
+    zones_file::read(placed, soil, document, tree)
 }
 
-fn key(of_terrain: &str) -> String {
+pub(crate) fn key(of_terrain: &str) -> String {
     format!("{TERRAIN}.{of_terrain}")
 }
 
-type Found = (Problem, Option<String>);
+pub(crate) type Found = (Problem, Option<String>);
 
 fn model(path: &Path, document: &Document, soil: Soil) -> Result<ElevationModel, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     let options = options(document);
-    let raster = grouser_raster::read(path, &options).map_err(|error| found(&error.fault))?;
-    raster.model(soil).map_err(|error| found(&error.into()))
+    let raster =
+        grouser_raster::read(path, &options).map_err(|error| found("map", &error.fault))?;
+    raster.model(soil).map_err(|error| found("map", &error.into()))
 }
 
 /// How the file is to be read.
-fn options(document: &Document) -> ReadOptions {
+pub(crate) fn options(document: &Document) -> ReadOptions {
     let number = |of: &str| document.number(&key(of));
     let cell_size = number(CELL_SIZE);
     let corner = |axis: usize| number(&format!("{SOUTH_WEST}.{axis}")).unwrap_or(0.0);
@@ -95,7 +103,9 @@ fn options(document: &Document) -> ReadOptions {
 }
 
 /// A fault of a file, with the keys that help.
-fn found(fault: &Fault) -> Found {
+///
+/// * `what`: the file has
+pub(crate) fn found(what: &str, fault: &Fault) -> Found {
     let own_hint = match fault {
         Fault::NotPlaced | Fault::NotReferenced => Some(
             "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is not the origin",
@@ -107,11 +117,11 @@ fn found(fault: &Fault) -> Found {
         let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
         return (problem, None);
     }
-    let text = format!("the map {fault}");
-    let (what, hint) =
-        text.split_once("\nhint: ").map_or((&*text, None), |(what, hint)| (what, Some(hint)));
+    let text = format!("the {what} {fault}");
+    let (problem, hint) =
+        text.split_once("\nhint: ").map_or((&*text, None), |(problem, hint)| (problem, Some(hint)));
     let hint = own_hint.or(hint).map(str::to_owned);
-    (Problem::NoTerrain(what.to_owned()), hint)
+    (Problem::NoTerrain(problem.to_owned()), hint)
 }
 
 fn middle(extent: Extent) -> Vec2 {

@@ -61,6 +61,11 @@ impl Misfit {
         Self { part, ..self }
     }
 
+    /// The same, of what stands at a dotted key.
+    fn below(self, key: &str) -> Self {
+        Self { path: format!("{key}.{}", self.path), ..self }
+    }
+
     /// What is wrong with the numbers of a value that was one.
     #[must_use]
     pub fn of_numbers(self) -> ParameterError {
@@ -416,6 +421,10 @@ impl Described for Scenario {
         self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
+        for (number, soil) in zone_soils(self).iter_mut().enumerate() {
+            let part = document.part(Kind::Soil, &format!("terrain.zone.{number}.soil"));
+            soil.domain.assumed_values = assumed_values(part.as_ref());
+        }
     }
 
     fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
@@ -427,6 +436,11 @@ impl Described for Scenario {
         let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
         let mut run = Self { rover, site: self.site.with_soil(soil), ..self };
         settle_terrain(&mut run)?;
+        for (number, soil) in zone_soils(&mut run).iter_mut().enumerate() {
+            *soil = soil
+                .settled()
+                .map_err(|misfit| misfit.below(&format!("terrain.zone.{number}.soil")))?;
+        }
         check_sample_count(run.duration, run.numerics.sample_interval)
             .map_err(Misfit::at("sample_interval_s"))?;
         let with_names = |misfit: Misfit| {
@@ -453,6 +467,12 @@ impl Described for Scenario {
         run.check().map_err(Misfit::at("schema"))?;
         Ok(run)
     }
+}
+
+/// The soils of a scenario's zones.
+fn zone_soils(run: &mut Scenario) -> &mut [Soil] {
+    let zones = run.terrain.as_mut().and_then(|terrain| terrain.soils.as_mut());
+    zones.map_or(&mut [], |zones| &mut Arc::make_mut(zones).soils)
 }
 
 /// Gives ground with heights the scenario's soil; checks that it can be, and has no slope beside them.

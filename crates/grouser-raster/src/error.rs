@@ -185,7 +185,7 @@ pub enum Fault {
     },
     /// A cell that is no class.
     #[error(
-        "the cell at x = {x} m, y = {y} m is {number}, and class numbers are whole\nhint: gdalwarp -r near IN.tif OUT.tif keeps them whole where it projects"
+        "has a cell of {number} at x = {x} m, y = {y} m, and class numbers are whole\nhint: gdalwarp -r near IN.tif OUT.tif keeps them whole where it projects"
     )]
     NoClass {
         /// Its number.
@@ -196,7 +196,7 @@ pub enum Fault {
         y: f64,
     },
     /// Classes without a soil.
-    #[error("the legend has no soil for: {}", listed(keys))]
+    #[error("has zones that the legend has no soil for: {}", listed(keys))]
     NotInLegend {
         /// What the file calls them.
         keys: Vec<ZoneKey>,
@@ -225,7 +225,7 @@ pub enum Fault {
         kind: String,
     },
     /// A feature that is no zone.
-    #[error("feature {number}, counted from 1: {problem}")]
+    #[error("has no zone in feature {number}, counted from 1: {problem}")]
     Feature {
         /// Which.
         number: usize,
@@ -234,7 +234,7 @@ pub enum Fault {
     },
     /// A coordinate system of longitude and latitude.
     #[error(
-        "its coordinates are degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+        "has coordinates in degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
     )]
     SystemInDegrees {
         /// The system's name.
@@ -242,12 +242,12 @@ pub enum Fault {
     },
     /// Numbers that are longitude and latitude.
     #[error(
-        "its coordinates look like degrees of longitude and latitude: none lies on the ground, and all are within ±360 and ±90\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+        "has coordinates that look like degrees of longitude and latitude: none is on the ground, and all are within ±360 and ±90\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
     )]
     ZonesInDegrees,
     /// Zones of another place.
     #[error(
-        "none of its zones lies on the ground: they are within x = {} to {} m, y = {} to {} m, and the heights within x = {} to {} m, y = {} to {} m\nhint: both need the same projection; gdalsrsinfo FILE shows it",
+        "has no zone on the ground: all are within x = {} to {} m, y = {} to {} m, and the heights within x = {} to {} m, y = {} to {} m\nhint: both need the same projection; gdalsrsinfo FILE shows it",
         zones.south_west.x, zones.north_east.x, zones.south_west.y, zones.north_east.y,
         ground.south_west.x, ground.north_east.x, ground.south_west.y, ground.north_east.y
     )]

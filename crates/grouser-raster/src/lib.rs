@@ -53,4 +53,4 @@ pub use error::{Fault, RasterError};
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;
-pub use zones::{ZoneKey, ZoneMap, read_zones};
+pub use zones::{ZoneKey, ZoneMap, read_zones, zone_names};

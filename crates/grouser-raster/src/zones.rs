@@ -37,6 +37,24 @@ use crate::error::{Fault, RasterError};
 use crate::read::start_of;
 use crate::{Content, ReadOptions, read};
 
+/// The names of a file's zones; none of a raster, whose zones have numbers.
+///
+/// # Errors
+/// [`RasterError`] with the file's name, and what to do.
+pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
+    let names = || {
+        if !geojson::starts_so(&start_of(path)?) {
+            return Ok(Vec::new());
+        }
+        let name = |key: &ZoneKey| match key {
+            ZoneKey::Name(name) => Some(name.clone()),
+            ZoneKey::Class(_) => None,
+        };
+        Ok(geojson::read(path)?.keys().iter().filter_map(name).collect())
+    };
+    names().map_err(|fault: Fault| RasterError::new(path, fault))
+}
+
 /// Reads zones from a file of any format, which its content tells.
 ///
 /// * `options`: of a raster

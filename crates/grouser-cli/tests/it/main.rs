@@ -22,6 +22,7 @@ mod reports;
 mod scrambled;
 mod simulated;
 mod slip_from_current;
+mod soil_zones;
 mod terminal;
 mod terrain;
 mod validate;

@@ -56,10 +56,12 @@ use polygons::PolygonZones;
 /// assert_eq!(format!("{:.3}", passed.unwrap_or_default()), "0.352");
 /// # Ok::<(), grouser_core::terrain::ZonesError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+/// [`default`](Self::default) has no zones.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SoilZones {
     map: Arc<Map>,
-    soils: Vec<Soil>,
+    /// The soils. A clone with others shares the places; a zone of a soil that is not there has the ground's own.
+    pub soils: Vec<Soil>,
 }
 
 /// How much of a footprint lies on one soil.
@@ -107,17 +109,6 @@ impl SoilZones {
         Ok(Self { map: Arc::new(Map::Polygons(PolygonZones::new(polygons)?)), soils })
     }
 
-    /// The soils.
-    #[must_use]
-    pub fn soils(&self) -> &[Soil] {
-        &self.soils
-    }
-
-    /// The same, to be changed: a clone with other soils shares the places.
-    pub fn soils_mut(&mut self) -> &mut [Soil] {
-        &mut self.soils
-    }
-
     /// That there can be such soils.
     ///
     /// # Errors
@@ -132,6 +123,12 @@ impl SoilZones {
         self.map.zone(at - self.map.base())
     }
 
+    /// The soil at a place [m]; none where there is no zone.
+    #[must_use]
+    pub fn soil(&self, at: Vec2) -> Option<&Soil> {
+        self.soils.get(self.zone(at)?)
+    }
+
     /// The soils below a footprint, and the share of each: one where all of it is in one zone.
     ///
     /// * `origin`: in the map's coordinates [m]
@@ -140,7 +137,7 @@ impl SoilZones {
     pub fn under(&self, origin: Vec2, at: Vec2, footprint: Footprint) -> Vec<Share<'_>> {
         // The map's place is taken off first: it costs no precision.
         let middle = (origin - self.map.base()) + at;
-        let soil = |zone: Option<usize>| zone.map(|zone| &self.soils[zone]);
+        let soil = |zone: Option<usize>| zone.and_then(|zone| self.soils.get(zone));
         let shares = shares::of(&self.map, middle, footprint).into_iter();
         shares.map(|(zone, weight)| Share { soil: soil(zone), weight }).collect()
     }

@@ -17,7 +17,7 @@ fn soils(count: u8) -> Vec<grouser_core::soil::Soil> {
 
 /// The share of a soil below a footprint; of none for the ground outside of all zones.
 fn share(zones: &SoilZones, soil: Option<usize>, at: Vec2, footprint: Footprint) -> f64 {
-    let soil = soil.map(|soil| &zones.soils()[soil]);
+    let soil = soil.map(|soil| &zones.soils[soil]);
     let shares = zones.under(Vec2::zeros(), at, footprint);
     shares.iter().find(|share| share.soil == soil).map_or(0.0, |share| share.weight)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::super::field::{
     DEG, Field, Form, Law, Laws, M, Table, note, number, numbers, positive, whole,
 };
-use super::soil;
+use super::{soil, zones};
 use grouser_core::simulation::{Landscape, PlacedTerrain};
 use grouser_core::terrain::surface::{Cone, Crater, Incline, Ramp, Ripple};
 use grouser_core::terrain::{AnalyticTerrain, Surface};
@@ -107,6 +107,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                         "A GeoTIFF in metres of a projection, a NumPy array (.npy), or text with x, y and z in each line: a path from this document's folder.",
                     ),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                     positive(
                         CELL_SIZE,
                         M,
@@ -143,6 +145,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     slope(|it| Some(&mut incline(it)?.slope)),
                     uphill("Direction in which it rises, from east to the left", |it| Some(&mut incline(it)?.uphill)),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                 ],
             },
         },
@@ -161,6 +165,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     positive("length_m", M, LARGEST, "Its length on the map", |it| Some(&mut ramp(it)?.length)),
                     rounding("Length on the map over which the slope changes, at its foot and at its top", |it| Some(&mut ramp(it)?.rounding)),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                 ],
             },
         },
@@ -180,6 +186,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     ),
                     rounding("How far from the axis the tip is rounded", |it| Some(&mut cone(it)?.rounding)),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                 ],
             },
         },
@@ -201,6 +209,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                     uphill("Direction from crest to crest, from east to the left", |it| Some(&mut ripple(it)?.across)),
                     number("phase_deg", DEG, -360.0..=360.0, "Phase at the origin", |it| Some(&mut ripple(it)?.phase)).or(0.0),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                 ],
             },
         },
@@ -237,6 +247,8 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
                         |it| Some(&mut crater(it)?.rim_width),
                     ),
                     STARTS,
+                    zones::SOIL_FILE,
+                    zones::ZONES,
                 ],
             },
         },

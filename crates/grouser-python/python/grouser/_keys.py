@@ -824,6 +824,70 @@ class RoverKeys:
             ...
 
 
+class ScenarioTerrainZoneSoil(TypedDict, total=False):
+    """Its soil: a preset's name, a path from this document's folder, or a soil's keys; left out,
+    the scenario's."""
+
+    schema: str
+    """Kind and version of this document."""
+    name: str
+    """What people call it."""
+    source: str
+    """Where the values come from."""
+    date: str
+    """The day on which the soil was measured or observed to be like this, as 2026-11-20."""
+    notes: str
+    """Anything else worth knowing."""
+    assumed: tuple[str, ...]
+    """Values that the source does not give, each as `key: why this value`."""
+    model: str
+    """The wheel–soil model that the values were made for; without it, `ishigami`."""
+    consistency: str
+    """Whether the soil is loose or firm, for priors; without it, loose."""
+    cohesion_kpa: float
+    """Cohesion, c [kPa]."""
+    friction_angle_deg: float
+    """Angle of internal friction, φ [°]."""
+    density_kg_m3: float
+    """Bulk density, ρ [kg/m³]."""
+    pressure_sinkage: SoilPressureSinkage
+    """How pressure grows with sinkage."""
+    stress_peak: SoilStressPeak
+    """Where along the arc the normal stress peaks."""
+    shear: SoilShear
+    """How shear stress is mobilised."""
+    exit: SoilExit
+    """Where the wheel leaves the soil."""
+    bulldozing: SoilBulldozing
+    """How soil pushed aside loads the side wall."""
+    small_wheel: SoilSmallWheel
+    """Terms of the model `small-wheel`, for one wheel on this soil; general values without it."""
+    rft: SoilRft
+    """Constants of the model `rft`, resistive force theory; as published without it."""
+    domain: SoilDomain
+    """The ranges within which the constants were measured or fitted; not stated without it."""
+    discrepancy: SoilDiscrepancy
+    """What the model gets wrong under one wheel, from a calibration; nothing without it."""
+    uncertainty: SoilUncertainty
+    """How well the numbers above are known; without it, as well as the priors say."""
+    priors: SoilPriors
+    """What is believed of the numbers that are not stated above; without it, `general`. In a
+    resolved document, the rows that hold for this soil: a number that they call missing is the
+    prior's, not the source's."""
+
+
+class ScenarioTerrainZone(TypedDict, total=False):
+    """The soil of a zone."""
+
+    class: int
+    """The zone's class number in the file."""
+    name: str
+    """The zone's name in the file, in place of a class number."""
+    soil: ScenarioTerrainZoneSoil
+    """Its soil: a preset's name, a path from this document's folder, or a soil's keys; left out,
+    the scenario's."""
+
+
 class ScenarioTerrain(TypedDict, total=False):
     """Ground with heights, in place of the plane; `slope_deg` is then left out, or 0."""
 
@@ -835,6 +899,12 @@ class ScenarioTerrain(TypedDict, total=False):
     start_m: tuple[float, ...]
     """Where the body's centre of mass is at the start, on the map, x and y; left out, the middle
     of the map, or the origin of a formula [m]."""
+    soil_file: str
+    """Zones of soil: a raster of class numbers (GeoTIFF, .npy, xyz text), or GeoJSON polygons in
+    metres with a property `soil`; a path from this document's folder. Where no zone is, the soil
+    is the scenario's."""
+    zone: tuple[ScenarioTerrainZone, ...]
+    """The soil of each class, or of each name that is not a preset's."""
     cell_size_m: float
     """Distance between neighbouring points of a file that does not say it [m]."""
     south_west_m: tuple[float, ...]

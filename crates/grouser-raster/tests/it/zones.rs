@@ -60,7 +60,7 @@ fn a_geotiff_of_classes_has_zones() {
         assert_eq!(zones.zone(at(column, row)), expected, "column {column}, row {row}");
     }
     let missing = map.with_legend(&[(ZoneKey::Class(3), Some(0))], soils(1)).expect_err("7 is not");
-    assert_eq!(missing.to_string(), "the legend has no soil for: 7");
+    assert_eq!(missing.to_string(), "has zones that the legend has no soil for: 7");
     // As heights a palette stays refused.
     let heights = read(&fixture("classes-palette-u8.tif"), &ReadOptions::default());
     assert!(matches!(heights.expect_err("colours").fault, Fault::Samples { .. }));
@@ -161,7 +161,7 @@ fn features_that_are_no_zones_are_refused_by_their_number() {
     let with = |soil: &str, rings: &str| collection(&[feature("1", SQUARE), feature(soil, rings)]);
     refused(
         &with("\"a\"", "[[[0,0],[1,0],[1,1],[0,1]]]"),
-        "feature 2, counted from 1: its ring 1 is not closed: it begins at 0, 0 and ends at 0, 1",
+        "in feature 2, counted from 1: its ring 1 is not closed: it begins at 0, 0 and ends at 0, 1",
     );
     refused(&with("\"a\"", "[[[0,0],[1,0],[0,0]]]"), "has 3 places");
     refused(&with("\"a\"", "[[]]"), "ring 1 is empty");

@@ -457,7 +457,8 @@ impl HeadingCurve {
     #[must_use]
     pub fn findings(&self, slope: f64, found: &Result<HeadingOffset, NoHeading>) -> Vec<Finding> {
         let HeadingStudy { rover, soil, gravity, theory, .. } = &self.study;
-        let on_slope = RoverOnSlope { rover, soil, gravity: *gravity, theory: *theory, slope };
+        let on_slope =
+            RoverOnSlope { rover, soil, zones: None, gravity: *gravity, theory: *theory, slope };
         on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
     }
 

@@ -4,7 +4,8 @@ use crate::contact::Theory;
 use crate::contact::validity::{Finding, Situation, union};
 use crate::simulation::{Record, Scenario, Trajectory};
 use crate::soil::Soil;
-use crate::vehicle::{Attitude, Rover, WheelReaction};
+use crate::terrain::SoilZones;
+use crate::vehicle::{Attitude, Mount, Rover, WheelReaction};
 
 /// A rover on a slope of some soil.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +14,8 @@ pub struct RoverOnSlope<'a> {
     pub rover: &'a Rover,
     /// The soil.
     pub soil: &'a Soil,
+    /// Zones of other soils, where there are some.
+    pub zones: Option<&'a SoilZones>,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// The wheel–soil model.
@@ -38,6 +41,7 @@ impl<'a> RoverOnSlope<'a> {
         Self {
             rover: &scenario.rover,
             soil: &terrain.soil,
+            zones: scenario.terrain.as_ref().and_then(|placed| placed.soils.as_deref()),
             gravity: scenario.site.gravity,
             theory: scenario.theory,
             slope: terrain.slope,
@@ -52,13 +56,24 @@ impl<'a> RoverOnSlope<'a> {
     where
         'a: 'w,
     {
-        let mut wheels = wheels;
+        self.findings_on(wheels, |_| self.soil)
+    }
+
+    /// The same, each wheel on a soil of its own.
+    fn findings_on<'w>(
+        &self,
+        mut wheels: impl Iterator<Item = &'w WheelReaction>,
+        soil: impl Fn(&Mount) -> &'a Soil,
+    ) -> Vec<Finding>
+    where
+        'a: 'w,
+    {
         union(self.rover.mounts().iter().map(|mount| {
             let reaction = wheels.next();
             Situation {
                 theory: self.theory,
                 wheel: &mount.unit.wheel,
-                soil: self.soil,
+                soil: soil(mount),
                 gravity: self.gravity,
                 slope: self.slope,
                 load: reaction.map(|it| it.load),
@@ -68,12 +83,17 @@ impl<'a> RoverOnSlope<'a> {
         }))
     }
 
-    /// The flags of one record of a run.
+    /// The flags of one record of a run, each wheel on the soil below its hub.
     #[must_use]
     pub fn at(&self, record: &Record) -> Vec<Finding> {
         let slope = record.standing().map_or(self.slope, Attitude::tilt);
         let there = Self { slope, ..*self };
-        there.findings(record.wheels.iter().map(|wheel| &wheel.reaction))
+        let turn = record.state.slope_from_body();
+        let soil = |mount: &Mount| {
+            let hub = record.place() + turn * mount.position.xy();
+            self.zones.and_then(|zones| zones.soil(hub)).unwrap_or(self.soil)
+        };
+        there.findings_on(record.wheels.iter().map(|wheel| &wheel.reaction), soil)
     }
 
     /// The flags that any record of a run raises, in the order of time and of the list.

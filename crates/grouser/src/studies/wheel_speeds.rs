@@ -159,7 +159,8 @@ impl WheelSpeeds {
     #[must_use]
     pub fn findings(&self, slope: f64, motion: Option<&StraightMotion>) -> Vec<Finding> {
         let HeadingStudy { rover, soil, gravity, theory, .. } = &self.study.heading;
-        let on_slope = RoverOnSlope { rover, soil, gravity: *gravity, theory: *theory, slope };
+        let on_slope =
+            RoverOnSlope { rover, soil, zones: None, gravity: *gravity, theory: *theory, slope };
         on_slope.findings(motion.iter().flat_map(|motion| &motion.wheels))
     }
 }

@@ -12,6 +12,13 @@ pub(super) enum Map {
     Polygons(PolygonZones),
 }
 
+/// No zones.
+impl Default for Map {
+    fn default() -> Self {
+        Self::Polygons(PolygonZones::default())
+    }
+}
+
 impl Map {
     pub(super) fn base(&self) -> Vec2 {
         match self {

@@ -43,6 +43,14 @@ pub(super) struct PolygonZones {
     bands: Vec<Vec<u32>>,
 }
 
+/// No polygons.
+impl Default for PolygonZones {
+    fn default() -> Self {
+        let (edges, soils, bands) = (Vec::new(), Vec::new(), vec![Vec::new()]);
+        Self { base: Vec2::zeros(), edges, soils, height: 1.0, bands }
+    }
+}
+
 impl PolygonZones {
     pub(super) fn new(polygons: &[ZonePolygon]) -> Result<Self, ZonesError> {
         for (number, polygon) in (1..).zip(polygons) {

@@ -1,0 +1,139 @@
+//! Files of zones of soil that scenarios and missions name.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::Value as Json;
+
+use super::describe::zones::{CLASS, FILE, LEGEND, NAME, SOIL};
+use super::document::Document;
+use super::error::{DocumentError, Problem};
+use super::file;
+use super::kind::Kind;
+use super::presets::preset;
+use super::terrain_file::{Found, found, key, options};
+use super::tree::{Entry, Node, Origin, Value};
+use grouser_core::simulation::{Landscape, PlacedTerrain};
+use grouser_core::soil::Soil;
+use grouser_core::terrain::{Extent, SoilZones};
+use grouser_raster::{ReadOptions, ZoneKey, read_zones, zone_names};
+
+/// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row with that preset: the
+/// document has then all soils of the run.
+///
+/// * `terrain`: the table, with whole paths; what is wrong with it, or with the file, is found later
+pub(crate) fn name_presets(terrain: &mut Node) {
+    let Some(Entry { node, .. }) = terrain.entry(FILE) else { return };
+    let Value::String(path) = &node.value else { return };
+    let (path, origin) = (Path::new(path), node.origin.clone());
+    if file::check_regular(path).is_err() {
+        return;
+    }
+    let Ok(names) = zone_names(path) else { return };
+    let Value::Table(entries) = &mut terrain.value else { return };
+    let place = entries.iter().position(|entry| entry.key == LEGEND).unwrap_or_else(|| {
+        let node = Node { value: Value::List(Vec::new()), origin: origin.clone() };
+        entries.push(Entry { key: LEGEND.to_owned(), key_origin: origin.clone(), node });
+        entries.len() - 1
+    });
+    let Value::List(rows) = &mut entries[place].node.value else { return };
+    let is_named = |name: &String, row: &Node| {
+        let Some(Entry { node, .. }) = row.entry(NAME) else { return false };
+        matches!(&node.value, Value::String(named) if named == name)
+    };
+    for name in names {
+        if preset(Kind::Soil, &name).is_some() && !rows.iter().any(|row| is_named(&name, row)) {
+            rows.push(row(&name, &origin));
+        }
+    }
+    if rows.is_empty() {
+        entries.remove(place);
+    }
+}
+
+/// A row of the legend for a preset.
+fn row(name: &str, origin: &Origin) -> Node {
+    let entry = |key: &str| Entry {
+        key: key.to_owned(),
+        key_origin: origin.clone(),
+        node: Node { value: Value::String(name.to_owned()), origin: origin.clone() },
+    };
+    Node { value: Value::Table(vec![entry(NAME), entry(SOIL)]), origin: origin.clone() }
+}
+
+/// Reads the zones that a document names, if it names some, and puts them into its terrain.
+///
+/// * `own`: the scenario's soil
+/// * `tree`: the document as it was written
+pub(crate) fn read(
+    terrain: &mut PlacedTerrain,
+    own: Soil,
+    document: &Document,
+    tree: &Node,
+) -> Result<(), DocumentError> {
+    let rows = document.get(&key(LEGEND)).and_then(Json::as_array);
+    let rows: &[Json] = rows.map_or(&[], Vec::as_slice);
+    let Some(path) = document.text(&key(FILE)) else {
+        terrain.soils = None;
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let problem = Problem::Conflict("zones have soils, and no file says where they lie");
+        let hint = Some("`soil_file` names it".to_owned());
+        return Err(DocumentError::at(tree.origin_of(&key(LEGEND)), problem).with_hint(hint));
+    };
+    let mut soils = terrain.soils.take().map_or_else(Vec::new, |zones| zones.soils.clone());
+    let mut legend: Vec<(ZoneKey, Option<usize>)> = Vec::new();
+    for (number, row) in rows.iter().enumerate() {
+        let misfit = |problem| {
+            let key = format!("{}.{number}", key(LEGEND));
+            DocumentError::at(tree.origin_of(&key), Problem::Conflict(problem))
+        };
+        let of = zone_key(row).ok_or_else(|| misfit("a zone has either a class or a name"))?;
+        if legend.iter().any(|(other, _)| *other == of) {
+            return Err(misfit("a row above has the soil of this zone"));
+        }
+        let has_soil = row.get(SOIL).is_some();
+        if !has_soil && let Some(soil) = soils.get_mut(number) {
+            *soil = own;
+        }
+        legend.push((of, has_soil.then_some(number)));
+    }
+    let ground = match &terrain.ground {
+        Landscape::Elevation(model) => Some(model.extent()),
+        Landscape::Analytic(_) => None,
+    };
+    let zones = zones(Path::new(path), &options(document), ground, &legend, soils);
+    let zones = zones.map_err(|(problem, hint)| {
+        DocumentError::at(tree.origin_of(&key(FILE)), problem).with_hint(hint)
+    })?;
+    terrain.soils = Some(Arc::new(zones));
+    Ok(())
+}
+
+/// What a row of the legend is of; none if it does not say, or says both.
+fn zone_key(row: &Json) -> Option<ZoneKey> {
+    let class = row.get(CLASS).and_then(Json::as_i64).map(ZoneKey::Class);
+    let name = row.get(NAME).and_then(Json::as_str).map(|name| ZoneKey::Name(name.to_owned()));
+    class.xor(name)
+}
+
+fn zones(
+    path: &Path,
+    options: &ReadOptions,
+    ground: Option<Extent>,
+    legend: &[(ZoneKey, Option<usize>)],
+    soils: Vec<Soil>,
+) -> Result<SoilZones, Found> {
+    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
+    // A band, and a height that is none, are those of the map.
+    let options = ReadOptions { band: None, missing: None, ..*options };
+    let map = read_zones(path, &options, ground.as_ref());
+    let map = map.map_err(|error| found("file of zones", &error.fault))?;
+    let hint =
+        "a row `[[terrain.zone]]` has `class` or `name`, and `soil`; names of presets need none";
+    map.with_legend(legend, soils).map_err(|fault| {
+        let (problem, own) = found("file of zones", &fault);
+        (problem, own.or_else(|| Some(hint.to_owned())))
+    })
+}
