@@ -57,6 +57,7 @@ mod notes;
 mod overrides;
 mod presets;
 mod priors;
+mod raster_file;
 mod read;
 mod rows;
 mod samples;

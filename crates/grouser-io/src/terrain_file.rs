@@ -4,18 +4,18 @@ use std::path::{Path, absolute};
 use std::sync::Arc;
 
 use super::describe::run::{SLOPE, TERRAIN};
-use super::describe::terrain::{BAND, CELL_SIZE, FILE, MISSING, SOUTH_WEST, START};
+use super::describe::terrain::{FILE, START};
 use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
+use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Value};
 use super::zones_file;
 use grouser_core::simulation::{Landscape, Scenario};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{ElevationModel, Extent};
 use grouser_core::units::Vec2;
-use grouser_raster::{Fault, Placement, ReadOptions, RowOrder};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them from anywhere, and ground
 /// with heights no slope beside them.
@@ -68,12 +68,6 @@ pub(crate) fn read(
     zones_file::read(placed, soil, document, tree)
 }
 
-pub(crate) fn key(of_terrain: &str) -> String {
-    format!("{TERRAIN}.{of_terrain}")
-}
-
-pub(crate) type Found = (Problem, Option<String>);
-
 fn model(path: &Path, document: &Document, soil: Soil) -> Result<ElevationModel, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
@@ -81,47 +75,6 @@ fn model(path: &Path, document: &Document, soil: Soil) -> Result<ElevationModel,
     let raster =
         grouser_raster::read(path, &options).map_err(|error| found("map", &error.fault))?;
     raster.model(soil).map_err(|error| found("map", &error.into()))
-}
-
-/// How the file is to be read.
-pub(crate) fn options(document: &Document) -> ReadOptions {
-    let number = |of: &str| document.number(&key(of));
-    let cell_size = number(CELL_SIZE);
-    let corner = |axis: usize| number(&format!("{SOUTH_WEST}.{axis}")).unwrap_or(0.0);
-    let placement = cell_size.map(|size| Placement {
-        south_west: Vec2::new(corner(0), corner(1)),
-        spacing: Vec2::new(size, size),
-        rows: RowOrder::NorthFirst,
-    });
-    let band = document.get(&key(BAND)).and_then(serde_json::Value::as_u64);
-    ReadOptions {
-        placement,
-        band: band.and_then(|band| usize::try_from(band).ok()),
-        missing: number(MISSING),
-        ..ReadOptions::default()
-    }
-}
-
-/// A fault of a file, with the keys that help.
-///
-/// * `what`: the file has
-pub(crate) fn found(what: &str, fault: &Fault) -> Found {
-    let own_hint = match fault {
-        Fault::NotPlaced | Fault::NotReferenced => Some(
-            "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is not the origin",
-        ),
-        Fault::Bands { .. } => Some("`terrain.band` says which has the heights, from 1"),
-        _ => None,
-    };
-    if let Fault::Disk(error) = fault {
-        let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
-        return (problem, None);
-    }
-    let text = format!("the {what} {fault}");
-    let (problem, hint) =
-        text.split_once("\nhint: ").map_or((&*text, None), |(problem, hint)| (problem, Some(hint)));
-    let hint = own_hint.or(hint).map(str::to_owned);
-    (Problem::NoTerrain(problem.to_owned()), hint)
 }
 
 fn middle(extent: Extent) -> Vec2 {

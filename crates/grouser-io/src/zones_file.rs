@@ -11,7 +11,7 @@ use super::error::{DocumentError, Problem};
 use super::file;
 use super::kind::Kind;
 use super::presets::preset;
-use super::terrain_file::{Found, found, key, options};
+use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
 use grouser_core::simulation::{Landscape, PlacedTerrain};
 use grouser_core::soil::Soil;

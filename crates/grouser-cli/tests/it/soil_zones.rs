@@ -115,6 +115,32 @@ fn polygons_have_the_soils_that_they_name() {
     assert!(refused.contains("no soil for: \"crust of salt\""), "{refused}");
 }
 
+/// The guide's files, drive and numbers of rows.
+#[test]
+fn the_guide_s_example_drives_over_three_soils() {
+    let guide = include_str!("../../../../docs/guide/terrain.md");
+    let section = guide.split_once("## Soil by zone").expect("a section").1;
+    let block = |language: &str| {
+        let text = section.split_once(&format!("```{language}\n")).expect("a block").1;
+        text.split_once("```").expect("its end").0
+    };
+    let place = Place::new();
+    place.write("zones.geojson", block("json"));
+    place.write("drive.toml", block("toml"));
+    let line = block("sh").trim().strip_prefix("grouser ").expect("a command");
+    let run = place.json(line);
+    let samples = run["samples"].as_array().expect("samples");
+    let front = |sample: &Value| sinkage(sample, 0);
+    let sinkages = [&samples[0], &samples[80], &run["final"]].map(front);
+    for (one, other) in [(0, 1), (1, 2), (0, 2)] {
+        let ratio = sinkages[one] / sinkages[other];
+        assert!((ratio - 1.0).abs() > 0.1, "{sinkages:?}");
+    }
+    let set = "--set scenario.terrain.zone.0.soil.friction_angle_deg=10";
+    let weaker = place.json(&format!("{line} {set}").replace("--out run", ""));
+    assert!((number(&weaker["final"]["x_m"]) - number(&run["final"]["x_m"])).abs() > 1e-3);
+}
+
 #[test]
 fn missions_and_campaigns_cross_zones() {
     let place = place();
