@@ -10,7 +10,8 @@ use grouser::document::columns::{Column, Quantity, SLOPE, TIME, X, Y};
 use grouser::document::table::Table;
 use grouser::document::unit::ONE;
 use grouser::document::{Document, Loaded};
-use grouser::simulation::Scenario;
+use grouser::simulation::{Record, Scenario};
+use grouser_pictures::relief_of;
 
 use super::page::Page;
 use crate::chart::{Chart, Series, Style};
@@ -124,6 +125,15 @@ pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
     }
     let shape = document.text("terrain.file").or_else(|| document.text("terrain.surface"));
     format!("terrain: {}", shape.unwrap_or("unnamed"))
+}
+
+/// A run over ground with heights, from three sides; nothing of one on a plane.
+pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Record]) {
+    const CAPTION: &str = "The ground, the way of the body's centre of mass over it, and the rover at its start, on the \
+        way and at its end, to scale. Numbers are the map's coordinates; the body is a likeness.";
+    if let Some(drawing) = relief_of("The ground and the way over it", scenario, records) {
+        page.drawing(&drawing, CAPTION);
+    }
 }
 
 /// Every channel of a run over time.

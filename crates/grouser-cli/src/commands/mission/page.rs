@@ -10,7 +10,7 @@ use grouser::studies::mission::{DrivenLeg, DrivenMission};
 
 use super::answered::{Answered, reasons, sentence};
 use crate::chart::Bars;
-use crate::report::answer::{self, Basis, axis, meanings, over_time, run_meanings};
+use crate::report::answer::{self, Basis, axis, meanings, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(answered: &Answered) -> String {
@@ -55,6 +55,8 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
     if !way.name.is_empty() {
         page.heading(&way.name);
     }
+    let scenario = &answered.document.value.scenario;
+    over_ground(page, scenario, &way.report.trajectory.records);
     page.drawing(
         &answered.path(way),
         "The path from above, to scale, uphill or north at the top, a colour for each leg. The rover is drawn at \

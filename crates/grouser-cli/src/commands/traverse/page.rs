@@ -14,7 +14,7 @@ use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::{four_digits, metres};
 use crate::output::text::capitalised;
-use crate::report::answer::{self, Basis, axis, over_time, run_meanings};
+use crate::report::answer::{self, Basis, axis, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
@@ -24,13 +24,16 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         page.answer(&format!("{name}{}", sentence(&of_model.run)));
     }
     page.list(what_was_run(&all[0]));
-    page.drawing(
-        &chart(all).to_svg(),
-        match all[0].scenario.value.terrain {
-            None => "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0.",
-            Some(_) => "The path, seen from above.",
-        },
-    );
+    let is_on_a_map = all[0].scenario.value.terrain.is_some();
+    for of_model in all {
+        over_ground(&mut page, &of_model.scenario.value, &of_model.run.records);
+    }
+    let of_path = if is_on_a_map {
+        "The path, seen from above."
+    } else {
+        "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0."
+    };
+    page.drawing(&chart(all).to_svg(), of_path);
     match all {
         [one] => channels(&mut page, one),
         several => of_models(&mut page, several),
