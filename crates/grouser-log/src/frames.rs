@@ -1,12 +1,13 @@
 //! Frames and their names, and how they lie in each other.
 //!
-//! `world` is level, `slope` lies in it turned about x by the inclination, `body` moves in that. Each wheel has two: its
+//! `world` is level, `slope` lies in it turned about x by the inclination, `body` moves in that. On ground with heights
+//! `world` has its origin on the ground where the run starts, `body` moves in it, and `map` has the map's coordinates. Each wheel has two: its
 //! own, at its hub, turned by its steering, which does not roll; and the rim's, which rolls in it.
 
 use grouser_core::elementary::wide;
 use grouser_core::units::Vec3;
 use grouser_core::vehicle::Mount;
-use grouser_pictures::motion::Pose as RoverPose;
+use grouser_pictures::motion::{Pose as RoverPose, StandingWheel};
 
 use crate::foxglove::{FrameTransform, Pose, Quaternion, Timestamp, Vector3};
 
@@ -14,6 +15,8 @@ use crate::foxglove::{FrameTransform, Pose, Quaternion, Timestamp, Vector3};
 pub(crate) const WORLD: &str = "world";
 /// The slope's: x along the contour, y uphill, z out of the ground.
 pub(crate) const SLOPE: &str = "slope";
+/// Of ground with heights: x east, y north, z up, from the map's origin.
+pub(crate) const MAP: &str = "map";
 /// The body's: x forward, y left.
 pub(crate) const BODY: &str = "body";
 
@@ -32,7 +35,7 @@ impl WheelName {
     /// The names of all wheels. Frames and topics have letters, digits, `_` and `-`, which no reader takes for
     /// something else, and no two are alike.
     pub(crate) fn all(mounts: &[Mount]) -> Vec<Self> {
-        let mut taken: Vec<String> = [WORLD, SLOPE, BODY].map(String::from).into();
+        let mut taken: Vec<String> = [WORLD, SLOPE, MAP, BODY].map(String::from).into();
         let mut all = Vec::new();
         for mount in mounts {
             let is_plain = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
@@ -68,6 +71,25 @@ impl Quaternion {
     pub(crate) fn about(axis: Vec3, angle: f64) -> Self {
         let (sin, cos) = wide::sin_cos(0.5 * angle);
         Self { x: sin * axis.x, y: sin * axis.y, z: sin * axis.z, w: cos }
+    }
+
+    /// The rotation that takes the coordinates' axes into these.
+    ///
+    /// * `axes`: unit vectors, at right angles
+    pub(crate) fn to_axes([x, y, z]: [Vec3; 3]) -> Self {
+        // Of four formulas the one that divides by the largest part (Shepperd 1978).
+        let trace = x.x + y.y + z.z;
+        let parts = [x.x, y.y, z.z, trace];
+        let largest =
+            (0..4).fold(0, |most, part| if parts[part] > parts[most] { part } else { most });
+        let (mut q, size) = match largest {
+            0 => ([1.0 + x.x - y.y - z.z, y.x + x.y, z.x + x.z, y.z - z.y], 1.0 + x.x - y.y - z.z),
+            1 => ([y.x + x.y, 1.0 - x.x + y.y - z.z, z.y + y.z, z.x - x.z], 1.0 - x.x + y.y - z.z),
+            2 => ([z.x + x.z, z.y + y.z, 1.0 - x.x - y.y + z.z, x.y - y.x], 1.0 - x.x - y.y + z.z),
+            _ => ([y.z - z.y, z.x - x.z, x.y - y.x, 1.0 + trace], 1.0 + trace),
+        };
+        q = q.map(|part| 0.5 * part / size.sqrt());
+        Self { x: q[0], y: q[1], z: q[2], w: q[3] }
     }
 
     /// A rotation that takes x into a direction.
@@ -115,20 +137,42 @@ pub(crate) fn slope_in_world(slope: f64) -> FrameTransform {
     transform(0, [WORLD, SLOPE], Vec3::zeros(), Quaternion::about(Vec3::x(), slope))
 }
 
+/// The map in the world.
+///
+/// * `start`: where the run starts, in the map's coordinates [m]
+pub(crate) fn map_in_world(start: Vec3) -> FrameTransform {
+    transform(0, [WORLD, MAP], -start, Quaternion::NONE)
+}
+
 /// The body and its wheels.
 ///
 /// * `time`: in nanoseconds
+/// * `base`: of ground with heights, that where the run starts [m]
 pub(crate) fn of_rover(
     time: u64,
     pose: &RoverPose,
     mounts: &[Mount],
     names: &[WheelName],
+    base: Option<f64>,
 ) -> Vec<FrameTransform> {
-    let yaw = Quaternion::about(Vec3::z(), pose.yaw);
-    let mut all = vec![transform(time, [SLOPE, BODY], pose.centre, yaw)];
+    let body = if let Some(base) = base {
+        let centre = pose.centre - Vec3::new(0.0, 0.0, base);
+        transform(time, [WORLD, BODY], centre, Quaternion::to_axes(pose.axes()))
+    } else {
+        let yaw = Quaternion::about(Vec3::z(), pose.yaw);
+        transform(time, [SLOPE, BODY], pose.centre, yaw)
+    };
+    let mut all = vec![body];
     for (index, (mount, name)) in mounts.iter().zip(names).enumerate() {
         let hub = pose.hub_in_body(mount, index);
-        let steering = Quaternion::about(Vec3::z(), pose.wheels[index].steering);
+        let wheel = &pose.wheels[index];
+        let steering = match wheel.standing {
+            Some(StandingWheel { forward, axle, .. }) => {
+                let upright = forward.cross(&axle);
+                Quaternion::to_axes([forward, axle, upright])
+            }
+            None => Quaternion::about(Vec3::z(), wheel.steering),
+        };
         all.push(transform(time, [BODY, &name.frame], hub, steering));
         // Rolling forward is turning about the axle, to the left, by the right-hand rule.
         let rolling = Quaternion::about(Vec3::y(), pose.wheels[index].turned);
@@ -148,10 +192,27 @@ mod tests {
         v + 2.0 * q.w * across + 2.0 * u.cross(&across)
     }
 
+    /// Axes turned by three angles one after the other.
+    fn turned_axes([roll, pitch, yaw]: [f64; 3]) -> [Vec3; 3] {
+        let about = |axis: Vec3, angle: f64| Quaternion::about(axis, angle);
+        let turns = [about(Vec3::x(), roll), about(Vec3::y(), pitch), about(Vec3::z(), yaw)];
+        [Vec3::x(), Vec3::y(), Vec3::z()]
+            .map(|axis| turns.iter().fold(axis, |vector, turn| turned(turn, vector)))
+    }
+
     #[test]
     fn rotations_take_vectors_where_they_should() {
         let down = turned(&Quaternion::about(Vec3::y(), 0.5 * std::f64::consts::PI), Vec3::x());
         assert!((down + Vec3::z()).norm() < 1e-15, "rolling forward, what was ahead goes down");
+        for [roll, pitch, yaw] in
+            [[0.0, 0.0, 0.0], [0.3, -0.2, 3.0], [-0.4, 1.2, -2.0], [3.1, 0.1, 0.5]]
+        {
+            let turn = turned_axes([roll, pitch, yaw]);
+            let q = Quaternion::to_axes(turn);
+            for (axis, to) in [Vec3::x(), Vec3::y(), Vec3::z()].into_iter().zip(turn) {
+                assert!((turned(&q, axis) - to).norm() < 1e-14, "{roll} {pitch} {yaw}");
+            }
+        }
         for direction in [Vec3::x(), -Vec3::x(), Vec3::z(), Vec3::new(0.6, 0.0, -0.8)] {
             assert!((turned(&Quaternion::to(direction), Vec3::x()) - direction).norm() < 1e-15);
         }

@@ -8,7 +8,8 @@ use grouser::studies::validity::RoverOnSlope;
 use grouser_core::contact::validity::Flag;
 use grouser_core::mission::{BackOut, Leg, LegOutcome};
 use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
-use grouser_core::units::Vec2;
+use grouser_core::terrain::{Footprint, Terrain as _};
+use grouser_core::units::{Vec2, Vec3};
 use grouser_pictures::motion::{Follower, Pose};
 
 use crate::LogError;
@@ -36,6 +37,8 @@ struct Channels {
     rover: ChannelId,
     /// Of a rover whose battery is known.
     battery: Option<ChannelId>,
+    /// On ground with heights.
+    standing: Option<ChannelId>,
     wheels: Vec<ChannelId>,
     events: ChannelId,
 }
@@ -51,6 +54,7 @@ pub struct Log<W> {
     names: Vec<WheelName>,
     rover: Numbers<Record>,
     battery: Numbers<Record>,
+    standing: Numbers<Record>,
     wheel: Numbers<WheelRecord>,
     follower: Follower,
     /// The last record's.
@@ -58,6 +62,8 @@ pub struct Log<W> {
     ground: Ground,
     path: Path,
     forces: Forces,
+    /// Height of the ground where the run starts, where it has heights [m].
+    base: Option<f64>,
     raised: Vec<Flag>,
 }
 
@@ -85,8 +91,12 @@ impl<W: Write> Log<W> {
             let to = out.channel(topic, schema, &[]);
             out.message(to, 0, message)
         };
-        let slope = frames::slope_in_world(scenario.site.terrain.slope);
-        let transforms = FrameTransforms { transforms: vec![slope] };
+        let base = height_of_start(scenario);
+        let ground = match (base, &scenario.terrain) {
+            (Some(base), Some(placed)) => frames::map_in_world(placed.start.push(base)),
+            _ => frames::slope_in_world(scenario.site.terrain.slope),
+        };
+        let transforms = FrameTransforms { transforms: vec![ground] };
         fixed("/tf_static", &schema::<FrameTransforms>(), &transforms.to_bytes())?;
         let text = urdf::of(title, rover, &names);
         let string = SchemaOf {
@@ -111,8 +121,13 @@ impl<W: Write> Log<W> {
         let battery = rover
             .battery()
             .map(|_| out.channel("/rover/battery", &of_battery.schema(), &of_battery.described()));
+        let of_standing = numbers::of_standing();
+        let standing = base.map(|_| {
+            out.channel("/rover/standing", &of_standing.schema(), &of_standing.described())
+        });
         let to = Channels {
             wheels,
+            standing,
             battery,
             transforms: out.channel("/tf", &schema::<FrameTransforms>(), &[]),
             ground: scene(&mut out, "/scene/ground"),
@@ -127,12 +142,14 @@ impl<W: Write> Log<W> {
             names,
             rover: of_rover,
             battery: of_battery,
+            standing: of_standing,
             wheel: of_wheel,
             follower: Follower::new(rover),
             pose: None,
             ground: Ground::of(rover),
             path: Path::of(rover),
             forces: Forces::of(scenario),
+            base,
             raised: Vec::new(),
             scenario: scenario.clone(),
         })
@@ -189,12 +206,9 @@ impl<W: Write> Log<W> {
     /// # Errors
     /// As [`event`](Self::event).
     pub fn leg_began(&mut self, time: f64, number: usize, leg: &Leg) -> Result<(), LogError> {
-        self.event(
-            time,
-            Level::Info,
-            &leg_name(number),
-            &format!("began: {}", in_words(leg, Vec2::zeros())),
-        )
+        let origin = self.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
+        let began = format!("began: {}", in_words(leg, origin));
+        self.event(time, Level::Info, &leg_name(number), &began)
     }
 
     /// Says what became of a leg.
@@ -286,11 +300,15 @@ impl<W: Write> Log<W> {
             let message = self.battery.message(record, "the battery", record.time)?;
             self.out.message(to, time, &message)?;
         }
+        if let (Some(to), Some(_)) = (self.to.standing, record.standing()) {
+            let message = self.standing.message(record, "the rover", record.time)?;
+            self.out.message(to, time, &message)?;
+        }
         for ((wheel, name), to) in record.wheels.iter().zip(&self.names).zip(&self.to.wheels) {
             let message = self.wheel.message(wheel, &name.own, record.time)?;
             self.out.message(*to, time, &message)?;
         }
-        let pose = self.follower.pose(&self.scenario.rover, record);
+        let pose = self.follower.pose(&self.scenario, record);
         self.add_transforms(&pose)?;
         self.add_scene(time, &pose)?;
         self.add_flags(record)?;
@@ -312,7 +330,7 @@ impl<W: Write> Log<W> {
         for pose in poses.iter().chain([pose]) {
             let time = nanoseconds(pose.time)?;
             let mounts = self.scenario.rover.mounts();
-            let transforms = frames::of_rover(time, pose, mounts, &self.names);
+            let transforms = frames::of_rover(time, pose, mounts, &self.names, self.base);
             let message = FrameTransforms { transforms }.to_bytes();
             self.out.message(self.to.transforms, time, &message)?;
         }
@@ -321,10 +339,19 @@ impl<W: Write> Log<W> {
 
     fn add_scene(&mut self, time: u64, pose: &Pose) -> Result<(), LogError> {
         if self.ground.grow(pose.centre.xy()) {
-            self.out.message(self.to.ground, time, &self.ground.scene(time).to_bytes())?;
+            let scene = match (self.base, self.scenario.relief()) {
+                (Some(base), Some(relief)) => self.ground.relief(time, &relief, base),
+                _ => self.ground.scene(time),
+            };
+            self.out.message(self.to.ground, time, &scene.to_bytes())?;
         }
-        if self.path.grow(pose.centre.xy()) {
-            self.out.message(self.to.path, time, &self.path.scene(time).to_bytes())?;
+        let (place, frame) = match self.base {
+            // The path is that of the body, which is seen over uneven ground.
+            Some(base) => (pose.centre - Vec3::new(0.0, 0.0, base), frames::WORLD),
+            None => (pose.centre.xy().push(0.0), frames::SLOPE),
+        };
+        if self.path.grow(place) {
+            self.out.message(self.to.path, time, &self.path.scene(time, frame).to_bytes())?;
         }
         let mounts = self.scenario.rover.mounts();
         let forces = self.forces.scene(time, pose, mounts, &self.names);
@@ -342,6 +369,13 @@ impl<W: Write> Log<W> {
         }
         Ok(())
     }
+}
+
+/// Height of the ground where a run starts, where it has heights [m].
+fn height_of_start(scenario: &Scenario) -> Option<f64> {
+    const POINT: f64 = 1e-3;
+    let footprint = Footprint { forward: Vec2::x(), half_length: POINT, half_width: POINT };
+    Some(scenario.relief()?.patch(Vec2::zeros(), footprint).height)
 }
 
 fn schema<M: Message>() -> SchemaOf<'static> {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STEERING_RECORD, WHEEL_RECORD,
+    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, TEMPERATURE};
@@ -49,6 +49,12 @@ const OF_MOTORS: usize = 2;
 pub(crate) fn of_battery() -> Numbers<Record> {
     let (_, battery) = RECORD_TAKEN.split_at(OF_MOTORS);
     Numbers { schema: "grouser.Battery", entries: entries(battery, |it| it).collect() }
+}
+
+/// How the rover stands on ground with heights.
+pub(crate) fn of_standing() -> Numbers<Record> {
+    static COLUMNS: &[Column<Record>] = &STANDING;
+    Numbers { schema: "grouser.Standing", entries: entries(COLUMNS, |it| it).collect() }
 }
 
 /// The rover's, with what its motors take where that is known.

@@ -6,18 +6,19 @@
 
 use grouser_core::elementary::wide;
 use grouser_core::simulation::Scenario;
+use grouser_core::terrain::{Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::{Mount, Rover};
 use grouser_pictures::motion::Pose as RoverPose;
-use grouser_pictures::round_step;
 use grouser_pictures::rover::{Bar, Block, Likeness, bars_of};
 use grouser_pictures::style::{Ground as Paper, Role};
+use grouser_pictures::{round_step, shade_of};
 
 use crate::foxglove::{
     ArrowPrimitive, Color, CubePrimitive, CylinderPrimitive, KeyValuePair, LinePrimitive, LineType,
     Point3, Pose, Quaternion, SceneEntity, SceneUpdate, Timestamp, TriangleListPrimitive, Vector3,
 };
-use crate::frames::{BODY, SLOPE, WheelName};
+use crate::frames::{BODY, SLOPE, WORLD, WheelName};
 
 /// How far lines lie over the plane [m]: faces in one plane would flicker.
 const LIFT: f64 = 2e-3;
@@ -133,6 +134,38 @@ impl Ground {
         has_grown
     }
 
+    /// The piece of ground with heights, in the world's frame.
+    ///
+    /// * `base`: height of the world's origin [m]
+    pub(crate) fn relief(&self, time: u64, relief: &dyn Terrain, base: f64) -> SceneUpdate {
+        /// Points along a side.
+        const SIDE: usize = 64;
+        let [low, high] = self.ends.unwrap_or_default();
+        let step = (high - low) / (SIDE - 1) as f64;
+        let footprint =
+            Footprint { forward: Vec2::x(), half_length: 0.1 * step.x, half_width: 0.1 * step.y };
+        let (mut points, mut colors, mut is_known) = (Vec::new(), Vec::new(), Vec::new());
+        for (row, column) in (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (row, column))) {
+            let at = low + Vec2::new(column as f64 * step.x, row as f64 * step.y);
+            let patch = relief.patch(at, footprint);
+            points.push(Point3::from(at.push(patch.height - base)));
+            colors.push(color(shade_of(patch.normal)));
+            is_known.push(relief.covers(at, footprint));
+        }
+        let cells = (0..SIDE - 1).flat_map(|row| (0..SIDE - 1).map(move |it| row * SIDE + it));
+        let corners = cells.map(|first| [first, first + 1, first + 1 + SIDE, first + SIDE]);
+        let known = corners.filter(|corners| corners.iter().all(|corner| is_known[*corner]));
+        let indices = known.flat_map(|[a, b, c, d]| [a, b, c, a, c, d]);
+        let ground = TriangleListPrimitive {
+            pose: Pose::at(Vec3::zeros()),
+            points,
+            color: color(Role::Soil),
+            colors,
+            indices: indices.filter_map(|index| u32::try_from(index).ok()).collect(),
+        };
+        update(vec![SceneEntity { triangles: vec![ground], ..entity(time, WORLD, "ground") }])
+    }
+
     /// The plane and its grid: lines across the slope are contour lines.
     pub(crate) fn scene(&self, time: u64) -> SceneUpdate {
         let [low, high] = self.ends.unwrap_or_default();
@@ -187,7 +220,7 @@ fn spacing(size: Vec2) -> f64 {
 /// The way of the body's centre of mass so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Path {
-    points: Vec<Vec2>,
+    points: Vec<Vec3>,
     /// How far apart its points are [m].
     spacing: f64,
 }
@@ -198,8 +231,8 @@ impl Path {
     }
 
     /// Whether there is a new line to be drawn.
-    pub(crate) fn grow(&mut self, position: Vec2) -> bool {
-        let is_far = |last: &Vec2| (position - last).norm() >= self.spacing;
+    pub(crate) fn grow(&mut self, position: Vec3) -> bool {
+        let is_far = |last: &Vec3| (position - last).norm() >= self.spacing;
         if !self.points.last().is_none_or(is_far) {
             return false;
         }
@@ -211,15 +244,16 @@ impl Path {
         self.points.len() > 1
     }
 
-    pub(crate) fn scene(&self, time: u64) -> SceneUpdate {
-        let point = |at: &Vec2| Point3::from(Vec3::new(at.x, at.y, 2.0 * LIFT));
+    /// * `frame`: that of its points
+    pub(crate) fn scene(&self, time: u64, frame: &str) -> SceneUpdate {
+        let point = |at: &Vec3| Point3::from(at + Vec3::new(0.0, 0.0, 2.0 * LIFT));
         let line = LinePrimitive {
             r#type: LineType::Strip,
             thickness: PATH,
             points: self.points.iter().map(point).collect(),
             ..grid(Vec::new(), Role::Path)
         };
-        update(vec![SceneEntity { lines: vec![line], ..entity(time, SLOPE, "path") }])
+        update(vec![SceneEntity { lines: vec![line], ..entity(time, frame, "path") }])
     }
 }
 
@@ -300,10 +334,10 @@ mod tests {
         let mut path = Path { points: Vec::new(), spacing: 0.1 };
         let mut lines = 0;
         for k in 0..100_000 {
-            lines += u32::from(path.grow(Vec2::new(0.01 * f64::from(k), 0.0)));
+            lines += u32::from(path.grow(Vec3::new(0.01 * f64::from(k), 0.0, 0.0)));
             assert!(path.points.len() <= POINTS);
         }
-        assert_eq!(path.points[0], Vec2::zeros());
+        assert_eq!(path.points[0], Vec3::zeros());
         // A line for each new point: the fewer, the longer the path is.
         assert!(path.points.len() > POINTS / 2 - 2 && lines < 10 * 256, "{lines}");
         let even: Vec<f64> =

@@ -38,6 +38,6 @@ pub use form::{Form, UnknownEnding};
 pub use mp4::VideoError;
 pub use outline::{draw_outline, reach};
 pub use path::path_of;
-pub use relief::relief_of;
+pub use relief::{relief_of, shade_of};
 pub use step::round_step;
 pub use title::title_of;

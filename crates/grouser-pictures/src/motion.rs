@@ -8,25 +8,29 @@
 //! let scenario = hakuto::traverse()?;
 //! let mut follower = Follower::new(&scenario.rover);
 //! let run = Run::new(&scenario)?.to_end()?;
-//! let poses = run.records.iter().map(|record| follower.pose(&scenario.rover, record));
+//! let poses = run.records.iter().map(|record| follower.pose(&scenario, record));
 //! let turned = poses.last().expect("a record").wheels[0].turned;
 //! assert_eq!(format!("{:.1} turns", turned / std::f64::consts::TAU), "1.7 turns");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use grouser_core::elementary::wide;
 use grouser_core::simulation::{Record, Scenario, Trajectory};
 use grouser_core::units::{Vec2, Vec3};
-use grouser_core::vehicle::{Mount, Rover, RoverState};
+use grouser_core::vehicle::{Mount, Posture, Rover, RoverState};
 
 /// A rover at one time.
 #[derive(Clone, Debug)]
 pub struct Pose {
     /// Time since the start [s].
     pub time: f64,
-    /// The body's centre of mass, in the slope frame [m]; z is over the undisturbed surface.
+    /// The body's centre of mass, in the slope frame [m]; z is over the undisturbed surface. On ground with heights seen
+    /// from the start, and z is the height.
     pub centre: Vec3,
     /// Yaw [rad].
     pub yaw: f64,
+    /// Roll, positive with the right side down, and pitch, positive with the nose up, on ground with heights [rad].
+    pub leaning: Option<[f64; 2]>,
     /// The wheels, in the mounts' order.
     pub wheels: Vec<WheelPose>,
 }
@@ -44,6 +48,19 @@ pub struct WheelPose {
     pub slip_ratio: f64,
     /// The soil's force on it, in the wheel frame [N].
     pub force: Vec3,
+    /// Where it is on ground with heights.
+    pub standing: Option<StandingWheel>,
+}
+
+/// Where a wheel is on ground with heights, in the body frame.
+#[derive(Clone, Copy, Debug)]
+pub struct StandingWheel {
+    /// Its hub [m].
+    pub hub: Vec3,
+    /// Forward along the wheel, on its ground.
+    pub forward: Vec3,
+    /// Along its axle, to the left.
+    pub axle: Vec3,
 }
 
 /// Follows a run record by record, and says where rover and wheels are.
@@ -69,8 +86,8 @@ impl Follower {
 
     /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the last.
     ///
-    /// * `rover`: the same for all records
-    pub fn pose(&mut self, rover: &Rover, record: &Record) -> Pose {
+    /// * `scenario`: the same for all records
+    pub fn pose(&mut self, scenario: &Scenario, record: &Record) -> Pose {
         let step = self.time.map_or(0.0, |time| record.time - time);
         self.time = Some(record.time);
         // The record in which a rover tips over has no wheels: they stay as they were.
@@ -83,6 +100,7 @@ impl Follower {
                 sinkage: wheel.reaction.settled.sinkage,
                 slip_ratio: wheel.reaction.slip.ratio,
                 force: Vec3::new(forces.drawbar_pull, forces.side_force, forces.normal_force),
+                standing: pose.standing,
             };
             *speed = wheel.wheel_speed;
         }
@@ -91,7 +109,35 @@ impl Follower {
                 wheel.force = Vec3::zeros();
             }
         }
-        pose_of(record, rover, self.wheels.clone())
+        let leaning = self.stand(scenario, record);
+        let mut pose = pose_of(record, &scenario.rover, self.wheels.clone());
+        if let (Some(_), Some(standing)) = (leaning, record.standing()) {
+            pose.centre.z = standing.height;
+        }
+        pose.leaning = leaning;
+        pose
+    }
+
+    /// Sets the wheels on ground with heights; gives roll and pitch [rad]. Where the rover has tipped over, the wheels stay
+    /// as they were.
+    fn stand(&mut self, scenario: &Scenario, record: &Record) -> Option<[f64; 2]> {
+        let (relief, standing) = (scenario.relief()?, record.standing()?);
+        let angles: Vec<f64> = self.wheels.iter().map(|wheel| wheel.steering).collect();
+        let sinkages: Vec<f64> = self.wheels.iter().map(|wheel| wheel.sinkage).collect();
+        let state = &record.state;
+        let steered = scenario.rover.steered(&angles).ok();
+        let rover = steered.as_ref().unwrap_or(&scenario.rover);
+        if let Ok(posture) = Posture::of(rover, &relief, state.position, state.yaw, &sinkages) {
+            let in_body = |vector: &Vec3| posture.ground_from_body.inverse() * vector;
+            for (pose, wheel) in self.wheels.iter_mut().zip(&posture.wheels) {
+                pose.standing = Some(StandingWheel {
+                    hub: in_body(&wheel.hub),
+                    forward: in_body(&wheel.forward),
+                    axle: in_body(&wheel.axle),
+                });
+            }
+        }
+        Some([standing.roll, standing.pitch])
     }
 }
 
@@ -104,7 +150,7 @@ pub(crate) struct Motion {
 impl Motion {
     pub(crate) fn of(trajectory: &Trajectory, scenario: &Scenario) -> Self {
         let mut follower = Follower::new(&scenario.rover);
-        let pose = |record| follower.pose(&scenario.rover, record);
+        let pose = |record| follower.pose(scenario, record);
         Self { poses: trajectory.records.iter().map(pose).collect() }
     }
 
@@ -141,7 +187,19 @@ fn pose_of(record: &Record, rover: &Rover, wheels: Vec<WheelPose>) -> Pose {
         .sum();
     let RoverState { position, yaw, .. } = record.state;
     let centre = Vec3::new(position.x, position.y, sum / mounts.len() as f64);
-    Pose { time: record.time, centre, yaw, wheels }
+    Pose { time: record.time, centre, yaw, leaning: None, wheels }
+}
+
+impl StandingWheel {
+    fn between(&self, next: &Self, share: f64) -> Self {
+        let between = |a: Vec3, b: Vec3| a + share * (b - a);
+        let direction = |a: Vec3, b: Vec3| between(a, b).try_normalize(1e-9).unwrap_or(b);
+        Self {
+            hub: between(self.hub, next.hub),
+            forward: direction(self.forward, next.forward),
+            axle: direction(self.axle, next.axle),
+        }
+    }
 }
 
 impl Pose {
@@ -156,24 +214,45 @@ impl Pose {
             sinkage: between(a.sinkage, b.sinkage),
             slip_ratio: between(a.slip_ratio, b.slip_ratio),
             force: a.force + share * (b.force - a.force),
+            standing: a.standing.zip(b.standing).map(|(a, b)| a.between(&b, share)),
         });
         Self {
             time,
             centre: self.centre + share * (next.centre - self.centre),
             yaw: between(self.yaw, next.yaw),
+            leaning: self.leaning.zip(next.leaning).map(|([roll, pitch], [to_roll, to_pitch])| {
+                [between(roll, to_roll), between(pitch, to_pitch)]
+            }),
             wheels: wheels.collect(),
         }
     }
 
-    /// A wheel's hub, in the body frame [m]: its mount has its place, its sinkage the height.
+    /// A wheel's hub, in the body frame [m]: its mount has its place, its sinkage the height; on ground with heights it is
+    /// where the suspension has it.
     ///
     /// * `index`: of the mount
     #[must_use]
     pub fn hub_in_body(&self, mount: &Mount, index: usize) -> Vec3 {
-        let WheelPose { sinkage, steering, .. } = self.wheels[index];
+        let WheelPose { sinkage, steering, standing, .. } = self.wheels[index];
+        if let Some(standing) = standing {
+            return standing.hub;
+        }
         let height = mount.shearing_radius() - sinkage - self.centre.z;
         let hub = mount.at_angle(steering).position;
         Vec3::new(hub.x, hub.y, height)
+    }
+
+    /// The body's x, y and z axes, in the frame of its centre.
+    #[must_use]
+    pub fn axes(&self) -> [Vec3; 3] {
+        let [roll, pitch] = self.leaning.unwrap_or_default();
+        let [(sin_y, cos_y), (sin_p, cos_p), (sin_r, cos_r)] =
+            [self.yaw, pitch, roll].map(wide::sin_cos);
+        let forward = Vec3::new(cos_p * cos_y, cos_p * sin_y, sin_p);
+        let level_left = Vec3::new(-sin_y, cos_y, 0.0);
+        let upright = forward.cross(&level_left);
+        let left = cos_r * level_left + sin_r * upright;
+        [forward, left, forward.cross(&left)]
     }
 
     /// The mean of a quantity over the wheels.

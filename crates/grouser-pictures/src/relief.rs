@@ -5,6 +5,8 @@ mod rover;
 mod surface;
 mod view;
 
+pub use surface::shade_of;
+
 use grouser_core::simulation::{Record, Scenario};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::Posture;

@@ -26,13 +26,12 @@ impl<'a> Destinations<'a> {
         Ok(Self { animation, log: log.transpose()?, folder })
     }
 
-    /// That pictures and logs can show the ground.
+    /// That animations can show the ground.
     pub(super) fn check(&self, scenario: &Scenario) -> Result<(), Failure> {
-        let shows = self.animation.is_some() || self.log.is_some();
-        if !shows || scenario.terrain.is_none() {
+        if self.animation.is_none() || scenario.terrain.is_none() {
             return Ok(());
         }
-        let text = "--animate and --mcap show planes, not yet ground with heights\nhint: --out writes a page";
+        let text = "--animate shows planes, not yet ground with heights\nhint: --out writes a page with the ground, --mcap a log with it";
         Err(Failure::Usage(text.to_owned()))
     }
 }

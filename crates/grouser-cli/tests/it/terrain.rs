@@ -102,6 +102,7 @@ fn a_folder_repeats_a_drive_over_a_map() {
     assert!(head.contains(",z_m,roll_deg,pitch_deg,"), "{head}");
     let page = place.read("out/report.html");
     assert!(page.contains("map.xyz") && page.contains("Height of the body"));
+    assert!(page.contains("along the way"));
     let table = place.line("traverse out/scenario.toml").stdout;
     assert!(table.contains("x -22998") || table.contains("x -24997."), "{table}");
 }
@@ -172,7 +173,7 @@ fn maps_that_cannot_be_driven_on_are_refused() {
         ("--terrain map.xyz --start-x-m 5", "--start-y-m"),
         ("--terrain map.xyz --start-x-m nan --start-y-m 0", "finite"),
         ("--terrain map.xyz --yaw-deg [[0,1],[5,2]]", "on planes alone"),
-        ("--terrain map.xyz --animate a.gif", "not yet ground with heights"),
+        ("--terrain map.xyz --animate a.gif", "--mcap a log with it"),
     ] {
         let refused = check_is_refusal(&place.line(&format!("traverse {line}")), 2);
         assert!(refused.contains(expected), "{line}: {refused}");

@@ -12,8 +12,10 @@ use std::io::{self, Write};
 
 use grouser::studies::mission::DrivenMission;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
-use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
-use grouser_core::units::{Vec3, deg};
+use grouser_core::simulation::{Landscape, PlacedTerrain, Record, Run, Scenario, Trajectory};
+use grouser_core::terrain::AnalyticTerrain;
+use grouser_core::terrain::surface::{Ripple, Surface};
+use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{Battery, Motor, Mount, Rover, Winding};
 use grouser_log::{Level, Log, LogError};
 use grouser_pictures::motion::Follower;
@@ -291,7 +293,7 @@ fn transforms_lead_to_the_wheels_of_the_pictures() -> Outcomes {
     assert_eq!(all.len(), run.records.len());
     let mut follower = Follower::new(&scenario.rover);
     for ((_, message), record) in all.iter().zip(&run.records) {
-        let pose = follower.pose(&scenario.rover, record);
+        let pose = follower.pose(&scenario, record);
         let transforms = transforms(message);
         assert_eq!(transforms.len(), 13);
         let ([parent, child], centre, yaw) = &transforms[0];
@@ -314,6 +316,44 @@ fn transforms_lead_to_the_wheels_of_the_pictures() -> Outcomes {
     }
     let last = transforms(&all[all.len() - 1].1);
     assert!(last[2].2[1] > 0.1, "the wheels have turned");
+    Ok(())
+}
+
+/// On ground with heights the body leans, its hubs are a wheel's radius over the ground less what they sink, and the map's
+/// frame has the map's coordinates.
+#[test]
+fn transforms_lead_to_the_ground_of_a_map() -> Outcomes {
+    let ripple = Ripple { amplitude: 0.03, wavelength: 1.0, across: 0.3, phase: 0.0 };
+    let surface = Surface::Ripple(ripple);
+    let mut scenario = short();
+    scenario.site = scenario.site.with_slope(0.0);
+    let ground = AnalyticTerrain { surface, soil: scenario.site.terrain.soil };
+    let start = Vec2::new(1234.5, -77.0);
+    let ground = Landscape::Analytic(ground.into());
+    scenario.terrain = Some(PlacedTerrain { ground, start, soils: None });
+    let run = run_of(&scenario);
+    let file = log_of(&scenario, &run.records)?;
+    let base = surface.height(start);
+    let fixed = transforms(&messages(&file, "/tf_static")[0].1);
+    assert_eq!(fixed[0].0, ["world", "map"]);
+    assert!((fixed[0].1 + start.push(base)).norm() < 1e-6, "{}", fixed[0].1);
+    for ((_, message), record) in messages(&file, "/tf").iter().zip(&run.records) {
+        let all = transforms(message);
+        let ([parent, child], centre, leaning) = &all[0];
+        assert_eq!([parent.as_str(), child], ["world", "body"]);
+        let standing = record.standing().expect("it stands");
+        assert!((turned(*leaning, Vec3::x()).z - standing.pitch.sin()).abs() < 1e-12);
+        for (place, mount) in scenario.rover.mounts().iter().enumerate() {
+            let hub = centre + turned(*leaning, all[1 + 2 * place].1);
+            let under = surface.height(start + hub.xy()) - base;
+            let sinkage = record.wheels[place].reaction.settled.sinkage;
+            // But for the slope under it, by whose cosine the way straight down is longer, and the bend of its footprint.
+            let gap = hub.z - under - (mount.shearing_radius() - sinkage);
+            assert!((-3e-3..6e-3).contains(&gap), "{gap}");
+        }
+    }
+    assert_eq!(messages(&file, "/rover/standing").len(), run.records.len());
+    assert!(!messages(&file, "/scene/ground").is_empty());
     Ok(())
 }
 

@@ -110,7 +110,7 @@ impl Surface {
                 is_on = false;
                 continue;
             };
-            let role = shade((c - a).cross(&(d - b)));
+            let role = shade_of((c - a).cross(&(d - b)));
             match pieces.last_mut() {
                 Some((south, north, of)) if is_on && *of == role => {
                     south.push(b);
@@ -155,8 +155,11 @@ impl Surface {
     }
 }
 
-/// How light a piece is.
-fn shade(normal: Vec3) -> Role {
+/// How light a piece of ground is, with the light from the north-west.
+///
+/// * `normal`: out of the ground
+#[must_use]
+pub fn shade_of(normal: Vec3) -> Role {
     /// What a level piece has, and how fast slopes change it.
     const LEVEL: f64 = 1.0;
     const CONTRAST: f64 = 6.0;
@@ -220,7 +223,8 @@ mod tests {
         let surface = plane();
         assert_eq!(surface.pieces(0).len(), 1);
         assert_eq!(surface.pieces(8).len(), 2);
-        let slopes = [Vec3::z(), Vec3::new(0.3, -0.3, 1.0), Vec3::new(-0.3, 0.3, 1.0)].map(shade);
+        let slopes =
+            [Vec3::z(), Vec3::new(0.3, -0.3, 1.0), Vec3::new(-0.3, 0.3, 1.0)].map(shade_of);
         assert_eq!(slopes, [Role::SoilEdge, Role::Track, Role::Soil]);
     }
 }
