@@ -8,6 +8,7 @@
 //! Case *i* depends on the seed and *i* alone, so that one that fails can be run again by its number; its folder is kept
 //! below `target/fuzz`.
 
+mod maps;
 mod mutation;
 mod subjects;
 mod verdict;

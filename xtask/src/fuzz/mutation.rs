@@ -60,7 +60,11 @@ pub(super) fn mutate(subject: &mut Subject, dice: &mut Rng) {
             damage_bytes(&mut subject.files, dice);
         } else if count > 0 && dice.u8(..10) < 7 {
             let file = &mut subject.files[dice.usize(..count)].1;
-            damage_text(file, dice);
+            if std::str::from_utf8(file).is_ok() {
+                damage_text(file, dice);
+            } else {
+                damage_binary(file, dice);
+            }
         } else {
             damage_line(&mut subject.words, dice);
         }
@@ -89,6 +93,25 @@ fn damage_bytes(files: &mut [(String, Vec<u8>)], dice: &mut Rng) {
             let (one, two) = (files[at].1.clone(), files[other].1.clone());
             (files[at].1, files[other].1) = (two, one);
         }
+    }
+}
+
+/// Damage of a file that is no text: a bit, a byte, or a number of two or four bytes, mostly in its header; or its length.
+fn damage_binary(content: &mut Vec<u8>, dice: &mut Rng) {
+    /// Headers are no longer than this, mostly [bytes].
+    const HEADER: usize = 600;
+    let reach = if dice.u8(..3) > 0 { content.len().min(HEADER) } else { content.len() };
+    if reach < 5 {
+        return scramble(content, dice);
+    }
+    let at = dice.usize(..reach - 4);
+    match dice.u8(..8) {
+        0..3 => content[at] ^= 1 << dice.u8(..8),
+        3 => content[at] = dice.u8(..),
+        4 => content[at..at + 2].copy_from_slice(&[0xff, 0xff]),
+        5 => content[at..at + 4].copy_from_slice(&dice.u32(..).to_le_bytes()),
+        6 => content[at..at + 4].fill(0),
+        _ => scramble(content, dice),
     }
 }
 
@@ -230,4 +253,30 @@ fn damage_line(words: &mut Vec<String>, dice: &mut Rng) {
 /// An argument as a system takes it: without NUL, and shorter than the longest.
 fn without_zero(word: &str) -> String {
     word.replace('\0', "0").chars().take(60_000).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A map of heights stays one, but for a few bytes: text would lose every byte that is none of UTF-8.
+    #[test]
+    fn binary_files_are_damaged_in_few_bytes() {
+        let content: Vec<u8> = (0..2_000_u32).flat_map(|cell| (cell << 23).to_be_bytes()).collect();
+        let mut small = 0;
+        for seed in 0..500 {
+            let file = ("map.tif".to_owned(), content.clone());
+            let mut subject = Subject {
+                name: "stand-in",
+                words: vec!["read".into(), "map.tif".into()],
+                files: vec![file],
+                oracle: Oracle::Sane,
+            };
+            mutate(&mut subject, &mut Rng::with_seed(seed));
+            let damaged = &subject.files[0].1;
+            let changed = content.iter().zip(damaged).filter(|(one, other)| one != other).count();
+            small += usize::from(damaged.len() == content.len() && (1..=8).contains(&changed));
+        }
+        assert!(small > 200, "{small} of 500 are damaged so");
+    }
 }

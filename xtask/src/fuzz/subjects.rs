@@ -6,6 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 
 use super::files_below;
+use super::maps;
 use super::verdict::{self, Limits};
 
 /// The checks of an answer.
@@ -52,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 28] = [
+const LINES: [(&str, &str, &[&str]); 35] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -173,6 +174,33 @@ const LINES: [(&str, &str, &[&str]); 28] = [
         "campaign run drives.toml --out runs",
         &["drives.toml", "soil.toml"],
     ),
+    (
+        "traverse, GeoTIFF",
+        "traverse --terrain map.tif --duration-s 0.2 --simulation quasi-steady --format json",
+        &["map.tif"],
+    ),
+    (
+        "traverse, npy",
+        "traverse --terrain map.npy --set scenario.terrain.cell_size_m=2 --duration-s 0.2 --simulation quasi-steady --format csv",
+        &["map.npy"],
+    ),
+    (
+        "traverse, xyz",
+        "traverse --terrain map.xyz --duration-s 0.2 --simulation quasi-steady --format json",
+        &["map.xyz"],
+    ),
+    (
+        "traverse, classes",
+        "traverse classes.toml --format json",
+        &["classes.toml", "map.tif", "classes.tif"],
+    ),
+    (
+        "traverse, GeoJSON",
+        "traverse zones.toml --format json",
+        &["zones.toml", "zones.geojson", "soil.toml"],
+    ),
+    ("check, zones", "check zones.toml", &["zones.toml", "zones.geojson", "soil.toml"]),
+    ("mission, map", "mission mission.toml --format json", &["mission.toml", "map.xyz"]),
     ("presets", "presets toyoura --kind soil", &[]),
     ("schema", "schema soil", &[]),
     ("completions", "completions bash", &[]),
@@ -285,7 +313,8 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         .into_iter()
         .map(|(name, line)| Ok((name.to_owned(), printed(program, line, folder.path())?)));
     let written = WRITTEN.into_iter().map(|(name, text)| Ok((name.to_owned(), text.into())));
-    made.chain(written).collect()
+    let maps = maps::files()?.into_iter().map(Ok);
+    made.chain(written).chain(maps).collect()
 }
 
 /// A soil whose uncertainty is a table of samples.
