@@ -115,7 +115,7 @@ pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
     .collect()
 }
 
-/// The slope of the ground, or what has its heights.
+/// The slope of the ground, or what has its heights and its soils.
 ///
 /// * `document`: of the run
 pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
@@ -124,7 +124,9 @@ pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
         return format!("slope: {}°", four_digits(slope));
     }
     let shape = document.text("terrain.file").or_else(|| document.text("terrain.surface"));
-    format!("terrain: {}", shape.unwrap_or("unnamed"))
+    let zones = document.text("terrain.soil_file");
+    let zones = zones.map_or_else(String::new, |file| format!("; soil by zone: {file}"));
+    format!("terrain: {}{zones}", shape.unwrap_or("unnamed"))
 }
 
 /// A run over ground with heights, from three sides; nothing of one on a plane.

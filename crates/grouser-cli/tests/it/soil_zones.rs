@@ -83,6 +83,8 @@ fn a_folder_repeats_a_drive_over_zones() {
     let first = place.json("traverse zones.toml --out out");
     let again = place.json("traverse out/scenario.toml");
     assert_eq!(first["final"], again["final"]);
+    let page = place.read("out/report.html");
+    assert!(page.contains("soil by zone: ") && page.contains("classes.xyz"));
     let set = "--set scenario.terrain.zone.1.soil.friction_angle_deg=24";
     let weaker = place.json(&format!("traverse zones.toml {set}"));
     assert!(way(&weaker) < way(&first) - 0.005, "{} and {}", way(&weaker), way(&first));
