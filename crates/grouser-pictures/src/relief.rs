@@ -1,5 +1,6 @@
 //! Ground with heights and a rover's way over it: from above, obliquely, and cut along the way.
 
+mod labels;
 mod profile;
 mod rover;
 mod surface;
@@ -12,6 +13,7 @@ use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::Posture;
 use grouser_page::{Anchor, Place, Shape, Sheet, Stroke, Text};
 
+use self::labels::{ABOVE, BELOW, LEFT, LETTERS, WIDTH, multiples, name, number};
 use self::profile::Profile;
 use self::surface::Surface;
 use self::view::View;
@@ -19,17 +21,8 @@ use crate::outline::reach;
 use crate::step::round_step;
 use crate::style::{Ground, Role, on_both_grounds};
 
-/// Width of the drawing [mm].
-const WIDTH: f64 = 180.0;
 /// Width of either column, and the most that the view from above is high [mm].
 const COLUMN: f64 = 72.0;
-/// Room to the left of the columns, for numbers [mm].
-const LEFT: f64 = 16.0;
-/// Room above views, for their names, and below that from above, for numbers [mm].
-const ABOVE: f64 = 9.0;
-const BELOW: f64 = 14.0;
-/// Size of letters [mm].
-const LETTERS: f64 = 3.2;
 /// About as many lines of contour, and numbers along an axis.
 const CONTOURS: f64 = 10.0;
 const NUMBERS: f64 = 4.0;
@@ -194,24 +187,6 @@ impl Drawn<'_> {
             rover::draw(sheet, view, posture, &self.scenario.rover);
         }
     }
-}
-
-/// What a view is.
-fn name(sheet: &mut Sheet, text: &str, at: Place) {
-    sheet.text(Text::new(text, LETTERS).colour(Role::Ink.on(Ground::Light)), at);
-}
-
-/// A number of an axis [m].
-fn number(value: f64) -> Text {
-    let shown = format!("{}", (value * 1e3).round() / 1e3 + 0.0);
-    Text::new(shown, LETTERS).colour(Role::Faint.on(Ground::Light))
-}
-
-/// The whole multiples of a step within a range.
-fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
-    let first = (from / step).ceil();
-    let numbers = std::iter::successors(Some(first), |line| Some(line + 1.0));
-    numbers.map(move |line| line * step).take_while(move |at| *at <= to)
 }
 
 /// An area without gaps to its neighbours.

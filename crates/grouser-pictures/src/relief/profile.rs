@@ -6,7 +6,7 @@ use grouser_core::terrain::{Footprint, Terrain};
 use grouser_core::units::Vec2;
 use grouser_page::{Anchor, Place, Shape, Sheet, Stroke};
 
-use super::{ABOVE, BELOW, LEFT, WIDTH, multiples, name, number};
+use super::labels::{ABOVE, BELOW, LEFT, WIDTH, multiples, name, number};
 use crate::step::round_step;
 use crate::style::{Ground, Role};
 

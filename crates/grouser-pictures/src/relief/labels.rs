@@ -1,0 +1,34 @@
+//! Room and letters of the drawing: names of views, and numbers along axes.
+
+use grouser_page::{Place, Sheet, Text};
+
+use crate::style::{Ground, Role};
+
+/// Width of the drawing [mm].
+pub(super) const WIDTH: f64 = 180.0;
+/// Room to the left of the columns, for numbers [mm].
+pub(super) const LEFT: f64 = 16.0;
+/// Room above views, for their names [mm].
+pub(super) const ABOVE: f64 = 9.0;
+/// Room below views, for numbers [mm].
+pub(super) const BELOW: f64 = 14.0;
+/// Size of letters [mm].
+pub(super) const LETTERS: f64 = 3.2;
+
+/// What a view is.
+pub(super) fn name(sheet: &mut Sheet, text: &str, at: Place) {
+    sheet.text(Text::new(text, LETTERS).colour(Role::Ink.on(Ground::Light)), at);
+}
+
+/// A number of an axis [m].
+pub(super) fn number(value: f64) -> Text {
+    let shown = format!("{}", (value * 1e3).round() / 1e3 + 0.0);
+    Text::new(shown, LETTERS).colour(Role::Faint.on(Ground::Light))
+}
+
+/// The whole multiples of a step within a range.
+pub(super) fn multiples(step: f64, from: f64, to: f64) -> impl Iterator<Item = f64> {
+    let first = (from / step).ceil();
+    let numbers = std::iter::successors(Some(first), |line| Some(line + 1.0));
+    numbers.map(move |line| line * step).take_while(move |at| *at <= to)
+}
